@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The closed list of what can go wrong, and the exit code each of them has.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace sinew {
+
+/// What a command ends with. Scripts rely on these numbers.
+enum class Exit {
+  done = 0,
+  limit_passed = 1,   ///< a --fail-on limit was passed
+  bad_input = 2,      ///< a file, a setting or the command line is wrong
+  unstable = 3,       ///< the simulation became unstable
+  not_written = 4,    ///< output could not be written
+  interrupted = 130,  ///< stopped by the user
+};
+
+/// A place in a text file; line and column count from 1, 0 when unknown.
+struct Place {
+  std::string file;
+  int line = 0;
+  int column = 0;
+
+  /// "FILE:LINE:COLUMN", shorter where parts are unknown, "" for no file.
+  std::string text() const;
+};
+
+/// One line for the user: where, what is wrong, and what to do about it.
+class Error : public std::runtime_error {
+ public:
+  Error(Exit exit, const std::string& message) : std::runtime_error(message), exit_(exit) {}
+
+  Exit exit() const { return exit_; }
+
+  /// The same error, told as reached through `place` (a scene's line that names a bad mesh).
+  Error within(const Place& place) const;
+
+ private:
+  Exit exit_;
+};
+
+/// "PLACE: what; cure", exit code 2.
+Error bad_input(const Place& place, const std::string& what, const std::string& cure);
+Error bad_input(const std::string& what, const std::string& cure);
+
+/// "PATH: what; cure", exit code 4.
+Error not_written(const std::string& path, const std::string& what, const std::string& cure);
+
+}  // namespace sinew

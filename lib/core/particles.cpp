@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/particles.h"
+
+#include <numeric>
+
+#include "core/hash.h"
+
+namespace sinew {
+
+Particles particles_at(const Points& positions, double radius, double mass) {
+  const std::size_t n = positions.size();
+  Particles particles;
+  particles.radius = radius;
+  particles.mass = mass;
+  for (auto* axis : {&particles.x, &particles.y, &particles.z}) axis->resize(n);
+  for (auto* axis : {&particles.u, &particles.v, &particles.w}) axis->assign(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) particles.set_position(i, positions[i]);
+  particles.id.resize(n);
+  std::iota(particles.id.begin(), particles.id.end(), 0);
+  return particles;
+}
+
+Points positions_of(const Particles& particles) {
+  Points positions(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) positions[i] = particles.position(i);
+  return positions;
+}
+
+std::uint64_t state_hash(const Particles& particles) {
+  std::vector<std::size_t> at(particles.size());
+  for (std::size_t i = 0; i < at.size(); ++i) at[particles.id[i]] = i;
+  Hash hash;
+  for (const std::size_t i : at) {
+    const double state[6] = {particles.x[i], particles.y[i], particles.z[i],
+                             particles.u[i], particles.v[i], particles.w[i]};
+    hash.add(state, sizeof state);
+  }
+  return hash.value();
+}
+
+}  // namespace sinew

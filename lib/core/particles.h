@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Equal particles as a structure of arrays. The order may change while the physics works; `id` ties
+// each particle to the order in which files are written, which never changes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/vector.h"
+
+namespace sinew {
+
+struct Particles {
+  double radius = 0;  ///< of each particle, m
+  double mass = 0;    ///< of each particle, kg
+
+  std::vector<double> x, y, z;     ///< positions, m
+  std::vector<double> u, v, w;     ///< velocities, m/s
+  std::vector<std::int32_t> id;    ///< place in the written order, 0 .. size() - 1
+
+  std::size_t size() const { return x.size(); }
+  Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Vec3 velocity(std::size_t i) const { return {u[i], v[i], w[i]}; }
+  void set_position(std::size_t i, const Vec3& p) { x[i] = p.x(), y[i] = p.y(), z[i] = p.z(); }
+  void set_velocity(std::size_t i, const Vec3& p) { u[i] = p.x(), v[i] = p.y(), w[i] = p.z(); }
+};
+
+/// Particles at rest at `positions` (n x 3, m), in that order.
+Particles particles_at(const Points& positions, double radius, double mass);
+
+/// Positions (n x 3, m) in the order of `particles`, not the written one.
+Points positions_of(const Particles& particles);
+
+/// A hash of every bit of positions and velocities in the written order: equal states, equal hash.
+std::uint64_t state_hash(const Particles& particles);
+
+}  // namespace sinew

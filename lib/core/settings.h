@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything a scene says, as plain values with their defaults. SI units, angles in degrees, "radii"
+// are multiples of the particle radius. What each key means stands in settings_table.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/vector.h"
+
+namespace sinew {
+
+enum class Packing { fcc, hcp };
+
+struct BodySettings {
+  std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
+  std::optional<double> radius;
+  std::optional<int> count;
+  Packing packing = Packing::fcc;
+};
+
+enum class MaterialModel { paper };
+enum class DampingForm { paper, symmetric, central };
+
+struct MaterialSettings {
+  MaterialModel model = MaterialModel::paper;
+  double density = 1000;
+  double young_modulus = 10e3;
+  std::optional<double> k1;
+  std::optional<double> k2;
+  double lambda = 1;
+  double a = 2;
+  double b = 2.6;
+  double damping = 0.5;
+  DampingForm damping_form = DampingForm::paper;
+};
+
+struct BoneSettings {
+  std::string name;
+  std::string parent;
+  std::optional<Vec3> head;  ///< the parent's tail when not given
+  Vec3 tail = Vec3::Zero();
+};
+
+enum class Interpolation { step, linear, smooth };
+
+struct KeySettings {
+  double time = 0;
+  std::optional<Vec3> axis;
+  std::optional<double> angle;
+  std::optional<Vec3> euler;
+  double twist = 0;
+  Vec3 translation = Vec3::Zero();
+};
+
+struct TrackSettings {
+  std::string bone;
+  Interpolation interpolation = Interpolation::smooth;
+  std::string order = "xyz";
+  std::vector<KeySettings> keys;
+};
+
+enum class BoneForce { paper, anchor };
+enum class TwistForm { servo, open_loop };
+
+struct BindingSettings {
+  BoneForce force = BoneForce::paper;
+  TwistForm twist_form = TwistForm::servo;
+  double stiffness = 1.6;
+  double twist_stiffness = 1.6;
+  double axial_stiffness = 0.64;
+  double bone_damping = 1;
+  double joint_zone = 0;
+};
+
+enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
+
+struct SolverSettings {
+  Integrator integrator = Integrator::symplectic_euler;
+  std::optional<double> time_step;
+  double time_step_factor = 0.5;
+  double duration = 1;
+  Vec3 gravity = Vec3::Zero();
+};
+
+enum class Encoding { zlib, lz4, raw, none };
+
+struct OutputSettings {
+  double interval = 1.0 / 30;
+  Encoding encoding = Encoding::zlib;
+  bool double_precision = false;
+};
+
+struct Settings {
+  BodySettings body;
+  MaterialSettings material;
+  std::vector<BoneSettings> bones;    ///< section skeleton
+  std::vector<TrackSettings> tracks;  ///< section motion
+  BindingSettings binding;
+  SolverSettings solver;
+  OutputSettings output;
+
+  /// Where each value was read, by its path: "body.mesh", "skeleton.bones[1].parent".
+  std::map<std::string, Place, std::less<>> places;
+
+  /// The place of `path`, or of the nearest enclosing path that has one.
+  Place place(std::string path) const;
+};
+
+}  // namespace sinew

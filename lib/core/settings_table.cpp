@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/settings_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <type_traits>
+
+namespace sinew {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr Range any = {};
+constexpr Range positive = {0, inf, true};
+constexpr Range not_negative = {0, inf, false};
+
+template <class T>
+struct Unwrap {
+  using type = T;
+  static constexpr bool optional = false;
+};
+template <class T>
+struct Unwrap<std::optional<T>> {
+  using type = T;
+  static constexpr bool optional = true;
+};
+
+template <class T>
+constexpr FieldKind kind_of() {
+  if constexpr (std::is_same_v<T, double>) return FieldKind::number;
+  else if constexpr (std::is_same_v<T, int>) return FieldKind::whole;
+  else if constexpr (std::is_same_v<T, bool>) return FieldKind::flag;
+  else if constexpr (std::is_same_v<T, Vec3>) return FieldKind::vector;
+  else return FieldKind::text;
+}
+
+/// A field for the member that `member(owner)` refers to; optional members may be absent.
+template <class Owner, class Member>
+Field<Owner> field(std::string_view section, std::string_view name, Member member,
+                   std::string_view unit, std::string_view help, Range range = any,
+                   std::string_view absent = "auto") {
+  using Stored = std::remove_reference_t<decltype(member(std::declval<Owner&>()))>;
+  using Value = typename Unwrap<Stored>::type;
+  Field<Owner> row;
+  row.section = section;
+  row.name = name;
+  row.kind = kind_of<Value>();
+  row.unit = unit;
+  row.help = help;
+  row.range = range;
+  if (Unwrap<Stored>::optional) row.absent = absent;
+  row.get = [member](const Owner& owner) -> FieldValue {
+    const Stored& stored = member(const_cast<Owner&>(owner));
+    if constexpr (Unwrap<Stored>::optional) return stored ? FieldValue(*stored) : FieldValue();
+    else return stored;
+  };
+  row.set = [member](Owner& owner, const FieldValue& value) {
+    if constexpr (Unwrap<Stored>::optional)
+      if (std::holds_alternative<std::monostate>(value)) return member(owner).reset();
+    member(owner) = std::get<Value>(value);
+  };
+  return row;
+}
+
+/// A field for an enum; `choices` in the order of its values.
+template <class Owner, class Member>
+Field<Owner> choice(std::string_view section, std::string_view name, Member member,
+                    std::vector<std::string_view> choices, std::string_view help) {
+  using Enum = std::remove_reference_t<decltype(member(std::declval<Owner&>()))>;
+  Field<Owner> row;
+  row.section = section;
+  row.name = name;
+  row.kind = FieldKind::choice;
+  row.help = help;
+  row.choices = choices;
+  row.get = [member, choices](const Owner& owner) -> FieldValue {
+    return std::string(choices[static_cast<std::size_t>(member(const_cast<Owner&>(owner)))]);
+  };
+  row.set = [member, choices](Owner& owner, const FieldValue& value) {
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (choices[i] == std::get<std::string>(value)) member(owner) = static_cast<Enum>(i);
+  };
+  return row;
+}
+
+template <class Owner>
+Field<Owner> required(Field<Owner> row) {
+  row.required = true;
+  return row;
+}
+
+template <class Owner>
+Field<Owner> path(Field<Owner> row) {
+  row.kind = FieldKind::path;
+  return row;
+}
+
+// Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
+#define SINEW_AT(Owner, member) [](Owner& owner) -> auto& { return owner.member; }
+
+std::vector<Field<Settings>> make_settings() {
+  using S = Settings;
+  return {
+      required(path(field<S>("body", "mesh", SINEW_AT(S, body.mesh), "",
+                             "closed triangle mesh (OBJ, OFF, STL, PLY), relative to the scene"))),
+      field<S>("body", "radius", SINEW_AT(S, body.radius), "m",
+               "particle radius; give this or count", positive),
+      field<S>("body", "count", SINEW_AT(S, body.count), "",
+               "about how many particles; the radius follows from the mesh's volume", {1, 1e9}),
+      choice<S>("body", "packing", SINEW_AT(S, body.packing), {"fcc", "hcp"},
+                "closest packing of the particles"),
+
+      choice<S>("material", "model", SINEW_AT(S, material.model), {"paper"},
+                "force law: paper is Komiya and Tokoi's, without fixed bonds"),
+      field<S>("material", "density", SINEW_AT(S, material.density), "kg/m^3",
+               "mass of the body over its mesh's volume", positive),
+      field<S>("material", "young_modulus", SINEW_AT(S, material.young_modulus), "Pa",
+               "Young's modulus, averaged over directions (Hill); sets k1 = E / 2.70", positive),
+      field<S>("material", "k1", SINEW_AT(S, material.k1), "Pa",
+               "the paper's repulsion constant, instead of young_modulus", positive),
+      field<S>("material", "k2", SINEW_AT(S, material.k2), "Pa",
+               "the paper's attraction constant, instead of lambda", not_negative),
+      field<S>("material", "lambda", SINEW_AT(S, material.lambda), "",
+               "stiffness in tension over compression at contact, k2 (b - a) / (4 k1 r)",
+               not_negative),
+      field<S>("material", "a", SINEW_AT(S, material.a), "radii",
+               "distance at which attraction begins", {2, inf}),
+      field<S>("material", "b", SINEW_AT(S, material.b), "radii",
+               "distance at which attraction ends; above 2.75 the packing is unstable", {2, 8, true}),
+      field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
+               "damping constant C of neighbours' relative velocity", not_negative),
+      choice<S>("material", "damping_form", SINEW_AT(S, material.damping_form),
+                {"paper", "symmetric", "central"},
+                "paper: eq. 2; symmetric keeps momentum; central keeps angular momentum too"),
+
+      choice<S>("binding", "force", SINEW_AT(S, binding.force), {"paper", "anchor"},
+                "paper: radial, twist and axial springs; anchor: a spring to the rigid pose"),
+      choice<S>("binding", "twist_form", SINEW_AT(S, binding.twist_form), {"servo", "open_loop"},
+                "servo turns to the bone's angle; open_loop pushes in proportion to it"),
+      field<S>("binding", "stiffness", SINEW_AT(S, binding.stiffness), "E V0 / A",
+               "radial (or anchor) spring of each particle", not_negative),
+      field<S>("binding", "twist_stiffness", SINEW_AT(S, binding.twist_stiffness), "E V0 / A",
+               "spring against turning about the bone", not_negative),
+      field<S>("binding", "axial_stiffness", SINEW_AT(S, binding.axial_stiffness), "E V0 / A",
+               "spring against sliding along the bone", not_negative),
+      field<S>("binding", "bone_damping", SINEW_AT(S, binding.bone_damping), "",
+               "damping ratio of the bone springs", not_negative),
+      field<S>("binding", "joint_zone", SINEW_AT(S, binding.joint_zone), "sqrt(A)",
+               "length over which weights pass from one bone to the next; 0: one bone each",
+               not_negative),
+
+      choice<S>("solver", "integrator", SINEW_AT(S, solver.integrator),
+                {"symplectic_euler", "explicit_euler", "velocity_verlet"},
+                "how positions and velocities advance"),
+      field<S>("solver", "time_step", SINEW_AT(S, solver.time_step), "s",
+               "upper bound of the step; auto: time_step_factor times the stability limit", positive),
+      field<S>("solver", "time_step_factor", SINEW_AT(S, solver.time_step_factor), "",
+               "share of the stability limit used by time_step: auto", {0, 1, true}),
+      field<S>("solver", "duration", SINEW_AT(S, solver.duration), "s", "length of the run",
+               not_negative),
+      field<S>("solver", "gravity", SINEW_AT(S, solver.gravity), "m/s^2",
+               "acceleration of gravity"),
+
+      field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
+               "time of the scene between frames", positive),
+      choice<S>("output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
+                "of the arrays in VTU files; lz4 is fastest, none is plain base64"),
+      field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
+               "write Float64 instead of Float32"),
+  };
+}
+
+std::vector<Field<BoneSettings>> make_bones() {
+  using B = BoneSettings;
+  return {
+      required(field<B>("", "name", SINEW_AT(B, name), "", "unique name of the bone")),
+      field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone; none for a root"),
+      field<B>("", "head", SINEW_AT(B, head), "m", "where it begins at rest; else parent's tail"),
+      required(field<B>("", "tail", SINEW_AT(B, tail), "m", "where it ends at rest")),
+  };
+}
+
+std::vector<Field<TrackSettings>> make_tracks() {
+  using T = TrackSettings;
+  return {
+      required(field<T>("", "bone", SINEW_AT(T, bone), "", "name of the bone that moves")),
+      choice<T>("", "interpolation", SINEW_AT(T, interpolation), {"step", "linear", "smooth"},
+                "between keys; smooth starts and ends each part without speed"),
+      field<T>("", "order", SINEW_AT(T, order), "", "order of euler angles, such as xyz or zyx"),
+  };
+}
+
+std::vector<Field<KeySettings>> make_keys() {
+  using K = KeySettings;
+  return {
+      required(field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative)),
+      field<K>("", "axis", SINEW_AT(K, axis), "", "axis of the rotation, in the parent's directions",
+               any, "none"),
+      field<K>("", "angle", SINEW_AT(K, angle), "degrees", "angle about the axis", any, "none"),
+      field<K>("", "euler", SINEW_AT(K, euler), "degrees",
+               "rotation about x, y and z of the parent's directions, instead of axis and angle", any,
+               "none"),
+      field<K>("", "twist", SINEW_AT(K, twist), "degrees",
+               "turn about the bone itself, of any size, after the rotation"),
+      field<K>("", "translation", SINEW_AT(K, translation), "m",
+               "shift of the head from its place on the parent"),
+  };
+}
+
+#undef SINEW_AT
+
+}  // namespace
+
+std::string Range::text() const {
+  const bool below = low > -inf, above = high < inf;
+  if (below && above) return number_text(low) + " to " + number_text(high);
+  if (below) return (above_low ? "> " : ">= ") + number_text(low);
+  return above ? "<= " + number_text(high) : "";
+}
+
+std::span<const Field<Settings>> settings_table() {
+  static const auto table = make_settings();
+  return table;
+}
+
+std::span<const Field<BoneSettings>> bone_fields() {
+  static const auto table = make_bones();
+  return table;
+}
+
+std::span<const Field<TrackSettings>> track_fields() {
+  static const auto table = make_tracks();
+  return table;
+}
+
+std::span<const Field<KeySettings>> key_fields() {
+  static const auto table = make_keys();
+  return table;
+}
+
+std::span<const std::string_view> sections() {
+  static constexpr std::array<std::string_view, 7> names = {
+      "body", "material", "skeleton", "motion", "binding", "solver", "output"};
+  return names;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+/// Whether YAML reads the text back as that very text without quotes.
+bool plain(const std::string& text) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto is_safe = [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '/' || c == '.' || c == '-';
+  };
+  const bool word = text == "true" || text == "false" || text == "null" || text == "auto" ||
+                    text == "none" || text == "yes" || text == "no";
+  const auto first = text.find_first_not_of("./");
+  return first != std::string::npos && is_letter(text[first]) && !word &&
+         std::all_of(text.begin(), text.end(), is_safe);
+}
+
+}  // namespace
+
+std::string scene_text(const FieldValue& value, std::string_view absent) {
+  if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
+  if (const auto* whole = std::get_if<int>(&value)) return std::to_string(*whole);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* text = std::get_if<std::string>(&value)) return plain(*text) ? *text : quoted(*text);
+  if (const auto* vector = std::get_if<Vec3>(&value))
+    return '[' + number_text(vector->x()) + ", " + number_text(vector->y()) + ", " +
+           number_text(vector->z()) + ']';
+  return std::string(absent);
+}
+
+}  // namespace sinew

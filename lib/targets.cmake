@@ -1,0 +1,36 @@
+# How every room of lib becomes a library sinew::ROOM, installed for find_package(sinew).
+
+# What holds for all our own code: the language, its warnings, and bits that do not depend on fused
+# multiply-adds.
+add_library(sinew_options INTERFACE)
+target_compile_features(sinew_options INTERFACE cxx_std_20)
+target_compile_options(sinew_options INTERFACE
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off $<$<BOOL:${SINEW_STRICT}>:-Werror>)
+
+# sinew_library(ROOM SOURCES ... PUBLIC targets PRIVATE targets)
+function(sinew_library room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(sinew_${room} STATIC ${ARG_SOURCES})
+  add_library(sinew::${room} ALIAS sinew_${room})
+  set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(sinew_${room} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sinew>)
+  target_compile_features(sinew_${room} PUBLIC cxx_std_20)
+  target_link_libraries(sinew_${room}
+    PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:sinew_options> ${ARG_PRIVATE})
+  install(TARGETS sinew_${room} EXPORT sinew ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${room}
+    FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+function(sinew_install_package)
+  include(CMakePackageConfigHelpers)
+  set(place ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
+  install(EXPORT sinew NAMESPACE sinew:: DESTINATION ${place} FILE sinew-targets.cmake)
+  configure_package_config_file(lib/sinew-config.cmake.in ${PROJECT_BINARY_DIR}/sinew-config.cmake
+    INSTALL_DESTINATION ${place})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/sinew-config-version.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/sinew-config.cmake
+    ${PROJECT_BINARY_DIR}/sinew-config-version.cmake DESTINATION ${place})
+endfunction()
