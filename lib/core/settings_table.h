@@ -37,8 +37,8 @@ struct Field {
   std::string_view section;  ///< "" for the members of list entries
   std::string_view name;
   FieldKind kind;
-  std::string_view unit;     ///< "" for pure numbers
-  std::string_view help;     ///< one line
+  std::string_view unit;  ///< "" for pure numbers
+  std::string_view help;  ///< one line
   std::function<FieldValue(const Owner&)> get;
   std::function<void(Owner&, const FieldValue&)> set;  ///< the value is of `kind` and in range
   Range range = {};
