@@ -8,25 +8,13 @@
 
 #include <cstdint>
 
+#include "core/energies.h"
 #include "core/particles.h"
 #include "core/settings.h"
 #include "physics/forces.h"
 #include "rig/motion.h"
 
 namespace sinew {
-
-/// What of it there is at one moment, J. Kinetic energy and dissipation are taken at the moment of
-/// the positions, so that the balance closes to second order in the step.
-struct Energies {
-  double kinetic = 0;
-  double pair = 0;
-  double bone = 0;           ///< in the bones' springs
-  double gravity = 0;        ///< -m g.x
-  double work_of_bones = 0;  ///< put in since the start
-  double dissipation = 0;    ///< lost to both dampings since the start
-
-  double total() const { return kinetic + pair + bone + gravity; }
-};
 
 struct Stepping {
   Integrator integrator = Integrator::symplectic_euler;
@@ -51,6 +39,8 @@ class Simulation {
 
   /// At the present moment; evaluated once, and used by the next step.
   const Forces& forces();
+  /// Kinetic energy and dissipation are taken at the moment of the positions, so that the balance
+  /// closes to second order in the step.
   Energies energies();
 
  private:
