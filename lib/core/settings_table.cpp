@@ -103,6 +103,20 @@ Field<Owner> path(Field<Owner> row) {
   return row;
 }
 
+/// A text that may be left out: the empty text is written as `word`.
+template <class Owner>
+Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
+  row.absent = word;
+  row.get = [get = row.get](const Owner& owner) -> FieldValue {
+    FieldValue value = get(owner);
+    return std::get<std::string>(value).empty() ? FieldValue() : value;
+  };
+  row.set = [set = row.set](Owner& owner, const FieldValue& value) {
+    set(owner, std::holds_alternative<std::monostate>(value) ? FieldValue(std::string()) : value);
+  };
+  return row;
+}
+
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
 #define SINEW_AT(Owner, member) \
   [](Owner & owner) -> auto& { return owner.member; }
@@ -185,7 +199,7 @@ std::vector<Field<BoneSettings>> make_bones() {
   using B = BoneSettings;
   return {
       required(field<B>("", "name", SINEW_AT(B, name), "", "unique name of the bone")),
-      field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone; none for a root"),
+      may_lack("none", field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone")),
       field<B>("", "head", SINEW_AT(B, head), "m", "where it begins at rest; else parent's tail"),
       required(field<B>("", "tail", SINEW_AT(B, tail), "m", "where it ends at rest")),
   };
