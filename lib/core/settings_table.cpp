@@ -238,6 +238,7 @@ std::vector<Field<KeySettings>> make_keys() {
 
 std::string Range::text() const {
   const bool below = low > -inf, above = high < inf;
+  if (below && above && above_low) return "> " + number_text(low) + ", up to " + number_text(high);
   if (below && above) return number_text(low) + " to " + number_text(high);
   if (below) return (above_low ? "> " : ">= ") + number_text(low);
   return above ? "<= " + number_text(high) : "";

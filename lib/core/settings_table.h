@@ -28,7 +28,7 @@ struct Range {
   bool holds(double value) const {
     return (above_low ? value > low : value >= low) && value <= high;
   }
-  std::string text() const;  ///< "> 0", "0 to 1"; "" without limits
+  std::string text() const;  ///< "> 0", "0 to 1", "> 0, up to 1"; "" without limits
 };
 
 /// One key of a mapping that describes an Owner (Settings by section, a bone, a track, a key).
