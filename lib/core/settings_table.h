@@ -28,7 +28,7 @@ struct Range {
   bool holds(double value) const {
     return (above_low ? value > low : value >= low) && value <= high;
   }
-  std::string text() const;  ///< "> 0", "0 to 1"; "" without limits
+  std::string text() const;  ///< "> 0", "0 to 1", "> 0, up to 1"; "" without limits
 };
 
 /// One key of a mapping that describes an Owner (Settings by section, a bone, a track, a key).
@@ -37,8 +37,8 @@ struct Field {
   std::string_view section;  ///< "" for the members of list entries
   std::string_view name;
   FieldKind kind;
-  std::string_view unit;     ///< "" for pure numbers
-  std::string_view help;     ///< one line
+  std::string_view unit;  ///< "" for pure numbers
+  std::string_view help;  ///< one line
   std::function<FieldValue(const Owner&)> get;
   std::function<void(Owner&, const FieldValue&)> set;  ///< the value is of `kind` and in range
   Range range = {};

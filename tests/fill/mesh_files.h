@@ -120,6 +120,7 @@ class Folder {
   std::string path(const std::string& name) const { return (path_ / name).string(); }
 
   std::string file(const std::string& name, const std::string& content) const {
+    std::filesystem::remove(path(name));  // to write over a file may wait for the disk
     std::ofstream(path(name), std::ios::binary) << content;
     return path(name);
   }
