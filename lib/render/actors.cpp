@@ -19,7 +19,7 @@
 namespace sinew {
 namespace {
 
-constexpr Colour skin_colour{244, 214, 192};
+constexpr Colour skin_colour{238, 206, 184};
 constexpr Colour edge_colour{104, 62, 42};
 constexpr Colour plain_colour{206, 164, 138};
 constexpr std::array<Colour, 3> axis_colours{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
@@ -157,7 +157,7 @@ void add_skin(vtkRenderer& renderer, const Shot& shot, const Skin& skin) {
   data->GetPointData()->SetNormals(normals);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  add_actor(renderer, *mapper, skin_colour);
+  add_actor(renderer, *mapper, skin_colour).SetSpecular(0.03);
 }
 
 void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, double pixel, double lift) {

@@ -43,8 +43,8 @@ Colour from_oklab(const Vec3& lab) {
 
 /// Along the line through a few hues, by the length walked in Oklab.
 ColourTable make_table() {
-  const std::array<Colour, 6> stops{{{66, 62, 152},
-                                     {52, 104, 180},
+  const std::array<Colour, 6> stops{{{78, 74, 168},
+                                     {58, 112, 190},
                                      {32, 150, 176},
                                      {78, 190, 146},
                                      {172, 220, 108},

@@ -10,7 +10,7 @@ namespace sinew {
 struct SheetOptions {
   Mat3 view = three_quarter_view();
   int width = 1600;      ///< at most, pixels
-  int row_height = 620;  ///< at most, pixels
+  int row_height = 560;  ///< at most, pixels
   Finish finish = Finish::fine;
 };
 

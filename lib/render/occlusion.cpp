@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 #include "core/vector.h"
@@ -34,8 +35,10 @@ Discs make_discs(double radius, double pixel) {
   return discs;
 }
 
+/// Infinite outside of the picture, as where there is nothing.
 float depth_at(const DepthImage& image, int x, int y) {
-  return image.at(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
+  const bool inside = x >= 0 && y >= 0 && x < image.width && y < image.height;
+  return inside ? image.at(x, y) : std::numeric_limits<float>::infinity();
 }
 
 /// Change of depth per pixel: of the two sides the flatter one, as the other may be another thing.

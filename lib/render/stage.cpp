@@ -32,7 +32,7 @@ void add_light(vtkRenderer& renderer, const Vec3& from, double strength, const V
 
 void add_lights(vtkRenderer& renderer) {
   renderer.AutomaticLightCreationOff();
-  add_light(renderer, {-0.35, 0.55, 1.0}, 0.88, {1.0, 0.99, 0.97});  // key
+  add_light(renderer, {-0.35, 0.55, 1.0}, 0.84, {1.0, 0.99, 0.97});  // key
   add_light(renderer, {1.0, 0.25, 0.7}, 0.54, {0.95, 0.97, 1.0});    // fill, cool
   add_light(renderer, {-0.2, -0.6, 1.0}, 0.24, {1.0, 0.98, 0.95});   // as from the ground
 }
@@ -86,19 +86,22 @@ Image Stage::Parts::pixels() const {
 
 /// Depths at every picture's pixel, coverage over all that was drawn for it.
 void Stage::Parts::measure(Exposure& exposure) const {
-  vtkNew<vtkFloatArray> z;  // 0 (near) .. 1 (nothing there)
-  window->GetZbufferData(0, 0, width() - 1, height() - 1, z);
-  const auto size = static_cast<std::size_t>(width() / times) * (height() / times);
+  const int wide = width(), high = height(), columns = wide / times, rows = high / times;
+  vtkNew<vtkFloatArray> buffer;  // 0 (near) .. 1 (nothing there)
+  window->GetZbufferData(0, 0, wide - 1, high - 1, buffer);
+  const float* z = buffer->GetPointer(0);
   const auto deep = static_cast<float>(box.sizes().z());
-  exposure.depth = {width() / times, height() / times, box.sizes().y() * times / height(), {}};
+  const float share = 1.0F / static_cast<float>(times * times);
+  const auto size = static_cast<std::size_t>(columns) * rows;
+  exposure.depth = {columns, rows, box.sizes().y() / rows, {}};
   exposure.depth.depth.assign(size, std::numeric_limits<float>::infinity());
   exposure.coverage.assign(size, 0);
-  for (int y = 0; y < height() / times * times; ++y)
-    for (int x = 0; x < width() / times * times; ++x) {
-      const float part = z->GetValue(static_cast<vtkIdType>(height() - 1 - y) * width() + x);
+  for (int y = 0; y < rows * times; ++y)
+    for (int x = 0; x < columns * times; ++x) {
+      const float part = z[static_cast<std::size_t>(high - 1 - y) * wide + x];
       if (part >= 1) continue;
-      const auto pixel = static_cast<std::size_t>(y / times) * (width() / times) + x / times;
-      exposure.coverage[pixel] += 1.0F / static_cast<float>(times * times);
+      const auto pixel = static_cast<std::size_t>(y / times) * columns + x / times;
+      exposure.coverage[pixel] += share;
       if (y % times == 0 && x % times == 0) exposure.depth.depth[pixel] = part * deep;
     }
 }
