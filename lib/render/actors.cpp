@@ -19,7 +19,7 @@
 namespace sinew {
 namespace {
 
-constexpr Colour skin_colour{238, 206, 184};
+constexpr Colour skin_colour{250, 218, 196};
 constexpr Colour edge_colour{104, 62, 42};
 constexpr Colour plain_colour{206, 164, 138};
 constexpr std::array<Colour, 3> axis_colours{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
@@ -63,13 +63,13 @@ vtkNew<vtkPolyData> net(const Points& points, const std::vector<Skin::Edge>& edg
 }
 
 void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Skin::Edge>& edges,
-               double opacity, float width) {
+               double opacity, double width) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(net(points, edges));
   vtkProperty& look = add_actor(renderer, *mapper, edge_colour);
   look.LightingOff();
   look.SetOpacity(opacity);  // below 1 it leaves the depths alone: lines cast no shadows
-  look.SetLineWidth(width);
+  look.SetLineWidth(static_cast<float>(width));
 }
 
 double mean_length(const Points& points, const std::vector<Skin::Edge>& edges) {
@@ -157,17 +157,21 @@ void add_skin(vtkRenderer& renderer, const Shot& shot, const Skin& skin) {
   data->GetPointData()->SetNormals(normals);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  add_actor(renderer, *mapper, skin_colour).SetSpecular(0.03);
+  vtkProperty& look = add_actor(renderer, *mapper, skin_colour);
+  look.SetAmbient(0.34);
+  look.SetDiffuse(0.62);
+  look.SetSpecular(0.02);
 }
 
-void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, double pixel, double lift) {
+void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, const LineStyle& style) {
   constexpr double wide_enough = 7;  // pixels between lines, below which they grey the skin
-  if (mean_length(shot.surface.points, skin.lines) < wide_enough * pixel) return;
-  add_lines(renderer, lifted(shot.surface, lift), skin.lines, 0.28, 1.6F);
+  if (mean_length(shot.surface.points, skin.lines) < wide_enough * style.pixel) return;
+  add_lines(renderer, lifted(shot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
 }
 
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Skin& skin, double lift) {
-  add_lines(renderer, lifted(shot.surface, lift), skin.creases, 0.8, 2.4F);
+void add_creases(vtkRenderer& renderer, const Shot& shot, const Skin& skin,
+                 const LineStyle& style) {
+  add_lines(renderer, lifted(shot.surface, style.lift), skin.creases, 0.8, style.width);
 }
 
 void add_bones(vtkRenderer& renderer, const Shot& shot, double thickness, const Colour& colour) {

@@ -15,11 +15,17 @@ void add_particles(vtkRenderer& renderer, const Shot& shot, const ColourScale& s
 
 void add_skin(vtkRenderer& renderer, const Shot& shot, const Skin& skin);
 
-/// The skin's sharp edges as thin lines, lifted off it by `lift` (m).
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Skin& skin, double lift);
+struct LineStyle {
+  double width = 1;  ///< of the sharp edges, in the drawn pixels; the others are thinner
+  double lift = 0;   ///< off the skin, m
+  double pixel = 0;  ///< size of one, m: a net of lines closer than a few of them is left out
+};
 
-/// Its other edges, fainter; none of them when they lie closer than a few times `pixel` (m).
-void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, double pixel, double lift);
+/// The skin's sharp edges.
+void add_creases(vtkRenderer& renderer, const Shot& shot, const Skin& skin, const LineStyle& style);
+
+/// Its other edges, fainter.
+void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, const LineStyle& style);
 
 /// Tubes with joints and their axes in red, green and blue, about `thickness` (m) thick.
 void add_bones(vtkRenderer& renderer, const Shot& shot, double thickness, const Colour& colour);

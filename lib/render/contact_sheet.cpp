@@ -112,7 +112,7 @@ Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const Shee
 
 Image movie_frame(Painter& painter, const Shot& shot, const FrameOptions& options) {
   TextStyle words;
-  words.size = std::max(11, options.height / 36);
+  words.size = std::max(11, options.height / 32);
   const int margin = options.height / 30, foot = colour_bar_height(words) + margin;
   const int wide = (options.width - 3 * margin) / 2, high = options.height - foot - 2 * margin;
   Image frame(options.width, options.height);

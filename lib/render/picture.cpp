@@ -60,17 +60,19 @@ Image Painter::draw(const Shot& shot, const PictureOptions& options) {
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim(options.camera, options.width, options.height, pixel, options.finish);
   const double grain = shot.radius > 0 ? shot.radius : 8 * pixel;
+  const double line = options.finish == Finish::fine ? 2.4 : 1.4;   // in drawn pixels
   const Colour bones = options.view == View::both ? ivory : slate;  // each stands out
   vtkRenderer& renderer = stage_.renderer();
 
   if (options.view == View::surface) {
     add_skin(renderer, shot, skin_);
-    add_net(renderer, shot, skin_, pixel, 0.6 * pixel);
-    add_creases(renderer, shot, skin_, 0.6 * pixel);
+    add_net(renderer, shot, skin_, {line, 0.6 * pixel, pixel});
+    add_creases(renderer, shot, skin_, {line, 0.6 * pixel, pixel});
   } else {
     add_particles(renderer, shot, scale_);
   }
-  if (options.view == View::both) add_creases(renderer, shot, skin_, 0.35 * shot.radius);
+  if (options.view == View::both)
+    add_creases(renderer, shot, skin_, {line, 0.35 * shot.radius, pixel});
   if (options.view != View::particles) add_bones(renderer, shot, 1.6 * grain, bones);
   Image image = with_shadows(stage_.shoot(), (options.view == View::surface ? 5 : 2) * grain);
   if (options.view == View::particles || shot.bones.empty()) return image;

@@ -11,7 +11,7 @@
 int main(int argc, char** argv) {
   const bool listing = argc > 1 && std::string_view(argv[1]) == "--gtest_list_tests";
   try {
-    if (!listing) sinew::ensure_display(argc, argv);
+    if (!listing) sinew::ensure_display();
   } catch (const sinew::Error& error) {
     std::cerr << error.what() << '\n';
     return static_cast<int>(error.exit());

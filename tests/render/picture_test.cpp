@@ -27,42 +27,46 @@ Shot two_spheres(const Mat3& view) {
   return shot;
 }
 
-class FinishedPicture : public testing::TestWithParam<Finish> {};
-INSTANTIATE_TEST_SUITE_P(Every, FinishedPicture, testing::Values(Finish::quick, Finish::fine),
-                         [](const auto& finish) {
-                           return finish.param == Finish::quick ? "quick" : "fine";
-                         });
+constexpr Finish finishes[] = {Finish::quick, Finish::fine};
 
-TEST_P(FinishedPicture, has_the_size_asked_for_and_white_corners) {
+TEST(Picture, has_the_size_asked_for_and_white_corners) {
   const Shot shot = synthetic_shot(0.8, 0);
   Painter painter(shot.surface, synthetic_scale());
-  for (const View view : {View::surface, View::particles, View::both}) {
-    const Image image = painter.draw(shot, options_for(shot, view, GetParam()));
+  const auto check = [&](View view, Finish finish) {
+    const Image image = painter.draw(shot, options_for(shot, view, finish));
     EXPECT_EQ(image.width, 320);
     EXPECT_EQ(image.height, 240);
     EXPECT_EQ(image.rgb.size(), 320U * 240 * 3);
     for (const int x : {0, 310})
       for (const int y : {0, 230}) EXPECT_EQ(painted(image, x, y, 10, 10), 0);
-  }
+  };
+  for (const View view : {View::surface, View::particles, View::both})
+    for (const Finish finish : finishes) check(view, finish);
 }
 
-TEST_P(FinishedPicture, body_covers_its_projected_area) {
+TEST(Picture, body_covers_its_projected_area) {
   Shot shot = synthetic_shot(0, 0);
   shot.bones.clear();
   Painter painter(shot.surface, synthetic_scale());
-  const PictureOptions options = options_for(shot, View::surface, GetParam());
+  PictureOptions options = options_for(shot, View::surface);
   const Vec3 size = bounds(shot.surface.points).sizes(), back = options.camera.view.row(2);
   const Vec3 sides(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
   const double pixels = sides.dot(back.cwiseAbs()) / std::pow(scale_of(options), 2);
-  EXPECT_NEAR(painted(painter.draw(shot, options)) / (pixels / (320 * 240)), 1, 0.09);
+  for (const Finish finish : finishes) {
+    options.finish = finish;
+    EXPECT_NEAR(painted(painter.draw(shot, options)) / (pixels / (320 * 240)), 1, 0.09);
+  }
 }
 
-TEST_P(FinishedPicture, particles_are_spheres_of_their_true_radius) {
+TEST(Picture, particles_are_spheres_of_their_true_radius) {
   const Shot shot = two_spheres(three_quarter_view());
   Painter painter({}, {"value", "", 0, 1});
-  const PictureOptions options = options_for(shot, View::particles, GetParam());
+  PictureOptions options = options_for(shot, View::particles);
   const double pixels = 2 * pi / std::pow(scale_of(options), 2);
-  EXPECT_NEAR(painted(painter.draw(shot, options)) / (pixels / (320 * 240)), 1, 0.12);
+  for (const Finish finish : finishes) {
+    options.finish = finish;
+    EXPECT_NEAR(painted(painter.draw(shot, options)) / (pixels / (320 * 240)), 1, 0.12);
+  }
 }
 
 TEST(Picture, particles_show_their_values_in_the_colours_of_the_map) {
