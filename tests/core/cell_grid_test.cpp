@@ -95,6 +95,19 @@ TEST(CellGrid, AnswersForPlacesWhereNoPointIs) {
     EXPECT_TRUE(by_grid(grid, points, p, range).empty());
 }
 
+TEST(CellGrid, LosesNoPairWhoseDistanceIsJustBelowTheRange) {
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double range = 0.01 + unit(random), step = range * (1 - 1e-15 * (trial % 8));
+    const double start = unit(random);
+    Points chain;
+    for (int i = 0; i < 100; ++i) chain.emplace_back(start + i * step, 0, 0);
+    expect_brute_force(chain, range);
+    if (HasFatalFailure()) return;
+  }
+}
+
 TEST(CellGrid, OnlyVisitsPointsOfTheCellsAround) {
   const Points points = cloud(1000, {1, 1, 1}, 11);
   const double range = 0.1;
