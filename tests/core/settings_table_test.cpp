@@ -136,5 +136,19 @@ TEST(SceneText, WritesEachKind) {
   EXPECT_EQ(scene_text(std::string("../data/box.obj"), ""), "../data/box.obj");
 }
 
+TEST(SceneText, QuotesWhatYamlWouldReadAsSomethingElse) {
+  for (const std::string text :
+       {"",    " a",   "a b",  "true", "False", "NULL", "~",    "yes",  "No",   "ON",
+        "off", "y",    "N",    "12",   "-1",    ".5",   "0x1F", ".nan", ".Inf", "-.inf",
+        "1e5", "a: b", "a #b", "[a]",  "{a}",   "- a",  "*a",   "&a",   "!a",   "%a",
+        "@a",  "`a`",  "'a'",  "a,b",  "auto",  "none", "über", "...",  "---"})
+    EXPECT_EQ(scene_text(text, ""), '"' + text + '"');
+}
+
+TEST(SceneText, EscapesWhatAQuotedTextCannotHold) {
+  EXPECT_EQ(scene_text(std::string("say \"a\\b\""), ""), R"("say \"a\\b\"")");
+  EXPECT_EQ(scene_text(std::string("a\nb\tc\x01"), ""), R"("a\x0ab\x09c\x01")");
+}
+
 }  // namespace
 }  // namespace sinew
