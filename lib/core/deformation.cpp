@@ -36,12 +36,16 @@ RestShape rest_shape(Points points, double range) {
   return rest;
 }
 
-Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i) {
-  if (!rest.defined(i)) return Mat3::Identity();
+Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i) {
   Mat3 moved = Mat3::Zero();
   for (const auto j : rest.neighbours.of(i))
     moved += (now[j] - now[i]) * (rest.points[j] - rest.points[i]).transpose();
-  return moved * rest.inverse[i];
+  return moved;
+}
+
+Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i) {
+  if (!rest.defined(i)) return Mat3::Identity();
+  return moved_spread(rest, now, i) * rest.inverse[i];
 }
 
 std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <type_traits>
 
 namespace sinew {
@@ -28,11 +27,16 @@ struct Unwrap<std::optional<T>> {
 
 template <class T>
 constexpr FieldKind kind_of() {
-  if constexpr (std::is_same_v<T, double>) return FieldKind::number;
-  else if constexpr (std::is_same_v<T, int>) return FieldKind::whole;
-  else if constexpr (std::is_same_v<T, bool>) return FieldKind::flag;
-  else if constexpr (std::is_same_v<T, Vec3>) return FieldKind::vector;
-  else return FieldKind::text;
+  if constexpr (std::is_same_v<T, double>)
+    return FieldKind::number;
+  else if constexpr (std::is_same_v<T, int>)
+    return FieldKind::whole;
+  else if constexpr (std::is_same_v<T, bool>)
+    return FieldKind::flag;
+  else if constexpr (std::is_same_v<T, Vec3>)
+    return FieldKind::vector;
+  else
+    return FieldKind::text;
 }
 
 /// A field for the member that `member(owner)` refers to; optional members may be absent.
@@ -52,8 +56,10 @@ Field<Owner> field(std::string_view section, std::string_view name, Member membe
   if (Unwrap<Stored>::optional) row.absent = absent;
   row.get = [member](const Owner& owner) -> FieldValue {
     const Stored& stored = member(const_cast<Owner&>(owner));
-    if constexpr (Unwrap<Stored>::optional) return stored ? FieldValue(*stored) : FieldValue();
-    else return stored;
+    if constexpr (Unwrap<Stored>::optional)
+      return stored ? FieldValue(*stored) : FieldValue();
+    else
+      return stored;
   };
   row.set = [member](Owner& owner, const FieldValue& value) {
     if constexpr (Unwrap<Stored>::optional)
@@ -111,7 +117,8 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
 }
 
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
-#define SINEW_AT(Owner, member) [](Owner& owner) -> auto& { return owner.member; }
+#define SINEW_AT(Owner, member) \
+  [](Owner & owner) -> auto& { return owner.member; }
 
 std::vector<Field<Settings>> make_settings() {
   using S = Settings;
@@ -141,7 +148,8 @@ std::vector<Field<Settings>> make_settings() {
       field<S>("material", "a", SINEW_AT(S, material.a), "radii",
                "distance at which attraction begins", {2, inf}),
       field<S>("material", "b", SINEW_AT(S, material.b), "radii",
-               "distance at which attraction ends; above 2.75 the packing is unstable", {2, 8, true}),
+               "distance at which attraction ends; above 2.75 the packing is unstable",
+               {2, 8, true}),
       field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
                "damping constant C of neighbours' relative velocity", not_negative),
       choice<S>("material", "damping_form", SINEW_AT(S, material.damping_form),
@@ -168,7 +176,8 @@ std::vector<Field<Settings>> make_settings() {
                 {"symplectic_euler", "explicit_euler", "velocity_verlet"},
                 "how positions and velocities advance"),
       field<S>("solver", "time_step", SINEW_AT(S, solver.time_step), "s",
-               "upper bound of the step; auto: time_step_factor times the stability limit", positive),
+               "upper bound of the step; auto: time_step_factor times the stability limit",
+               positive),
       field<S>("solver", "time_step_factor", SINEW_AT(S, solver.time_step_factor), "",
                "share of the stability limit used by time_step: auto", {0, 1, true}),
       field<S>("solver", "duration", SINEW_AT(S, solver.duration), "s", "length of the run",
@@ -209,12 +218,12 @@ std::vector<Field<KeySettings>> make_keys() {
   using K = KeySettings;
   return {
       required(field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative)),
-      field<K>("", "axis", SINEW_AT(K, axis), "", "axis of the rotation, in the parent's directions",
-               any, "none"),
+      field<K>("", "axis", SINEW_AT(K, axis), "",
+               "axis of the rotation, in the parent's directions", any, "none"),
       field<K>("", "angle", SINEW_AT(K, angle), "degrees", "angle about the axis", any, "none"),
       field<K>("", "euler", SINEW_AT(K, euler), "degrees",
-               "rotation about x, y and z of the parent's directions, instead of axis and angle", any,
-               "none"),
+               "rotation about x, y and z of the parent's directions, instead of axis and angle",
+               any, "none"),
       field<K>("", "twist", SINEW_AT(K, twist), "degrees",
                "turn about the bone itself, of any size, after the rotation"),
       field<K>("", "translation", SINEW_AT(K, translation), "m",
@@ -260,12 +269,6 @@ std::span<const std::string_view> sections() {
   return names;
 }
 
-std::string number_text(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 namespace {
 
 std::string quoted(const std::string& text) {
@@ -296,7 +299,8 @@ std::string scene_text(const FieldValue& value, std::string_view absent) {
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
   if (const auto* whole = std::get_if<int>(&value)) return std::to_string(*whole);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* text = std::get_if<std::string>(&value)) return plain(*text) ? *text : quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value))
+    return plain(*text) ? *text : quoted(*text);
   if (const auto* vector = std::get_if<Vec3>(&value))
     return '[' + number_text(vector->x()) + ", " + number_text(vector->y()) + ", " +
            number_text(vector->z()) + ']';

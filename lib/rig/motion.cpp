@@ -13,9 +13,12 @@ struct Eased {
 
 Eased ease(Interpolation interpolation, double s, double duration) {
   switch (interpolation) {
-    case Interpolation::step: return {0, 0};
-    case Interpolation::linear: return {s, 1 / duration};
-    case Interpolation::smooth: return {s * s * (3 - 2 * s), 6 * s * (1 - s) / duration};
+    case Interpolation::step:
+      return {0, 0};
+    case Interpolation::linear:
+      return {s, 1 / duration};
+    case Interpolation::smooth:
+      return {s * s * (3 - 2 * s), 6 * s * (1 - s) / duration};
   }
   return {};
 }
@@ -63,10 +66,10 @@ BonePose move(const Bone& bone, const LocalMotion& local, const BonePose& parent
   pose.turn = rotation * Eigen::AngleAxisd(local.twist, bone.axis()).toRotationMatrix();
   pose.frame.rotation = pose.turn * bone.rest.rotation;
   pose.frame.origin = parent.frame.origin + offset;
-  pose.velocity = parent.velocity + parent.angular_velocity.cross(offset) +
-                  parent.turn * local.velocity;
-  pose.angular_velocity = parent.angular_velocity + parent.turn * local.angular_velocity +
-                          local.twist_rate * axis;
+  pose.velocity =
+      parent.velocity + parent.angular_velocity.cross(offset) + parent.turn * local.velocity;
+  pose.angular_velocity =
+      parent.angular_velocity + parent.turn * local.angular_velocity + local.twist_rate * axis;
   pose.twist = local.twist;
   return pose;
 }
@@ -116,7 +119,8 @@ std::vector<Key> make_keys(const Settings& settings, std::size_t index) {
                     given.translation});
   }
   if (keys.empty())
-    throw bad_input(settings.place(path_of(index)), "a track without keys", "give it keys, or remove it");
+    throw bad_input(settings.place(path_of(index)), "a track without keys",
+                    "give it keys, or remove it");
   return keys;
 }
 

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/arrays.h"
+
+#include <algorithm>
+
+namespace sinew {
+namespace {
+
+using enum ArrayPlace;
+using enum ArrayNumbers;
+using enum ArrayRole;
+
+const std::vector<std::string_view> one = {};
+const std::vector<std::string_view> xyz = {"X", "Y", "Z"};
+const std::vector<std::string_view> wxyz = {"W", "X", "Y", "Z"};
+
+std::vector<WrittenArray> table_of_all() {
+  return {
+      {"all", field, "TimeValue", "s", one, exact, plain, "time of the scene"},
+      {"all", field, "CYCLE", "1", one, whole, plain, "steps taken so far"},
+      {"all", field, "sinew_meta", "1", one, bytes, plain, "UTF-8 JSON about the file"},
+  };
+}
+
+std::vector<WrittenArray> table_of_body() {
+  return {
+      {"body", point, "Points", "m", xyz, exact, plain, "particle at rest, as in the mesh"},
+      {"body", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"body", point, "radius", "m", one, exact, plain, "radius of the particle"},
+      {"body", point, "mass", "kg", one, exact, plain, "mass of the particle"},
+      {"body", point, "neighbours", "1", one, whole, plain, "touching particles at rest"},
+      {"body", point, "component", "1", one, whole, plain, "connected piece it belongs to, from 0"},
+      {"body", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
+  };
+}
+
+std::vector<WrittenArray> table_of_particles() {
+  return {
+      {"particles", point, "Points", "m", xyz, real, plain, "where the particle is"},
+      {"particles", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"particles", point, "bone", "1", one, whole, scalars, "bone it is bound to, -1 for none"},
+      {"particles", point, "radius", "m", one, real, plain, "radius of the particle"},
+      {"particles", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"particles", point, "velocity", "m/s", xyz, real, plain, "velocity"},
+      {"particles", point, "force", "N", xyz, real, plain, "sum of all forces on it"},
+      {"particles", point, "force_pair", "N", xyz, real, plain, "elastic force of its partners"},
+      {"particles", point, "force_damping", "N", xyz, real, plain, "damping force of its partners"},
+      {"particles", point, "force_bone", "N", xyz, real, plain, "force of its bone"},
+      {"particles", point, "neighbours", "1", one, whole, plain, "partners within the range b"},
+      {"particles", field, "kinetic_energy", "J", one, exact, plain, "energy of motion"},
+      {"particles", field, "pair_energy", "J", one, exact, plain, "elastic energy of all pairs"},
+      {"particles", field, "bone_energy", "J", one, exact, plain,
+       "elastic energy towards the bones"},
+      {"particles", field, "gravity_energy", "J", one, exact, plain, "potential energy of gravity"},
+      {"particles", field, "work_of_bones", "J", one, exact, plain,
+       "work the bones have done so far"},
+      {"particles", field, "dissipation", "J", one, exact, plain, "energy lost to damping so far"},
+  };
+}
+
+std::vector<WrittenArray> table_of_surface() {
+  return {
+      {"surface", point, "Points", "m", xyz, real, plain, "point of the input surface, deformed"},
+      {"surface", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"surface", point, "normal", "1", xyz, real, plain, "outward unit normal"},
+      {"surface", point, "bone", "1", one, whole, scalars, "bone that moves it most, -1 for none"},
+  };
+}
+
+std::vector<WrittenArray> table_of_bones() {
+  return {
+      {"bones", point, "Points", "m", xyz, real, plain, "head, tail and tips of the three axes"},
+      {"bones", cell, "axis", "1", one, whole, scalars, "0 the bone, 1, 2, 3 its x, y, z axis"},
+      {"bones", cell, "bone", "1", one, whole, plain, "number of the bone, from 0"},
+      {"bones", cell, "parent", "1", one, whole, plain, "bone it hangs on, -1 for none"},
+  };
+}
+
+std::vector<WrittenArray> table_of_frames() {
+  return {
+      {"frames", point, "Points", "m", xyz, real, plain, "head of the bone"},
+      {"frames", point, "bone", "1", one, whole, scalars, "number of the bone, from 0"},
+      {"frames", point, "parent", "1", one, whole, plain, "bone it hangs on, -1 for none"},
+      {"frames", point, "length", "m", one, real, plain, "head to tail"},
+      {"frames", point, "orientation", "1", wxyz, real, plain, "quaternion: scene to bone axes"},
+      {"frames", point, "axis_x", "1", xyz, real, plain, "unit x axis, along the bone"},
+      {"frames", point, "axis_y", "1", xyz, real, plain, "unit y axis"},
+      {"frames", point, "axis_z", "1", xyz, real, plain, "unit z axis"},
+      {"frames", point, "twist", "degree", one, real, plain, "turn about the bone's own axis"},
+      {"frames", point, "velocity", "m/s", xyz, real, vectors, "velocity of the head"},
+      {"frames", point, "angular_velocity", "rad/s", xyz, real, plain, "angular velocity"},
+      {"frames", point, "reaction_force", "N", xyz, real, plain, "force of the body on the bone"},
+      {"frames", point, "reaction_moment", "N m", xyz, real, plain, "its moment about the head"},
+  };
+}
+
+std::vector<WrittenArray> make_table() {
+  std::vector<WrittenArray> table;
+  for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_surface,
+                    table_of_bones, table_of_frames})
+    for (WrittenArray& row : rows()) table.push_back(std::move(row));
+  return table;
+}
+
+}  // namespace
+
+std::span<const WrittenArray> written_arrays() {
+  static const std::vector<WrittenArray> table = make_table();
+  return table;
+}
+
+const WrittenArray* find_written(std::string_view series, ArrayPlace place, std::string_view name) {
+  const auto table = written_arrays();
+  const auto row = std::find_if(table.begin(), table.end(), [&](const WrittenArray& candidate) {
+    return (candidate.series == series || candidate.series == "all") && candidate.place == place &&
+           candidate.name == name;
+  });
+  return row == table.end() ? nullptr : &*row;
+}
+
+std::string_view place_text(ArrayPlace place) {
+  return place == point ? "point" : place == cell ? "cell" : "field";
+}
+
+}  // namespace sinew

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one table of written arrays. The writer takes units, component names, number types and active
+// arrays from it, the README its tables: to write one more array, add its row in arrays.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+enum class ArrayPlace { point, cell, field };
+
+/// How numbers are stored: Int32, Float32 (Float64 in double precision), always Float64, or bytes.
+enum class ArrayNumbers { whole, real, exact, bytes };
+
+/// What a viewer shows first: the active scalars and vectors of the points.
+enum class ArrayRole { plain, scalars, vectors };
+
+struct WrittenArray {
+  std::string_view series;  ///< "body", "particles", "surface", "bones", "frames"; "all" for each
+  ArrayPlace place;
+  std::string_view name;                     ///< "Points" for the coordinates themselves
+  std::string_view unit;                     ///< "1" for pure numbers
+  std::vector<std::string_view> components;  ///< their names; empty for scalars
+  ArrayNumbers numbers;
+  ArrayRole role;
+  std::string_view help;  ///< one line
+};
+
+std::span<const WrittenArray> written_arrays();
+
+/// The row of that array in `series` or in all of them, or nullptr.
+const WrittenArray* find_written(std::string_view series, ArrayPlace place, std::string_view name);
+
+/// "point", "cell", "field".
+std::string_view place_text(ArrayPlace place);
+
+}  // namespace sinew

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/frames.h"
+
+#include <cassert>
+
+namespace sinew {
+namespace {
+
+/// Length of an axis stub in lengths of its bone: well seen beside it, short enough not to tangle.
+constexpr double stub = 0.25;
+
+Dataset dataset_at(Moment moment) {
+  Dataset data;
+  data.time = moment.time;
+  data.cycle = moment.cycle;
+  return data;
+}
+
+/// Values in the order of the particles, put into the written order.
+template <class T>
+std::vector<T> in_written_order(std::span<const T> values, const std::vector<std::int32_t>& id) {
+  assert(values.size() == id.size());
+  std::vector<T> written(id.size());
+  for (std::size_t i = 0; i < id.size(); ++i) written[id[i]] = values[i];
+  return written;
+}
+
+Points differences(const Points& now, const Points& rest) {
+  assert(now.size() == rest.size());
+  Points ways(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) ways[i] = now[i] - rest[i];
+  return ways;
+}
+
+Points velocities_of(const Particles& particles) {
+  Points velocities(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) velocities[i] = particles.velocity(i);
+  return velocities;
+}
+
+std::vector<std::int32_t> copied(std::span<const std::int32_t> values, std::size_t count) {
+  assert(values.size() == count);
+  (void)count;
+  return {values.begin(), values.end()};
+}
+
+Points copied(std::span<const Vec3> values, std::size_t count) {
+  assert(values.size() == count);
+  (void)count;
+  return {values.begin(), values.end()};
+}
+
+std::vector<Column> columns_of(const Energies& energies) {
+  const auto single = [](const char* name, double value) {
+    return column(name, std::vector<double>{value});
+  };
+  return {single("kinetic_energy", energies.kinetic),
+          single("pair_energy", energies.pair),
+          single("bone_energy", energies.bone),
+          single("gravity_energy", energies.gravity),
+          single("work_of_bones", energies.work_of_bones),
+          single("dissipation", energies.dissipation)};
+}
+
+/// W X Y Z, with W >= 0: of the two quaternions of a rotation always the same one.
+Column orientation_column(const Pose& pose) {
+  std::vector<double> values;
+  for (const BonePose& bone : pose) {
+    const Quat turn(bone.frame.rotation);
+    const double sign = turn.w() < 0 ? -1 : 1;
+    for (const double part : {turn.w(), turn.x(), turn.y(), turn.z()})
+      values.push_back(sign * part);
+  }
+  return {"orientation", 4, std::move(values)};
+}
+
+template <class Of>
+Column per_bone(std::string name, const Pose& pose, Of&& of) {
+  Points values;
+  for (const BonePose& bone : pose) values.push_back(of(bone));
+  return column(std::move(name), values);
+}
+
+}  // namespace
+
+Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
+  const Particles& now = frame.now;
+  const auto written = [&](const Points& values) {
+    return in_written_order(std::span<const Vec3>(values), now.id);
+  };
+  const auto forces = [&](const char* name, std::span<const Vec3> values) {
+    return column(name, in_written_order(values, now.id));
+  };
+  Dataset data = dataset_at(moment);
+  data.points = written(positions_of(now));
+  data.connectivity = vertex_cells(now.size());
+  data.point_columns = {
+      column("id", vertex_cells(now.size())),
+      column("bone", copied(frame.bone, now.size())),
+      column("radius", std::vector<double>(now.size(), now.radius)),
+      column("displacement", differences(data.points, frame.rest)),
+      column("velocity", written(velocities_of(now))),
+      forces("force", frame.force),
+      forces("force_pair", frame.force_pair),
+      forces("force_damping", frame.force_damping),
+      forces("force_bone", frame.force_bone),
+      column("neighbours", in_written_order(frame.neighbours, now.id)),
+  };
+  data.field_columns = columns_of(frame.energies);
+  return data;
+}
+
+Dataset surface_dataset(const Triangles& surface, const Points& rest,
+                        std::span<const std::int32_t> bone, Moment moment) {
+  Dataset data = dataset_at(moment);
+  data.points = surface.points;
+  data.kind = CellKind::triangle;
+  data.connectivity.reserve(3 * surface.faces.size());
+  for (const auto& face : surface.faces)
+    data.connectivity.insert(data.connectivity.end(), face.begin(), face.end());
+  data.point_columns = {column("displacement", differences(surface.points, rest)),
+                        column("normal", point_normals(surface)),
+                        column("bone", copied(bone, surface.points.size()))};
+  return data;
+}
+
+Dataset bones_dataset(const Skeleton& skeleton, const Pose& pose, Moment moment) {
+  assert(pose.size() == skeleton.size());
+  Dataset data = dataset_at(moment);
+  data.kind = CellKind::line;
+  std::vector<std::int32_t> axis, bone, parent;
+  for (std::size_t b = 0; b < pose.size(); ++b) {
+    const RigidFrame& frame = pose[b].frame;
+    const double length = skeleton.bones[b].length;
+    const auto head = static_cast<std::int32_t>(data.points.size());
+    data.points.push_back(frame.origin);
+    for (int line = 0; line < 4; ++line) {
+      const Vec3 way = line == 0 ? Vec3(length * pose[b].axis())
+                                 : Vec3(stub * length * frame.rotation.col(line - 1));
+      data.points.push_back(frame.origin + way);
+      data.connectivity.insert(data.connectivity.end(), {head, head + 1 + line});
+      axis.push_back(line);
+      bone.push_back(static_cast<std::int32_t>(b));
+      parent.push_back(skeleton.bones[b].parent);
+    }
+  }
+  data.cell_columns = {column("axis", axis), column("bone", bone), column("parent", parent)};
+  return data;
+}
+
+Dataset frames_dataset(const Skeleton& skeleton, const Pose& pose, const Reactions& reactions,
+                       Moment moment) {
+  assert(pose.size() == skeleton.size());
+  Dataset data = dataset_at(moment);
+  data.connectivity = vertex_cells(pose.size());
+  std::vector<std::int32_t> parent;
+  std::vector<double> length, twist;
+  for (std::size_t b = 0; b < pose.size(); ++b) {
+    data.points.push_back(pose[b].frame.origin);
+    parent.push_back(skeleton.bones[b].parent);
+    length.push_back(skeleton.bones[b].length);
+    twist.push_back(degrees(pose[b].twist));
+  }
+  const auto axis = [](int k) {
+    return [k](const BonePose& bone) -> Vec3 { return bone.frame.rotation.col(k); };
+  };
+  data.point_columns = {
+      column("bone", vertex_cells(pose.size())),
+      column("parent", parent),
+      column("length", length),
+      orientation_column(pose),
+      per_bone("axis_x", pose, axis(0)),
+      per_bone("axis_y", pose, axis(1)),
+      per_bone("axis_z", pose, axis(2)),
+      column("twist", twist),
+      per_bone("velocity", pose, [](const BonePose& bone) { return bone.velocity; }),
+      per_bone("angular_velocity", pose,
+               [](const BonePose& bone) { return bone.angular_velocity; }),
+      column("reaction_force", copied(reactions.force, pose.size())),
+      column("reaction_moment", copied(reactions.moment, pose.size())),
+  };
+  return data;
+}
+
+}  // namespace sinew

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/series.h"
+
+#include <cstdio>
+#include <regex>
+
+#include "core/error.h"
+#include "core/settings_table.h"
+#include "io/atomic_file.h"
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Often enough to follow a run by eye, seldom enough not to matter beside the frames.
+constexpr std::chrono::seconds pvd_pause{1};
+
+std::string frame_name(const std::string& series, std::size_t number) {
+  char digits[24];
+  std::snprintf(digits, sizeof digits, "_%06zu", number);
+  return series + '/' + series + digits + ".vtu";
+}
+
+/// Only files that a series of this name writes: what else lies there is not ours to remove.
+void remove_older(const fs::path& folder, const std::string& series) {
+  const std::regex ours("\\.?" + series + "_[0-9]{6,}\\.vtu(\\.tmp)?");
+  fs::remove(folder / (series + ".pvd"));
+  for (const auto& entry : fs::directory_iterator(folder / series))
+    if (std::regex_match(entry.path().filename().string(), ours)) fs::remove(entry.path());
+}
+
+}  // namespace
+
+Series::Series(fs::path folder, VtuFormat format)
+    : folder_(std::move(folder)), format_(std::move(format)) {
+  try {
+    fs::create_directories(folder_ / format_.series);
+    remove_older(folder_, format_.series);
+  } catch (const fs::filesystem_error& error) {
+    throw not_written((folder_ / format_.series).string(), error.code().message(),
+                      "choose a place you may write to");
+  }
+}
+
+Series::~Series() {
+  try {
+    close();
+  } catch (const Error&) {
+    // An error is on its way already, or the caller did not want to know.
+  }
+}
+
+void Series::add(const Dataset& frame) {
+  const std::string file = frame_name(format_.series, rows_.size());
+  write_vtu(folder_ / file, frame, format_);
+  rows_.push_back({frame.time, file});
+  if (std::chrono::steady_clock::now() - pvd_written_ >= pvd_pause) write_pvd();
+}
+
+void Series::close() {
+  if (rows_in_pvd_ < rows_.size()) write_pvd();
+}
+
+void Series::write_pvd() {
+  write_file(folder_ / (format_.series + ".pvd"), pvd_text(rows_));
+  rows_in_pvd_ = rows_.size();
+  pvd_written_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace sinew

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.h"
+#include "io/arrays.h"
+#include "io/atomic_file.h"
+#include "io/vtk_messages.h"
+#include "io/vtu.h"
+
+namespace sinew {
+namespace {
+
+using ArrayPointer = vtkSmartPointer<vtkDataArray>;
+
+/// Float32 has 24 bits: beyond this many radii a particle would move in steps of a thousandth of r.
+constexpr double float32_reach = 1e4;
+
+bool beyond_float32(const Points& points, double radius) {
+  return radius > 0 && std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+           return p.cwiseAbs().maxCoeff() > float32_reach * radius;
+         });
+}
+
+template <class Array, class T>
+ArrayPointer filled(const T* values, std::size_t count, int components) {
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(count / components));
+  using Stored = typename Array::ValueType;
+  std::transform(values, values + count, array->GetPointer(0),
+                 [](T value) { return static_cast<Stored>(value); });
+  return array;
+}
+
+ArrayPointer reals(const double* values, std::size_t count, int components, bool float64) {
+  return float64 ? filled<vtkDoubleArray>(values, count, components)
+                 : filled<vtkFloatArray>(values, count, components);
+}
+
+void describe(vtkDataArray& array, const std::string& name, const WrittenArray* row) {
+  array.SetName(name.c_str());
+  if (!row) return;
+  array.GetInformation()->Set(vtkDataArray::UNITS_LABEL(), std::string(row->unit).c_str());
+  for (std::size_t k = 0; k < row->components.size(); ++k)
+    array.SetComponentName(static_cast<vtkIdType>(k), std::string(row->components[k]).c_str());
+}
+
+ArrayPointer array_of(const Column& column, ArrayPlace place, const VtuFormat& format) {
+  const WrittenArray* row = find_written(format.series, place, column.name);
+  const bool float64 = format.double_precision || (row && row->numbers == ArrayNumbers::exact);
+  ArrayPointer array;
+  if (const auto* whole = std::get_if<std::vector<std::int32_t>>(&column.values))
+    array = filled<vtkTypeInt32Array>(whole->data(), whole->size(), column.components);
+  else if (const auto* real = std::get_if<std::vector<double>>(&column.values))
+    array = reals(real->data(), real->size(), column.components, float64);
+  describe(*array, column.name, row);
+  return array;
+}
+
+void add_columns(const std::vector<Column>& columns, ArrayPlace place, const VtuFormat& format,
+                 vtkFieldData& to) {
+  for (const Column& column : columns) to.AddArray(array_of(column, place, format));
+}
+
+void add_attributes(const std::vector<Column>& columns, ArrayPlace place, const VtuFormat& format,
+                    vtkDataSetAttributes& to) {
+  add_columns(columns, place, format, to);
+  for (const Column& column : columns) {
+    const WrittenArray* row = find_written(format.series, place, column.name);
+    if (row && row->role == ArrayRole::scalars) to.SetActiveScalars(column.name.c_str());
+    if (row && row->role == ArrayRole::vectors) to.SetActiveVectors(column.name.c_str());
+  }
+}
+
+void add_field(const Dataset& data, const VtuFormat& format, vtkFieldData& field) {
+  const std::vector<Column> always = {column("TimeValue", std::vector<double>{data.time}),
+                                      column("CYCLE", std::vector<std::int32_t>{data.cycle})};
+  add_columns(always, ArrayPlace::field, format, field);
+  add_columns(data.field_columns, ArrayPlace::field, format, field);
+  if (data.meta.empty()) return;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(data.meta.data());
+  const ArrayPointer meta = filled<vtkUnsignedCharArray>(bytes, data.meta.size(), 1);
+  describe(*meta, "sinew_meta", find_written(format.series, ArrayPlace::field, "sinew_meta"));
+  field.AddArray(meta);
+}
+
+vtkSmartPointer<vtkPoints> points_of(const Dataset& data, const VtuFormat& format) {
+  const WrittenArray* row = find_written(format.series, ArrayPlace::point, "Points");
+  const bool float64 = format.double_precision || (row && row->numbers == ArrayNumbers::exact) ||
+                       beyond_float32(data.points, format.radius);
+  const double* first = data.points.empty() ? nullptr : data.points.front().data();
+  const ArrayPointer array = reals(first, 3 * data.points.size(), 3, float64);
+  describe(*array, "Points", row);
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(array);
+  return points;
+}
+
+int vtk_type(CellKind kind) {
+  return kind == CellKind::vertex ? VTK_VERTEX : kind == CellKind::line ? VTK_LINE : VTK_TRIANGLE;
+}
+
+/// VTK writes connectivity as wide as the cell array stores it, so it is built on Int32.
+void set_cells(const Dataset& data, vtkUnstructuredGrid& grid) {
+  const int size = static_cast<int>(data.kind);
+  std::vector<std::int32_t> offsets(data.cells() + 1);
+  for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] = static_cast<std::int32_t>(i) * size;
+  const auto first = filled<vtkTypeInt32Array>(offsets.data(), offsets.size(), 1);
+  const auto ids = filled<vtkTypeInt32Array>(data.connectivity.data(), data.connectivity.size(), 1);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(vtkTypeInt32Array::SafeDownCast(first), vtkTypeInt32Array::SafeDownCast(ids));
+  grid.SetCells(vtk_type(data.kind), cells);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Dataset& data, const VtuFormat& format) {
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(points_of(data, format));
+  set_cells(data, *grid);
+  add_attributes(data.point_columns, ArrayPlace::point, format, *grid->GetPointData());
+  add_attributes(data.cell_columns, ArrayPlace::cell, format, *grid->GetCellData());
+  add_field(data, format, *grid->GetFieldData());
+  return grid;
+}
+
+void set_encoding(Encoding encoding, vtkXMLWriter& writer) {
+  writer.SetDataModeToAppended();
+  writer.SetHeaderTypeToUInt64();
+  writer.SetByteOrderToLittleEndian();
+  writer.SetEncodeAppendedData(encoding != Encoding::raw);
+  if (encoding == Encoding::zlib) writer.SetCompressorTypeToZLib();
+  if (encoding == Encoding::lz4) writer.SetCompressorTypeToLZ4();
+  if (encoding == Encoding::raw || encoding == Encoding::none) writer.SetCompressorTypeToNone();
+  writer.SetCompressionLevel(1);
+}
+
+/// A file cut short by a full disk lacks its last line.
+bool ends_well(const std::filesystem::path& path) {
+  const std::string last = "</VTKFile>\n";
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(last.size()), std::ios::end);
+  std::string end(last.size(), '\0');
+  return file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == last;
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
+  const auto grid = grid_of(data, format);
+  replace_file(path, [&](const std::filesystem::path& temporary) {
+    const VtkMessages messages;
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    set_encoding(format.encoding, *writer);
+    writer->SetInputData(grid);
+    writer->SetFileName(temporary.c_str());
+    // Write() returns success on a full disk too; the error code tells.
+    const bool said_yes = writer->Write() == 1;
+    const unsigned long code = writer->GetErrorCode();
+    if (said_yes && code == vtkErrorCode::NoError && !messages.failed() && ends_well(temporary))
+      return;
+    const std::string reason =
+        messages.failed() ? messages.first_error() : vtkErrorCode::GetStringFromErrorCode(code);
+    throw not_written(path.string(), "cannot be written: " + reason,
+                      "free some space or choose another place for the results");
+  });
+}
+
+}  // namespace sinew
