@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "config/words.h"
+#include "core/words.h"
 
 namespace sinew {
 namespace {
