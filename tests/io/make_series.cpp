@@ -22,7 +22,9 @@ void write(const std::filesystem::path& folder, Encoding encoding) {
   constexpr int last = 30;
   for (int step = 0; step <= last; ++step) {
     const Moment moment{SyntheticRun::half_turn * step / last, 100 * step};
-    particles.add(run.particles(moment));
+    Dataset body = run.particles(moment);
+    body.meta = R"({"made_by": "make_series"})";
+    particles.add(body);
     surface.add(run.surface(moment));
     bones.add(run.bones(moment));
     frames.add(run.frames(moment));
