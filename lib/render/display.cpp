@@ -24,11 +24,12 @@ Error no_display(const std::string& why) {
                "no display to draw on: " + why + "; install it with: apt-get install xvfb");
 }
 
+/// The connection stays open while the program runs: a server whose last client leaves starts anew,
+/// and refuses for that moment whom it served before.
 bool display_answers() {
-  if (!std::getenv("DISPLAY")) return false;
-  Display* display = XOpenDisplay(nullptr);
-  if (display) XCloseDisplay(display);
-  return display;
+  static Display* connection = nullptr;
+  if (!connection && std::getenv("DISPLAY")) connection = XOpenDisplay(nullptr);
+  return connection;
 }
 
 /// In the child: becomes Xvfb, which looks for a free number and writes it to `report`.
@@ -76,7 +77,9 @@ std::string start_xvfb() {
 
 void ensure_display() {
   if (display_answers()) return;
-  setenv("DISPLAY", (":" + start_xvfb()).c_str(), 1);
+  std::string name = ":";
+  name += start_xvfb();
+  setenv("DISPLAY", name.c_str(), 1);
   if (!display_answers()) throw no_display("Xvfb does not answer");
 }
 

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "render/display.h"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstdlib>
 
 #include "helpers.h"
 
 namespace sinew {
 namespace {
 
+std::string self() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
 /// Runs this program's test of an empty shot in another environment.
 int draw_with(const std::string& environment, std::string* output) {
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   return run(
-      "env " + environment + " " + self + " --gtest_filter=Picture.an_empty_shot_is_white 2>&1",
+      "env " + environment + " " + self() + " --gtest_filter=Picture.an_empty_shot_is_white 2>&1",
       output);
 }
 
@@ -40,20 +38,10 @@ TEST(Display, without_xvfb_one_line_says_what_to_install) {
 }
 
 TEST(Display, ends_with_the_program_even_when_that_is_killed) {
-  int pipe_ends[2];
-  ASSERT_EQ(pipe(pipe_ends), 0);
-  const pid_t child = fork();
-  if (child == 0) {
-    unsetenv("DISPLAY");
-    ensure_display();
-    const std::string name = std::getenv("DISPLAY");
-    (void)!write(pipe_ends[1], name.c_str(), name.size());
-    raise(SIGKILL);
-  }
-  char name[32] = "";
-  ASSERT_GT(read(pipe_ends[0], name, sizeof name - 1), 1);
-  waitpid(child, nullptr, 0);
-  const std::string socket = std::string("/tmp/.X11-unix/X") + (name + 1);
+  std::string name;
+  run("env -u DISPLAY " + self() + " --tell-display-and-die", &name);
+  ASSERT_EQ(name.front(), ':');
+  const std::string socket = "/tmp/.X11-unix/X" + name.substr(1, name.size() - 2);
   for (int i = 0; i < 500 && std::filesystem::exists(socket); ++i) usleep(10000);
   EXPECT_FALSE(std::filesystem::exists(socket));
 }
