@@ -254,7 +254,7 @@ TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
 /// radius.
 TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
   const ClosedSurface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
-  for (const auto& [surface, radius] : {std::pair(&torus, 0.6), std::pair(&torus, 3.0),
+  for (const auto& [surface, radius] : {std::pair(&torus, 0.75), std::pair(&torus, 3.0),
                                         std::pair(&box, 1.0), std::pair(&box, 1e300)}) {
     const std::string message = message_of([&] { pack(*surface, with_radius(radius)); });
     const double named = radius_named_in(message);
