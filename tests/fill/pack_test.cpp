@@ -250,12 +250,24 @@ TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
   EXPECT_LT(volume(surface.triangles) / volume_per_particle(named), 2147483647.0) << message;
 }
 
+/// The torus has no site in its hole's middle; in the box one lies at the centre whatever the
+/// radius.
 TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
-  const ClosedSurface surface = clean(shapes::torus(1, 0.4));
-  const std::string message = message_of([&] { pack(surface, with_radius(3)); });
-  const double named = radius_named_in(message);
-  EXPECT_LT(named, 3) << message;
-  EXPECT_GT(pack(surface, with_radius(named)).particles.size(), 0u) << message;
+  const ClosedSurface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
+  for (const auto& [surface, radius] : {std::pair(&torus, 0.75), std::pair(&torus, 3.0),
+                                        std::pair(&box, 1.0), std::pair(&box, 1e300)}) {
+    const std::string message = message_of([&] { pack(*surface, with_radius(radius)); });
+    const double named = radius_named_in(message);
+    EXPECT_LT(named, radius) << message;
+    ASSERT_GT(named, 0) << message;
+    EXPECT_GT(pack(*surface, with_radius(named)).particles.size(), 10u) << message;
+  }
+}
+
+TEST(Pack, FillsASingleParticleWhenAskedForOne) {
+  PackOptions options;
+  options.count = 1;
+  EXPECT_EQ(pack(clean(shapes::sphere(1, 3)), options).particles.size(), 1u);
 }
 
 TEST(Pack, WantsEitherARadiusOrACount) {
