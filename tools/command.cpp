@@ -6,7 +6,7 @@
 #include <exception>
 #include <new>
 
-#include "config/words.h"
+#include "core/words.h"
 #include "core/parallel.h"
 #include "results.h"
 #include "settings_list.h"
