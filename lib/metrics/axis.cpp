@@ -34,7 +34,7 @@ void widen(double& low, double& high) {
 
 std::string tick_text(double value, double step, double largest) {
   if (value == 0) return "0";
-  if (largest >= 1e5 || largest < 1e-3) return shown(value);
+  if (largest >= 1e5 || largest < 1e-3) return readable(value);
   return fixed(value, std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))));
 }
 

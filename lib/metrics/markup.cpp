@@ -69,7 +69,7 @@ std::string element(std::string_view tag, const std::string& content, std::strin
   return '<' + name + space + std::string(attributes) + '>' + content + "</" + name + ">\n";
 }
 
-std::string shown(double value) {
+std::string readable(double value) {
   if (std::isnan(value)) return "–";
   if (value == 0) return "0";
   const double size = std::abs(value);

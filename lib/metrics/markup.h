@@ -19,7 +19,7 @@ std::string element(std::string_view tag, const std::string& content,
                     std::string_view attributes = {});
 
 /// A number for reading: four significant digits, a dash for not-a-number.
-std::string shown(double value);
+std::string readable(double value);
 
 /// The same with a fixed number of decimals.
 std::string fixed(double value, int decimals);

@@ -30,8 +30,9 @@ const char* name_of(Level level) {
 std::string header(const ReportInput& input) {
   const auto& frames = input.frames;
   const std::string line = std::to_string(frames.size()) + " frames from " +
-                           shown(frames.front().time) + " s to " + shown(frames.back().time) +
-                           " s. One r is the radius of a particle, " + shown(input.radius) + " m.";
+                           readable(frames.front().time) + " s to " + readable(frames.back().time) +
+                           " s. One r is the radius of a particle, " + readable(input.radius) +
+                           " m.";
   return element("header",
                  element("h1", escaped(input.title)) + element("p", line, "class=\"quiet\""));
 }

@@ -41,7 +41,7 @@ std::string described(const Row& metric) {
 
 std::string worst_text(std::span<const FrameMetrics> frames, const MetricSummary& values) {
   if (!values.worst_frame) return "–";
-  return std::to_string(*values.worst_frame) + " (" + shown(frames[*values.worst_frame].time) +
+  return std::to_string(*values.worst_frame) + " (" + readable(frames[*values.worst_frame].time) +
          " s)";
 }
 
@@ -51,14 +51,14 @@ std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& 
   std::string rows, run_rows;
   for (std::size_t i = 0; i < metrics_table().size(); ++i) {
     const MetricSummary& values = summary.metrics[i];
-    rows += row(described(metrics_table()[i]), {{"min", shown(values.min)},
-                                                {"max", shown(values.max)},
-                                                {"mean", shown(values.mean)},
-                                                {"final", shown(values.final)},
+    rows += row(described(metrics_table()[i]), {{"min", readable(values.min)},
+                                                {"max", readable(values.max)},
+                                                {"mean", readable(values.mean)},
+                                                {"final", readable(values.final)},
                                                 {"worst frame", worst_text(frames, values)}});
   }
   for (const RunMetric& metric : run_metrics_table())
-    run_rows += row(described(metric), {{"value", shown(summary.*metric.value)}});
+    run_rows += row(described(metric), {{"value", readable(summary.*metric.value)}});
   return element("h2", "All metrics") +
          table({"metric", "min", "max", "mean", "final", "worst frame"}, rows) +
          element("h2", "Of the whole run") + table({"metric", "value"}, run_rows);
@@ -71,8 +71,8 @@ std::string checks_table(std::span<const Check> checks) {
     const std::string verdict = element("span", check.pass ? "kept" : "fails",
                                         check.pass ? "class=\"word good\"" : "class=\"word poor\"");
     rows += row(element("code", escaped(check.expression)) + ' ' + verdict,
-                {{"value", shown(check.value)},
-                 {"limit", shown(check.limit)},
+                {{"value", readable(check.value)},
+                 {"limit", readable(check.limit)},
                  {"frame", check.frame ? std::to_string(*check.frame) : "–"}});
   }
   return element("h2", "Limits") + table({"fails when", "value", "limit", "frame"}, rows);

@@ -45,14 +45,14 @@ TEST(Axis, PlacesValuesInProportion) {
 }
 
 TEST(Markup, NumbersHaveFourDigitsForReading) {
-  EXPECT_EQ(shown(0), "0");
-  EXPECT_EQ(shown(1), "1");
-  EXPECT_EQ(shown(-0.0123456), "-0.01235");
-  EXPECT_EQ(shown(1234.56), "1235");
-  EXPECT_EQ(shown(98765.4), "98765");
-  EXPECT_EQ(shown(1.5e-7), "1.500e-07");
-  EXPECT_EQ(shown(100), "100");
-  EXPECT_EQ(shown(std::nan("")), "–");
+  EXPECT_EQ(readable(0), "0");
+  EXPECT_EQ(readable(1), "1");
+  EXPECT_EQ(readable(-0.0123456), "-0.01235");
+  EXPECT_EQ(readable(1234.56), "1235");
+  EXPECT_EQ(readable(98765.4), "98765");
+  EXPECT_EQ(readable(1.5e-7), "1.500e-07");
+  EXPECT_EQ(readable(100), "100");
+  EXPECT_EQ(readable(std::nan("")), "–");
 }
 
 TEST(Markup, TextCannotLeaveItsElement) {
