@@ -82,11 +82,11 @@ inline Particles reordered(const Particles& particles, const std::vector<std::si
   return other;
 }
 
-/// A scene of the paper's box with two bones along z, and no motion.
-inline Settings box_scene() {
+/// A scene of the paper's box, or of a bar of other height, with two bones along z and no motion.
+inline Settings box_scene(int half_planes = 49) {
   Settings settings;
   settings.body.radius = 0.010;
-  const double height = 49 * half_plane_spacing(0.010);
+  const double height = half_planes * half_plane_spacing(0.010);
   settings.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, height / 2)},
                     {"upper", "lower", {}, Vec3(0, 0, height)}};
   return settings;
@@ -135,6 +135,35 @@ inline Simulation make_simulation(const Settings& settings, const Points& rest) 
   return Simulation(body, make_motion(settings, body.skeleton),
                     particles_at(rest, body.material.pair.r, body.material.mass),
                     {settings.solver.integrator, step, settings.solver.gravity});
+}
+
+/// The scene without bone forces: the body is free.
+inline Settings unbound(Settings settings) {
+  settings.binding.stiffness = settings.binding.twist_stiffness = 0;
+  settings.binding.axial_stiffness = 0;
+  return settings;
+}
+
+/// The material of the scene's particles.
+inline Material material_of(const Settings& settings) {
+  const double r = *settings.body.radius;
+  return make_material(settings.material, r, settings.material.density * volume_per_particle(r));
+}
+
+/// A simulation that starts with `particles` and takes steps of `step` (s).
+inline Simulation simulation_from(const Settings& settings, const Points& rest,
+                                  const Particles& particles, double step) {
+  const Body body = make_body(settings, rest);
+  return Simulation(body, make_motion(settings, body.skeleton), particles,
+                    {settings.solver.integrator, step, settings.solver.gravity});
+}
+
+/// Largest speed, m/s.
+inline double largest_speed(const Particles& particles) {
+  double most = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    most = std::max(most, particles.velocity(i).norm());
+  return most;
 }
 
 /// Particles at `points` shaken by up to `shake` along each axis, with velocities up to `speed`.
