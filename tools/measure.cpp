@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics.json and report.html of a run.
+#include <algorithm>
 #include <filesystem>
 
 #include "command.h"
@@ -125,8 +126,8 @@ std::vector<Picture> pictures_in(const RunFolder& folder) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder.pictures(), none))
     if (entry.path().extension() == ".png")
-      pictures.push_back({"pictures/" + entry.path().filename().string(),
-                          entry.path().stem().string()});
+      pictures.push_back(
+          {"pictures/" + entry.path().filename().string(), entry.path().stem().string()});
   std::sort(pictures.begin(), pictures.end(),
             [](const Picture& a, const Picture& b) { return a.path < b.path; });
   return pictures;
@@ -146,7 +147,8 @@ void write_report(const RunFiles& run, const Measured& measured) {
   input.summary = measured.summary;
   input.checks = measured.checks;
   input.pictures = pictures_in(run.folder);
-  if (std::filesystem::exists(run.folder.pictures() / "movie.mp4")) input.movie = "pictures/movie.mp4";
+  if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
+    input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;
   write_file(run.folder.path / "report.html", report_html(input));
 }
@@ -191,11 +193,12 @@ Exit measure_folder(const Options& options, const Common& common) {
 
 int main(int argc, char** argv) {
   Options options;
-  About about{"measure",
-              "Measures a run: metrics.csv, metrics.json, report.html.",
-              {"sinew measure out/box_bend",
-               "sinew measure out/box_bend --fail-on 'volume_error > 0.05'"}};
+  About about{
+      "measure",
+      "Measures a run: metrics.csv, metrics.json, report.html.",
+      {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'"}};
   about.takes_scene = false;
-  return run_command(argc, argv, about, [&](CLI::App& app) { declare(app, options); },
-                     [&](const Common& common) { return measure_folder(options, common); });
+  return run_command(
+      argc, argv, about, [&](CLI::App& app) { declare(app, options); },
+      [&](const Common& common) { return measure_folder(options, common); });
 }

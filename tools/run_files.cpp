@@ -26,7 +26,8 @@ auto told_of(const std::filesystem::path& file, Job&& job) {
 }
 
 Error of_another_body(const std::filesystem::path& file, const char* what) {
-  return bad_input(Place{file.string()}, std::string("has another number of ") + what + " than the run",
+  return bad_input(Place{file.string()},
+                   std::string("has another number of ") + what + " than the run",
                    "run the scene again with --force");
 }
 
@@ -40,8 +41,8 @@ Triangles rest_surface(const RunFolder& folder, const PvdRow& first) {
   surface.points = data.points;
   for (std::size_t i = 0; i < moved.size(); ++i) surface.points[i] -= moved[i];
   for (std::size_t c = 0; c < data.cells(); ++c)
-    surface.faces.push_back({data.connectivity[3 * c], data.connectivity[3 * c + 1],
-                             data.connectivity[3 * c + 2]});
+    surface.faces.push_back(
+        {data.connectivity[3 * c], data.connectivity[3 * c + 1], data.connectivity[3 * c + 2]});
   return surface;
 }
 

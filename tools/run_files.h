@@ -20,8 +20,8 @@ struct RunFiles {
   std::string scene_text;
   Settings settings;
   Skeleton skeleton;
-  BodyFile body;       ///< at rest, with the bone of each particle
-  Triangles surface;   ///< at rest
+  BodyFile body;      ///< at rest, with the bone of each particle
+  Triangles surface;  ///< at rest
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< as many of each
 
   std::size_t frames() const { return particle_rows.size(); }
@@ -33,10 +33,10 @@ RunFiles open_run(const RunFolder& folder);
 
 /// Everything about one frame, in the written order.
 struct RunFrame {
-  double time = 0;                                ///< s
-  Points positions, velocities, surface_points;   ///< m, m/s, m
-  std::vector<double> displacement;               ///< its size per particle, m
-  std::vector<RigidFrame> bones;                  ///< heads and axes
+  double time = 0;                               ///< s
+  Points positions, velocities, surface_points;  ///< m, m/s, m
+  std::vector<double> displacement;              ///< its size per particle, m
+  std::vector<RigidFrame> bones;                 ///< heads and axes
   Energies energies;
 };
 
