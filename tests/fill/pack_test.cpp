@@ -11,6 +11,7 @@
 #include "core/neighbours.h"
 #include "core/parallel.h"
 #include "fill/clean.h"
+#include "fill/inside.h"
 #include "fill/lattice.h"
 #include "fill/read_surface.h"
 #include "fill/shapes.h"
@@ -143,7 +144,6 @@ TEST(Inside, CountsSitesOnTheSurfaceAsOutside) {
   EXPECT_EQ(filling.report.ties, (9u * 9 * 9 + 1) / 2 - (7u * 7 * 7 - 1) / 2);
 }
 
-/// Sites on such a face must not keep the inside test from ending.
 TEST(Inside, IsNotAffectedByAFaceWithoutArea) {
   const double r = 0.125;
   const Vec3 half = Vec3::Constant(4 * half_plane_spacing(r));
@@ -157,6 +157,13 @@ TEST(Inside, IsNotAffectedByAFaceWithoutArea) {
   const auto filling = pack(surface, with_radius(r));
   EXPECT_EQ(state_hash(filling.particles), state_hash(plain.particles));
   EXPECT_EQ(filling.report.ties, plain.report.ties);
+}
+
+TEST(Inside, LeavesOutFacesWithoutArea) {
+  Triangles body = clean(shapes::tetrahedron()).triangles;
+  for (const double x : {0.1, 0.2, 0.3}) body.points.emplace_back(x, 0.1, 0.1);
+  body.faces.push_back({4, 5, 6});
+  EXPECT_EQ(InsideTest(body).side(Vec3(0.25, 0.1, 0.1)), Side::inside);
 }
 
 TEST(Pack, FillsAnInvertedBodyTheSame) {
