@@ -3,36 +3,42 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/error.h"
-#include "core/settings_table.h"
+#include "core/number_text.h"
 
 namespace sinew {
 namespace {
 
-struct Text {
-  std::string operator()(bool value) const { return value ? "true" : "false"; }
-  std::string operator()(std::int64_t value) const { return std::to_string(value); }
-  std::string operator()(double value) const { return number_text(value); }
-  std::string operator()(const std::string& value) const { return value; }
-};
+using Json = nlohmann::ordered_json;
+
+// File names may be in any encoding; JSON is UTF-8.
+constexpr auto replace_wrong_bytes = Json::error_handler_t::replace;
+
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return number_text(value.get<double>());
+  return value.dump(-1, ' ', false, replace_wrong_bytes);
+}
 
 }  // namespace
 
+void Results::add(std::string key, Json value, std::string unit) {
+  lines_.push_back({std::move(key), std::move(unit), std::move(value)});
+}
+
 std::string Results::text() const {
   std::string text;
-  for (const auto& [key, value] : values_) text += key + ": " + std::visit(Text{}, value) + '\n';
+  for (const Line& line : lines_)
+    text += line.key + ": " + plain(line.value) + (line.unit.empty() ? "" : ' ' + line.unit) + '\n';
   return text;
 }
 
 std::string Results::json() const {
-  nlohmann::ordered_json object = nlohmann::ordered_json::object();
-  for (const auto& [key, value] : values_)
-    std::visit([&, &name = key](const auto& given) { object[name] = given; }, value);
-  // File names may be in any encoding; JSON is UTF-8.
-  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  Json object = Json::object();
+  for (const Line& line : lines_) object[line.key] = line.value;
+  return object.dump(2, ' ', false, replace_wrong_bytes) + '\n';
 }
 
 void Results::print(bool as_json) const { print_out(as_json ? json() : text()); }

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/number_text.h"
 #include "core/settings.h"
 
 namespace sinew {
@@ -54,9 +55,6 @@ std::span<const Field<KeySettings>> key_fields();      ///< motion.tracks[].keys
 
 /// The order of sections in a scene.
 std::span<const std::string_view> sections();
-
-/// Shortest text that reads back as the same number.
-std::string number_text(double value);
 
 /// A value as a scene writes it: number_text, true, [1, 2, 3], quoted where YAML asks for it.
 std::string scene_text(const FieldValue& value, std::string_view absent);

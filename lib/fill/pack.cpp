@@ -13,7 +13,7 @@
 #include "fill/available_memory.h"
 #include "fill/inside.h"
 #include "fill/lattice.h"
-#include "fill/stopwatch.h"
+#include "core/stopwatch.h"
 
 namespace sinew {
 namespace {

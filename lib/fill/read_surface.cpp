@@ -4,7 +4,7 @@
 #include "fill/cgal_soup.h"
 #include "fill/clean.h"
 #include "fill/plain_mesh.h"
-#include "fill/stopwatch.h"
+#include "core/stopwatch.h"
 
 namespace sinew {
 namespace {

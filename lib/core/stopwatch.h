@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Seconds per stage, for the report.
+// Seconds per stage, for reports.
 #pragma once
 
 #include <chrono>
