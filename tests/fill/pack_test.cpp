@@ -11,6 +11,7 @@
 #include "core/neighbours.h"
 #include "core/parallel.h"
 #include "fill/clean.h"
+#include "fill/inside.h"
 #include "fill/lattice.h"
 #include "fill/read_surface.h"
 #include "fill/shapes.h"
@@ -143,6 +144,28 @@ TEST(Inside, CountsSitesOnTheSurfaceAsOutside) {
   EXPECT_EQ(filling.report.ties, (9u * 9 * 9 + 1) / 2 - (7u * 7 * 7 - 1) / 2);
 }
 
+TEST(Inside, IsNotAffectedByAFaceWithoutArea) {
+  const double r = 0.125;
+  const Vec3 half = Vec3::Constant(4 * half_plane_spacing(r));
+  auto body = shapes::box(-half, half);
+  const auto plain = pack(clean(body), with_radius(r));
+  body.points.emplace_back(half.x(), half.y(), 0);  // on the edge from point 3 to point 7
+  body.polygons[5] = {1, 3, 8, 7, 5};
+  body.polygons.push_back({3, 7, 8});
+  const ClosedSurface surface = clean(body);
+  EXPECT_EQ(surface.cleaning.faces_flat, 1u);
+  const auto filling = pack(surface, with_radius(r));
+  EXPECT_EQ(state_hash(filling.particles), state_hash(plain.particles));
+  EXPECT_EQ(filling.report.ties, plain.report.ties);
+}
+
+TEST(Inside, LeavesOutFacesWithoutArea) {
+  Triangles body = clean(shapes::tetrahedron()).triangles;
+  for (const double x : {0.1, 0.2, 0.3}) body.points.emplace_back(x, 0.1, 0.1);
+  body.faces.push_back({4, 5, 6});
+  EXPECT_EQ(InsideTest(body).side(Vec3(0.25, 0.1, 0.1)), Side::inside);
+}
+
 TEST(Pack, FillsAnInvertedBodyTheSame) {
   const auto body = shapes::torus(1, 0.4);
   const Filling outward = pack(clean(body), with_radius(0.05));
@@ -212,13 +235,21 @@ TEST(Pack, LeavesACavityHollowWhicheverWayItTurns) {
   }
 }
 
-TEST(Pack, FillsABodyWithinACavity) {
-  const auto shell = shapes::together(shapes::sphere(1, 3), shapes::sphere(0.8, 3));
-  const ClosedSurface surface = clean(shapes::together(shell, shapes::sphere(0.5, 3)));
+TEST(Pack, FillsAHollowBodyWithinACavity) {
+  const auto outer = shapes::together(shapes::sphere(1, 3), shapes::sphere(0.8, 3));
+  const auto inner = shapes::together(shapes::sphere(0.3, 3), shapes::sphere(0.6, 3));
+  const ClosedSurface surface = clean(shapes::together(outer, inner));
   EXPECT_EQ(surface.bodies, 2);
-  const Filling filling = pack(surface, with_radius(0.05));
-  for (std::size_t i = 0; i < filling.particles.size(); ++i)
-    ASSERT_EQ(filling.component[i], filling.particles.position(i).norm() < 0.6 ? 1 : 0);
+  EXPECT_EQ(surface.cavities, 2);
+  const std::size_t each = shapes::sphere(1, 3).polygons.size();
+  for (std::size_t i = 0; i < surface.body.size(); ++i)
+    ASSERT_EQ(surface.body[i], i < 2 * each ? 0 : 1);
+  const Filling filling = pack(surface, with_radius(0.04));
+  for (std::size_t i = 0; i < filling.particles.size(); ++i) {
+    const double from_centre = filling.particles.position(i).norm();
+    ASSERT_TRUE(from_centre > 0.79 || (from_centre > 0.29 && from_centre < 0.6));
+    ASSERT_EQ(filling.component[i], from_centre < 0.7 ? 1 : 0);
+  }
 }
 
 TEST(Report, GivesTheSpheresCentreAndVolume) {

@@ -55,7 +55,7 @@ TEST(Read, TellsTextFromBinaryStlWhateverTheFirstWord) {
   for (const std::string first : {"solid\tbody\n", "solid\n", "SOLID body\r\n", "  solid a b c\n"})
     EXPECT_EQ(read_polygons(folder.file("a.stl", mesh_files::stl(soup, first))).polygons.size(),
               4u);
-  const std::string binary = mesh_files::stl_binary(soup, "solid facet of a binary file");
+  const std::string binary = mesh_files::stl_binary(soup, "solid endsolid ");
   EXPECT_EQ(read_polygons(folder.file("b.stl", binary)).polygons.size(), 4u);
   EXPECT_EQ(read_polygons(folder.file("c.stl", binary + std::string(7, '\0'))).polygons.size(), 4u);
 }

@@ -192,7 +192,7 @@ TEST(Ply, SaysWhatIsWrong) {
   expect_refused("a.ply", ply_of(xyz, list, body, "4", "2000000000"), "the file ends early");
   expect_refused("a.ply", ply_of(xyz, list, body, "4", "0"), "no faces, only points");
   expect_refused("a.ply", ply_of(xyz, list, points + "3 0 2 4\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"),
-                 "vertex 4 of 4");
+                 "a.ply:14: a face names vertex 4 of 4");
   expect_refused("a.ply", ply_of(xyz, list, points + "3 0 2 -1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"),
                  "vertex -1 of 4");
   expect_refused("a.ply", ply_of(xyz, list, points + "300 0 2 1\n"),
@@ -217,7 +217,8 @@ TEST(Ply, BelievesNoLengthOfABinaryList) {
   for (const std::int32_t length : {2147483647, -1, -2147483647, 4}) {
     std::string bytes = head + std::string(12, '\0');
     mesh_files::append(bytes, length);
-    expect_refused("a.ply", bytes + std::string(12, '\0'));
+    expect_refused("a.ply", bytes + std::string(12, '\0'),
+                   length < 0 ? "negative length" : "ends early");
   }
 }
 
