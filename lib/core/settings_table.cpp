@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <type_traits>
 
 namespace sinew {
@@ -238,6 +237,7 @@ std::vector<Field<KeySettings>> make_keys() {
 
 std::string Range::text() const {
   const bool below = low > -inf, above = high < inf;
+  if (below && above && above_low) return "> " + number_text(low) + ", up to " + number_text(high);
   if (below && above) return number_text(low) + " to " + number_text(high);
   if (below) return (above_low ? "> " : ">= ") + number_text(low);
   return above ? "<= " + number_text(high) : "";
@@ -267,12 +267,6 @@ std::span<const std::string_view> sections() {
   static constexpr std::array<std::string_view, 7> names = {
       "body", "material", "skeleton", "motion", "binding", "solver", "output"};
   return names;
-}
-
-std::string number_text(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/energies.h"
 #include "core/rigid.h"
 #include "core/vector.h"
 #include "metrics/statistics.h"
@@ -19,14 +20,6 @@ struct MeasuredBone {
   RigidFrame rest;    ///< origin: the head, m; first column: the axis towards the tail
 
   Vec3 axis() const { return rest.rotation.col(0); }
-};
-
-/// The energies a simulation keeps book of, J; not-a-number where unknown.
-struct Energies {
-  double kinetic = 0, pair = 0, bone = 0, gravity = 0;
-  double work_of_bones = 0, dissipation = 0;  ///< since the start
-
-  double stored() const { return kinetic + pair + bone + gravity; }
 };
 
 /// The state of a run at one time. Particles are in the written order.

@@ -2,11 +2,11 @@
 #include "physics/simulation.h"
 
 #include <atomic>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 
 namespace sinew {
@@ -16,12 +16,6 @@ constexpr std::size_t particles_per_piece = 512;
 // A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
 // only a run that has left the range of every limit is faster than several bonds at once.
 constexpr double most_radii_per_step = 0.25;
-
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 }  // namespace
 
