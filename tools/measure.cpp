@@ -153,15 +153,17 @@ void write_report(const RunFiles& run, const Measured& measured) {
   write_file(run.folder.path / "report.html", report_html(input));
 }
 
+double worst_of(const Measured& measured, const Metric& metric, const MetricSummary& summary) {
+  return summary.worst_frame ? measured.frames[*summary.worst_frame].*metric.value : not_measured;
+}
+
 void print_results(const Measured& measured, bool as_json) {
   Results results;
   results.add("frames", measured.frames.size());
   const auto metrics = metrics_table();
   for (std::size_t i = 1; i < metrics.size(); ++i) {
-    const MetricSummary& summary = measured.summary.metrics[i];
-    const bool low = metrics[i].worse == Worse::smaller;
-    results.add(std::string(metrics[i].name) + (low ? "_lowest" : "_highest"),
-                low ? summary.min : summary.max, std::string(metrics[i].unit));
+    const double worst = worst_of(measured, metrics[i], measured.summary.metrics[i]);
+    results.add("worst_" + std::string(metrics[i].name), worst, std::string(metrics[i].unit));
   }
   for (const RunMetric& metric : run_metrics_table())
     results.add(std::string(metric.name), measured.summary.*metric.value, std::string(metric.unit));
