@@ -6,8 +6,8 @@
 #include <exception>
 #include <new>
 
-#include "config/words.h"
 #include "core/parallel.h"
+#include "core/words.h"
 #include "results.h"
 #include "settings_list.h"
 

@@ -30,12 +30,12 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const auto points = static_cast<double>(surface_points);
   const auto faces = static_cast<double>(surface_faces);
   const double reals = particles * reals_per_particle + points * reals_per_point;
-  const double wholes = particles * wholes_per_particle + points * wholes_per_point +
-                        faces * wholes_per_face;
+  const double wholes =
+      particles * wholes_per_particle + points * wholes_per_point + faces * wholes_per_face;
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
   const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;
-  const double coded = raw * (output.encoding == Encoding::raw ? 1 : base64) *
-                       (compressed ? kept_by_zlib : 1);
+  const double coded =
+      raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
   Needs needs;
   needs.disk = static_cast<std::uint64_t>((coded + bytes_per_frame_beside) * (setup.frames + 1));
   needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle + 3 * raw);
@@ -53,10 +53,10 @@ std::uint64_t free_space(const fs::path& folder) {
 void check_space(const fs::path& folder, const Needs& needs) {
   const std::uint64_t available = free_space(folder);
   if (needs.disk <= available) return;
-  throw not_written(folder.string(),
-                    "the run needs about " + bytes_text(needs.disk) + ", the disk has " +
-                        bytes_text(available),
-                    "make space, choose another folder with -o, or make output.interval longer");
+  throw not_written(
+      folder.string(),
+      "the run needs about " + bytes_text(needs.disk) + ", the disk has " + bytes_text(available),
+      "make space, choose another folder with -o, or make output.interval longer");
 }
 
 std::string bytes_text(std::uint64_t bytes) {

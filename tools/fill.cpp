@@ -70,7 +70,8 @@ Exit fill(const Options& options, const Common& common) {
   const Filling filling = fill_body(settings, surface);
   write_body(options.output, body_file(filling, origin_of(settings)));
   Results results;
-  for (const ReportRow& row : rows_of(filling.report)) results.add(row.key, nlohmann::ordered_json::parse(row.value), row.unit);
+  for (const ReportRow& row : rows_of(filling.report))
+    results.add(row.key, nlohmann::ordered_json::parse(row.value), row.unit);
   results.add("file", options.output);
   results.print(common.json);
   return Exit::done;

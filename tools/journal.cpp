@@ -46,6 +46,7 @@ Json material_of(const Material& material) {
 
 Journal::Journal(const RunFolder& folder, int argc, char** argv)
     : folder_(folder), record_(begin_record(argc, argv)) {
+  record_["seconds"] = Json::object();
   write_record(folder_, record_);
   try {
     auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), true);

@@ -67,10 +67,10 @@ void Recorder::add(Simulation& simulation, double time) {
   const Forces& forces = simulation.forces();
   Points total(particles.size());
   for (std::size_t i = 0; i < total.size(); ++i) total[i] = forces.total(i);
-  particles_.add(particles_dataset({particles, shape_.points, particle_bone_, total, forces.pair,
-                                    forces.damping, forces.bone, forces.neighbours,
-                                    simulation.energies()},
-                                   moment));
+  particles_.add(
+      particles_dataset({particles, shape_.points, particle_bone_, total, forces.pair,
+                         forces.damping, forces.bone, forces.neighbours, simulation.energies()},
+                        moment));
   surface_.points = surface_now(particles);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, moment));
   const Pose pose = simulation.pose();

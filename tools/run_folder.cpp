@@ -28,10 +28,10 @@ void create(const RunFolder& folder) {
 }
 
 void remove_old_run(const RunFolder& folder) {
-  static constexpr std::array names = {
-      "scene.yaml",    "run.json",     "log.txt",      "particles.pvd", "surface.pvd", "bones.pvd",
-      "frames.pvd",    "particles",    "surface",      "bones",         "frames",      "metrics.csv",
-      "metrics.json",  "report.html",  "pictures",     "view.py"};
+  static constexpr std::array names = {"scene.yaml",   "run.json",    "log.txt",    "particles.pvd",
+                                       "surface.pvd",  "bones.pvd",   "frames.pvd", "particles",
+                                       "surface",      "bones",       "frames",     "metrics.csv",
+                                       "metrics.json", "report.html", "pictures",   "view.py"};
   std::error_code failed;
   for (const char* name : names) {
     fs::remove_all(folder.path / name, failed);

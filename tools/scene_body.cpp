@@ -55,8 +55,8 @@ BodyFile body_file(const Filling& filling, const std::string& origin) {
 
 std::string origin_of(const Settings& settings) {
   Hash hash;
-  hash.add(told_at(settings, "body.mesh",
-                   [&] { return read_file(settings.body.mesh, largest_mesh); }));
+  hash.add(
+      told_at(settings, "body.mesh", [&] { return read_file(settings.body.mesh, largest_mesh); }));
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');

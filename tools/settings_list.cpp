@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "config/values.h"
@@ -21,12 +22,20 @@ struct Group {
   std::vector<Row> rows;
 };
 
+/// 1/30 instead of its 16 digits.
+std::string short_text(const FieldValue& value, std::string_view absent) {
+  const auto* number = std::get_if<double>(&value);
+  const double inverse = number == nullptr || *number == 0 ? 0.5 : 1 / *number;
+  const bool fraction = inverse == std::round(inverse) && number_text(*number).size() > 8;
+  return fraction ? "1/" + number_text(inverse) : scene_text(value, absent);
+}
+
 template <class Owner>
 Row words_of(const Field<Owner>& row) {
   Rules rules = rules_of(row);
   rules.unit = rules.absent = {};  // they have columns of their own
   return {std::string(row.name), std::string(row.unit),
-          row.required ? "required" : scene_text(row.get(Owner{}), row.absent), values_text(rules),
+          row.required ? "required" : short_text(row.get(Owner{}), row.absent), values_text(rules),
           std::string(row.help)};
 }
 
@@ -70,9 +79,10 @@ std::string settings_help() {
   for (const Group& group : groups()) {
     text += "\n  " + group.title + '\n';
     for (const Row& row : group.rows) {
-      const std::string standard = row.standard + (row.unit.empty() ? "" : ' ' + row.unit);
-      text += fmt::format("    {:<17} {:<18} {}\n", row.name, standard, row.help);
-      if (row.values.substr(0, 7) == "one of ") text += fmt::format("{:41}{}\n", "", row.values);
+      const std::string unit = row.unit.empty() ? "" : '[' + row.unit + "] ";
+      text += fmt::format("    {:<17} {:<17} {}{}\n", row.name, row.standard, unit, row.help);
+      if (row.values.find(',') != row.values.npos && row.values.substr(0, 7) == "one of ")
+        text += fmt::format("{:40}{}\n", "", row.values);
     }
   }
   return text;

@@ -13,8 +13,8 @@ namespace {
 int frames_of(const Settings& settings) {
   const double frames = std::ceil(settings.solver.duration / settings.output.interval - 1e-6);
   if (!(frames <= 1e6))
-    throw bad_input(settings.place("output.interval"),
-                    "the run would have over a million frames", "make output.interval longer");
+    throw bad_input(settings.place("output.interval"), "the run would have over a million frames",
+                    "make output.interval longer");
   return static_cast<int>(frames);
 }
 

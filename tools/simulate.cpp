@@ -69,8 +69,7 @@ Prepared prepare(const Settings& settings, const RunFolder& folder) {
   made.body.bone = bones_of_particles(made.setup.body);
   made.seconds_binding = watch.lap();
   const Triangles& skin = made.surface.triangles;
-  check_space(folder.path,
-              needs_of(settings, made.setup, skin.points.size(), skin.faces.size()));
+  check_space(folder.path, needs_of(settings, made.setup, skin.points.size(), skin.faces.size()));
   return made;
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "command.h"
-#include "config/words.h"
+#include "core/words.h"
 #include "results.h"
 
 namespace {

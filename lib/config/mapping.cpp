@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "config/words.h"
+#include "core/words.h"
 
 namespace sinew {
 namespace {

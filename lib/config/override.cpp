@@ -2,7 +2,7 @@
 #include "config/override.h"
 
 #include "config/checks.h"
-#include "config/words.h"
+#include "core/words.h"
 
 namespace sinew {
 namespace {

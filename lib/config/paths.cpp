@@ -11,7 +11,6 @@ namespace fs = std::filesystem;
 namespace sinew {
 
 fs::path seen_from(const fs::path& folder, const fs::path& path) {
-  if (path.is_absolute()) return path;
   const fs::path here = ".";
   std::error_code error;
   const fs::path way = fs::proximate(here / path.parent_path(), here / folder, error);

@@ -8,13 +8,13 @@
 
 namespace sinew {
 
-/// `path` as written from inside `folder`; absolute ones stay as they are. Links to folders on the
-/// way are followed, a link to the file itself is not.
+/// The way from `folder` to `path`. Links to folders on the way are followed, a link to the file
+/// itself is not.
 std::filesystem::path seen_from(const std::filesystem::path& folder,
                                 const std::filesystem::path& path);
 
-/// Turns the paths that the scene in `folder` gives into paths from the current directory. Those
-/// given elsewhere (on the command line) are such paths already.
+/// Turns the relative paths that the scene in `folder` gives into paths from the current directory.
+/// Those given elsewhere (on the command line) are such paths already.
 void open_paths_from_here(Settings& settings, const std::filesystem::path& folder);
 
 }  // namespace sinew

@@ -65,15 +65,22 @@ bool is_replaced(const Settings& settings, const Field<Settings>& row) {
   return false;
 }
 
+/// Relative paths as the scene in `folder` sees them.
+FieldValue value_in(const std::filesystem::path& folder, const Settings& settings,
+                    const Field<Settings>& row) {
+  const FieldValue value = row.get(settings);
+  const auto* text = std::get_if<std::string>(&value);
+  if (row.kind != FieldKind::path || text == nullptr) return value;
+  const std::filesystem::path path = *text;
+  return path.is_absolute() ? value : seen_from(folder, path).string();
+}
+
 std::string section_text(const Settings& settings, std::string_view section,
                          const std::filesystem::path& folder) {
   std::string text;
   for (const auto& row : settings_table()) {
     if (row.section != section || is_replaced(settings, row)) continue;
-    FieldValue value = row.get(settings);
-    if (row.kind == FieldKind::path)
-      value = seen_from(folder, std::get<std::string>(value)).string();
-    text += "  " + line(row, value, true);
+    text += "  " + line(row, value_in(folder, settings, row), true);
   }
   return text;
 }

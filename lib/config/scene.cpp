@@ -5,7 +5,7 @@
 #include "config/mapping.h"
 #include "config/paths.h"
 #include "config/text_file.h"
-#include "config/words.h"
+#include "core/words.h"
 #include "core/settings_table.h"
 
 namespace sinew {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "config/text_file.h"
 
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <fstream>
@@ -72,9 +73,12 @@ std::string read_text(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw bad_input(file, "cannot be read (" + reason() + ")", "check the path of the scene");
-  std::string text(longest_scene + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  std::string text;
+  std::array<char, 1 << 14> piece;
+  while (text.size() <= longest_scene && in) {  // the size of a pipe is not known before
+    in.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  }
   if (in.bad()) throw bad_input(file, "cannot be read (" + reason() + ")", "check the disk");
   if (text.size() > longest_scene)
     throw bad_input(file, "is larger than 4 MiB",

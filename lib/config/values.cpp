@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "config/words.h"
+#include "core/words.h"
 
 namespace sinew {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "config/text_file.h"
-#include "config/words.h"
+#include "core/words.h"
 
 namespace sinew {
 namespace {

@@ -7,6 +7,9 @@
 namespace sinew {
 namespace {
 
+// Rounding must not put partners just within the range two cells apart.
+constexpr double slack = 1 + 1e-9;
+
 std::array<std::vector<double>, 3> split(const Points& points) {
   std::array<std::vector<double>, 3> axes;
   for (int axis = 0; axis < 3; ++axis)
@@ -35,7 +38,7 @@ CellGrid::CellGrid(const Points& points, double range) {
 }
 
 void CellGrid::size_cells(const Box& box, std::size_t count, double range) {
-  edge_ = range;
+  edge_ = range * slack;
   if (box.isEmpty()) return;
   low_ = box.min();
   // A stray particle must not blow the table up: wider cells stay correct, only slower.

@@ -71,12 +71,4 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-std::string shown(std::string_view word) {
-  constexpr std::size_t longest = 30;
-  std::string result(word.substr(0, longest));
-  for (char& c : result)
-    if (c < ' ' || c > '~') c = '?';
-  return '\'' + result + (word.size() > longest ? "...'" : "'");
-}
-
 }  // namespace sinew

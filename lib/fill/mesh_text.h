@@ -51,7 +51,4 @@ bool finite(std::string_view word);
 
 std::string lower(std::string_view text);
 
-/// A word as a message can show it: quoted, printable, short.
-std::string shown(std::string_view word);
-
 }  // namespace sinew

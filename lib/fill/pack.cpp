@@ -22,6 +22,7 @@ namespace {
 constexpr double bytes_per_particle = 300, bytes_per_row = 100;
 constexpr double most_ids = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t rows_at_a_time = 16;
+constexpr double enough = 100;  // particles of a radius that is proposed
 
 /// The sites of a row that lie inside, and how many lie on the surface.
 struct RowSites {
@@ -74,6 +75,15 @@ void refuse_too_many(const Box& box, double volume, double radius) {
                   "a radius of " + short_text(rounded(fits, std::ceil)) + " m fits");
 }
 
+void refuse_too_large(double volume, double radius) {
+  if (volume / volume_per_particle(radius) >= 0.5) return;  // 1 less rounding for a count of 1
+  throw bad_input("the radius " + short_text(radius) + " m is too large for a body of " +
+                      short_text(volume) + " m^3: it holds less than one particle",
+                  "a radius of " +
+                      short_text(rounded(radius_for_count(volume, enough), std::floor)) +
+                      " m fits");
+}
+
 std::vector<RowSites> test_rows(const Lattice& lattice, const InsideTest& test) {
   std::vector<RowSites> found(lattice.rows.size());
   parallel_for(lattice.rows.size(), rows_at_a_time, [&](std::size_t begin, std::size_t end) {
@@ -105,7 +115,7 @@ Points gathered(const Lattice& lattice, const std::vector<RowSites>& found) {
 /// do.
 [[noreturn]] void refuse_empty(const ClosedSurface& surface, const InsideTest& test,
                                Packing packing, double radius) {
-  constexpr double enough = 100, most = 1e5;
+  constexpr double most = 1e5;
   const double enclosed = volume(surface.triangles);
   const Box box = bounds(surface.triangles.points);
   double fits = std::min(radius / 2, radius_for_count(enclosed, enough));
@@ -171,6 +181,7 @@ Filling pack(const ClosedSurface& surface, const PackOptions& options) {
   const double enclosed = volume(surface.triangles);
   const double radius = wanted_radius(options, enclosed);
   const Box box = bounds(surface.triangles.points);
+  refuse_too_large(enclosed, radius);
   refuse_too_many(box, enclosed, radius);
 
   Stopwatch watch;

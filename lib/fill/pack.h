@@ -30,8 +30,8 @@ struct Filling {
 };
 
 /// The same particles for every number of threads. Throws Error (bad input) before it fills when
-/// there would be too many particles for memory or for 32-bit ids, and when no site lies inside;
-/// both name a radius that fits.
+/// there would be too many particles for memory or for 32-bit ids, when the body holds less than
+/// one, and when no site lies inside; all name a radius that fits.
 Filling pack(const ClosedSurface& surface, const PackOptions& options);
 
 /// The radius (m) at which a volume (m^3) holds about `count` particles: (V / (4 sqrt(2) N))^(1/3).

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/words.h"
+
 #include "fill/mesh_text.h"
 #include "fill/plain_mesh.h"
 

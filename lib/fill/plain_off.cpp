@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 
+#include "core/words.h"
+
 #include "fill/mesh_text.h"
 #include "fill/plain_mesh.h"
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/words.h"
+
 #include "fill/mesh_text.h"
 #include "fill/plain_mesh.h"
 #include "fill/ply_header.h"

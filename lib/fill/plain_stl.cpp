@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/words.h"
+
 #include "fill/mesh_text.h"
 #include "fill/plain_mesh.h"
 

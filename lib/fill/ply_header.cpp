@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/words.h"
+
 #include "fill/mesh_text.h"
 
 namespace sinew {

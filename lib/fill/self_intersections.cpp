@@ -8,6 +8,8 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <vector>
 
 namespace sinew {
@@ -65,22 +67,67 @@ class PairTest {
   const Points& points_;
 };
 
+/// What is tested: a face, or a part of one.
+struct Part {
+  Face corners;
+  int face;
+};
+
+using Middles = std::map<std::array<int, 2>, int>;
+
+/// The longest sides of the faces without area, each with the point between its ends.
+Middles middles_of(const Triangles& surface, const PairTest& test) {
+  Middles middles;
+  for (Face face : surface.faces) {
+    if (!test.flat(face)) continue;
+    std::sort(face.begin(), face.end(), [&](int a, int b) {  // along the line they lie on
+      const Vec3 &p = surface.points[a], &q = surface.points[b];
+      return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
+    });
+    middles[{std::min(face[0], face[2]), std::max(face[0], face[2])}] = face[1];
+  }
+  return middles;
+}
+
+/// Cuts a face until none of its sides has a point in its middle.
+void add_parts(const Part& part, const Middles& middles, std::vector<Part>& parts) {
+  for (int i = 0; i < 3; ++i) {
+    const int from = part.corners[i], to = part.corners[(i + 1) % 3],
+              top = part.corners[(i + 2) % 3];
+    const auto middle = middles.find({std::min(from, to), std::max(from, to)});
+    if (middle == middles.end() || middle->second == top) continue;
+    add_parts({{from, middle->second, top}, part.face}, middles, parts);
+    add_parts({{middle->second, to, top}, part.face}, middles, parts);
+    return;
+  }
+  parts.push_back(part);
+}
+
+std::vector<Part> parts_of(const Triangles& surface, const PairTest& test) {
+  const Middles middles = middles_of(surface, test);
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < surface.faces.size(); ++i)
+    if (!test.flat(surface.faces[i]))
+      add_parts({surface.faces[i], static_cast<int>(i)}, middles, parts);
+  return parts;
+}
+
 struct Enough {};
 
 }  // namespace
 
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most) {
   const PairTest test(surface.points);
+  const std::vector<Part> parts = parts_of(surface, test);
   std::vector<FaceBox> boxes;
-  for (std::size_t i = 0; i < surface.faces.size(); ++i)
-    if (!test.flat(surface.faces[i]))
-      boxes.emplace_back(test.box(surface.faces[i]), static_cast<int>(i));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    boxes.emplace_back(test.box(parts[i].corners), static_cast<int>(i));
 
   SelfIntersections found;
-  found.flat = surface.faces.size() - boxes.size();
   const auto visit = [&](const FaceBox& a, const FaceBox& b) {
-    const std::array<int, 2> pair = {std::min(a.info(), b.info()), std::max(a.info(), b.info())};
-    if (!test.meet(surface.faces[pair[0]], surface.faces[pair[1]])) return;
+    const auto [p, q] = std::minmax({a.info(), b.info()});
+    if (parts[p].face == parts[q].face || !test.meet(parts[p].corners, parts[q].corners)) return;
+    const std::array<int, 2> pair = {parts[p].face, parts[q].face};
     found.first = found.pairs == 0 ? pair : std::min(found.first, pair);
     if (++found.pairs == most) throw Enough{};
   };
@@ -89,6 +136,7 @@ SelfIntersections self_intersections(const Triangles& surface, std::size_t most)
   } catch (const Enough&) {
     found.complete = false;
   }
+  for (const Face& face : surface.faces) found.flat += test.flat(face);
   return found;
 }
 

@@ -17,7 +17,8 @@ struct SelfIntersections {
   std::size_t flat = 0;           ///< faces without area: left out
 };
 
-/// Searches until `most` pairs are found.
+/// Searches until `most` pairs are found. A face without area lies along a side of another one,
+/// with a point between its ends: there the other counts as two faces that share that point.
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most = 1000);
 
 }  // namespace sinew

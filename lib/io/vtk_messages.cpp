@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/vtk_messages.h"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
@@ -43,6 +44,9 @@ vtkStandardNewMacro(ListeningWindow);
 void install() {
   static std::once_flag once;
   std::call_once(once, [] {
+    // The logger prints every error as well, before the window hears of it.
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    vtkOutputWindow::GetInstance()->SetDisplayModeToAlwaysStdErr();
     auto window = vtkSmartPointer<ListeningWindow>::New();
     vtkOutputWindow::SetInstance(window);
   });

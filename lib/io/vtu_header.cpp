@@ -1,77 +1,180 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/vtu_header.h"
 
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <string>
 #include <string_view>
 
 #include "core/error.h"
+#include "io/vtu_blocks.h"
 
 namespace sinew {
 namespace {
 
-/// zlib, the strongest of the usual compressors, packs at most 1032 bytes into one.
-constexpr std::uint64_t values_per_byte = 1032;
 constexpr std::uint64_t most_components = 1000;
+
+struct NumberType {
+  std::string_view name;
+  std::size_t size;  // bytes
+};
+
+constexpr std::array<NumberType, 10> number_types = {{{"Int8", 1},
+                                                      {"UInt8", 1},
+                                                      {"Int16", 2},
+                                                      {"UInt16", 2},
+                                                      {"Int32", 4},
+                                                      {"UInt32", 4},
+                                                      {"Int64", 8},
+                                                      {"UInt64", 8},
+                                                      {"Float32", 4},
+                                                      {"Float64", 8}}};
+
+/// What the checks of the elements need to know of the file.
+struct Document {
+  std::ifstream file;
+  std::string xml;         ///< without the appended data, which may be binary
+  std::uint64_t data = 0;  ///< where the appended data begins; 0 when there is none
+  bool data_base64 = true;
+  BlockCoding coding;
+};
 
 Error refused(const std::string& what) {
   return bad_input(what, "use a VTU file as sinew writes them");
 }
 
-/// The XML up to the appended data, which may be binary; the whole file when there is none.
-std::string text_before_data(const std::filesystem::path& path) {
-  constexpr std::string_view mark = "<AppendedData";
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw bad_input("it cannot be opened", "check the path and the permissions");
-  std::string text, piece(1 << 16, '\0');
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0) {
-    const std::size_t from = text.size() < mark.size() ? 0 : text.size() - mark.size();
-    text.append(piece, 0, static_cast<std::size_t>(file.gcount()));
-    if (const auto end = text.find(mark, from); end != std::string::npos)
-      return text.substr(0, end);
-  }
-  return text;
+std::string quoted(std::string_view text) { return '\'' + std::string(text.substr(0, 60)) + '\''; }
+
+std::string_view attribute(vtkXMLDataElement& element, const char* name) {
+  const char* value = element.GetAttribute(name);
+  return value ? value : "";
 }
 
-/// The value of attribute `name` in an opening tag; "" when it is not there.
-std::string_view attribute(std::string_view tag, std::string_view name) {
-  const std::string start = std::string(name) + "=\"";
-  const auto at = tag.find(start);
-  if (at == std::string_view::npos) return {};
-  tag.remove_prefix(at + start.size());
-  return tag.substr(0, tag.find('"'));
-}
-
-void check_root(std::string_view text) {
-  const auto root = text.find("<VTKFile");
-  if (text.empty() || text.front() != '<' || root == std::string_view::npos || root > 4096)
-    throw refused("it is not a VTK XML file");
-  const std::string_view tag = text.substr(root, text.find('>', root) - root);
-  if (const auto type = attribute(tag, "type"); type != "UnstructuredGrid")
-    throw refused("it holds '" + std::string(type.substr(0, 40)) + "', not an UnstructuredGrid");
-}
-
-void check_count(std::string_view text, std::uint64_t most) {
+std::uint64_t checked_count(std::string_view name, std::string_view text, std::uint64_t most) {
   std::uint64_t count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error != std::errc() || end != text.data() + text.size() || count > most)
-    throw refused("it declares a count of '" + std::string(text.substr(0, 40)) +
-                  "', which its size cannot hold");
+    throw refused(std::string(name) + " is " + quoted(text) + ", which its size cannot hold");
+  return count;
 }
 
-/// Every attribute NumberOf...="N".
-void check_counts(std::string_view text, std::uint64_t bytes) {
-  constexpr std::string_view start = "NumberOf";
-  for (auto at = text.find(start); at != std::string_view::npos; at = text.find(start, at + 1)) {
-    const std::string_view rest = text.substr(at);
-    const auto quote = rest.find_first_of("\"'<>");
-    if (quote == std::string_view::npos || quote > 40) continue;
-    const bool components = rest.substr(0, quote).find("Components") != std::string_view::npos;
-    const std::string_view value = rest.substr(quote + 1);
-    check_count(value.substr(0, value.find_first_of("\"'<>")),
-                components ? most_components : values_per_byte * bytes);
+std::string read_at(std::ifstream& file, std::uint64_t place, std::size_t count) {
+  std::string text(count, '\0');
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(place));
+  file.read(text.data(), static_cast<std::streamsize>(count));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return text;
+}
+
+void check_start_and_end(Document& document) {
+  const std::string start = read_at(document.file, 0, 4096);
+  if (!start.starts_with('<') || start.find("<VTKFile") == std::string::npos)
+    throw refused("it is not a VTK XML file");
+  const std::uint64_t bytes = document.coding.bytes;
+  std::string end = read_at(document.file, bytes - std::min<std::uint64_t>(bytes, 64), 64);
+  end.erase(end.find_last_not_of(" \t\r\n") + 1);
+  // A writer that was stopped leaves a file without its last tag.
+  if (!end.ends_with("</VTKFile>")) throw refused("it is cut short");
+}
+
+void find_data(Document& document, std::size_t tag) {
+  const std::string start = read_at(document.file, tag, 1000);
+  const auto mark = start.find('_');
+  if (mark == std::string::npos) throw refused("its appended data is damaged");
+  document.data = tag + mark + 1;
+  document.data_base64 = start.substr(0, mark).find("\"base64\"") != std::string::npos;
+}
+
+void read_xml(Document& document) {
+  constexpr std::string_view mark = "<AppendedData";
+  std::string& xml = document.xml;
+  for (std::string piece; !(piece = read_at(document.file, xml.size(), 1 << 16)).empty();) {
+    const std::size_t from = xml.size() < mark.size() ? 0 : xml.size() - mark.size();
+    xml += piece;
+    const auto tag = xml.find(mark, from);
+    if (tag == std::string::npos) continue;
+    find_data(document, tag);
+    xml.replace(tag, std::string::npos, "</VTKFile>");
+    return;
   }
+}
+
+/// Every attribute NumberOf...
+void check_counts(vtkXMLDataElement& element, std::uint64_t bytes) {
+  for (int i = 0; i < element.GetNumberOfAttributes(); ++i) {
+    const std::string_view name = element.GetAttributeName(i);
+    if (!name.starts_with("NumberOf")) continue;
+    checked_count(name, element.GetAttributeValue(i),
+                  name == "NumberOfComponents" ? most_components : most_expansion * bytes);
+  }
+}
+
+std::size_t value_size(vtkXMLDataElement& array) {
+  const auto type = attribute(array, "type");
+  const auto* found = std::find_if(number_types.begin(), number_types.end(),
+                                   [&](const NumberType& known) { return known.name == type; });
+  if (found == number_types.end())
+    throw refused("array " + quoted(attribute(array, "Name")) + " is not numeric");
+  return found->size;
+}
+
+/// Whether an array has no values: in field data it says so itself, elsewhere its piece does.
+bool declares_none(vtkXMLDataElement& array) {
+  if (array.GetAttribute("NumberOfTuples")) return attribute(array, "NumberOfTuples") == "0";
+  vtkXMLDataElement* group = array.GetParent();
+  vtkXMLDataElement* piece = group ? group->GetParent() : nullptr;
+  if (!piece) return false;
+  const bool of_cells = std::string_view(group->GetName()).starts_with("Cell");
+  return attribute(*piece, of_cells ? "NumberOfCells" : "NumberOfPoints") == "0";
+}
+
+bool block_is_sound(vtkXMLDataElement& array, Document& document) {
+  const BlockValues values{value_size(array), declares_none(array)};
+  BlockCoding coding = document.coding;
+  // VTK goes by the offset, whatever the format says.
+  if (array.GetAttribute("offset")) {
+    if (document.data == 0) return false;
+    const auto place =
+        document.data + checked_count("offset", attribute(array, "offset"), coding.bytes);
+    coding.base64 = document.data_base64;
+    return block_is_sound([&](std::size_t count) { return read_at(document.file, place, count); },
+                          values, coding);
+  }
+  if (attribute(array, "format") != "binary") return true;
+  std::string_view text = array.GetCharacterData() ? array.GetCharacterData() : "";
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  return block_is_sound([&](std::size_t count) { return std::string(text.substr(0, count)); },
+                        values, coding);
+}
+
+void check_elements(vtkXMLDataElement& element, Document& document) {
+  check_counts(element, document.coding.bytes);
+  const std::string_view name = element.GetName();
+  if ((name == "DataArray" || name == "Array") && !block_is_sound(element, document))
+    throw refused("array " + quoted(attribute(element, "Name")) + " is damaged");
+  for (int i = 0; i < element.GetNumberOfNestedElements(); ++i)
+    check_elements(*element.GetNestedElement(i), document);
+}
+
+void check_xml(Document& document) {
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
+      vtkXMLUtilities::ReadElementFromString(document.xml.c_str()));
+  if (!root || std::string_view(root->GetName()) != "VTKFile")
+    throw refused("it is not a VTK XML file");
+  if (const auto type = attribute(*root, "type"); type != "UnstructuredGrid")
+    throw refused("it holds " + quoted(type) + ", not an UnstructuredGrid");
+  if (!root->FindNestedElementWithName("UnstructuredGrid")) throw refused("it holds no grid");
+  document.coding.compressed = root->GetAttribute("compressor") != nullptr;
+  document.coding.big_endian = attribute(*root, "byte_order") == "BigEndian";
+  document.coding.word = attribute(*root, "header_type") == "UInt64" ? 8 : 4;
+  check_elements(*root, document);
 }
 
 }  // namespace
@@ -80,10 +183,13 @@ void check_vtu_header(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw bad_input("it is not a file", "check the path");
-  const std::uint64_t bytes = std::filesystem::file_size(path, error);
-  const std::string text = text_before_data(path);
-  check_root(text);
-  check_counts(text, bytes);
+  Document document;
+  document.coding.bytes = std::filesystem::file_size(path, error);
+  document.file.open(path, std::ios::binary);
+  if (!document.file) throw bad_input("it cannot be opened", "check the path and the permissions");
+  check_start_and_end(document);
+  read_xml(document);
+  check_xml(document);
 }
 
 }  // namespace sinew

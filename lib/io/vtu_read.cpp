@@ -143,6 +143,7 @@ Dataset dataset_of(vtkUnstructuredGrid& grid) {
 
 Dataset read_checked(const std::filesystem::path& path) {
   const VtkMessages messages;
+  check_vtu_header(path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -156,7 +157,6 @@ Dataset read_checked(const std::filesystem::path& path) {
 
 Dataset read_vtu(const std::filesystem::path& path) {
   try {
-    check_vtu_header(path);
     return read_checked(path);
   } catch (const Error& error) {
     throw error.within({path.string()});

@@ -5,12 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/settings_table.h"
+#include "core/words.h"
 #include "metrics/table.h"
 
 namespace sinew {
@@ -31,33 +31,9 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// The user's words in an error: one line, of bearable length, without control characters.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string out(text.substr(0, longest));
-  for (char& c : out)
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
-  return '\'' + out + (text.size() > longest ? "...'" : "'");
-}
-
 Error unreadable(std::string_view expression, const std::string& why) {
-  return bad_input("--fail-on " + quoted(expression) + ": " + why,
+  return bad_input("--fail-on " + shown(expression) + ": " + why,
                    "write it like 'volume_error > 0.05' or 'final(tip_angle) < 89'");
-}
-
-/// Insertions, deletions and replacements that make one word of the other.
-std::size_t distance(std::string_view one, std::string_view other) {
-  std::vector<std::size_t> row(other.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= one.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= other.size(); ++j) {
-      const std::size_t replaced = diagonal + (one[i - 1] != other[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 std::vector<std::string_view> known_names() {
@@ -70,19 +46,16 @@ std::vector<std::string_view> known_names() {
 void require_known(std::string_view name) {
   const auto names = known_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  const std::string_view asked = name.substr(0, 60);
-  const auto nearest = *std::min_element(names.begin(), names.end(), [&](auto one, auto other) {
-    return distance(asked, one) < distance(asked, other);
-  });
-  throw bad_input("--fail-on: there is no metric " + quoted(name),
-                  "did you mean '" + std::string(nearest) + "'?");
+  const std::string close = nearest(name, names);
+  throw bad_input("--fail-on: there is no metric " + shown(name),
+                  close.empty() ? "use a column of metrics.csv" : "did you mean " + close + "?");
 }
 
 double number(std::string_view text, std::string_view expression) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw unreadable(expression, quoted(text) + " is no number");
+    throw unreadable(expression, shown(text) + " is no number");
   return value;
 }
 

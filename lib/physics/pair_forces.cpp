@@ -10,9 +10,10 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 256;
 
-/// From j to i, seen from i. Two particles in one place part along x, the lower index to the left.
-Vec3 direction(const Vec3& offset, double d, std::size_t i, std::size_t j) {
-  return d > 0 ? Vec3(offset / d) : Vec3(i < j ? -1 : 1, 0, 0);
+/// From j to i, seen from i. Two particles in one place part along x, the lower id to the left.
+Vec3 direction(const Particles& particles, const Vec3& offset, double d, std::size_t i,
+               std::size_t j) {
+  return d > 0 ? Vec3(offset / d) : Vec3(particles.id[i] < particles.id[j] ? -1 : 1, 0, 0);
 }
 
 /// Calls visit(j, offset, d) for every partner j of particle i: x_i - x_j and its length d < b.
@@ -35,7 +36,7 @@ void paper_pass(const Particles& particles, const CellGrid& cells, const Materia
   int count = 0;
   for_each_partner(particles, cells, material.pair.b, i,
                    [&](std::uint32_t j, const Vec3& offset, double d) {
-                     force += material.pair.force(d) * direction(offset, d, i, j);
+                     force += material.pair.force(d) * direction(particles, offset, d, i, j);
                      velocities += particles.velocity(j);
                      ++count;
                    });
@@ -56,7 +57,7 @@ void pairwise_damping(const Particles& particles, const CellGrid& cells, const M
       particles, cells, material.pair.b, i, [&](std::uint32_t j, const Vec3& offset, double d) {
         const double share = (1.0 / forces.neighbours[i] + 1.0 / forces.neighbours[j]) / 2;
         const Vec3 approach = particles.velocity(i) - particles.velocity(j);
-        const Vec3 along = direction(offset, d, i, j);
+        const Vec3 along = direction(particles, offset, d, i, j);
         sum += share * (central ? Vec3(approach.dot(along) * along) : approach);
       });
   forces.damping[i] = -material.damping * sum;

@@ -55,14 +55,14 @@ vtkProperty& add_actor(vtkRenderer& renderer, vtkMapper& mapper, const Colour& c
   return look;
 }
 
-vtkNew<vtkPolyData> net(const Points& points, const std::vector<Skin::Edge>& edges) {
+vtkNew<vtkPolyData> net(const Points& points, const std::vector<Shading::Edge>& edges) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(vtk_points(points));
   data->SetLines(vtk_cells(edges));
   return data;
 }
 
-void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Skin::Edge>& edges,
+void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Shading::Edge>& edges,
                double opacity, double width) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(net(points, edges));
@@ -72,7 +72,7 @@ void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Sk
   look.SetLineWidth(static_cast<float>(width));
 }
 
-double mean_length(const Points& points, const std::vector<Skin::Edge>& edges) {
+double mean_length(const Points& points, const std::vector<Shading::Edge>& edges) {
   double sum = 0;
   for (const auto& [a, b] : edges) sum += (points[a] - points[b]).norm();
   return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
@@ -87,7 +87,7 @@ Points lifted(const Triangles& surface, double by) {
 }
 
 void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const Colour& colour) {
-  std::vector<Skin::Edge> pairs;
+  std::vector<Shading::Edge> pairs;
   for (int i = 0; i + 1 < static_cast<int>(ends.size()); i += 2) pairs.push_back({i, i + 1});
   vtkNew<vtkTubeFilter> tubes;
   tubes->SetInputData(net(ends, pairs));
@@ -145,7 +145,7 @@ void add_particles(vtkRenderer& renderer, const Shot& shot, const ColourScale& s
   add_actor(renderer, *mapper, palette::paper);
 }
 
-void add_skin(vtkRenderer& renderer, const Shot& shot, const Skin& skin) {
+void add_skin(vtkRenderer& renderer, const Shot& shot, const Shading& skin) {
   if (skin.faces.empty()) return;
   const Triangles shaded = skin.at(shot.surface.points);
   vtkNew<vtkFloatArray> normals;
@@ -163,13 +163,13 @@ void add_skin(vtkRenderer& renderer, const Shot& shot, const Skin& skin) {
   look.SetSpecular(0.02);
 }
 
-void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, const LineStyle& style) {
+void add_net(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style) {
   constexpr double wide_enough = 7;  // pixels between lines, below which they grey the skin
   if (mean_length(shot.surface.points, skin.lines) < wide_enough * style.pixel) return;
   add_lines(renderer, lifted(shot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
 }
 
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Skin& skin,
+void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin,
                  const LineStyle& style) {
   add_lines(renderer, lifted(shot.surface, style.lift), skin.creases, 0.8, style.width);
 }

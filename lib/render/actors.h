@@ -4,7 +4,7 @@
 
 #include "render/colour.h"
 #include "render/shot.h"
-#include "render/skin.h"
+#include "render/shading.h"
 
 class vtkRenderer;
 
@@ -13,7 +13,7 @@ namespace sinew {
 /// Spheres of the shot's radius in the colours of their values.
 void add_particles(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale);
 
-void add_skin(vtkRenderer& renderer, const Shot& shot, const Skin& skin);
+void add_skin(vtkRenderer& renderer, const Shot& shot, const Shading& skin);
 
 struct LineStyle {
   double width = 1;  ///< of the sharp edges, in the drawn pixels; the others are thinner
@@ -22,10 +22,10 @@ struct LineStyle {
 };
 
 /// The skin's sharp edges.
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Skin& skin, const LineStyle& style);
+void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style);
 
 /// Its other edges, fainter.
-void add_net(vtkRenderer& renderer, const Shot& shot, const Skin& skin, const LineStyle& style);
+void add_net(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style);
 
 /// Tubes with joints and their axes in red, green and blue, about `thickness` (m) thick.
 void add_bones(vtkRenderer& renderer, const Shot& shot, double thickness, const Colour& colour);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Colour slate{44, 58, 92}, ivory{250, 244, 230};
 
-void check(const Shot& shot, const Skin& skin, const PictureOptions& options) {
+void check(const Shot& shot, const Shading& skin, const PictureOptions& options) {
   const auto [small, large] = std::minmax(options.width, options.height);
   if (small < 16 || large > 8192)
     throw bad_input("a picture cannot have that size", "choose 16 to 8192 pixels each way");
@@ -51,7 +51,7 @@ void shine_through(Image& image, const Exposure& over, float strength) {
 }  // namespace
 
 Painter::Painter(const Triangles& rest, ColourScale scale)
-    : skin_(make_skin(rest)), scale_(std::move(scale)) {}
+    : skin_(make_shading(rest)), scale_(std::move(scale)) {}
 
 Image Painter::draw(const Shot& shot, const PictureOptions& options) {
   check(shot, skin_, options);

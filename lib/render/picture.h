@@ -2,7 +2,7 @@
 // Draws a shot. Needs an X display (display.h).
 #pragma once
 
-#include "render/skin.h"
+#include "render/shading.h"
 #include "render/stage.h"
 
 namespace sinew {
@@ -34,7 +34,7 @@ class Painter {
   Image draw(const Shot& shot, const PictureOptions& options);
 
  private:
-  Skin skin_;
+  Shading skin_;
   ColourScale scale_;
   Stage stage_;
 };

@@ -45,7 +45,7 @@ struct Motion {
 };
 
 /// Builds the motion a scene describes. Throws bad input, naming the scene's line, for an unknown
-/// bone, two tracks of one bone, keys out of order, or a rotation given in two ways.
+/// bone, two tracks of one bone, keys out of order, or a rotation given in two ways or by half.
 Motion make_motion(const Settings& settings, const Skeleton& skeleton);
 
 /// The pose at `time` (s), with the velocities of the moving bones.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double reach_in_radii = 6;
 constexpr std::size_t least_particles = 20;  // fewer would let single particles show in the skin
+constexpr double margin = 1.05;  // h beyond the last of them, which counts a little then
 constexpr std::size_t vertices_per_piece = 512;
 
 struct Near {
@@ -33,26 +34,34 @@ std::vector<Near> within(const CellGrid& grid, const Points& points, const Vec3&
   return near;
 }
 
-/// The particles around `vertex` and the distance h at which weights end.
+/// The particles around `vertex` and the distance h at which weights end. `grid` reaches as far as
+/// the least h may.
 std::pair<std::vector<Near>, double> support(const CellGrid& grid, const Points& points,
                                              const Vec3& vertex, double range) {
+  if (points.empty()) return {{}, range};
   const std::size_t wanted = std::min(least_particles, points.size());
-  std::vector<Near> near = within(grid, points, vertex, range);
-  if (near.size() >= wanted) return {std::move(near), range};
-  for (double wider = 2 * range;; wider *= 2) {
-    const std::vector<Near> all = within(CellGrid(points, wider), points, vertex, wider);
-    if (all.size() < wanted) continue;
-    const double h = std::max(range, 1.05 * all[wanted - 1].distance);
-    near.assign(all.begin(), std::find_if(all.begin(), all.end(),
-                                          [&](const Near& one) { return one.distance >= h; }));
+  for (double wide = range;; wide *= 2) {
+    const double furthest = margin * wide;
+    std::vector<Near> near =
+        within(wide == range ? grid : CellGrid(points, furthest), points, vertex, furthest);
+    if (near.size() < wanted || near[wanted - 1].distance >= wide) continue;
+    const double h = std::max(range, margin * near[wanted - 1].distance);
+    std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
     return {std::move(near), h};
   }
+}
+
+/// How particle j turns, seen with its neighbours' neighbours: alone it may be the end of a line.
+Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
+  Mat3 spread = moved_spread(body, now, j);
+  for (const auto k : body.neighbours.of(j)) spread += moved_spread(body, now, k);
+  return rotation_part(spread);
 }
 
 Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
   constexpr std::size_t least_neighbours = 4;
   if (!body.defined(j) || body.neighbours.of(j).size() < least_neighbours)
-    return rotation_part(moved_spread(body, now, j));
+    return rotation_around(body, now, j);
   const Mat3 F = deformation_gradient(body, now, j);
   const double J = F.determinant();
   const bool reliable = J > 0.3 && J < 3;
@@ -63,7 +72,7 @@ Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
 
 Skin make_skin(const Points& vertices, const RestShape& body, double radius) {
   const double range = reach_in_radii * radius;
-  const CellGrid grid(body.points, range);
+  const CellGrid grid(body.points, margin * range);
   Skin skin;
   skin.rest = vertices;
   skin.first.push_back(0);

@@ -71,6 +71,10 @@ TEST(MetricsJson, ReadsBackToTheSummary) {
     EXPECT_EQ(one["unit"], metric.unit);
     EXPECT_EQ(one["min"], summary.metrics[i].min);
     EXPECT_EQ(one["max"], summary.metrics[i].max);
+    EXPECT_EQ(one["mean"], summary.metrics[i].mean);
+    if (!std::isnan(summary.metrics[i].final)) {
+      EXPECT_EQ(one["final"], summary.metrics[i].final);
+    }
     EXPECT_EQ(one["worst_frame"], *summary.metrics[i].worst_frame);
     EXPECT_EQ(one["worst_time"], frames[*summary.metrics[i].worst_frame].time);
   }

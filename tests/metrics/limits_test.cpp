@@ -99,9 +99,10 @@ std::string message(const std::string& expression) {
 }
 
 TEST(Limits, AnUnknownMetricIsAnsweredWithTheNearestName) {
-  EXPECT_NE(message("volume_eror > 1").find("'volume_error'"), std::string::npos);
-  EXPECT_NE(message("max(Jmin) < 1").find("'J_min'"), std::string::npos);
-  EXPECT_NE(message("residual > 1").find("'residual_rms'"), std::string::npos);
+  EXPECT_NE(message("volume_eror > 1").find("did you mean volume_error?"), std::string::npos);
+  EXPECT_NE(message("max(Jmin) < 1").find("did you mean J_min?"), std::string::npos);
+  EXPECT_NE(message("residul_rms > 1").find("did you mean residual_rms?"), std::string::npos);
+  EXPECT_NE(message("beauty > 1").find("use a column of metrics.csv"), std::string::npos);
 }
 
 TEST(Limits, HostileExpressionsAreBadInputInOneLine) {

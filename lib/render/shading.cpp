@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/skin.h"
+#include "render/shading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ struct Side {
   int face, corner;  ///< the side goes from this corner of the face to the next
 };
 using Sides =
-    std::map<Skin::Edge, std::vector<Side>>;  // ordered: pictures do not depend on hashing
+    std::map<Shading::Edge, std::vector<Side>>;  // ordered: pictures do not depend on hashing
 
 Sides sides_of(const Triangles& surface) {
   Sides sides;
@@ -62,7 +62,7 @@ void join(const Triangles& surface, const Side& a, const Side& b, std::vector<in
 }
 
 /// Corners joined by smooth edges share one shaded point.
-void split(const Triangles& rest, std::vector<int>& parent, Skin& skin) {
+void split(const Triangles& rest, std::vector<int>& parent, Shading& skin) {
   std::vector<int> shaded(parent.size(), -1);
   for (int f = 0; f < static_cast<int>(rest.faces.size()); ++f) {
     std::array<int, 3> face;
@@ -80,17 +80,17 @@ void split(const Triangles& rest, std::vector<int>& parent, Skin& skin) {
 
 }  // namespace
 
-Triangles Skin::at(const Points& points) const {
+Triangles Shading::at(const Points& points) const {
   Triangles shaded{Points(source.size()), faces};
   for (std::size_t i = 0; i < source.size(); ++i) shaded.points[i] = points[source[i]];
   return shaded;
 }
 
-Skin make_skin(const Triangles& rest) {
-  Skin skin;
+Shading make_shading(const Triangles& rest) {
+  Shading skin;
   std::vector<int> parent(3 * rest.faces.size());
   std::iota(parent.begin(), parent.end(), 0);
-  std::vector<Skin::Edge> diagonals;
+  std::vector<Shading::Edge> diagonals;
   for (const auto& [edge, sides] : sides_of(rest)) {
     if (!smooth(rest, sides)) {
       skin.creases.push_back(edge);

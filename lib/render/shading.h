@@ -7,7 +7,7 @@
 
 namespace sinew {
 
-struct Skin {
+struct Shading {
   using Edge = std::array<int, 2>;
 
   std::vector<int> source;                ///< the surface's point behind each shaded point
@@ -22,6 +22,6 @@ struct Skin {
 /// Edges whose faces meet at more than 40 degrees are creases. A diagonal is the longest side of
 /// both its triangles; when nearly all triangles pair up that way, the surface is taken as
 /// quadrangles.
-Skin make_skin(const Triangles& rest);
+Shading make_shading(const Triangles& rest);
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "config/words.h"
+#include "core/words.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/atomic_file.h"
+
+#include <sys/stat.h>
+
+#include "scratch.h"
+
+namespace sinew {
+namespace {
+
+using AtomicFile = Scratch;
+
+TEST_F(AtomicFile, ReadsBackWhatWasWritten) {
+  const std::string text("a\0b\n", 4);
+  write_file(folder / "f", "older and longer");
+  write_file(folder / "f", text);
+  EXPECT_EQ(read_file(folder / "f"), text);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(AtomicFile, LeavesTheOlderFileWhenFillingFails) {
+  write_file(folder / "f", "older");
+  EXPECT_THROW(replace_file(folder / "f",
+                            [](const auto& temporary) {
+                              put(temporary, "half");
+                              throw std::runtime_error("stopped");
+                            }),
+               std::runtime_error);
+  EXPECT_EQ(read_file(folder / "f"), "older");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(AtomicFile, NamesTheFileThatCannotBeWritten) {
+  const Error error = error_of([&] { write_file(folder / "missing" / "f", "text"); });
+  EXPECT_EQ(error.exit(), Exit::not_written);
+  EXPECT_TRUE(contains(error.what(), "missing/f: cannot be written")) << error.what();
+}
+
+TEST_F(AtomicFile, RefusesAFolderInItsPlace) {
+  std::filesystem::create_directories(folder / "f" / "g");
+  EXPECT_EQ(error_of([&] { write_file(folder / "f", "text"); }).exit(), Exit::not_written);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(AtomicFile, ReadsNoMoreThanTheLimit) {
+  write_file(folder / "f", "12345");
+  EXPECT_EQ(read_file(folder / "f", 5), "12345");
+  EXPECT_EQ(error_of([&] { read_file(folder / "f", 4); }).exit(), Exit::bad_input);
+}
+
+TEST_F(AtomicFile, ReadsOnlyRegularFiles) {
+  ::mkfifo((folder / "pipe").c_str(), 0600);
+  for (const char* name : {"absent", "pipe", "."}) {
+    const Error error = error_of([&] { read_file(folder / name); });
+    EXPECT_EQ(error.exit(), Exit::bad_input) << name;
+    EXPECT_TRUE(contains(error.what(), name)) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sinew

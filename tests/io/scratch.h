@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A folder of its own for each test, and small looks into files.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "core/error.h"
+
+namespace sinew {
+
+class Scratch : public testing::Test {
+ protected:
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "sinew_io_XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+  }
+  ~Scratch() override { std::filesystem::remove_all(folder); }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+  }
+
+  std::filesystem::path folder;
+};
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+inline void put(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The error `job` throws; fails the test when it throws none.
+template <class Job>
+Error error_of(Job&& job) {
+  try {
+    job();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error was thrown";
+  return {Exit::done, ""};
+}
+
+}  // namespace sinew

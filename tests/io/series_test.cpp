@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/series.h"
+
+#include "io/atomic_file.h"
+#include "scratch.h"
+#include "synthetic_run.h"
+
+namespace sinew {
+namespace {
+
+using SeriesFiles = Scratch;
+
+VtuFormat bones_format() { return {Encoding::zlib, false, "bones", 0.01}; }
+
+TEST_F(SeriesFiles, PvdHasOneRowPerTimeInItsShortestText) {
+  const SyntheticRun run;
+  Series series(folder / "run", bones_format());
+  for (const double time : {0.0, 0.1, 1.0 / 3}) series.add(run.bones({time, 0}));
+  series.close();
+  EXPECT_EQ(text_of(folder / "run" / "bones.pvd"),
+            R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">
+  <Collection>
+    <DataSet timestep="0" group="" part="0" file="bones/bones_000000.vtu"/>
+    <DataSet timestep="0.1" group="" part="0" file="bones/bones_000001.vtu"/>
+    <DataSet timestep="0.3333333333333333" group="" part="0" file="bones/bones_000002.vtu"/>
+  </Collection>
+</VTKFile>
+)");
+}
+
+TEST_F(SeriesFiles, RowsLeadToTheFramesTheyName) {
+  const SyntheticRun run;
+  Series series(folder, bones_format());
+  for (int i = 0; i < 3; ++i) series.add(run.bones({i / 3.0, i}));
+  series.close();
+  const auto rows = read_pvd(folder / "bones.pvd");
+  ASSERT_EQ(rows.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    const Dataset data = read_vtu(folder / rows[i].file);
+    EXPECT_EQ(data.time, rows[i].time);
+    EXPECT_EQ(data.cycle, i);
+  }
+}
+
+TEST_F(SeriesFiles, ThePvdNeverNamesAFrameThatIsNotThere) {
+  const SyntheticRun run;
+  Series series(folder, bones_format());
+  for (int i = 0; i < 20; ++i) {
+    series.add(run.bones({i / 3.0, i}));
+    for (const PvdRow& row : read_pvd(folder / "bones.pvd"))
+      EXPECT_TRUE(std::filesystem::exists(folder / row.file));
+  }
+}
+
+TEST_F(SeriesFiles, TheLastFrameIsNamedEvenWhenTheSeriesIsOnlyDropped) {
+  const SyntheticRun run;
+  {
+    Series series(folder, bones_format());
+    series.add(run.bones({0, 0}));
+    series.add(run.bones({1, 1}));
+  }
+  EXPECT_EQ(read_pvd(folder / "bones.pvd").size(), 2u);
+}
+
+TEST_F(SeriesFiles, AStartRemovesTheOlderSeriesAndNothingElse) {
+  std::filesystem::create_directories(folder / "bones");
+  for (const char* ours : {"bones_000007.vtu", ".bones_000008.vtu.tmp"})
+    put(folder / "bones" / ours, "");
+  put(folder / "bones" / "notes.txt", "kept");
+  put(folder / "bones.pvd", "older");
+  Series series(folder, bones_format());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "bones"), {}), 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "bones" / "notes.txt"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "bones.pvd"));
+}
+
+TEST_F(SeriesFiles, AFileInTheFoldersPlaceIsNamed) {
+  put(folder / "run", "");
+  const Error error = error_of([&] { Series(folder / "run", bones_format()); });
+  EXPECT_EQ(error.exit(), Exit::not_written);
+  EXPECT_TRUE(contains(error.what(), "run/bones")) << error.what();
+}
+
+TEST_F(SeriesFiles, APvdThatLeadsElsewhereIsRefused) {
+  for (const char* file : {"/etc/passwd", "../f.vtu", "a/../../f.vtu", ""}) {
+    write_file(folder / "f.pvd", pvd_text({{0, file}}));
+    const Error error = error_of([&] { read_pvd(folder / "f.pvd"); });
+    EXPECT_EQ(error.exit(), Exit::bad_input);
+    EXPECT_TRUE(contains(error.what(), "f.pvd: ")) << error.what();
+  }
+}
+
+TEST_F(SeriesFiles, APvdThatIsNoneIsRefusedInSilence) {
+  const std::string row = "<DataSet timestep=\"0\" file=\"f.vtu\"/>";
+  const auto pvd = [](const std::string& rows) {
+    return "<VTKFile><Collection>" + rows + "</Collection></VTKFile>";
+  };
+  put(folder / "f.pvd", pvd(row));
+  EXPECT_EQ(read_pvd(folder / "f.pvd").size(), 1u);
+  for (const std::string& text :
+       {std::string(), std::string("text"), std::string("<VTKFile/>"), std::string("<A><B>"),
+        pvd(row).substr(0, 60), pvd("<DataSet timestep=\"0\"/>"), pvd("<DataSet file=\"f.vtu\"/>"),
+        pvd("<DataSet timestep=\"soon\" file=\"f.vtu\"/>"),
+        pvd("<DataSet timestep=\"nan\" file=\"f.vtu\"/>")}) {
+    put(folder / "f.pvd", text);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(error_of([&] { read_pvd(folder / "f.pvd"); }).exit(), Exit::bad_input) << text;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  }
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/view_script.h"
+
+#include "scratch.h"
+
+namespace sinew {
+namespace {
+
+using ViewScript = Scratch;
+
+TEST_F(ViewScript, KnowsTheFolderItWasLeftIn) {
+  const auto odd = folder / "a \"run\" \\ of Ärms";
+  std::filesystem::create_directories(odd);
+  write_view_script(odd);
+  const std::string text = text_of(odd / "view.py");
+  EXPECT_TRUE(contains(text, "a \\\"run\\\" \\\\ of Ärms\"\n"));
+  EXPECT_TRUE(contains(text, "Point Gaussian"));
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""pvbatch paraview_test.py DIR: what ParaView itself makes of the run in DIR. Works on any run."""
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ET
+
+from paraview import servermanager
+from paraview.simple import *
+from vtkmodules.vtkCommonCore import vtkDataArray
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+RUN = os.path.abspath(sys.argv[1])
+
+# Per series: VTK's cell type, cells per point, and each array's place, unit and component names.
+X, Q = "XYZ", "WXYZ"
+SERIES = {
+    "particles": (1, {
+        "id": ("point", "1", ""), "bone": ("point", "1", ""), "radius": ("point", "m", ""),
+        "displacement": ("point", "m", X), "velocity": ("point", "m/s", X),
+        "force": ("point", "N", X), "force_pair": ("point", "N", X),
+        "force_damping": ("point", "N", X), "force_bone": ("point", "N", X),
+        "neighbours": ("point", "1", ""),
+        "kinetic_energy": ("field", "J", ""), "pair_energy": ("field", "J", ""),
+        "bone_energy": ("field", "J", ""), "gravity_energy": ("field", "J", ""),
+        "work_of_bones": ("field", "J", ""), "dissipation": ("field", "J", "")}),
+    "surface": (5, {
+        "displacement": ("point", "m", X), "normal": ("point", "1", X),
+        "bone": ("point", "1", "")}),
+    "bones": (3, {
+        "axis": ("cell", "1", ""), "bone": ("cell", "1", ""), "parent": ("cell", "1", "")}),
+    "frames": (1, {
+        "bone": ("point", "1", ""), "parent": ("point", "1", ""), "length": ("point", "m", ""),
+        "orientation": ("point", "1", Q), "axis_x": ("point", "1", X),
+        "axis_y": ("point", "1", X), "axis_z": ("point", "1", X),
+        "twist": ("point", "degree", ""), "velocity": ("point", "m/s", X),
+        "angular_velocity": ("point", "rad/s", X), "reaction_force": ("point", "N", X),
+        "reaction_moment": ("point", "N m", X)}),
+}
+FIELDS = {"TimeValue": ("field", "s", ""), "CYCLE": ("field", "1", "")}
+
+
+def rows_of(series):
+    rows = ET.parse(os.path.join(RUN, series + ".pvd")).getroot().iter("DataSet")
+    return [(float(row.get("timestep")), row.get("file")) for row in rows]
+
+
+def opened(series):
+    return OpenDataFile(os.path.join(RUN, series + ".pvd"))
+
+
+def fetched(source, time):
+    source.UpdatePipeline(time)
+    return servermanager.Fetch(source)
+
+
+def place_of(data, place):
+    return {"point": data.GetPointData, "cell": data.GetCellData, "field": data.GetFieldData}[place]()
+
+
+def values(array):
+    width = array.GetNumberOfComponents()
+    tuples = [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+    return [row[0] for row in tuples] if width == 1 else tuples
+
+
+def turned(q, v):
+    """v turned by the quaternion q, W X Y Z."""
+    w, u = q[0], q[1:]
+    cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    a = [2 * part for part in cross]
+    b = [u[1] * a[2] - u[2] * a[1], u[2] * a[0] - u[0] * a[2], u[0] * a[1] - u[1] * a[0]]
+    return [v[k] + w * a[k] + b[k] for k in range(3)]
+
+
+class Series(unittest.TestCase):
+    def test_times_are_those_of_the_pvd_and_the_same_for_all(self):
+        times = [time for time, _ in rows_of("particles")]
+        self.assertEqual(times, sorted(set(times)))
+        for series in SERIES:
+            self.assertEqual([time for time, _ in rows_of(series)], times, series)
+            self.assertEqual(list(opened(series).TimestepValues), times, series)
+
+    def test_type_and_counts_are_the_same_in_every_frame(self):
+        for series, (cell_type, _) in SERIES.items():
+            source = opened(series)
+            counts = set()
+            for time, _ in rows_of(series):
+                source.UpdatePipeline(time)
+                info = source.GetDataInformation()
+                self.assertEqual(info.GetDataSetTypeAsString(), "vtkUnstructuredGrid")
+                counts.add((info.GetNumberOfPoints(), info.GetNumberOfCells()))
+            self.assertEqual(len(counts), 1, series)
+            data = fetched(source, 0)
+            types = {data.GetCellType(i) for i in range(data.GetNumberOfCells())}
+            self.assertEqual(types, {cell_type}, series)
+
+    def test_counts_agree_between_the_series(self):
+        particles, bones, frames = (fetched(opened(s), 0) for s in ("particles", "bones", "frames"))
+        self.assertEqual(particles.GetNumberOfPoints(), particles.GetNumberOfCells())
+        self.assertEqual(bones.GetNumberOfCells(), 4 * frames.GetNumberOfPoints())
+        body = fetched(OpenDataFile(os.path.join(RUN, "body.vtu")), 0)
+        self.assertEqual(body.GetNumberOfPoints(), particles.GetNumberOfPoints())
+
+    def test_arrays_have_units_and_component_names(self):
+        for series, (_, arrays) in SERIES.items():
+            data = fetched(opened(series), rows_of(series)[-1][0])
+            for name, (place, unit, components) in {**arrays, **FIELDS}.items():
+                array = place_of(data, place).GetArray(name)
+                with self.subTest(series=series, array=name):
+                    self.assertIsNotNone(array)
+                    self.assertEqual(array.GetInformation().Get(vtkDataArray.UNITS_LABEL()), unit)
+                    names = [array.GetComponentName(k) for k in range(len(components))]
+                    self.assertEqual(names, list(components))
+            points = data.GetPoints().GetData()
+            self.assertEqual(points.GetInformation().Get(vtkDataArray.UNITS_LABEL()), "m")
+
+    def test_active_arrays_of_the_particles(self):
+        data = fetched(opened("particles"), 0).GetPointData()
+        self.assertEqual(data.GetScalars().GetName(), "bone")
+        self.assertEqual(data.GetVectors().GetName(), "displacement")
+
+    def test_every_file_knows_its_time(self):
+        for series in SERIES:
+            source = opened(series)
+            for time, _ in rows_of(series)[::10]:
+                field = fetched(source, time).GetFieldData()
+                self.assertEqual(field.GetArray("TimeValue").GetValue(0), time)
+
+    def test_displacement_leads_back_to_the_same_rest_state(self):
+        source = opened("particles")
+        rows = rows_of("particles")
+        rests = []
+        for time in (rows[0][0], rows[len(rows) // 2][0], rows[-1][0]):
+            data = fetched(source, time)
+            points = values(data.GetPoints().GetData())
+            ways = values(data.GetPointData().GetArray("displacement"))
+            rests.append([[p - w for p, w in zip(*pair)] for pair in zip(points, ways)])
+        size = max(abs(part) for point in rests[0] for part in point)
+        for rest in rests[1:]:
+            apart = max(math.dist(a, b) for a, b in zip(rests[0], rest))
+            self.assertLess(apart, 1e-6 * size)
+
+    def test_orientation_turns_x_into_the_bones_axis(self):
+        data = fetched(opened("frames"), rows_of("frames")[-1][0]).GetPointData()
+        for q, axis in zip(values(data.GetArray("orientation")), values(data.GetArray("axis_x"))):
+            self.assertLess(math.dist(turned(q, [1, 0, 0]), axis), 1e-6)
+
+
+class Picking(unittest.TestCase):
+    def test_threshold_on_bone_selects_its_particles(self):
+        source = opened("particles")
+        time = rows_of("particles")[-1][0]
+        whole = fetched(source, time)
+        bones = values(whole.GetPointData().GetArray("bone"))
+        chosen = Threshold(Input=source, Scalars=["POINTS", "bone"])
+        for bone in sorted(set(bones)):
+            chosen.LowerThreshold = chosen.UpperThreshold = bone
+            ids = values(fetched(chosen, time).GetPointData().GetArray("id"))
+            self.assertEqual(ids, [i for i, other in enumerate(bones) if other == bone])
+
+
+def picture(*arguments):
+    """Width, height and rows of pixels of what view.py draws."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "picture.png")
+        subprocess.run(["pvbatch", os.path.join(RUN, "view.py"), "--picture", path,
+                        "--size", "800", "400", *arguments], check=True, cwd="/")
+        reader = vtkPNGReader()
+        reader.SetFileName(path)
+        reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    pixels = values(image.GetPointData().GetScalars())
+    return width, height, [pixels[y * width:(y + 1) * width] for y in range(height)]
+
+
+def drawn_share(rows, left, right):
+    """Share of pixels that differ from the background, which only changes from row to row."""
+    drawn = sum(max(abs(a - b) for a, b in zip(pixel, row[right - 1])) > 24
+                for row in rows for pixel in row[left:right])
+    return drawn / (len(rows) * (right - left))
+
+
+class View(unittest.TestCase):
+    def test_view_draws_the_particles_left_and_the_bones_right(self):
+        width, height, rows = picture()
+        self.assertEqual((width, height), (800, 400))
+        for left in (0, width // 2):
+            self.assertGreater(drawn_share(rows, left, left + width // 2), 0.04)
+        colours = {pixel for row in rows for pixel in row[:width // 2]}
+        self.assertGreater(len(colours), 1000)
+
+    def test_view_draws_the_moment_asked_for(self):
+        first, last = (picture("--time", str(time))[2]
+                       for time in (rows_of("particles")[0][0], rows_of("particles")[-1][0] / 3))
+        changed = sum(a != b for one, other in zip(first, last) for a, b in zip(one, other))
+        self.assertGreater(changed, 0.02 * 800 * 400)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["paraview_test", "-v"])
