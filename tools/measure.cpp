@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics.json and report.html of a run.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "command.h"
@@ -120,16 +121,29 @@ std::vector<FactGroup> facts_of(const RunFolder& folder) {
             {"particle mass", number("particle_mass", "kg")}}}};
 }
 
-/// The pictures that render has left, by name; the movie goes to its own place.
-std::vector<Picture> pictures_in(const RunFolder& folder) {
+/// "0.533 s" for the picture of frame 16, else the file's own name.
+std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
+  const std::string name = picture.stem().string();
+  const auto digits = name.find_first_of("0123456789");
+  if (digits == std::string::npos) return "Over time";
+  const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);
+  return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
+}
+
+/// The pictures that render has left: the contact sheet, then single moments in order.
+std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
   std::vector<Picture> pictures;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder.pictures(), none))
     if (entry.path().extension() == ".png")
       pictures.push_back(
-          {"pictures/" + entry.path().filename().string(), entry.path().stem().string()});
-  std::sort(pictures.begin(), pictures.end(),
-            [](const Picture& a, const Picture& b) { return a.path < b.path; });
+          {"pictures/" + entry.path().filename().string(), caption_of(entry.path(), measured)});
+  const auto is_sheet = [](const Picture& picture) {
+    return picture.path.find("contact_sheet") != std::string::npos;
+  };
+  std::sort(pictures.begin(), pictures.end(), [&](const Picture& a, const Picture& b) {
+    return is_sheet(a) != is_sheet(b) ? is_sheet(a) : a.path < b.path;
+  });
   return pictures;
 }
 
@@ -146,7 +160,7 @@ void write_report(const RunFiles& run, const Measured& measured) {
   input.frames = measured.frames;
   input.summary = measured.summary;
   input.checks = measured.checks;
-  input.pictures = pictures_in(run.folder);
+  input.pictures = pictures_in(run.folder, measured);
   if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;
