@@ -7,6 +7,9 @@
 namespace sinew {
 namespace {
 
+// Rounding must not put partners just within the range two cells apart.
+constexpr double slack = 1 + 1e-9;
+
 std::array<std::vector<double>, 3> split(const Points& points) {
   std::array<std::vector<double>, 3> axes;
   for (int axis = 0; axis < 3; ++axis)
@@ -35,7 +38,7 @@ CellGrid::CellGrid(const Points& points, double range) {
 }
 
 void CellGrid::size_cells(const Box& box, std::size_t count, double range) {
-  edge_ = range;
+  edge_ = range * slack;
   if (box.isEmpty()) return;
   low_ = box.min();
   // A stray particle must not blow the table up: wider cells stay correct, only slower.
@@ -51,7 +54,8 @@ std::array<std::int64_t, 3> CellGrid::cell_of(const Vec3& p) const {
   for (int axis = 0; axis < 3; ++axis) {
     // Points outside the box have no partners beyond one cell of it: clamp before the cast.
     const double at = std::floor((p[axis] - low_[axis]) / edge_);
-    cell[axis] = static_cast<std::int64_t>(std::clamp(at, -2.0, static_cast<double>(cells_[axis]) + 1));
+    cell[axis] =
+        static_cast<std::int64_t>(std::clamp(at, -2.0, static_cast<double>(cells_[axis]) + 1));
   }
   return cell;
 }
@@ -69,7 +73,8 @@ void CellGrid::sort(std::span<const double> x, std::span<const double> y,
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   order_.resize(x.size());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < x.size(); ++i) order_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    order_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 int CellGrid::runs_around(const Vec3& p, std::array<Run, 9>& runs) const {
@@ -78,8 +83,10 @@ int CellGrid::runs_around(const Vec3& p, std::array<Run, 9>& runs) const {
   const std::int64_t to = std::min(i + 1, cells_[0] - 1);
   int count = 0;
   if (from > to) return count;
-  for (std::int64_t kk = std::max<std::int64_t>(k - 1, 0); kk <= std::min(k + 1, cells_[2] - 1); ++kk)
-    for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, cells_[1] - 1); ++jj) {
+  for (std::int64_t kk = std::max<std::int64_t>(k - 1, 0); kk <= std::min(k + 1, cells_[2] - 1);
+       ++kk)
+    for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, cells_[1] - 1);
+         ++jj) {
       const std::int64_t row = (kk * cells_[1] + jj) * cells_[0];
       runs[count++] = {first_[row + from], first_[row + to + 1]};
     }

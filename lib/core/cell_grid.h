@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The cell grid of Komiya and Tokoi: space is cut into cells whose edge is the interaction range, so
-// that all partners of a particle lie in its own and the 26 adjacent cells. Nothing is capped.
+// The cell grid of Komiya and Tokoi: space is cut into cells whose edge is the interaction range,
+// so that all partners of a particle lie in its own and the 26 adjacent cells. Nothing is capped.
 #pragma once
 
 #include <array>

@@ -47,7 +47,8 @@ std::vector<std::int32_t> vertex_cells(std::size_t points);
 const Column* find(const std::vector<Column>& columns, std::string_view name);
 
 /// Typed access; throws Error (bad input) naming the column when it is missing or of another shape.
-const std::vector<std::int32_t>& integers(const std::vector<Column>& columns, std::string_view name);
+const std::vector<std::int32_t>& integers(const std::vector<Column>& columns,
+                                          std::string_view name);
 const std::vector<double>& numbers(const std::vector<Column>& columns, std::string_view name);
 Points vectors(const std::vector<Column>& columns, std::string_view name);
 

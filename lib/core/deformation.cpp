@@ -36,12 +36,16 @@ RestShape rest_shape(Points points, double range) {
   return rest;
 }
 
-Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i) {
-  if (!rest.defined(i)) return Mat3::Identity();
+Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i) {
   Mat3 moved = Mat3::Zero();
   for (const auto j : rest.neighbours.of(i))
     moved += (now[j] - now[i]) * (rest.points[j] - rest.points[i]).transpose();
-  return moved * rest.inverse[i];
+  return moved;
+}
+
+Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i) {
+  if (!rest.defined(i)) return Mat3::Identity();
+  return moved_spread(rest, now, i) * rest.inverse[i];
 }
 
 std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now) {
@@ -54,6 +58,11 @@ std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now
 
 Mat3 rotation_part(const Mat3& F) {
   const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3 sizes = svd.singularValues();
+  if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest turn; of a point: none
+    return sizes[0] > 0
+               ? Quat::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix()
+               : Mat3(Mat3::Identity());
   Mat3 U = svd.matrixU();
   if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;  // the weakest direction
   return U * svd.matrixV().transpose();

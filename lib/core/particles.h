@@ -15,9 +15,9 @@ struct Particles {
   double radius = 0;  ///< of each particle, m
   double mass = 0;    ///< of each particle, kg
 
-  std::vector<double> x, y, z;     ///< positions, m
-  std::vector<double> u, v, w;     ///< velocities, m/s
-  std::vector<std::int32_t> id;    ///< place in the written order, 0 .. size() - 1
+  std::vector<double> x, y, z;   ///< positions, m
+  std::vector<double> u, v, w;   ///< velocities, m/s
+  std::vector<std::int32_t> id;  ///< place in the written order, 0 .. size() - 1
 
   std::size_t size() const { return x.size(); }
   Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }

@@ -8,8 +8,8 @@ namespace sinew {
 
 /// Maps local x to origin + rotation x.
 struct RigidFrame {
-  Vec3 origin = Vec3::Zero();         ///< m
-  Mat3 rotation = Mat3::Identity();   ///< columns are the frame's axes
+  Vec3 origin = Vec3::Zero();        ///< m
+  Mat3 rotation = Mat3::Identity();  ///< columns are the frame's axes
 };
 
 /// A point fixed to a frame: where it is now when it was at `point` as the frame was at `rest`.

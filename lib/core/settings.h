@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything a scene says, as plain values with their defaults. SI units, angles in degrees, "radii"
-// are multiples of the particle radius. What each key means stands in settings_table.cpp.
+// Everything a scene says, as plain values with their defaults. SI units, angles in degrees,
+// "radii" are multiples of the particle radius. What each key means stands in settings_table.cpp.
 #pragma once
 
 #include <map>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <type_traits>
 
 namespace sinew {
@@ -28,11 +27,16 @@ struct Unwrap<std::optional<T>> {
 
 template <class T>
 constexpr FieldKind kind_of() {
-  if constexpr (std::is_same_v<T, double>) return FieldKind::number;
-  else if constexpr (std::is_same_v<T, int>) return FieldKind::whole;
-  else if constexpr (std::is_same_v<T, bool>) return FieldKind::flag;
-  else if constexpr (std::is_same_v<T, Vec3>) return FieldKind::vector;
-  else return FieldKind::text;
+  if constexpr (std::is_same_v<T, double>)
+    return FieldKind::number;
+  else if constexpr (std::is_same_v<T, int>)
+    return FieldKind::whole;
+  else if constexpr (std::is_same_v<T, bool>)
+    return FieldKind::flag;
+  else if constexpr (std::is_same_v<T, Vec3>)
+    return FieldKind::vector;
+  else
+    return FieldKind::text;
 }
 
 /// A field for the member that `member(owner)` refers to; optional members may be absent.
@@ -52,8 +56,10 @@ Field<Owner> field(std::string_view section, std::string_view name, Member membe
   if (Unwrap<Stored>::optional) row.absent = absent;
   row.get = [member](const Owner& owner) -> FieldValue {
     const Stored& stored = member(const_cast<Owner&>(owner));
-    if constexpr (Unwrap<Stored>::optional) return stored ? FieldValue(*stored) : FieldValue();
-    else return stored;
+    if constexpr (Unwrap<Stored>::optional)
+      return stored ? FieldValue(*stored) : FieldValue();
+    else
+      return stored;
   };
   row.set = [member](Owner& owner, const FieldValue& value) {
     if constexpr (Unwrap<Stored>::optional)
@@ -96,8 +102,23 @@ Field<Owner> path(Field<Owner> row) {
   return row;
 }
 
+/// A text that may be left out: the empty text is written as `word`.
+template <class Owner>
+Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
+  row.absent = word;
+  row.get = [get = row.get](const Owner& owner) -> FieldValue {
+    FieldValue value = get(owner);
+    return std::get<std::string>(value).empty() ? FieldValue() : value;
+  };
+  row.set = [set = row.set](Owner& owner, const FieldValue& value) {
+    set(owner, std::holds_alternative<std::monostate>(value) ? FieldValue(std::string()) : value);
+  };
+  return row;
+}
+
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
-#define SINEW_AT(Owner, member) [](Owner& owner) -> auto& { return owner.member; }
+#define SINEW_AT(Owner, member) \
+  [](Owner & owner) -> auto& { return owner.member; }
 
 std::vector<Field<Settings>> make_settings() {
   using S = Settings;
@@ -127,7 +148,8 @@ std::vector<Field<Settings>> make_settings() {
       field<S>("material", "a", SINEW_AT(S, material.a), "radii",
                "distance at which attraction begins", {2, inf}),
       field<S>("material", "b", SINEW_AT(S, material.b), "radii",
-               "distance at which attraction ends; above 2.75 the packing is unstable", {2, 8, true}),
+               "distance at which attraction ends; above 2.75 the packing is unstable",
+               {2, 8, true}),
       field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
                "damping constant C of neighbours' relative velocity", not_negative),
       choice<S>("material", "damping_form", SINEW_AT(S, material.damping_form),
@@ -154,7 +176,8 @@ std::vector<Field<Settings>> make_settings() {
                 {"symplectic_euler", "explicit_euler", "velocity_verlet"},
                 "how positions and velocities advance"),
       field<S>("solver", "time_step", SINEW_AT(S, solver.time_step), "s",
-               "upper bound of the step; auto: time_step_factor times the stability limit", positive),
+               "upper bound of the step; auto: time_step_factor times the stability limit",
+               positive),
       field<S>("solver", "time_step_factor", SINEW_AT(S, solver.time_step_factor), "",
                "share of the stability limit used by time_step: auto", {0, 1, true}),
       field<S>("solver", "duration", SINEW_AT(S, solver.duration), "s", "length of the run",
@@ -175,7 +198,7 @@ std::vector<Field<BoneSettings>> make_bones() {
   using B = BoneSettings;
   return {
       required(field<B>("", "name", SINEW_AT(B, name), "", "unique name of the bone")),
-      field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone; none for a root"),
+      may_lack("none", field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone")),
       field<B>("", "head", SINEW_AT(B, head), "m", "where it begins at rest; else parent's tail"),
       required(field<B>("", "tail", SINEW_AT(B, tail), "m", "where it ends at rest")),
   };
@@ -195,12 +218,12 @@ std::vector<Field<KeySettings>> make_keys() {
   using K = KeySettings;
   return {
       required(field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative)),
-      field<K>("", "axis", SINEW_AT(K, axis), "", "axis of the rotation, in the parent's directions",
-               any, "none"),
+      field<K>("", "axis", SINEW_AT(K, axis), "",
+               "axis of the rotation, in the parent's directions", any, "none"),
       field<K>("", "angle", SINEW_AT(K, angle), "degrees", "angle about the axis", any, "none"),
       field<K>("", "euler", SINEW_AT(K, euler), "degrees",
-               "rotation about x, y and z of the parent's directions, instead of axis and angle", any,
-               "none"),
+               "rotation about x, y and z of the parent's directions, instead of axis and angle",
+               any, "none"),
       field<K>("", "twist", SINEW_AT(K, twist), "degrees",
                "turn about the bone itself, of any size, after the rotation"),
       field<K>("", "translation", SINEW_AT(K, translation), "m",
@@ -214,6 +237,7 @@ std::vector<Field<KeySettings>> make_keys() {
 
 std::string Range::text() const {
   const bool below = low > -inf, above = high < inf;
+  if (below && above && above_low) return "> " + number_text(low) + ", up to " + number_text(high);
   if (below && above) return number_text(low) + " to " + number_text(high);
   if (below) return (above_low ? "> " : ">= ") + number_text(low);
   return above ? "<= " + number_text(high) : "";
@@ -245,33 +269,39 @@ std::span<const std::string_view> sections() {
   return names;
 }
 
-std::string number_text(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 namespace {
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      out += std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15];
+      continue;
+    }
     if (c == '"' || c == '\\') out += '\\';
     out += c;
   }
   return out + '"';
 }
 
+/// Words that YAML, or a field, reads as something else than text; in lower case.
+bool is_word(std::string text) {
+  constexpr std::array<std::string_view, 11> words = {"true", "false", "null", "yes",  "no",  "on",
+                                                      "off",  "y",     "n",    "auto", "none"};
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+
 /// Whether YAML reads the text back as that very text without quotes.
 bool plain(const std::string& text) {
-  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto is_safe = [&](char c) {
     return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '/' || c == '.' || c == '-';
   };
-  const bool word = text == "true" || text == "false" || text == "null" || text == "auto" ||
-                    text == "none" || text == "yes" || text == "no";
-  const auto first = text.find_first_not_of("./");
-  return first != std::string::npos && is_letter(text[first]) && !word &&
+  const auto first = text.find_first_not_of("./");  // "../a" is plain, ".nan" is a number
+  return first != std::string::npos && is_letter(text[first]) &&
+         (first == 0 || text[first - 1] == '/') && !is_word(text) &&
          std::all_of(text.begin(), text.end(), is_safe);
 }
 
@@ -281,7 +311,8 @@ std::string scene_text(const FieldValue& value, std::string_view absent) {
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
   if (const auto* whole = std::get_if<int>(&value)) return std::to_string(*whole);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* text = std::get_if<std::string>(&value)) return plain(*text) ? *text : quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value))
+    return plain(*text) ? *text : quoted(*text);
   if (const auto* vector = std::get_if<Vec3>(&value))
     return '[' + number_text(vector->x()) + ", " + number_text(vector->y()) + ", " +
            number_text(vector->z()) + ']';

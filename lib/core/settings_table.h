@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/number_text.h"
 #include "core/settings.h"
 
 namespace sinew {
@@ -28,7 +29,7 @@ struct Range {
   bool holds(double value) const {
     return (above_low ? value > low : value >= low) && value <= high;
   }
-  std::string text() const;  ///< "> 0", "0 to 1"; "" without limits
+  std::string text() const;  ///< "> 0", "0 to 1", "> 0, up to 1"; "" without limits
 };
 
 /// One key of a mapping that describes an Owner (Settings by section, a bone, a track, a key).
@@ -37,8 +38,8 @@ struct Field {
   std::string_view section;  ///< "" for the members of list entries
   std::string_view name;
   FieldKind kind;
-  std::string_view unit;     ///< "" for pure numbers
-  std::string_view help;     ///< one line
+  std::string_view unit;  ///< "" for pure numbers
+  std::string_view help;  ///< one line
   std::function<FieldValue(const Owner&)> get;
   std::function<void(Owner&, const FieldValue&)> set;  ///< the value is of `kind` and in range
   Range range = {};
@@ -54,9 +55,6 @@ std::span<const Field<KeySettings>> key_fields();      ///< motion.tracks[].keys
 
 /// The order of sections in a scene.
 std::span<const std::string_view> sections();
-
-/// Shortest text that reads back as the same number.
-std::string number_text(double value);
 
 /// A value as a scene writes it: number_text, true, [1, 2, 3], quoted where YAML asks for it.
 std::string scene_text(const FieldValue& value, std::string_view absent);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/dataset.h"
+#include "core/energies.h"
 #include "core/particles.h"
 #include "core/triangles.h"
 #include "rig/pose.h"
@@ -16,12 +17,6 @@ namespace sinew {
 struct Moment {
   double time = 0;         ///< s
   std::int32_t cycle = 0;  ///< steps taken so far
-};
-
-struct Energies {
-  double kinetic = 0, pair = 0, bone = 0, gravity = 0;  ///< J
-  double work_of_bones = 0;                             ///< J, since the start
-  double dissipation = 0;                               ///< J, since the start
 };
 
 /// What is known of the particles at one moment. All spans are as long as there are particles.

@@ -13,9 +13,12 @@ struct Eased {
 
 Eased ease(Interpolation interpolation, double s, double duration) {
   switch (interpolation) {
-    case Interpolation::step: return {0, 0};
-    case Interpolation::linear: return {s, 1 / duration};
-    case Interpolation::smooth: return {s * s * (3 - 2 * s), 6 * s * (1 - s) / duration};
+    case Interpolation::step:
+      return {0, 0};
+    case Interpolation::linear:
+      return {s, 1 / duration};
+    case Interpolation::smooth:
+      return {s * s * (3 - 2 * s), 6 * s * (1 - s) / duration};
   }
   return {};
 }
@@ -63,10 +66,10 @@ BonePose move(const Bone& bone, const LocalMotion& local, const BonePose& parent
   pose.turn = rotation * Eigen::AngleAxisd(local.twist, bone.axis()).toRotationMatrix();
   pose.frame.rotation = pose.turn * bone.rest.rotation;
   pose.frame.origin = parent.frame.origin + offset;
-  pose.velocity = parent.velocity + parent.angular_velocity.cross(offset) +
-                  parent.turn * local.velocity;
-  pose.angular_velocity = parent.angular_velocity + parent.turn * local.angular_velocity +
-                          local.twist_rate * axis;
+  pose.velocity =
+      parent.velocity + parent.angular_velocity.cross(offset) + parent.turn * local.velocity;
+  pose.angular_velocity =
+      parent.angular_velocity + parent.turn * local.angular_velocity + local.twist_rate * axis;
   pose.twist = local.twist;
   return pose;
 }
@@ -90,6 +93,8 @@ Quat rotation_of(const KeySettings& key, const std::string& order, const Place& 
   if (key.euler && (key.axis || key.angle))
     throw bad_input(place, "a key gives its rotation twice", "keep either euler or axis and angle");
   if (key.euler) return from_euler(*key.euler, order);
+  if (key.axis && !key.angle)
+    throw bad_input(place, "an axis without an angle", "give angle: DEGREES");
   if (!key.angle) return Quat::Identity();
   if (!key.axis || key.axis->norm() == 0)
     throw bad_input(place, "an angle without an axis", "give axis: [x, y, z], not all zero");
@@ -109,14 +114,16 @@ std::vector<Key> make_keys(const Settings& settings, std::size_t index) {
   std::vector<Key> keys;
   for (std::size_t i = 0; i < track.keys.size(); ++i) {
     const KeySettings& given = track.keys[i];
-    const Place place = settings.place(path_of(index, i) + ".time");
+    const Place place = settings.place(path_of(index, i));
     if (i > 0 && given.time <= keys.back().time)
-      throw bad_input(place, "keys are not in ascending time", "sort them, each with its own time");
+      throw bad_input(settings.place(path_of(index, i) + ".time"), "keys are not in ascending time",
+                      "sort them, each with its own time");
     keys.push_back({given.time, rotation_of(given, track.order, place), radians(given.twist),
                     given.translation});
   }
   if (keys.empty())
-    throw bad_input(settings.place(path_of(index)), "a track without keys", "give it keys, or remove it");
+    throw bad_input(settings.place(path_of(index)), "a track without keys",
+                    "give it keys, or remove it");
   return keys;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys over time for the bones of a skeleton, and the pose they give at any moment.
 //
-// A bone's rotation turns it, and all that hangs on it, about its head; it is given in the directions
-// of its parent (of the scene for a root), which at rest are the scene's. Twist turns the bone about
-// its own axis before that rotation and is kept apart, so that it may pass 180 degrees.
+// A bone's rotation turns it, and all that hangs on it, about its head; it is given in the
+// directions of its parent (of the scene for a root), which at rest are the scene's. Twist turns
+// the bone about its own axis before that rotation and is kept apart, so that it may pass 180
+// degrees.
 #pragma once
 
 #include <vector>
@@ -44,7 +45,7 @@ struct Motion {
 };
 
 /// Builds the motion a scene describes. Throws bad input, naming the scene's line, for an unknown
-/// bone, two tracks of one bone, keys out of order, or a rotation given in two ways.
+/// bone, two tracks of one bone, keys out of order, or a rotation given in two ways or by half.
 Motion make_motion(const Settings& settings, const Skeleton& skeleton);
 
 /// The pose at `time` (s), with the velocities of the moving bones.

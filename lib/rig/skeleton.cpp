@@ -57,6 +57,9 @@ Bone make_bone(const Settings& settings, std::size_t index, const Skeleton& earl
 }  // namespace
 
 Skeleton make_skeleton(const Settings& settings) {
+  if (settings.bones.empty())
+    throw bad_input(settings.place("skeleton.bones"), "the skeleton has no bones",
+                    "list at least one below skeleton: bones:");
   Skeleton skeleton;
   for (std::size_t i = 0; i < settings.bones.size(); ++i)
     skeleton.bones.push_back(make_bone(settings, i, skeleton));

@@ -31,8 +31,9 @@ struct Skeleton {
   std::size_t size() const { return bones.size(); }
 };
 
-/// Builds the skeleton a scene describes. Throws bad input, naming the scene's line, for a name used
-/// twice, an unknown or later parent, a root without head, or a bone without length.
+/// Builds the skeleton a scene describes. Throws bad input, naming the scene's line, for no
+/// bones, a name used twice, an unknown or later parent, a root without head, or a bone without
+/// length.
 Skeleton make_skeleton(const Settings& settings);
 
 /// A right-handed frame whose first column is `axis` (need not be unit, must not be zero).

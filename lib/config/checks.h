@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What settings ask of each other.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/settings.h"
+
+namespace sinew {
+
+/// Two keys that say the same in two ways: at most one of them is given.
+struct EitherOr {
+  std::string_view first, second;
+  bool needed;  ///< one of them must be given
+};
+
+std::span<const EitherOr> either_or();
+
+/// The other key of a pair, or "".
+std::string_view rival_of(std::string_view path);
+
+/// Throws bad input, naming the scene's line, for two rivals or none of a needed pair, a >= b, and
+/// frames further apart than the run is long.
+void check_together(const Settings& settings);
+
+}  // namespace sinew

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads the keys of one mapping into the value they describe, by the rows of the table of settings.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/values.h"
+#include "config/yaml_tree.h"
+
+namespace sinew {
+
+using Places = std::map<std::string, Place, std::less<>>;
+
+/// The path of a key below `path`: "body" and "mesh" give "body.mesh".
+std::string path_below(const std::string& path, std::string_view key);
+
+/// Throws bad input unless `node` is a mapping (or empty) and each of its keys is `known`; the cure
+/// is the nearest one, or the section to which the key belongs.
+void check_keys(const YamlNode& node, const std::string& path,
+                std::span<const std::string_view> known);
+
+/// The items of the list below `key`. Throws bad input when it is missing, empty or no list.
+/// Records the places of the list and its entries.
+std::span<const YamlNode> list_below(const YamlNode& node, const std::string& path,
+                                     std::string_view key, Places& places);
+
+/// "PATH is missing; add KEY: VALUES"
+Error missing_key(const YamlNode& node, const std::string& path, const Rules& rules);
+
+/// Sets what `rows` describe in `owner`. `own` is the key of a list in the same mapping, or "".
+template <class Owner>
+void read_fields(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
+                 std::string_view own, Owner& owner, Places& places) {
+  std::vector<std::string_view> known;
+  for (const auto& row : rows) known.push_back(row.name);
+  if (!own.empty()) known.push_back(own);
+  check_keys(node, path, known);
+  for (const auto& row : rows) {
+    const std::string below = path_below(path, row.name);
+    const YamlNode* value = node.find(row.name);
+    if (value == nullptr && row.required) throw missing_key(node, below, rules_of(row));
+    if (value == nullptr) continue;
+    row.set(owner, read_value(*value, below, rules_of(row)));
+    places[below] = value->place;
+  }
+}
+
+}  // namespace sinew

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "config/values.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "core/words.h"
+
+namespace sinew {
+namespace {
+
+using Kind = YamlNode::Kind;
+
+/// A value together with all that a message about it says.
+struct Given {
+  const YamlNode& node;
+  const std::string& path;
+  const Rules& rules;
+};
+
+std::string what_stands(const YamlNode& node) {
+  switch (node.kind) {
+    case Kind::empty:
+      return "empty";
+    case Kind::scalar:
+      return shown(node.text);
+    case Kind::list:
+      return "a list";
+    case Kind::map:
+      return "a group of keys";
+  }
+  return "";
+}
+
+Error wrong(const Given& given, const std::string& fault) {
+  return bad_input(given.node.place, given.path + " is " + what_stands(given.node) + fault,
+                   "give " + values_text(given.rules));
+}
+
+/// A number without sign rules of its own: "-1.5e3", ".5". Too large becomes infinite.
+std::optional<double> parse_decimal(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  const auto is_part = [](char c) {
+    return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+  };
+  if (!std::all_of(text.begin(), text.end(), is_part)) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    const bool tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
+    return tiny ? 0 : std::numeric_limits<double>::infinity();
+  }
+  return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+/// .inf, -.INF, .NaN, inf, nan: YAML's words and what people write for them.
+bool is_not_finite(std::string_view text) {
+  std::string word;
+  for (const char c : text)
+    if (c != '.' && c != '+' && c != '-')
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word == "inf" || word == "infinity" || word == "nan";
+}
+
+double read_number(const Given& given) {
+  const YamlNode& node = given.node;
+  const char* kind =
+      given.rules.kind == FieldKind::whole ? ", not a whole number" : ", not a number";
+  if (node.kind == Kind::empty) throw wrong(given, "");
+  if (node.kind != Kind::scalar) throw wrong(given, kind);
+  if (node.quoted) throw wrong(given, " in quotes, a text");
+  const auto value = parse_number(node.text);
+  if (!value) throw wrong(given, kind);
+  if (!std::isfinite(*value)) throw wrong(given, ", not a finite number");
+  return *value;
+}
+
+FieldValue read_bounded(const Given& given) {
+  const double value = read_number(given);
+  const bool whole = given.rules.kind == FieldKind::whole;
+  if (whole && value != std::floor(value)) throw wrong(given, ", not a whole number");
+  const bool fits = !whole || std::abs(value) <= std::numeric_limits<int>::max();
+  if (!fits || !given.rules.range.holds(value)) throw wrong(given, ", out of range");
+  return whole ? FieldValue(static_cast<int>(value)) : FieldValue(value);
+}
+
+FieldValue read_flag(const Given& given) {
+  const YamlNode& node = given.node;
+  const bool is_true = node.text == "true", is_false = node.text == "false";
+  if (node.kind != Kind::scalar || node.quoted || !(is_true || is_false)) throw wrong(given, "");
+  return is_true;
+}
+
+std::string read_word(const Given& given) {
+  const std::string& text = given.node.text;
+  if (given.node.kind == Kind::empty) throw wrong(given, "");
+  if (given.node.kind != Kind::scalar) throw wrong(given, ", not a text");
+  const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
+  if (std::any_of(text.begin(), text.end(), is_control)) throw wrong(given, ", more than one line");
+  if (text.empty() && given.rules.absent.empty()) throw wrong(given, ", empty");
+  return text;
+}
+
+FieldValue read_choice(const Given& given) {
+  const std::string word = read_word(given);
+  const auto& choices = given.rules.choices;
+  if (std::find(choices.begin(), choices.end(), word) == choices.end())
+    throw bad_input(given.node.place, given.path + " is " + shown(word), suggestion(word, choices));
+  return word;
+}
+
+FieldValue read_vector(const Given& given) {
+  const YamlNode& node = given.node;
+  if (node.kind == Kind::empty) throw wrong(given, "");
+  if (node.kind != Kind::list) throw wrong(given, ", not a list of three numbers");
+  if (node.items.size() != 3)
+    throw wrong(given, " of " + std::to_string(node.items.size()) + " values, not of three");
+  const Rules number = {FieldKind::number, given.rules.unit, given.rules.range, {}, {}};
+  Vec3 vector;
+  for (int i = 0; i < 3; ++i) {
+    const std::string path = given.path + '[' + std::to_string(i) + ']';
+    vector[i] =
+        std::get<double>(read_bounded({node.items[static_cast<std::size_t>(i)], path, number}));
+  }
+  return vector;
+}
+
+std::string kind_text(const Rules& rules) {
+  switch (rules.kind) {
+    case FieldKind::number:
+      return "a number";
+    case FieldKind::whole:
+      return "a whole number";
+    case FieldKind::text:
+      return "a text";
+    case FieldKind::path:
+      return "the path of a file";
+    case FieldKind::choice:
+      return "one of " + listed(rules.choices);
+    case FieldKind::flag:
+      return "true or false";
+    case FieldKind::vector:
+      return "[x, y, z]";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string values_text(const Rules& rules) {
+  std::string text = kind_text(rules);
+  if (const std::string range = rules.range.text(); !range.empty()) text += ' ' + range;
+  if (!rules.unit.empty()) text += " (" + std::string(rules.unit) + ')';
+  if (!rules.absent.empty()) text += ", or " + std::string(rules.absent);
+  return text;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (is_not_finite(text)) return std::numeric_limits<double>::quiet_NaN();
+  const auto slash = text.find('/');
+  if (slash == text.npos) return parse_decimal(text);
+  const auto above = parse_decimal(trimmed(text.substr(0, slash)));
+  const auto below = parse_decimal(trimmed(text.substr(slash + 1)));
+  if (!above || !below) return std::nullopt;
+  return *below == 0 ? std::numeric_limits<double>::quiet_NaN() : *above / *below;
+}
+
+FieldValue read_value(const YamlNode& node, const std::string& path, const Rules& rules) {
+  const Given given = {node, path, rules};
+  const bool is_absent = node.kind == Kind::scalar && !node.quoted && node.text == rules.absent;
+  if (is_absent && !rules.absent.empty()) return {};
+  switch (rules.kind) {
+    case FieldKind::number:
+    case FieldKind::whole:
+      return read_bounded(given);
+    case FieldKind::flag:
+      return read_flag(given);
+    case FieldKind::choice:
+      return read_choice(given);
+    case FieldKind::vector:
+      return read_vector(given);
+    case FieldKind::text:
+    case FieldKind::path:
+      break;
+  }
+  return read_word(given);
+}
+
+}  // namespace sinew

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Seconds per stage, for reports.
+#pragma once
+
+#include <chrono>
+#include <utility>
+
+namespace sinew {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last lap, or the start.
+  double lap() {
+    const auto last = std::exchange(last_, Clock::now());
+    return std::chrono::duration<double>(last_ - last).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace sinew

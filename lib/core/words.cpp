@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/words.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t longest_word = 64;   // nobody misspells a longer one
+constexpr std::size_t longest_shown = 40;  // keeps messages on one line of a terminal
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// Letters to insert, leave out, replace or swap with their neighbour to turn `a` into `b`.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = std::exchange(last, row);
+  }
+  return last[b.size()];
+}
+
+/// As distance(), but a part of a name is close to the whole: step, time_step.
+std::size_t strangeness(const std::string& word, const std::string& name) {
+  const bool part = word.size() >= 3 && name.find(word) != std::string::npos;
+  return part ? std::min<std::size_t>(1, distance(word, name)) : distance(word, name);
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (word.size() > longest_word) return "";
+  std::string_view best;
+  std::size_t least = longest_word;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t strange = strangeness(lower_case(word), lower_case(candidate));
+    if (strange < least && strange <= std::max(word.size(), candidate.size()) / 3) {
+      least = strange;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
+  const std::string close = nearest(word, candidates);
+  return close.empty() ? "use one of " + listed(candidates) : "did you mean " + close + "?";
+}
+
+std::string shown(std::string_view text) {
+  std::string out = "'";
+  std::size_t count = 0;
+  for (const char c : text) {
+    const bool begins =
+        (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // not inside a UTF-8 letter
+    if (begins && ++count > longest_shown) return out + "...'";
+    out += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
+  }
+  return out + "'";
+}
+
+std::string listed(std::span<const std::string_view> words) {
+  std::string out;
+  for (const std::string_view word : words) {
+    if (!out.empty()) out += ", ";
+    out += word;
+  }
+  return out;
+}
+
+}  // namespace sinew

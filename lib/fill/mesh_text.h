@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words and numbers of a text, with the lines they stand in.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sinew {
+
+/// The words of a text, one after the other, across its lines.
+class Words {
+ public:
+  explicit Words(std::string_view text, int line = 1) : rest_(text), line_(line) {}
+
+  /// The next word, "" at the end.
+  std::string_view next();
+
+  /// The line of the word that came last.
+  int line() const { return line_; }
+
+ private:
+  std::string_view rest_;
+  int line_;
+};
+
+/// The lines of a text without their ends.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  /// Goes to the next line; false when there is none.
+  bool next();
+
+  std::string_view line() const { return line_; }
+  int number() const { return number_; }  ///< counts from 1
+  std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_, line_;
+  int number_ = 0;
+};
+
+/// The number a word spells, infinite or NaN ones included; nothing if it is no number.
+std::optional<double> number_in(std::string_view word);
+std::optional<std::int64_t> integer_in(std::string_view word);
+
+/// Whether the word spells a finite number.
+bool finite(std::string_view word);
+
+std::string lower(std::string_view text);
+
+}  // namespace sinew

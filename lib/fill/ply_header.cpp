@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fill/ply_header.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/words.h"
+
+#include "fill/mesh_text.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::array<PlyType, 8> types = {{{"char", "int8", 1, false, -128, 127},
+                                           {"uchar", "uint8", 1, false, 0, 255},
+                                           {"short", "int16", 2, false, -32768, 32767},
+                                           {"ushort", "uint16", 2, false, 0, 65535},
+                                           {"int", "int32", 4, false, INT32_MIN, INT32_MAX},
+                                           {"uint", "uint32", 4, false, 0, UINT32_MAX},
+                                           {"float", "float32", 4, true, 0, 0},
+                                           {"double", "float64", 8, true, 0, 0}}};
+constexpr std::array<std::string_view, 3> encodings = {"ascii", "binary_little_endian",
+                                                       "binary_big_endian"};
+
+const PlyType* type_of(std::string_view word) {
+  for (const PlyType& type : types)
+    if (word == type.name || word == type.other) return &type;
+  return nullptr;
+}
+
+class HeaderReader {
+ public:
+  explicit HeaderReader(const MeshFile& file) : file_(file), lines_(file.content) {}
+
+  PlyHeader header() {
+    if (!lines_.next() || Words(lines_.line()).next() != "ply")
+      throw broken("the first line is not 'ply'");
+    bool encoded = false;
+    while (lines_.next()) {
+      Words words(lines_.line());
+      const std::string_view keyword = words.next();
+      if (keyword == "end_header") {
+        if (!encoded) throw broken("the header names no format");
+        header_.size = file_.content.size() - lines_.rest().size();
+        header_.lines = lines_.number();
+        return header_;
+      }
+      if (keyword == "format")
+        encoded = true, format(words.next());
+      else if (keyword == "element")
+        element(words);
+      else if (keyword == "property")
+        property(words);
+      else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty())
+        throw broken("a header has no keyword " + shown(keyword));
+    }
+    throw broken("the header has no end");
+  }
+
+ private:
+  Error broken(const std::string& what) const {
+    return file_.broken(lines_.number(), what, "export the mesh again as PLY");
+  }
+
+  void format(std::string_view word) {
+    const auto* found = std::find(encodings.begin(), encodings.end(), word);
+    if (found == encodings.end()) throw broken("unknown format " + shown(word));
+    header_.encoding = static_cast<PlyEncoding>(found - encodings.begin());
+  }
+
+  void element(Words& words) {
+    const std::string name(words.next());
+    const std::string_view word = words.next();
+    const auto count = integer_in(word);
+    if (!count || *count < 0 || *count > INT32_MAX)
+      throw broken("the number of elements " + shown(word) + " is not between 0 and 2147483647");
+    header_.elements.push_back({name, *count, {}});
+  }
+
+  void property(Words& words) {
+    if (header_.elements.empty()) throw broken("a property stands before any element");
+    std::string_view word = words.next();
+    PlyProperty property;
+    if (word == "list") {
+      property.count = type_of(words.next());
+      if (!property.count || property.count->real)
+        throw broken("a list's length must be an integer");
+      word = words.next();
+    }
+    property.type = type_of(word);
+    if (!property.type) throw broken("unknown type " + shown(word));
+    property.name = words.next();
+    if (property.name.empty()) throw broken("the property has no name");
+    header_.elements.back().properties.push_back(property);
+  }
+
+  const MeshFile& file_;
+  Lines lines_;
+  PlyHeader header_;
+};
+
+void refuse_vertices(const MeshFile& file, const PlyElement& vertices) {
+  for (const char* axis : {"x", "y", "z"}) {
+    const PlyProperty* property = vertices.find(axis);
+    if (!property || property->count || !property->type->real)
+      throw file.broken(0, std::string("the vertices have no ") + axis + " of type float or double",
+                        "export the mesh again as PLY");
+  }
+}
+
+void refuse_faces(const MeshFile& file, const PlyElement& faces) {
+  const PlyProperty* property = faces.find("vertex_indices");
+  if (!property) property = faces.find("vertex_index");
+  if (!property || !property->count)
+    throw file.broken(0, "the faces have no list vertex_indices", "export the mesh again as PLY");
+  if (property->type->real || property->type->bytes != 4)
+    throw file.broken(0,
+                      "the faces' vertex_indices are of type " + std::string(property->type->name),
+                      "export them as int or uint");
+}
+
+void refuse(const MeshFile& file, const PlyHeader& header) {
+  std::int64_t vertices = 0, faces = 0;
+  for (const PlyElement& element : header.elements) {
+    if (element.properties.empty() && element.count > 0)
+      throw file.broken(0, "the element " + shown(element.name) + " has no properties",
+                        "export the mesh again as PLY");
+    if (element.name == "tristrips")
+      throw file.broken(0, "triangle strips cannot be read", "export the mesh as single triangles");
+    if (element.vertices()) vertices += element.count, refuse_vertices(file, element);
+    if (element.faces()) faces += element.count, refuse_faces(file, element);
+  }
+  if (vertices == 0 || faces == 0)
+    throw file.broken(0, vertices ? "there are no faces, only points" : "there are no vertices",
+                      "export the mesh with its faces");
+}
+
+}  // namespace
+
+const PlyProperty* PlyElement::find(std::string_view property) const {
+  for (const PlyProperty& candidate : properties)
+    if (candidate.name == property) return &candidate;
+  return nullptr;
+}
+
+std::string PlyHeader::text() const {
+  std::string text = "ply\nformat ";
+  text.append(encodings[static_cast<std::size_t>(encoding)]) += " 1.0\n";
+  for (const PlyElement& element : elements) {
+    text += "element " + element.name + ' ' + std::to_string(element.count) + '\n';
+    for (const auto& [name, type, count] : element.properties) {
+      text += "property ";
+      if (count) (text += "list ").append(count->name) += ' ';
+      text.append(type->name) += ' ' + name + '\n';
+    }
+  }
+  return text + "end_header\n";
+}
+
+PlyHeader ply_header(const MeshFile& file) {
+  const PlyHeader header = HeaderReader(file).header();
+  refuse(file, header);
+  return header;
+}
+
+}  // namespace sinew

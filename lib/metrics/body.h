@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The body at rest: what every frame of a run is compared with, and all that can be worked out
+// once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/deformation.h"
+#include "core/rigid.h"
+#include "core/triangles.h"
+#include "core/vector.h"
+#include "metrics/frame.h"
+#include "metrics/slices.h"
+
+namespace sinew {
+
+/// What is known of a run before its first frame. Particles are in the written order.
+struct RestInput {
+  Points positions;       ///< of the n particles at rest, m
+  Triangles surface;      ///< the body's skin at rest, closed, outside out
+  std::vector<int> bone;  ///< n; the bone each particle follows (most), -1 for none
+  std::vector<MeasuredBone> bones;
+  double radius = 0;             ///< of a particle, r, m
+  double interaction_range = 0;  ///< b, m: pairs farther apart than this do not feel each other
+  Energies start;                ///< of the first frame: where the balance of energies begins
+};
+
+/// A particle that follows a bone: its point of attachment at rest, and whether a joint is near.
+struct Bound {
+  std::uint32_t particle = 0;
+  int bone = 0;
+  Vec3 foot = Vec3::Zero();  ///< the nearest point of the bone's segment at rest, m
+  double distance = 0;       ///< from it, l0, m
+  bool far = true;           ///< the foot lies outside every joint zone
+};
+
+struct RestBody {
+  RestShape shape;  ///< neighbours: pairs closer than 2.2 r
+  Triangles surface;
+  double volume = 0;  ///< enclosed by the surface, m^3
+  std::vector<MeasuredBone> bones;
+  std::vector<Bound> bound;
+  Slices slices;
+  double radius = 0, interaction_range = 0;  ///< m
+  Energies start;
+
+  std::size_t particles() const { return shape.points.size(); }
+  double rest_pairs() const { return static_cast<double>(shape.neighbours.partner.size()) / 2; }
+};
+
+/// Checks the input and works out the rest. Throws bad input for sizes that do not fit, indices out
+/// of range, numbers that are not finite, or a surface that encloses nothing.
+/// A joint zone reaches half a width of the body, sqrt(A_B) / 2, along the bones from each joint;
+/// A_B is the volume bound to a bone over its length, the larger of the two that meet counts.
+RestBody rest_body(RestInput input);
+
+/// Whether every coordinate is a number.
+bool all_finite(const Points& points);
+
+}  // namespace sinew

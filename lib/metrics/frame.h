@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One frame of a run: what is measured, and what comes out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/energies.h"
+#include "core/rigid.h"
+#include "core/vector.h"
+#include "metrics/statistics.h"
+
+namespace sinew {
+
+/// A bone of the skeleton at rest.
+struct MeasuredBone {
+  std::string name;
+  int parent = -1;    ///< index of an earlier bone, -1 for a root
+  double length = 0;  ///< m, > 0
+  RigidFrame rest;    ///< origin: the head, m; first column: the axis towards the tail
+
+  Vec3 axis() const { return rest.rotation.col(0); }
+};
+
+/// The state of a run at one time. Particles are in the written order.
+struct FrameState {
+  double time = 0;                ///< s
+  Points positions, velocities;   ///< n x 3, m and m/s
+  Points surface_points;          ///< in the order of the surface at rest, m
+  std::vector<RigidFrame> bones;  ///< where each bone is
+  Energies energies;
+};
+
+/// What is measured of one frame: units, meaning and formula of each stand in table.cpp.
+struct FrameMetrics {
+  double time = not_measured;
+  double bone_angle = not_measured, bone_shift = not_measured;
+  double volume = not_measured, volume_ratio = not_measured, volume_error = not_measured;
+  double displacement_max = not_measured, displacement_rms = not_measured;
+  double speed_max = not_measured;
+  double kinetic_energy = not_measured, pair_energy = not_measured, bone_energy = not_measured;
+  double gravity_energy = not_measured, work_of_bones = not_measured, dissipation = not_measured;
+  double energy_residual = not_measured;
+  double adherence_rms = not_measured, adherence_max = not_measured;
+  double pose_error_rms = not_measured, pose_error_max = not_measured;
+  double pose_error_far_rms = not_measured;
+  double broken_neighbours = not_measured, new_neighbours = not_measured;
+  double inverted = not_measured, J_min = not_measured, J_mean = not_measured;
+  double tip_angle = not_measured, twist_jump_max = not_measured;
+};
+
+}  // namespace sinew

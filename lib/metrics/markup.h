@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pieces of HTML: everything a user wrote is escaped before it becomes part of a page.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace sinew {
+
+/// Text for an element or a quoted attribute: & < > " ' escaped, control characters left out.
+std::string escaped(std::string_view text);
+
+/// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded, leading
+/// slashes go, so that it can neither leave the attribute nor name another scheme or host.
+std::string link_to(std::string_view path);
+
+/// <tag>content</tag>; the content is markup already. `attributes`: markup as well, or empty.
+std::string element(std::string_view tag, const std::string& content,
+                    std::string_view attributes = {});
+
+/// A number for reading: four significant digits, a dash for not-a-number.
+std::string readable(double value);
+
+/// The same with a fixed number of decimals.
+std::string fixed(double value, int decimals);
+
+}  // namespace sinew

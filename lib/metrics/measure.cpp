@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/measure.h"
+
+#include <cmath>
+
+#include "core/cell_grid.h"
+#include "core/closest_packing.h"
+#include "core/error.h"
+#include "core/settings_table.h"
+
+namespace sinew {
+namespace {
+
+void check(const RestBody& rest, const FrameState& state) {
+  const auto require = [&](bool holds, const std::string& what) {
+    if (!holds)
+      throw bad_input("the frame at " + number_text(state.time) + " s " + what,
+                      "measure the frames of one run only");
+  };
+  const std::size_t n = rest.particles();
+  require(state.positions.size() == n && state.velocities.size() == n,
+          "has " + std::to_string(state.positions.size()) + " particles and the body " +
+              std::to_string(n));
+  require(state.surface_points.size() == rest.surface.points.size(),
+          "has a surface of " + std::to_string(state.surface_points.size()) +
+              " points and the body " + std::to_string(rest.surface.points.size()));
+  require(state.bones.size() == rest.bones.size(), "has " + std::to_string(state.bones.size()) +
+                                                       " bones and the body " +
+                                                       std::to_string(rest.bones.size()));
+  bool finite = std::isfinite(state.time) && all_finite(state.positions) &&
+                all_finite(state.velocities) && all_finite(state.surface_points);
+  for (const RigidFrame& bone : state.bones)
+    finite = finite && bone.origin.allFinite() && bone.rotation.allFinite();
+  require(finite, "holds a number that is not finite");
+}
+
+void add_pose(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  if (rest.bones.empty()) return;
+  std::vector<RigidFrame> frames;
+  for (const MeasuredBone& bone : rest.bones) frames.push_back(bone.rest);
+  const PoseChange change = pose_change(frames, state.bones);
+  out.bone_angle = degrees(change.turn);
+  out.bone_shift = change.shift;
+}
+
+void add_volume(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  out.volume = volume(Triangles{state.surface_points, rest.surface.faces});
+  out.volume_ratio = out.volume / rest.volume;
+  out.volume_error = std::abs(out.volume_ratio - 1);
+}
+
+void add_motion(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  const Statistics moved = statistics(rest.particles(), [&](std::size_t i) {
+    return (state.positions[i] - rest.shape.points[i]).norm();
+  });
+  out.displacement_max = moved.max();
+  out.displacement_rms = moved.rms();
+  out.speed_max =
+      statistics(rest.particles(), [&](std::size_t i) { return state.velocities[i].norm(); }).max();
+}
+
+void add_energies(FrameMetrics& out, const Energies& start, const Energies& now) {
+  out.kinetic_energy = now.kinetic;
+  out.pair_energy = now.pair;
+  out.bone_energy = now.bone;
+  out.gravity_energy = now.gravity;
+  out.work_of_bones = now.work_of_bones;
+  out.dissipation = now.dissipation;
+  out.energy_residual = (now.stored() - start.stored()) -
+                        (now.work_of_bones - start.work_of_bones) +
+                        (now.dissipation - start.dissipation);
+}
+
+void add_adherence(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  const Statistics slip = statistics(rest.bound.size(), [&](std::size_t k) {
+    const Bound& bound = rest.bound[k];
+    const Vec3 foot = carried(bound.foot, rest.bones[bound.bone].rest, state.bones[bound.bone]);
+    return std::abs((state.positions[bound.particle] - foot).norm() - bound.distance);
+  });
+  out.adherence_rms = slip.rms();
+  out.adherence_max = slip.max();
+}
+
+void add_pose_error(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  std::vector<double> errors(rest.bound.size());
+  const Statistics all = statistics(rest.bound.size(), [&](std::size_t k) {
+    const Bound& bound = rest.bound[k];
+    const Vec3 target = carried(rest.shape.points[bound.particle], rest.bones[bound.bone].rest,
+                                state.bones[bound.bone]);
+    return errors[k] = (state.positions[bound.particle] - target).norm();
+  });
+  Statistics far;
+  for (std::size_t k = 0; k < errors.size(); ++k)
+    if (rest.bound[k].far) far.add(errors[k]);
+  out.pose_error_rms = all.rms();
+  out.pose_error_max = all.max();
+  out.pose_error_far_rms = far.rms();
+}
+
+/// Pairs for which count(i) holds partners of i, from both sides.
+template <class Count>
+double pairs(std::size_t particles, const Count& count) {
+  return statistics(particles, count).sum / 2;
+}
+
+void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  if (rest.rest_pairs() == 0) return;
+  const Points& now = state.positions;
+  const auto rest_pairs_within = [&](double range) {
+    return pairs(now.size(), [&](std::size_t i) {
+      double count = 0;
+      for (const auto j : rest.shape.neighbours.of(i))
+        count += (now[j] - now[i]).squaredNorm() < range * range;
+      return count;
+    });
+  };
+  const double near = rest_neighbour_range(rest.radius);
+  const CellGrid grid(now, near);
+  const double all_near = pairs(now.size(), [&](std::size_t i) {
+    double count = -1;  // the grid offers i itself too
+    grid.for_each_near(
+        now[i], [&](std::uint32_t j) { count += (now[j] - now[i]).squaredNorm() < near * near; });
+    return count;
+  });
+  const double total = rest.rest_pairs();
+  out.broken_neighbours = (total - rest_pairs_within(rest.interaction_range)) / total;
+  out.new_neighbours = (all_near - rest_pairs_within(near)) / total;
+}
+
+void add_gradients(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  std::vector<double> J(rest.particles());
+  parallel_for(J.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      J[i] = deformation_gradient(rest.shape, state.positions, i).determinant();
+  });
+  Statistics defined;
+  double inverted = 0;
+  for (std::size_t i = 0; i < J.size(); ++i) {
+    if (!rest.shape.defined(i)) continue;
+    defined.add(J[i]);
+    inverted += J[i] <= 0;
+  }
+  if (defined.count > 0) out.inverted = inverted;
+  out.J_min = defined.min();
+  out.J_mean = defined.mean();
+}
+
+}  // namespace
+
+PoseChange pose_change(std::span<const RigidFrame> from, std::span<const RigidFrame> to) {
+  PoseChange change;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Mat3 turn = to[i].rotation * from[i].rotation.transpose();
+    change.turn = std::max(change.turn, Eigen::AngleAxisd(Quat(turn)).angle());
+    change.shift = std::max(change.shift, (to[i].origin - from[i].origin).norm());
+  }
+  return change;
+}
+
+FrameMetrics measure(const RestBody& rest, const FrameState& state) {
+  check(rest, state);
+  FrameMetrics out;
+  out.time = state.time;
+  add_pose(out, rest, state);
+  add_volume(out, rest, state);
+  add_motion(out, rest, state);
+  add_energies(out, rest.start, state.energies);
+  add_adherence(out, rest, state);
+  add_pose_error(out, rest, state);
+  add_neighbours(out, rest, state);
+  add_gradients(out, rest, state);
+  out.tip_angle = degrees(tip_turn(rest.slices, rest.shape.points, state.positions));
+  out.twist_jump_max = degrees(largest_twist_jump(rest.slices, rest.shape.points, state.positions));
+  return out;
+}
+
+}  // namespace sinew

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measures one frame against the body at rest. What each number means stands in table.cpp.
+#pragma once
+
+#include <span>
+
+#include "metrics/body.h"
+#include "metrics/frame.h"
+
+namespace sinew {
+
+/// All metrics of a frame, in parallel, the same bits for any number of threads. Frames are
+/// measured each by itself, in any order. What has nothing to be measured on (a bone's metrics
+/// without bones) is not-a-number. Throws bad input for a frame of another body or with a number
+/// that is not finite.
+FrameMetrics measure(const RestBody& rest, const FrameState& state);
+
+/// The largest turn (rad) and shift of a head (m) of any bone from one pose to another.
+struct PoseChange {
+  double turn = 0, shift = 0;
+};
+PoseChange pose_change(std::span<const RigidFrame> from, std::span<const RigidFrame> to);
+
+}  // namespace sinew

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// report.html: one page that tells what was run and what became of it. It needs no network and
+// nothing beside it but the pictures it links.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "metrics/frame.h"
+#include "metrics/limits.h"
+#include "metrics/summary.h"
+
+namespace sinew {
+
+struct Fact {
+  std::string name, value;
+};
+
+/// A list of facts under a heading: "Run" (particles, steps, ...), "Material", ...
+struct FactGroup {
+  std::string title;
+  std::vector<Fact> facts;
+};
+
+struct Picture {
+  std::string path;  ///< relative to the report: pictures/bent.png
+  std::string caption;
+};
+
+/// Texts are plain; the page escapes them.
+struct ReportInput {
+  std::string title;    ///< the scene's name
+  std::string version;  ///< of sinew
+  double radius = 0;    ///< of a particle, m
+  std::vector<FactGroup> facts;
+  std::vector<FrameMetrics> frames;  ///< one at least
+  Summary summary;                   ///< of these frames
+  std::vector<Check> checks;
+  std::vector<Picture> pictures;
+  std::string movie;       ///< relative to the report, or empty
+  std::string scene_text;  ///< the resolved scene
+};
+
+/// The whole page, UTF-8.
+std::string report_html(const ReportInput& input);
+
+}  // namespace sinew

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which metrics the report draws together, and in which unit.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "metrics/chart.h"
+#include "metrics/frame.h"
+
+namespace sinew {
+
+enum class Shown { as_is, in_radii, in_percent, since_start };
+
+struct ChartPlan {
+  std::string_view title, note, unit;
+  std::vector<std::string_view> metrics;  ///< names in metrics_table(), at most six
+  Shown shown = Shown::as_is;
+  std::vector<double> baselines = {0};
+};
+
+/// The report's charts, the most telling first.
+std::span<const ChartPlan> chart_plans();
+
+/// A chart filled with the frames' numbers; radius in m.
+Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames, double radius);
+
+}  // namespace sinew

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The report's tables: every metric with its numbers, meaning and formula, and the limits.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "metrics/frame.h"
+#include "metrics/limits.h"
+#include "metrics/summary.h"
+
+namespace sinew {
+
+/// Headings and tables; `summary` is that of `frames`.
+std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& summary);
+
+/// Heading and table; empty without checks.
+std::string checks_table(std::span<const Check> checks);
+
+}  // namespace sinew

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "metrics/table.h"
+
+namespace sinew {
+namespace {
+
+constexpr double same_turn = 0.1;    // degrees up to which a bone counts as back at rest
+constexpr double same_shift = 1e-3;  // radii, likewise for its head
+
+/// How bad a value is: larger is worse.
+double badness(const Metric& metric, double value) {
+  if (metric.worse == Worse::smaller) return -value;
+  return metric.worse == Worse::magnitude ? std::abs(value) : value;
+}
+
+MetricSummary summary_of(const Metric& metric, std::span<const FrameMetrics> frames) {
+  Statistics values;
+  MetricSummary out;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const double value = frames[i].*metric.value;
+    if (std::isnan(value)) continue;
+    values.add(value);
+    if (!out.worst_frame ||
+        badness(metric, value) > badness(metric, frames[*out.worst_frame].*metric.value))
+      out.worst_frame = i;
+  }
+  out.min = values.min();
+  out.max = values.max();
+  out.mean = values.mean();
+  out.final = frames.back().*metric.value;
+  return out;
+}
+
+bool at_rest(const FrameMetrics& frame, double radius) {
+  return frame.bone_angle < same_turn && frame.bone_shift < same_shift * radius;
+}
+
+double residual_after_return(std::span<const FrameMetrics> frames, double radius) {
+  const bool left = std::any_of(frames.begin(), frames.end(), [&](const FrameMetrics& frame) {
+    return !std::isnan(frame.bone_angle) && !at_rest(frame, radius);
+  });
+  return left && at_rest(frames.back(), radius) ? frames.back().displacement_rms : not_measured;
+}
+
+}  // namespace
+
+Summary summarize(std::span<const FrameMetrics> frames, double radius, std::vector<Hold> holds) {
+  if (frames.empty())
+    throw bad_input("the run has no frames to measure", "let it write one frame at least");
+  Summary summary;
+  summary.frames = frames.size();
+  for (const Metric& metric : metrics_table())
+    summary.metrics.push_back(summary_of(metric, frames));
+  summary.residual_rms = residual_after_return(frames, radius);
+  Statistics settled;
+  for (const Hold& hold : holds)
+    if (!std::isnan(hold.settled)) settled.add(hold.settled);
+  summary.settling_time = settled.max();
+  summary.holds = std::move(holds);
+  return summary;
+}
+
+}  // namespace sinew

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parallel.h"
+#include "physics/forces.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t particles_per_piece = 512;
+
+HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
+  return {body.rest[particles.id[i]], particles.position(i), particles.velocity(i),
+          particles.radius};
+}
+
+/// Calls visit(bone, pull) for every bone that holds particle i.
+template <class Visit>
+void for_each_pull(const Particles& particles, const Body& body, const Pose& pose, std::size_t i,
+                   Visit&& visit) {
+  const HeldParticle particle = held(particles, body, i);
+  for (const Influence& influence : body.binding.of(particles.id[i])) {
+    const int b = influence.bone;
+    visit(b, bone_pull(body.springs[b], influence, body.skeleton.bones[b], pose[b], particle));
+  }
+}
+
+}  // namespace
+
+void bone_forces(const Particles& particles, const Body& body, const Pose& pose, Forces& forces) {
+  const std::size_t n = particles.size();
+  for (auto* vectors : {&forces.bone, &forces.bone_damping}) vectors->assign(n, Vec3::Zero());
+  for (auto* powers : {&forces.bone_power, &forces.bone_damping_power}) powers->assign(n, 0.0);
+  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_pull(particles, body, pose, i, [&](int, const BonePull& pull) {
+        forces.bone[i] += pull.force();
+        forces.bone_damping[i] += pull.damping;
+        forces.bone_power[i] += pull.power;
+        forces.bone_damping_power[i] += pull.damping_power;
+      });
+  });
+}
+
+std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose) {
+  std::vector<Reaction> on(pose.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for_each_pull(particles, body, pose, i, [&](int b, const BonePull& pull) {
+      on[b].force -= pull.force();
+      on[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(pull.force());
+    });
+  return on;
+}
+
+double bone_energy(const Particles& particles, const Body& body, const Pose& pose) {
+  return parallel_sum(particles.size(), particles_per_piece,
+                      [&](std::size_t begin, std::size_t end) {
+                        double sum = 0;
+                        for (std::size_t i = begin; i < end; ++i)
+                          for_each_pull(particles, body, pose, i,
+                                        [&](int, const BonePull& pull) { sum += pull.energy; });
+                        return sum;
+                      });
+}
+
+}  // namespace sinew

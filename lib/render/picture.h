@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws a shot. Needs an X display (display.h).
+#pragma once
+
+#include "render/shading.h"
+#include "render/stage.h"
+
+namespace sinew {
+
+enum class View {
+  surface,    ///< the skin, the bones shining through
+  particles,  ///< spheres of their true size in the colours of their values
+  both,       ///< the particles within the net of the skin, the bones shining through
+};
+
+struct PictureOptions {
+  View view = View::both;
+  Camera camera;
+  int width = 960, height = 720;  ///< pixels
+  int margin = 24;                ///< pixels around the camera's frame, at least
+  Finish finish = Finish::fine;
+};
+
+/// Keeps what all pictures of a run share: the stage, the skin's edges, the meaning of the colours.
+class Painter {
+ public:
+  /// `rest` is the surface at rest; the shots have its faces. Throws as Stage does.
+  Painter(const Triangles& rest, ColourScale scale);
+
+  const ColourScale& scale() const { return scale_; }
+
+  /// Throws bad input for a shot that does not fit the rest surface or has not one value per
+  /// particle (or none), and for a size outside 16 .. 8192.
+  Image draw(const Shot& shot, const PictureOptions& options);
+
+ private:
+  Shading skin_;
+  ColourScale scale_;
+  Stage stage_;
+};
+
+}  // namespace sinew

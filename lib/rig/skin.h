@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface follows the particles: each vertex X is carried by the affine motions of the
+// particles near it, x = sum_j w_j (x_j + F_j (X - X_j)), with w_j = (1 - (s / h)^2)^3 normalised,
+// s = |X - X_j|. Exact for affine motion of the body.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/deformation.h"
+#include "core/vector.h"
+
+namespace sinew {
+
+struct Skin {
+  Points rest;                          ///< vertices at rest, n x 3, m
+  std::vector<std::uint32_t> first;     ///< n + 1 long; vertex i has [first[i], first[i + 1])
+  std::vector<std::uint32_t> particle;  ///< indices into the body's rest points
+  std::vector<double> weight;           ///< sums to 1 for each vertex
+};
+
+/// Ties vertices (n x 3, m) to the particles of `body` (of radius `radius`, m) within
+/// h = max(6 radius, 1.05 times the distance of the 20th particle).
+Skin make_skin(const Points& vertices, const RestShape& body, double radius);
+
+/// The vertices when the particles are at `now` (m, in the order of body.points). In parallel.
+Points follow(const Skin& skin, const RestShape& body, const Points& now);
+
+}  // namespace sinew

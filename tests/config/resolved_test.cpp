@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "config/resolved.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "config/checks.h"
+#include "config/scene.h"
+#include "config/small_scene.h"
+#include "config/temp_folder.h"
+#include "core/settings_table.h"
+
+namespace sinew {
+namespace {
+
+const std::vector<std::string> texts = {
+    "lower", "upper arm", "true",  "null", "~",     "none",   "auto", "12", "1/30", "#1",
+    "a: b",  "it's",      "\"",    "\\",   "- x",   "[x]",    "{x",   "*a", "&a",   "!t",
+    "%",     "@",         " lead", "é",    "a # b", "trail ", "? x",  "<<", "0x1F", "骨"};
+
+/// Settings that the table allows, drawn at random.
+class Chance {
+ public:
+  explicit Chance(unsigned seed) : random_(seed) {}
+
+  int below(int limit) { return std::uniform_int_distribution<int>(0, limit - 1)(random_); }
+
+  double number(const Range& range) {
+    const double low = std::isfinite(range.low) ? range.low : -1e3;
+    const double high = std::isfinite(range.high) ? range.high : 1e3;
+    return high - (high - low) * std::uniform_real_distribution<double>(0, 1)(random_);
+  }
+
+  template <class Owner>
+  FieldValue value(const Field<Owner>& row) {
+    if (!row.absent.empty() && below(2) == 0) return {};
+    switch (row.kind) {
+      case FieldKind::number:
+        return number(row.range);
+      case FieldKind::whole:
+        return 1 + below(100'000);
+      case FieldKind::flag:
+        return below(2) == 0;
+      case FieldKind::choice:
+        return std::string(row.choices[index(row.choices)]);
+      case FieldKind::vector:
+        return Vec3(number({}), -0.0, number({}) * 1e-20);
+      case FieldKind::path:
+        return "../" + texts[index(texts)] + ".obj";
+      case FieldKind::text:
+        break;
+    }
+    return texts[index(texts)];
+  }
+
+  template <class Owner>
+  Owner owner(std::span<const Field<Owner>> rows) {
+    Owner drawn;
+    for (const auto& row : rows) row.set(drawn, value(row));
+    return drawn;
+  }
+
+  Settings settings() {
+    Settings drawn = owner(settings_table());
+    keep_the_peace(drawn);
+    for (int i = 0; i <= below(3); ++i) drawn.bones.push_back(owner(bone_fields()));
+    for (int i = 0; i < below(3); ++i) {
+      drawn.tracks.push_back(owner(track_fields()));
+      for (int k = 0; k <= below(3); ++k) drawn.tracks.back().keys.push_back(owner(key_fields()));
+    }
+    return drawn;
+  }
+
+ private:
+  template <class List>
+  std::size_t index(const List& list) {
+    return static_cast<std::size_t>(below(static_cast<int>(list.size())));
+  }
+
+  /// What the settings ask of each other.
+  void keep_the_peace(Settings& drawn) {
+    if (below(2) == 0)
+      drawn.body = {drawn.body.mesh, 0.01, {}, drawn.body.packing};
+    else
+      drawn.body = {drawn.body.mesh, {}, 1000, drawn.body.packing};
+    if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
+    if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
+    drawn.material.a = 2;
+    drawn.output.interval = std::min(drawn.output.interval, drawn.solver.duration);
+  }
+
+  std::mt19937 random_;
+};
+
+template <class Owner>
+void expect_same(std::span<const Field<Owner>> rows, const Owner& one, const Owner& other) {
+  for (const auto& row : rows)
+    EXPECT_TRUE(row.get(one) == row.get(other))
+        << row.name << ": " << scene_text(row.get(one), row.absent) << " came back as "
+        << scene_text(row.get(other), row.absent);
+}
+
+void expect_same(const Settings& one, const Settings& other) {
+  expect_same(settings_table(), one, other);
+  ASSERT_EQ(one.bones.size(), other.bones.size());
+  for (std::size_t i = 0; i < one.bones.size(); ++i)
+    expect_same(bone_fields(), one.bones[i], other.bones[i]);
+  ASSERT_EQ(one.tracks.size(), other.tracks.size());
+  for (std::size_t i = 0; i < one.tracks.size(); ++i) {
+    expect_same(track_fields(), one.tracks[i], other.tracks[i]);
+    ASSERT_EQ(one.tracks[i].keys.size(), other.tracks[i].keys.size());
+    for (std::size_t k = 0; k < one.tracks[i].keys.size(); ++k)
+      expect_same(key_fields(), one.tracks[i].keys[k], other.tracks[i].keys[k]);
+  }
+}
+
+TEST(ResolvedScene, ReadsBackAsTheSameSettings) {
+  const TempFolder folder;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const Settings settings = Chance(seed).settings();
+    const std::string text = resolved_scene(settings, folder.path());
+    expect_same(settings, read_scene(folder.write("scene.yaml", text)));
+    if (testing::Test::HasFailure()) FAIL() << "seed " << seed << "\n" << text;
+  }
+}
+
+TEST(ResolvedScene, IsTheSameWhenResolvedAgain) {
+  const TempFolder folder;
+  const auto scene = folder.write("a.yaml", small_scene);
+  const std::string once = resolved_scene(read_scene(scene), folder.path());
+  const auto again = folder.write("b.yaml", once);
+  EXPECT_EQ(resolved_scene(read_scene(again), folder.path()), once);
+}
+
+TEST(ResolvedScene, FindsTheMeshFromItsOwnFolder) {
+  const TempFolder folder;
+  folder.write("box.obj", "o box\n");
+  const Settings settings = read_scene(folder.write("scene.yaml", small_scene));
+  const auto resolved =
+      folder.write("out/run/scene.yaml", resolved_scene(settings, folder.path() / "out/run"));
+  EXPECT_TRUE(std::filesystem::exists(read_scene(resolved).body.mesh));
+  EXPECT_NE(resolved_scene(settings, folder.path() / "out/run").find("mesh: ../../box.obj"),
+            std::string::npos);
+}
+
+TEST(ResolvedScene, NamesEveryKeyOfTheTable) {
+  const TempFolder folder;
+  const Settings settings = read_scene(folder.write("scene.yaml", small_scene));
+  const std::string text = resolved_scene(settings, folder.path());
+  for (const auto& row : settings_table())
+    EXPECT_NE(text.find("\n  " + std::string(row.name) + ": "), text.npos) << row.name;
+}
+
+TEST(ResolvedScene, LeavesOutWhatItsRivalReplaces) {
+  const TempFolder folder;
+  const auto scene = folder.write("scene.yaml", small_scene + "material:\n  k1: 1000\n");
+  const std::string text = resolved_scene(read_scene(scene), folder.path());
+  EXPECT_NE(text.find("  k1: 1000"), text.npos);
+  EXPECT_EQ(text.find("  young_modulus: "), text.npos);
+}
+
+TEST(SettingsTable, DefaultsAreAllowed) {
+  for (const auto& row : settings_table()) {
+    const FieldValue value = row.get(Settings());
+    const auto* number = std::get_if<double>(&value);
+    EXPECT_TRUE(number == nullptr || row.range.holds(*number)) << row.name;
+    EXPECT_FALSE(row.help.empty()) << row.name;
+    EXPECT_EQ(row.help.find('\n'), row.help.npos) << row.name;
+  }
+}
+
+TEST(SettingsTable, RivalsAreInIt) {
+  for (const EitherOr& pair : either_or())
+    for (const std::string_view path : {pair.first, pair.second})
+      EXPECT_EQ(std::count_if(settings_table().begin(), settings_table().end(),
+                              [&](const auto& row) {
+                                return std::string(row.section) + '.' + std::string(row.name) ==
+                                       path;
+                              }),
+                1)
+          << path;
+}
+
+}  // namespace
+}  // namespace sinew

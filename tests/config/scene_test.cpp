@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "config/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "config/small_scene.h"
+#include "config/temp_folder.h"
+#include "rig/motion.h"
+
+namespace sinew {
+namespace {
+
+struct SceneTest : testing::Test {
+  Settings read(const std::string& text, const std::vector<std::string>& sets = {}) {
+    std::vector<Override> overrides;
+    for (const std::string& set : sets) overrides.push_back(parse_override(set));
+    return read_scene(folder.write("scene.yaml", text), overrides);
+  }
+
+  std::string message(const std::string& text, const std::vector<std::string>& sets = {}) {
+    try {
+      read(text, sets);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  TempFolder folder;
+};
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != text.npos;
+}
+
+TEST_F(SceneTest, WhatIsNotGivenHasItsDefault) {
+  const Settings settings = read(small_scene);
+  EXPECT_EQ(settings.body.radius, 0.01);
+  EXPECT_FALSE(settings.body.count);
+  EXPECT_EQ(settings.body.packing, Packing::fcc);
+  EXPECT_EQ(settings.material.young_modulus, MaterialSettings().young_modulus);
+  EXPECT_EQ(settings.solver.duration, SolverSettings().duration);
+  EXPECT_TRUE(settings.tracks.empty());
+  ASSERT_EQ(settings.bones.size(), 1u);
+  EXPECT_EQ(settings.bones[0].tail, Vec3(0, 0, 1));
+}
+
+TEST_F(SceneTest, EveryKindOfValueIsRead) {
+  const Settings settings = read(small_scene +
+                                 "    - name: \"upper # 2\"\n"
+                                 "      parent: lower\n"
+                                 "      tail: [0, -1.5e-1, +2]\n"
+                                 "solver:\n"
+                                 "  integrator: velocity_verlet\n"
+                                 "  time_step: auto\n"
+                                 "  gravity:\n"
+                                 "    - 0\n"
+                                 "    - 0\n"
+                                 "    - -9.81\n"
+                                 "output:\n"
+                                 "  double_precision: true\n"
+                                 "  interval: 1/30\n");
+  EXPECT_EQ(settings.bones[1].name, "upper # 2");
+  EXPECT_EQ(settings.bones[1].parent, "lower");
+  EXPECT_EQ(settings.bones[1].tail, Vec3(0, -0.15, 2));
+  EXPECT_FALSE(settings.bones[1].head);
+  EXPECT_EQ(settings.solver.integrator, Integrator::velocity_verlet);
+  EXPECT_FALSE(settings.solver.time_step);
+  EXPECT_EQ(settings.solver.gravity, Vec3(0, 0, -9.81));
+  EXPECT_TRUE(settings.output.double_precision);
+  EXPECT_EQ(settings.output.interval, 1.0 / 30);
+}
+
+TEST_F(SceneTest, NoneIsTheParentOfARoot) {
+  std::string text = small_scene;
+  text.insert(text.find("      head"), "      parent: none\n");
+  EXPECT_EQ(read(text).bones[0].parent, "");
+}
+
+TEST_F(SceneTest, EveryValueKnowsItsPlace) {
+  const Settings settings = read(small_scene +
+                                 "motion:\n"
+                                 "  tracks:\n"
+                                 "    - bone: lower\n"
+                                 "      keys:\n"
+                                 "        - time: 0\n"
+                                 "        - time: 1\n"
+                                 "          twist: 90\n");
+  const std::string file = (folder.path() / "scene.yaml").string();
+  const auto place = [&](const char* path) { return settings.places.at(path).text(); };
+  EXPECT_EQ(place(""), file);
+  EXPECT_EQ(place("body"), file + ":1:1");
+  EXPECT_EQ(place("body.mesh"), file + ":2:9");
+  EXPECT_EQ(place("skeleton.bones[0].tail"), file + ":8:13");
+  EXPECT_EQ(place("motion.tracks[0]"), file + ":11:7");
+  EXPECT_EQ(place("motion.tracks[0].keys[1].twist"), file + ":15:18");
+  EXPECT_EQ(settings.place("motion.tracks[0].keys[0].twist").text(), file + ":13:11");
+  EXPECT_EQ(settings.place("solver.duration").text(), file);
+}
+
+TEST_F(SceneTest, AliasesStandForTheirValues) {
+  const Settings settings = read(small_scene +
+                                 "    - name: upper\n"
+                                 "      parent: lower\n"
+                                 "      tail: &top [0, 0, 2]\n"
+                                 "solver:\n"
+                                 "  gravity: *top\n");
+  EXPECT_EQ(settings.solver.gravity, Vec3(0, 0, 2));
+}
+
+TEST_F(SceneTest, WindowsLinesAndByteOrderMarkAreRead) {
+  std::string text = "\xEF\xBB\xBF";
+  for (const char c : small_scene) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  EXPECT_EQ(read(text).body.radius, 0.01);
+}
+
+TEST_F(SceneTest, MeshIsRelativeToTheSceneAndOpensFromHere) {
+  folder.write("shapes/box.obj", "o box\n");
+  std::string text = small_scene;
+  text.replace(text.find("box.obj"), 7, "../shapes/box.obj");
+  const Settings settings = read_scene(folder.write("scenes/a.yaml", text));
+  EXPECT_TRUE(std::filesystem::exists(settings.body.mesh)) << settings.body.mesh;
+}
+
+TEST_F(SceneTest, AbsoluteMeshStaysAsItIs) {
+  std::string text = small_scene;
+  text.replace(text.find("box.obj"), 7, "/shapes/box.obj");
+  EXPECT_EQ(read(text).body.mesh, "/shapes/box.obj");
+}
+
+TEST_F(SceneTest, MeshBehindALinkedFolderIsTheOneTheSystemOpens) {
+  folder.write("far/away/shapes/box.obj", "o box\n");
+  std::string text = small_scene;
+  text.replace(text.find("box.obj"), 7, "../shapes/box.obj");
+  folder.write("far/away/scenes/a.yaml", text);
+  std::filesystem::create_symlink(folder.path() / "far/away/scenes", folder.path() / "scenes");
+  const Settings settings = read_scene(folder.path() / "scenes/a.yaml");
+  EXPECT_TRUE(std::filesystem::exists(settings.body.mesh)) << settings.body.mesh;
+}
+
+TEST_F(SceneTest, OverridesStandInPlaceOfTheScene) {
+  const Settings settings = read(small_scene, {"solver.duration=2", "solver.gravity=[0, 0, -9.81]",
+                                               "body.packing=hcp", "solver.duration=3"});
+  EXPECT_EQ(settings.solver.duration, 3);
+  EXPECT_EQ(settings.solver.gravity, Vec3(0, 0, -9.81));
+  EXPECT_EQ(settings.body.packing, Packing::hcp);
+  EXPECT_EQ(settings.places.at("body.packing").text(), "--set body.packing=hcp");
+}
+
+TEST_F(SceneTest, OverridesTakeOutTheirRivals) {
+  const Settings by_count = read(small_scene, {"body.count=500"});
+  EXPECT_EQ(by_count.body.count, 500);
+  EXPECT_FALSE(by_count.body.radius);
+  const Settings by_radius = read(small_scene, {"body.count=500", "body.radius=0.02"});
+  EXPECT_FALSE(by_radius.body.count);
+  EXPECT_EQ(by_radius.body.radius, 0.02);
+  EXPECT_EQ(read(small_scene, {"body.count=auto"}).body.radius, 0.01);
+  const std::string stiff = small_scene + "material:\n  young_modulus: 5000\n";
+  EXPECT_EQ(read(stiff, {"material.k1=1000"}).material.k1, 1000);
+  const std::string paper = small_scene + "material:\n  k1: 1000\n";
+  EXPECT_FALSE(read(paper, {"material.young_modulus=5000"}).material.k1);
+}
+
+TEST_F(SceneTest, OverridesAddSectionsThatAreMissing) {
+  EXPECT_EQ(read(small_scene + "output:\n", {"output.encoding=raw"}).output.encoding,
+            Encoding::raw);
+  EXPECT_EQ(read(small_scene, {"output.encoding=raw"}).output.encoding, Encoding::raw);
+}
+
+TEST_F(SceneTest, WrongOverridesAreNamed) {
+  EXPECT_TRUE(holds(message(small_scene, {"body.radius=big"}), "--set body.radius=big: "));
+  EXPECT_TRUE(holds(message(small_scene, {"body.raduis=1"}), "did you mean radius?"));
+  EXPECT_TRUE(holds(message(small_scene, {"sovler.duration=1"}), "did you mean solver?"));
+  EXPECT_TRUE(holds(message(small_scene, {"duration=1"}), "section.key=value"));
+  EXPECT_TRUE(holds(message(small_scene, {"solver.duration"}), "section.key=value"));
+  EXPECT_TRUE(holds(message(small_scene, {"solver.duration="}), "is empty"));
+}
+
+TEST_F(SceneTest, OverriddenMeshIsSeenFromHere) {
+  EXPECT_EQ(read(small_scene, {"body.mesh=here/box.obj"}).body.mesh, "here/box.obj");
+}
+
+TEST_F(SceneTest, KeyInTheWrongPlaceIsSentHome) {
+  EXPECT_TRUE(holds(message(small_scene + "duration: 3\n"), "it belongs into solver"));
+}
+
+TEST(ShippedScenes, BendAndTwistAreWholeScenes) {
+  for (const char* name : {"box_bend", "box_twist"}) {
+    const Settings settings =
+        read_scene(std::string(SINEW_SOURCE_DIR "/configs/") + name + ".yaml");
+    const Skeleton skeleton = make_skeleton(settings);
+    const Motion motion = make_motion(settings, skeleton);
+    EXPECT_EQ(skeleton.size(), 2u) << name;
+    EXPECT_EQ(motion.tracks.size(), 1u) << name;
+    EXPECT_EQ(settings.body.radius, 0.01) << name;
+    EXPECT_EQ(settings.output.interval, 1.0 / 30) << name;
+    EXPECT_NEAR(skeleton.bones[1].tail().z(), 49 * std::sqrt(2) * 0.01, 1e-8) << name;
+  }
+}
+
+TEST(ShippedScenes, BendTipsTheUpperBoneAndBringsItBack) {
+  const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_bend.yaml");
+  const Skeleton skeleton = make_skeleton(settings);
+  const Motion motion = make_motion(settings, skeleton);
+  const auto axis = [&](double time) { return pose_at(skeleton, motion, time)[1].axis(); };
+  EXPECT_TRUE(axis(0).isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(axis(1.25).isApprox(Vec3::UnitX()));
+  EXPECT_TRUE(axis(settings.solver.duration).isApprox(Vec3::UnitZ()));
+}
+
+TEST(ShippedScenes, TwistTurnsTheUpperBoneAboutItself) {
+  const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_twist.yaml");
+  const Skeleton skeleton = make_skeleton(settings);
+  const Pose pose = pose_at(skeleton, make_motion(settings, skeleton), settings.solver.duration);
+  EXPECT_TRUE(pose[1].axis().isApprox(Vec3::UnitZ()));
+  EXPECT_NEAR(pose[1].twist, pi / 2, 1e-12);
+  EXPECT_GT(settings.binding.joint_zone, 0);
+}
+
+}  // namespace
+}  // namespace sinew

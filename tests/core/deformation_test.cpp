@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/deformation.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/closest_packing.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+using test::affine;
+using test::random_matrix;
+using test::turned;
+
+RestShape box_shape(const Vec3& at = {0, 0, 0}) {
+  Points points = test::fcc_box(5, 5, 7, 0.01);
+  for (Vec3& point : points) point += at;
+  return rest_shape(points, rest_neighbour_range(0.01));
+}
+
+void expect_gradient(const RestShape& rest, const Mat3& F, double tolerance) {
+  for (const Mat3& found : deformation_gradients(rest, affine(rest.points, F, {0.3, -0.2, 0.1})))
+    ASSERT_LT((found - F).cwiseAbs().maxCoeff(), tolerance);
+}
+
+TEST(DeformationGradient, IsExactForAffineMotion) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 10; ++trial)
+    expect_gradient(box_shape(), Mat3::Identity() + random_matrix(random), 1e-12);
+}
+
+TEST(DeformationGradient, IsExactForInvertedAndFlattenedMotion) {
+  expect_gradient(box_shape(), Vec3(1, 1, -1).asDiagonal(), 1e-12);
+  expect_gradient(box_shape(), Vec3(1, 1, 0).asDiagonal(), 1e-12);
+}
+
+TEST(DeformationGradient, OfARigidMotionIsItsRotation) {
+  const Mat3 R = turned({1, 2, 3}, 130);
+  expect_gradient(box_shape(), R, 1e-12);
+  EXPECT_LT((rotation_part(R) - R).norm(), 1e-14);
+}
+
+TEST(DeformationGradient, KeepsDigitsFarFromTheOrigin) {
+  // Coordinates of 100 m hold 1.4e-14 m, that is 1e-12 of a neighbour's distance.
+  const RestShape rest = box_shape({100, -100, 50});
+  for (const Mat3& found : deformation_gradients(rest, affine(rest.points, turned({0, 1, 0}, 90))))
+    ASSERT_LT((found - turned({0, 1, 0}, 90)).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(DeformationGradient, UsesOnlyTheNeighboursOfItsOwnPoint) {
+  const RestShape rest = box_shape();
+  Points now = rest.points;
+  now.back() += Vec3(0.002, 0, 0);
+  const auto gradients = deformation_gradients(rest, now);
+  for (std::uint32_t i = 0; i + 1 < now.size(); ++i) {
+    const auto row = rest.neighbours.of(i);
+    const bool touches = std::find(row.begin(), row.end(), now.size() - 1) != row.end();
+    EXPECT_EQ(touches, (gradients[i] - Mat3::Identity()).norm() > 1e-3) << i;
+  }
+}
+
+TEST(DeformationGradient, IsUndefinedForPlanesLinesAndLonePoints) {
+  const double r = 0.01;
+  for (const Points& points : {test::fcc_box(7, 7, 1, r), test::fcc_box(9, 1, 1, r),
+                               Points{Vec3(1, 1, 1)}, Points{{0, 0, 0}, {0.02, 0, 0}}}) {
+    const Mat3 R = turned({1, 1, 1}, 40);
+    const RestShape rest = rest_shape(affine(points, R), rest_neighbour_range(r));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_FALSE(rest.defined(i));
+      EXPECT_EQ(deformation_gradient(rest, affine(points, 2 * R), i), Mat3::Identity());
+    }
+  }
+}
+
+TEST(DeformationGradient, IsDefinedForEveryParticleOfAPackedBox) {
+  const RestShape rest = box_shape();
+  for (std::size_t i = 0; i < rest.points.size(); ++i) EXPECT_TRUE(rest.defined(i));
+}
+
+TEST(RotationPart, SplitsStretchFromRotation) {
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mat3 R = turned(random_matrix(random).col(0), 150);
+    const Mat3 A = Mat3::Identity() + random_matrix(random);
+    const Mat3 U = A * A.transpose() + 0.01 * Mat3::Identity();
+    EXPECT_LT((rotation_part(R * U) - R).norm(), 1e-12);
+  }
+}
+
+TEST(RotationPart, IsProperForInvertedAndSingularGradients) {
+  std::mt19937 random(3);
+  const Mat3 R = turned({3, -1, 2}, 75);
+  for (const Vec3& stretch : {Vec3(1.2, 1, -0.1), Vec3(-1, -1, -1), Vec3(1, 1, 0), Vec3(1, 0, 0),
+                              Vec3(0, 0, 0), Vec3(1, 2, -3)}) {
+    const Mat3 found = rotation_part(R * stretch.asDiagonal());
+    EXPECT_NEAR(found.determinant(), 1, 1e-12);
+    EXPECT_LT((found * found.transpose() - Mat3::Identity()).norm(), 1e-12);
+  }
+  // Inverted along its weakest direction only, the rotation stays what it was.
+  EXPECT_LT((rotation_part(R * Vec3(1.2, 1, -0.1).asDiagonal()) - R).norm(), 1e-12);
+  EXPECT_LT((rotation_part(R * Vec3(1.2, 1, 0).asDiagonal()) - R).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace sinew

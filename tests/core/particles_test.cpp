@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/particles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/closest_packing.h"
+#include "core/hash.h"
+#include "core/neighbours.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+TEST(Hash, IsFnv1aOf64Bits) {  // published vectors of the algorithm
+  Hash hash;
+  EXPECT_EQ(hash_text(hash.value()), "cbf29ce484222325");
+  hash.add("foobar");
+  EXPECT_EQ(hash_text(hash.value()), "85944171f73967e8");
+  EXPECT_EQ(hash_text(0xabc), "0000000000000abc");
+}
+
+Particles three() {
+  Particles particles = particles_at({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, 0.5, 2);
+  particles.set_velocity(1, {0.1, 0.2, 0.3});
+  return particles;
+}
+
+TEST(Particles, AreAtRestInTheGivenOrder) {
+  const Particles particles = particles_at({{1, 2, 3}, {4, 5, 6}}, 0.5, 2);
+  EXPECT_EQ(particles.radius, 0.5);
+  EXPECT_EQ(particles.mass, 2);
+  EXPECT_EQ(particles.position(1), Vec3(4, 5, 6));
+  EXPECT_EQ(particles.velocity(1), Vec3::Zero());
+  EXPECT_EQ(particles.id, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(positions_of(particles), (Points{{1, 2, 3}, {4, 5, 6}}));
+}
+
+TEST(StateHash, DoesNotDependOnTheOrderOfTheParticles) {
+  const Particles particles = three();
+  const Particles other = test::reordered(particles, {2, 0, 1});
+  ASSERT_NE(other.x, particles.x);
+  EXPECT_EQ(state_hash(other), state_hash(particles));
+}
+
+TEST(StateHash, SeesTheLastBitOfEveryNumber) {
+  const Particles particles = three();
+  for (auto axis :
+       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      Particles other = particles;
+      (other.*axis)[i] = std::nextafter((other.*axis)[i], 100.0);
+      EXPECT_NE(state_hash(other), state_hash(particles));
+    }
+}
+
+TEST(ClosestPacking, HasTwelveNeighboursAndThePaperCounts) {
+  const double r = 0.01;
+  for (const Points& points : {test::fcc_box(11, 11, 49, r), test::hcp_ball(6, r)}) {
+    const auto first = neighbours_within(points, rest_neighbour_range(r));
+    const auto second = neighbours_within(points, 1.01 * second_distance(r));
+    std::size_t most = 0, most_second = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      most = std::max(most, first.of(i).size());
+      most_second = std::max(most_second, second.of(i).size());
+    }
+    EXPECT_EQ(most, 12u);
+    EXPECT_EQ(most_second, 18u);
+  }
+  EXPECT_EQ(test::fcc_box(11, 11, 49, r).size(), 2965u);
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fill/pack.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/closest_packing.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/neighbours.h"
+#include "core/parallel.h"
+#include "fill/clean.h"
+#include "fill/inside.h"
+#include "fill/lattice.h"
+#include "fill/read_surface.h"
+#include "fill/shapes.h"
+
+namespace sinew {
+namespace {
+
+const std::string paper_box = SINEW_SOURCE_DIR "/data/meshes/box.obj";
+
+PackOptions with_radius(double radius, Packing packing = Packing::fcc) {
+  PackOptions options;
+  options.packing = packing;
+  options.radius = radius;
+  return options;
+}
+
+std::string message_of(const std::function<void()>& job) {
+  try {
+    job();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::bad_input);
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+TEST(PaperBox, Has1062PointsInFileOrderAnd2120Triangles) {
+  const PolygonSoup soup = read_polygons(paper_box);
+  const ClosedSurface surface = read_surface(paper_box);
+  EXPECT_EQ(surface.triangles.points.size(), 1062u);
+  EXPECT_EQ(surface.triangles.faces.size(), 2120u);
+  EXPECT_EQ(surface.triangles.points, soup.points);
+  EXPECT_EQ(surface.cleaning.faces_turned, 0u);
+}
+
+TEST(PaperBox, Is11By11By49HalfPlanes) {
+  const Vec3 size = bounds(read_surface(paper_box).triangles.points).sizes();
+  const double plane = half_plane_spacing(0.010);
+  EXPECT_LT((size - plane * Vec3(11, 11, 49)).norm(), 1e-15);
+}
+
+TEST(PaperBox, HoldsThePapers2965Particles) {
+  const Filling filling = pack(read_surface(paper_box), with_radius(0.010));
+  EXPECT_EQ(filling.particles.size(), 2965u);
+  EXPECT_EQ(filling.report.ties, 0u);
+  EXPECT_EQ(filling.report.histogram[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
+}
+
+TEST(Pack, GivesTheMeshsMassInAll) {
+  const ClosedSurface surface = read_surface(paper_box);
+  PackOptions options = with_radius(0.010);
+  options.density = 1234;
+  const Particles particles = pack(surface, options).particles;
+  const double expected = 1234 * volume(surface.triangles);
+  EXPECT_NEAR(particles.mass * static_cast<double>(particles.size()) / expected, 1, 1e-12);
+}
+
+TEST(Pack, HasInnerParticlesTouching12OthersAt2r) {
+  for (const Packing packing : {Packing::fcc, Packing::hcp}) {
+    const Filling filling = pack(clean(shapes::sphere(1, 4)), with_radius(0.05, packing));
+    const auto lists =
+        neighbours_within(positions_of(filling.particles), rest_neighbour_range(0.05));
+    for (std::size_t i = 0; i < filling.particles.size(); ++i) {
+      ASSERT_EQ(filling.neighbours[i], static_cast<int>(lists.of(i).size()));
+      ASSERT_TRUE(filling.neighbours[i] == 12 || filling.particles.position(i).norm() > 0.85);
+    }
+    EXPECT_NEAR(filling.report.smallest_distance, 1, 1e-12);
+    EXPECT_NEAR(filling.report.mean_distance, 1, 1e-12);
+  }
+}
+
+/// Every site of the lattice against a rule that knows the answer; `unsure` sites are left out.
+struct Truth {
+  PolygonSoup body;
+  std::function<bool(const Vec3&)> inside, unsure;
+};
+
+void compare(const Truth& truth, double radius, Packing packing) {
+  const ClosedSurface surface = clean(truth.body);
+  const Points found = positions_of(pack(surface, with_radius(radius, packing)).particles);
+  const Lattice lattice = lattice_in(bounds(surface.triangles.points), packing, radius);
+  std::size_t next = 0, sure = 0;
+  for (const LatticeRow& row : lattice.rows)
+    for (int n = 0; n < row.sites; ++n) {
+      const Vec3 site = lattice.site(row, n);
+      const bool taken = next < found.size() && found[next] == site;
+      next += taken;
+      if (truth.unsure(site)) continue;
+      ++sure;
+      ASSERT_EQ(taken, truth.inside(site)) << site.transpose();
+    }
+  EXPECT_EQ(next, found.size());
+  EXPECT_GT(sure, 1000u);
+}
+
+void compare(const Truth& truth, double radius) {
+  compare(truth, radius, Packing::fcc);
+  compare(truth, radius, Packing::hcp);
+}
+
+TEST(Inside, AgreesWithATetrahedronsPlanes) {
+  const auto depth = [](const Vec3& p) { return std::min(p.minCoeff(), 1 - p.sum()); };
+  compare({shapes::tetrahedron(), [=](const Vec3& p) { return depth(p) > 0; },
+           [=](const Vec3& p) { return std::abs(depth(p)) < 1e-12; }},
+          0.02);
+}
+
+TEST(Inside, AgreesWithASphere) {
+  const auto body = shapes::sphere(1, 5);  // the flats are less than 0.002 deep
+  compare({body, [](const Vec3& p) { return p.norm() < 1; },
+           [](const Vec3& p) { return p.norm() > 0.998 && p.norm() < 1; }},
+          0.04);
+}
+
+TEST(Inside, AgreesWithATorus) {
+  const auto distance = [](const Vec3& p) {
+    return std::hypot(std::hypot(p.x(), p.y()) - 1, p.z());
+  };
+  compare({shapes::torus(1, 0.4, 96, 48), [=](const Vec3& p) { return distance(p) < 0.4; },
+           [=](const Vec3& p) { return std::abs(distance(p) - 0.4) < 0.003; }},
+          0.03);
+}
+
+TEST(Inside, CountsSitesOnTheSurfaceAsOutside) {
+  const double r = 0.125, plane = half_plane_spacing(r);
+  const Vec3 half = Vec3::Constant(4 * plane);  // half-planes of sites lie on all six sides
+  const Filling filling = pack(clean(shapes::box(-half, half)), with_radius(r));
+  EXPECT_EQ(filling.particles.size(), (7u * 7 * 7 - 1) / 2);
+  EXPECT_EQ(filling.report.ties, (9u * 9 * 9 + 1) / 2 - (7u * 7 * 7 - 1) / 2);
+}
+
+TEST(Inside, IsNotAffectedByAFaceWithoutArea) {
+  const double r = 0.125;
+  const Vec3 half = Vec3::Constant(4 * half_plane_spacing(r));
+  auto body = shapes::box(-half, half);
+  const auto plain = pack(clean(body), with_radius(r));
+  body.points.emplace_back(half.x(), half.y(), 0);  // on the edge from point 3 to point 7
+  body.polygons[5] = {1, 3, 8, 7, 5};
+  body.polygons.push_back({3, 7, 8});
+  const ClosedSurface surface = clean(body);
+  EXPECT_EQ(surface.cleaning.faces_flat, 1u);
+  const auto filling = pack(surface, with_radius(r));
+  EXPECT_EQ(state_hash(filling.particles), state_hash(plain.particles));
+  EXPECT_EQ(filling.report.ties, plain.report.ties);
+}
+
+TEST(Inside, LeavesOutFacesWithoutArea) {
+  Triangles body = clean(shapes::tetrahedron()).triangles;
+  for (const double x : {0.1, 0.2, 0.3}) body.points.emplace_back(x, 0.1, 0.1);
+  body.faces.push_back({4, 5, 6});
+  EXPECT_EQ(InsideTest(body).side(Vec3(0.25, 0.1, 0.1)), Side::inside);
+}
+
+TEST(Pack, FillsAnInvertedBodyTheSame) {
+  const auto body = shapes::torus(1, 0.4);
+  const Filling outward = pack(clean(body), with_radius(0.05));
+  const ClosedSurface inverted = clean(shapes::inverted(body));
+  EXPECT_GT(volume(inverted.triangles), 0);
+  EXPECT_EQ(state_hash(pack(inverted, with_radius(0.05)).particles), state_hash(outward.particles));
+}
+
+TEST(Pack, IsTheSameForAnyNumberOfThreads) {
+  const ClosedSurface surface = clean(shapes::together(
+      shapes::sphere(1, 3), shapes::moved(shapes::torus(1, 0.4), Vec3(0.1, 0.2, 2))));
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] {
+      const Filling filling = pack(surface, with_radius(0.05));
+      Hash hash;
+      hash.add(filling.component.data(), filling.component.size() * sizeof(std::int32_t));
+      hash.add(filling.neighbours.data(), filling.neighbours.size() * sizeof(std::int32_t));
+      hashes.push_back(state_hash(filling.particles) ^ hash.value());
+    });
+  for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+TEST(Pack, KeepsItsSitesWhenTheBodyIsMovedByExactAmounts) {
+  auto body = shapes::sphere(1, 4);
+  for (Vec3& point : body.points)  // multiples of 1/1024, so that moving loses no digit
+    for (double& x : point) x = std::round(x * 1024) / 1024;
+  const Vec3 by(16, -32, 8);
+  const Filling here = pack(clean(body), with_radius(0.06));
+  const Filling there = pack(clean(shapes::moved(body, by)), with_radius(0.06));
+  ASSERT_EQ(there.particles.size(), here.particles.size());
+  for (std::size_t i = 0; i < here.particles.size(); ++i)
+    ASSERT_LT((there.particles.position(i) - by - here.particles.position(i)).norm(), 1e-13);
+}
+
+TEST(Pack, FindsTheRadiusForACount) {
+  const ClosedSurface surface = clean(shapes::sphere(1, 4));
+  PackOptions options;
+  options.count = 20000;
+  const Filling filling = pack(surface, options);
+  EXPECT_NEAR(static_cast<double>(filling.particles.size()), 20000, 200);
+  EXPECT_NEAR(volume_per_particle(filling.particles.radius) * 20000 / volume(surface.triangles), 1,
+              1e-12);
+}
+
+TEST(Pack, TellsBodiesApart) {
+  const double r = 0.05;
+  const auto far = shapes::moved(shapes::tetrahedron(), Vec3(3, 0, 0));
+  const Filling filling = pack(clean(shapes::together(shapes::sphere(1, 3), far)), with_radius(r));
+  EXPECT_EQ(filling.report.bodies, 2);
+  for (std::size_t i = 0; i < filling.particles.size(); ++i)
+    ASSERT_EQ(filling.component[i], filling.particles.x[i] > 2 ? 1 : 0);
+}
+
+TEST(Pack, LeavesACavityHollowWhicheverWayItTurns) {
+  const auto outer = shapes::sphere(1, 4), inner = shapes::sphere(0.5, 4);
+  for (const auto& hole : {inner, shapes::inverted(inner)}) {
+    const ClosedSurface surface = clean(shapes::together(outer, hole));
+    EXPECT_EQ(surface.bodies, 1);
+    EXPECT_EQ(surface.cavities, 1);
+    EXPECT_NEAR(volume(surface.triangles),
+                volume(clean(outer).triangles) - volume(clean(inner).triangles), 1e-12);
+    const Filling filling = pack(surface, with_radius(0.05));
+    for (std::size_t i = 0; i < filling.particles.size(); ++i)
+      ASSERT_GT(filling.particles.position(i).norm(), 0.49);
+    EXPECT_NEAR(filling.report.packed_volume / filling.report.mesh_volume, 1, 0.03);
+  }
+}
+
+TEST(Pack, FillsAHollowBodyWithinACavity) {
+  const auto outer = shapes::together(shapes::sphere(1, 3), shapes::sphere(0.8, 3));
+  const auto inner = shapes::together(shapes::sphere(0.3, 3), shapes::sphere(0.6, 3));
+  const ClosedSurface surface = clean(shapes::together(outer, inner));
+  EXPECT_EQ(surface.bodies, 2);
+  EXPECT_EQ(surface.cavities, 2);
+  const std::size_t each = shapes::sphere(1, 3).polygons.size();
+  for (std::size_t i = 0; i < surface.body.size(); ++i)
+    ASSERT_EQ(surface.body[i], i < 2 * each ? 0 : 1);
+  const Filling filling = pack(surface, with_radius(0.04));
+  for (std::size_t i = 0; i < filling.particles.size(); ++i) {
+    const double from_centre = filling.particles.position(i).norm();
+    ASSERT_TRUE(from_centre > 0.79 || (from_centre > 0.29 && from_centre < 0.6));
+    ASSERT_EQ(filling.component[i], from_centre < 0.7 ? 1 : 0);
+  }
+}
+
+TEST(Report, GivesTheSpheresCentreAndVolume) {
+  const Vec3 centre(1, 2, 3);
+  const FillReport report = pack(clean(shapes::sphere(1, 5, centre)), with_radius(0.05)).report;
+  EXPECT_LT((report.mesh_centre - centre).norm(), 1e-12);
+  EXPECT_LT((report.centre - centre).norm(), 1e-12);
+  EXPECT_NEAR(report.mesh_volume, 4 * pi / 3, 0.01);
+  EXPECT_LT((report.box_size - Vec3::Constant(2)).norm(), 1e-12);
+  EXPECT_EQ(rows_of(report)[0].key, "particles");
+  EXPECT_EQ(rows_of(report)[0].value, std::to_string(report.particles));
+}
+
+TEST(Report, HasTheTetrahedronsCentre) {
+  const ClosedSurface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
+  EXPECT_LT((centre_of_volume(surface.triangles) - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
+}
+
+double radius_named_in(const std::string& message) {
+  const std::size_t at = message.rfind("a radius of ");
+  return at == std::string::npos ? 0 : std::stod(message.substr(at + 12));
+}
+
+TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
+  const ClosedSurface surface = read_surface(paper_box);
+  const std::string message = message_of([&] { pack(surface, with_radius(1e-7)); });
+  const double named = radius_named_in(message);
+  EXPECT_GT(named, 1e-7) << message;
+  EXPECT_LT(volume(surface.triangles) / volume_per_particle(named), 2147483647.0) << message;
+}
+
+/// The torus has no site in its hole's middle; in the box one lies at the centre whatever the
+/// radius.
+TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
+  const ClosedSurface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
+  for (const auto& [surface, radius] : {std::pair(&torus, 0.75), std::pair(&torus, 3.0),
+                                        std::pair(&box, 1.0), std::pair(&box, 1e300)}) {
+    const std::string message = message_of([&] { pack(*surface, with_radius(radius)); });
+    const double named = radius_named_in(message);
+    EXPECT_LT(named, radius) << message;
+    ASSERT_GT(named, 0) << message;
+    EXPECT_GT(pack(*surface, with_radius(named)).particles.size(), 10u) << message;
+  }
+}
+
+TEST(Pack, FillsASingleParticleWhenAskedForOne) {
+  PackOptions options;
+  options.count = 1;
+  EXPECT_EQ(pack(clean(shapes::sphere(1, 3)), options).particles.size(), 1u);
+}
+
+TEST(Pack, WantsEitherARadiusOrACount) {
+  const ClosedSurface surface = clean(shapes::tetrahedron());
+  PackOptions options;
+  EXPECT_NE(message_of([&] { pack(surface, options); }).find("; "), std::string::npos);
+  options.count = 10, options.radius = 0.1;
+  EXPECT_NE(message_of([&] { pack(surface, options); }).find("; "), std::string::npos);
+  for (const double radius : {0.0, -1.0, std::nan("")})
+    EXPECT_NE(message_of([&] { pack(surface, with_radius(radius)); }).find("; "),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace sinew

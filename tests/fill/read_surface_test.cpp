@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fill/read_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/error.h"
+#include "fill/mesh_files.h"
+#include "fill/shapes.h"
+
+namespace sinew {
+namespace {
+
+using mesh_files::Folder;
+
+/// Odd numbers that need all their digits.
+PolygonSoup awkward() {
+  auto soup = shapes::sphere(1.0 / 3, 1, Vec3(0.1, 1e-9, 12345.678));
+  soup.points[0] += Vec3(1e-17, 0, 0);
+  return soup;
+}
+
+TEST(Read, TakesEveryDigitFromObjOffAndPly) {
+  const Folder folder;
+  const auto soup = awkward();
+  for (const auto& [name, content] :
+       std::map<std::string, std::string>{{"a.obj", mesh_files::obj(soup)},
+                                          {"a.OFF", mesh_files::off(soup)},
+                                          {"a.ply", mesh_files::ply(soup)},
+                                          {"b.ply", mesh_files::ply_binary(soup)},
+                                          {"c.Ply", mesh_files::ply_binary(soup, true)}}) {
+    const PolygonSoup read = read_polygons(folder.file(name, content));
+    EXPECT_EQ(read.points, soup.points) << name;
+    EXPECT_EQ(read.polygons, soup.polygons) << name;
+  }
+}
+
+TEST(Read, TakesTextAndBinaryStl) {
+  const Folder folder;
+  const auto soup = shapes::torus(1, 0.25, 8, 6);
+  const double expected =
+      volume(read_surface(folder.file("a.obj", mesh_files::obj(soup))).triangles);
+  const auto text = read_surface(folder.file("a.stl", mesh_files::stl(soup)));
+  const auto binary = read_surface(folder.file("b.stl", mesh_files::stl_binary(soup)));
+  EXPECT_EQ(text.triangles.points.size(), soup.points.size());
+  EXPECT_EQ(binary.triangles.points.size(), soup.points.size());
+  EXPECT_NEAR(volume(text.triangles), expected, 0.1);  // quads are cut along the other diagonal
+  EXPECT_NEAR(volume(binary.triangles), volume(text.triangles), 1e-6);
+}
+
+TEST(Read, TellsTextFromBinaryStlWhateverTheFirstWord) {
+  const Folder folder;
+  const auto soup = shapes::tetrahedron();
+  for (const std::string first : {"solid\tbody\n", "solid\n", "SOLID body\r\n", "  solid a b c\n"})
+    EXPECT_EQ(read_polygons(folder.file("a.stl", mesh_files::stl(soup, first))).polygons.size(),
+              4u);
+  const std::string binary = mesh_files::stl_binary(soup, "solid endsolid ");
+  EXPECT_EQ(read_polygons(folder.file("b.stl", binary)).polygons.size(), 4u);
+  EXPECT_EQ(read_polygons(folder.file("c.stl", binary + std::string(7, '\0'))).polygons.size(), 4u);
+}
+
+TEST(Read, TakesSeveralSolidsOfAnStl) {
+  const Folder folder;
+  const auto far = shapes::moved(shapes::tetrahedron(), Vec3(5, 0, 0));
+  const auto path =
+      folder.file("a.stl", mesh_files::stl(shapes::tetrahedron()) + mesh_files::stl(far));
+  EXPECT_EQ(read_surface(path).bodies, 2);
+}
+
+TEST(Read, TakesObjAsProgramsWriteIt) {
+  const Folder folder;
+  const std::string text =
+      "mtllib a.mtl\r\n# \xC3\xA9\r\nv 0 0 0 1.0\r\nv\t1 0 0 0.1 0.2 0.3\r\nv 0 1 \\\r\n 0\r\nv +0 "
+      ".0 1.\r\n"
+      "vt 0 0\r\nvn 0 0 1\r\ncall x\r\nl 1 2\r\ng all\r\nf\t1/1/1\t3/1/1\t2/1/1\r\nf 1//1 2//1 "
+      "4//1\r\n"
+      "f -3 -2 -1\r\nf 3/1 \\\r\n1/1 4/1";
+  const ClosedSurface surface = read_surface(folder.file("a.obj", text));
+  EXPECT_EQ(surface.triangles.points, shapes::tetrahedron().points);
+  EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
+}
+
+TEST(Read, TakesOffWithColoursAndCountsOnTheFirstLine) {
+  const Folder folder;
+  const std::string body =
+      "0 0 0 255 0 0\n1 0 0 0 0 0 # red\n\n0 1 0 9 9 9\n0 0 1 1 1 1\n"
+      "3 0 2 1 0.5 0.5 0.5\n3 0 1 3\n3 1 2 3 7\n3 2 0 3";
+  for (const std::string head :
+       {"COFF\n4 4 6\n", "OFF 4 4 6\n", "4 4 6\n", "\xEF\xBB\xBFOFF\n# x\n4 4 0\n"})
+    EXPECT_EQ(read_surface(folder.file("a.off", head + body)).triangles.faces.size(), 4u) << head;
+}
+
+TEST(Read, TakesPlyWithOtherElementsAndProperties) {
+  const Folder folder;
+  const std::string text =
+      "ply\r\ncomment first\r\nformat ascii 1.0\r\nobj_info x\r\nelement camera 1\r\nproperty "
+      "float fov\r\n"
+      "element vertex 4\r\nproperty uint8 red\r\nproperty float32 x\r\nproperty float "
+      "y\r\nproperty double z\r\n"
+      "element face 4\r\nproperty list uint8 float weights\r\nproperty list int32 uint32 "
+      "vertex_index\r\n"
+      "property uchar flag\r\nend_header\r\n0.5\r\n1 0 0 0\r\n2 1 0 0\r\n3 0 1 0\r\n4 0 0 1\r\n"
+      "0 3 0 2 1 1\r\n1 0.5 3 0 1 3 1\r\n0 3 1 2 3 1\r\n0 3 2 0 3 1\r\n";
+  EXPECT_EQ(read_surface(folder.file("a.ply", text)).triangles.points,
+            shapes::tetrahedron().points);
+}
+
+TEST(Read, NamesTheFileInWhatCleaningRefuses) {
+  const Folder folder;
+  auto soup = shapes::tetrahedron();
+  soup.polygons.pop_back();
+  const std::string path = folder.file("open.obj", mesh_files::obj(soup));
+  try {
+    read_surface(path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(path + ": the surface is open: 3 edges of 6", 0), 0u)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies with a known inside, for the tests.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/vector.h"
+#include "fill/polygon_soup.h"
+
+namespace sinew::shapes {
+
+inline PolygonSoup tetrahedron(double size = 1) {
+  return {{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+/// Six quads, outward.
+inline PolygonSoup box(const Vec3& low, const Vec3& high) {
+  PolygonSoup soup;
+  for (int i = 0; i < 8; ++i)
+    soup.points.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
+                             (i & 4 ? high : low).z());
+  soup.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  return soup;
+}
+
+/// A closed grid of quads around two directions: point(i, j) with i and j periodic.
+template <class Point>
+PolygonSoup wrapped_grid(int n, int m, Point point) {
+  PolygonSoup soup;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      soup.points.push_back(point(i, j));
+      const int next_i = (i + 1) % n, next_j = (j + 1) % m;
+      soup.polygons.push_back({i * m + j, next_i * m + j, next_i * m + next_j, i * m + next_j});
+    }
+  return soup;
+}
+
+inline PolygonSoup torus(double ring, double tube, int n = 48, int m = 24) {
+  return wrapped_grid(n, m, [=](int i, int j) {
+    const double a = 2 * pi * i / n, b = 2 * pi * j / m, rho = ring + tube * std::cos(b);
+    return Vec3(rho * std::cos(a), rho * std::sin(a), tube * std::sin(b));
+  });
+}
+
+/// An octahedron with each triangle cut in four `levels` times, points on the sphere.
+inline PolygonSoup sphere(double radius, int levels, const Vec3& centre = Vec3::Zero()) {
+  PolygonSoup soup{
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  for (int level = 0; level < levels; ++level) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [at, added] = middles.try_emplace(std::minmax(a, b), soup.points.size());
+      if (added) soup.points.push_back((soup.points[a] + soup.points[b]).normalized());
+      return at->second;
+    };
+    std::vector<std::vector<int>> finer;
+    for (const auto& f : soup.polygons) {
+      const int ab = middle(f[0], f[1]), bc = middle(f[1], f[2]), ca = middle(f[2], f[0]);
+      finer.insert(finer.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
+    }
+    soup.polygons = finer;
+  }
+  for (Vec3& point : soup.points) point = centre + radius * point;
+  return soup;
+}
+
+/// Both in one file, points of the second after those of the first.
+inline PolygonSoup together(PolygonSoup a, const PolygonSoup& b) {
+  const int offset = static_cast<int>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (auto polygon : b.polygons) {
+    for (int& corner : polygon) corner += offset;
+    a.polygons.push_back(polygon);
+  }
+  return a;
+}
+
+inline PolygonSoup inverted(PolygonSoup soup) {
+  for (auto& polygon : soup.polygons) std::reverse(polygon.begin(), polygon.end());
+  return soup;
+}
+
+inline PolygonSoup moved(PolygonSoup soup, const Vec3& by) {
+  for (Vec3& point : soup.points) point += by;
+  return soup;
+}
+
+}  // namespace sinew::shapes

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "metrics/table.h"
+#include "world.h"
+
+namespace sinew::test {
+namespace {
+
+constexpr double exact = 1e-12;
+
+/// A crooked but smooth deformation, different everywhere.
+Vec3 crooked(const Vec3& p) {
+  return p + 0.3 * r * Vec3(std::sin(40 * p.z()), std::cos(55 * p.x()), std::sin(70 * p.y()));
+}
+
+void expect_same_bits(const FrameMetrics& one, const FrameMetrics& other) {
+  for (const Metric& metric : metrics_table())
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(one.*metric.value),
+              std::bit_cast<std::uint64_t>(other.*metric.value))
+        << metric.name;
+}
+
+TEST(Measure, BodyAtRestHasNoErrors) {
+  const RestBody body = rest_body(box_input());
+  const FrameMetrics m = measure(body, at_rest(body));
+  EXPECT_NEAR(m.volume, std::pow(across * h, 2) * along * h, exact);
+  EXPECT_NEAR(m.J_min, 1, exact);
+  EXPECT_NEAR(m.J_mean, 1, exact);
+  for (const double zero : {m.bone_angle, m.bone_shift, m.volume_error, m.displacement_max,
+                            m.displacement_rms, m.speed_max, m.adherence_max, m.pose_error_max,
+                            m.broken_neighbours, m.new_neighbours, m.inverted, m.energy_residual})
+    EXPECT_NEAR(zero, 0, exact);
+  EXPECT_NEAR(m.tip_angle, 0, 1e-6);
+  EXPECT_NEAR(m.twist_jump_max, 0, 1e-6);
+}
+
+TEST(Measure, RigidMotionOfBodyAndBonesStrainsNothing) {
+  const RestBody body = rest_body(box_input());
+  const FrameMetrics m =
+      measure(body, moved_rigidly(body, turned(73, {1, 2, 3}), {0.3, -0.2, 0.1}));
+  EXPECT_NEAR(m.bone_angle, 73, 1e-9);
+  EXPECT_NEAR(m.volume_error, 0, exact);
+  EXPECT_NEAR(m.J_min, 1, exact);
+  EXPECT_NEAR(m.J_mean, 1, exact);
+  for (const double zero : {m.adherence_max, m.pose_error_max, m.pose_error_far_rms,
+                            m.broken_neighbours, m.new_neighbours, m.inverted})
+    EXPECT_NEAR(zero, 0, exact);
+  EXPECT_NEAR(m.tip_angle, 73, 1e-9);
+  EXPECT_NEAR(m.twist_jump_max, 0, 1e-6);
+}
+
+TEST(Measure, TranslationIsTheDisplacementOfEveryParticleAndTheShiftOfTheBones) {
+  const RestBody body = rest_body(box_input());
+  const FrameMetrics m = measure(body, moved_rigidly(body, Mat3::Identity(), {0.3, 0.4, 1.2}));
+  EXPECT_NEAR(m.displacement_max, 1.3, exact);
+  EXPECT_NEAR(m.displacement_rms, 1.3, exact);
+  EXPECT_NEAR(m.bone_shift, 1.3, exact);
+  EXPECT_NEAR(m.bone_angle, 0, exact);
+}
+
+TEST(Measure, AffineMotionScalesVolumeAndEveryJByItsDeterminant) {
+  const RestBody body = rest_body(box_input());
+  const Mat3 A = (Mat3() << 1.1, 0.2, -0.1, 0.05, 0.9, 0.3, -0.2, 0.1, 1.2).finished();
+  const FrameMetrics m = measure(body, moved(body, [&](const Vec3& p) -> Vec3 { return A * p; }));
+  const double J = A.determinant();
+  EXPECT_NEAR(m.volume_ratio, J, exact);
+  EXPECT_NEAR(m.volume_error, std::abs(J - 1), exact);
+  EXPECT_NEAR(m.J_min, J, exact);
+  EXPECT_NEAR(m.J_mean, J, exact);
+}
+
+TEST(Measure, StretchDisplacesByTheStrainTimesTheHeight) {
+  const RestBody body = rest_body(box_input());
+  const double strain = 0.04;
+  const FrameMetrics m = measure(
+      body, moved(body, [&](const Vec3& p) { return Vec3(p.x(), p.y(), (1 + strain) * p.z()); }));
+  double squares = 0;
+  for (const Vec3& p : body.shape.points) squares += p.z() * p.z();
+  EXPECT_NEAR(m.displacement_max, strain * (along - 0.5) * h, exact);
+  EXPECT_NEAR(m.displacement_rms,
+              strain * std::sqrt(squares / static_cast<double>(body.particles())), exact);
+}
+
+TEST(Measure, SpeedIsThatOfTheFastestParticle) {
+  const RestBody body = rest_body(box_input());
+  FrameState state = at_rest(body);
+  state.velocities[3] = {0, 3, 4};
+  state.velocities[7] = {4.9, 0, 0};
+  EXPECT_NEAR(measure(body, state).speed_max, 5, exact);
+}
+
+TEST(Measure, EnergiesPassThroughAndTheResidualClosesTheirBalance) {
+  RestInput input = box_input();
+  input.start = {1, -20, 3, 4, 5, 6};
+  const RestBody body = rest_body(input);
+  FrameState state = at_rest(body);
+  state.energies = {1.5, -18, 3.25, 4, 9, 7};
+  const FrameMetrics m = measure(body, state);
+  EXPECT_EQ(m.kinetic_energy, 1.5);
+  EXPECT_EQ(m.pair_energy, -18);
+  EXPECT_EQ(m.bone_energy, 3.25);
+  EXPECT_EQ(m.gravity_energy, 4);
+  EXPECT_EQ(m.work_of_bones, 9);
+  EXPECT_EQ(m.dissipation, 7);
+  // stored grew by 0.5 + 2 + 0.25, the bones gave 4, damping took 1
+  EXPECT_NEAR(m.energy_residual, 2.75 - 4 + 1, exact);
+}
+
+TEST(Measure, PullingTheHalvesApartBreaksTheCrossingPairs) {
+  const RestBody body = rest_body(box_input());
+  const FrameMetrics m = measure(body, moved(body, [](const Vec3& p) -> Vec3 {
+                                   return p.z() > half_length ? Vec3(p + b * Vec3::UnitZ()) : p;
+                                 }));
+  // Between two half-planes every edge of the square grid of sites joins two particles.
+  const double crossing = 2 * across * (across - 1);
+  EXPECT_EQ(m.broken_neighbours, crossing / body.rest_pairs());
+  EXPECT_EQ(m.new_neighbours, 0);
+}
+
+TEST(Measure, PairsAreBrokenFromTheInteractionRangeOn) {
+  RestInput input = box_input();
+  input.positions = {{0, 0, h}, {2 * r, 0, h}};
+  input.bone = {0, 0};
+  const RestBody body = rest_body(input);
+  const auto broken_at = [&](double distance) {
+    FrameState state = at_rest(body);
+    state.positions[0].x() = 0;
+    state.positions[1].x() = distance;
+    return measure(body, state).broken_neighbours;
+  };
+  EXPECT_EQ(broken_at(std::nextafter(b, 0.0)), 0);
+  EXPECT_EQ(broken_at(b), 1);
+}
+
+TEST(Measure, NewNeighboursAreThoseThatWereNoneAtRest) {
+  RestInput input = box_input();
+  input.positions = {{0, 0, h}, {2 * r, 0, h}, {6 * r, 0, h}, {8 * r, 0, h}};
+  input.bone = {0, 0, 0, 0};
+  const RestBody body = rest_body(input);
+  FrameState state = at_rest(body);
+  for (const int i : {2, 3}) state.positions[i].x() -= 2 * r;  // 1 and 2 touch: one new pair
+  const FrameMetrics m = measure(body, state);
+  EXPECT_EQ(m.new_neighbours, 0.5);
+  EXPECT_EQ(m.broken_neighbours, 0);
+}
+
+TEST(Measure, FoldInvertsTheParticlesBeyondIt) {
+  const RestBody body = rest_body(box_input());
+  const int last = 11;  // the fold runs between this plane and the next
+  const double at = (last + 1) * h;
+  const FrameMetrics m = measure(body, moved(body, [&](const Vec3& p) {
+                                   return Vec3(p.x(), p.y(), p.z() > at ? 2 * at - p.z() : p.z());
+                                 }));
+  const auto beyond = std::count_if(body.shape.points.begin(), body.shape.points.end(),
+                                    [&](const Vec3& p) { return plane_of(p) > last; });
+  EXPECT_EQ(m.inverted, static_cast<double>(beyond));
+  EXPECT_NEAR(m.J_min, -1, exact);
+}
+
+TEST(Measure, WhatCannotBeMeasuredIsNotANumber) {
+  RestInput input = box_input();
+  input.positions = {{0, 0, h}};  // no neighbours
+  input.bone = {-1};
+  input.bones.clear();
+  const RestBody body = rest_body(input);
+  const FrameMetrics m = measure(body, at_rest(body));
+  for (const double value :
+       {m.bone_angle, m.adherence_rms, m.pose_error_rms, m.pose_error_far_rms, m.J_min, m.inverted,
+        m.broken_neighbours, m.new_neighbours, m.tip_angle, m.twist_jump_max})
+    EXPECT_TRUE(std::isnan(value));
+  EXPECT_EQ(m.displacement_rms, 0);
+}
+
+TEST(Measure, FramesAreMeasuredInAnyOrder) {
+  const RestBody body = rest_body(box_input());
+  const FrameState one = moved(body, crooked), other = moved_rigidly(body, upright(), {1, 2, 3});
+  const FrameMetrics first = measure(body, one);
+  measure(body, other);
+  expect_same_bits(first, measure(body, one));
+}
+
+TEST(Measure, IsTheSameForAnyNumberOfThreads) {
+  RestInput input = box_input();
+  input.positions = fcc_box(11, 49);  // several pieces of the parallel loops
+  input.bone.clear();
+  for (const Vec3& point : input.positions) input.bone.push_back(point.z() > half_length);
+  const RestBody body = rest_body(input);
+  const FrameState state = moved(body, crooked);
+  const FrameMetrics expected = measure(body, state);
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] { expect_same_bits(expected, measure(body, state)); });
+}
+
+TEST(Measure, RefusesAFrameOfAnotherBodyOrWithoutNumbers) {
+  const RestBody body = rest_body(box_input());
+  const auto refuses = [&](const std::function<void(FrameState&)>& spoil) {
+    FrameState state = at_rest(body);
+    spoil(state);
+    EXPECT_THROW(measure(body, state), Error);
+  };
+  refuses([](FrameState& state) { state.positions.pop_back(); });
+  refuses([](FrameState& state) { state.velocities.emplace_back(); });
+  refuses([](FrameState& state) { state.surface_points.pop_back(); });
+  refuses([](FrameState& state) { state.bones.pop_back(); });
+  refuses([](FrameState& state) { state.positions[0].x() = not_measured; });
+  refuses([](FrameState& state) { state.surface_points[2].y() = INFINITY; });
+  refuses([](FrameState& state) { state.bones[1].rotation(1, 2) = not_measured; });
+}
+
+TEST(RestBody, RefusesInputThatDoesNotFitTogether) {
+  const auto refuses = [&](const std::function<void(RestInput&)>& spoil) {
+    RestInput input = box_input();
+    spoil(input);
+    EXPECT_THROW(rest_body(input), Error);
+  };
+  refuses([](RestInput& input) { input.positions.clear(), input.bone.clear(); });
+  refuses([](RestInput& input) { input.bone.pop_back(); });
+  refuses([](RestInput& input) { input.bone[0] = 2; });
+  refuses([](RestInput& input) { input.bone[0] = -2; });
+  refuses([](RestInput& input) { input.bones[1].parent = 1; });
+  refuses([](RestInput& input) { input.bones[0].length = 0; });
+  refuses([](RestInput& input) { input.radius = 0; });
+  refuses([](RestInput& input) { input.interaction_range = -1; });
+  refuses([](RestInput& input) { input.surface.faces[0][1] = 8; });
+  refuses([](RestInput& input) { input.surface.faces.clear(); });
+  refuses([](RestInput& input) { input.positions[5].z() = INFINITY; });
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/report.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "metrics/report_charts.h"
+#include "metrics/table.h"
+#include "metrics/verdict.h"
+#include "world.h"
+
+namespace sinew::test {
+namespace {
+
+/// A motion of `count` frames in which every metric has a value.
+std::vector<FrameMetrics> some_frames(int count) {
+  std::vector<FrameMetrics> frames(count);
+  for (int i = 0; i < count; ++i)
+    for (const Metric& metric : metrics_table()) frames[i].*metric.value = 0.01 * i;
+  return frames;
+}
+
+ReportInput some_report(int frames = 5) {
+  ReportInput input;
+  input.title = "a scene";
+  input.version = "1.2.3";
+  input.radius = r;
+  input.facts = {{"Run", {{"particles", "2965"}}}};
+  input.frames = some_frames(frames);
+  input.summary = summarize(input.frames, r);
+  return input;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != text.npos;
+}
+
+TEST(Report, NamesEveryMetricWithItsMeaning) {
+  const std::string page = report_html(some_report());
+  for (const Metric& metric : metrics_table()) {
+    EXPECT_TRUE(contains(page, ">" + std::string(metric.name) + "<")) << metric.name;
+    EXPECT_TRUE(contains(page, std::string(metric.help.substr(0, 10)))) << metric.name;
+  }
+  for (const RunMetric& metric : run_metrics_table())
+    EXPECT_TRUE(contains(page, ">" + std::string(metric.name) + "<")) << metric.name;
+}
+
+TEST(Report, NeedsNothingFromTheNetworkAndRunsNoScript) {
+  ReportInput input = some_report();
+  input.movie = "https://example.org/movie.mp4";
+  input.pictures = {{"//example.org/a.png", "one"}, {"javascript:alert(1)", "two"}};
+  const std::string page = report_html(input);
+  for (const char* outside :
+       {"http:", "https:", "=\"//", "javascript:", "@import", "url(", "<script", "<link"})
+    EXPECT_FALSE(contains(page, outside)) << outside;
+}
+
+TEST(Report, EscapesWhateverItIsGiven) {
+  const std::string evil = "<script>alert('x')</script>\"&";
+  ReportInput input = some_report();
+  input.title = input.version = input.movie = input.scene_text = evil;
+  input.facts = {{evil, {{evil, evil}}}};
+  input.pictures = {{evil, evil}};
+  input.checks = {{evil, evil, 1, 2, {}, false}};
+  const std::string page = report_html(input);
+  EXPECT_FALSE(contains(page, "<script"));
+  EXPECT_FALSE(contains(page, "alert('x')"));
+  EXPECT_TRUE(contains(page, "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot;&amp;"));
+}
+
+TEST(Report, ShowsFactsPicturesMovieChecksAndScene) {
+  ReportInput input = some_report();
+  input.pictures = {{"pictures/at rest.png", "At rest"}};
+  input.movie = "pictures/movie.mp4";
+  input.checks = {{"J_min", "J_min < 0.5", 0.25, 0.5, 3, false}};
+  input.scene_text = "body:\n  mesh: box.obj\n";
+  const std::string page = report_html(input);
+  for (const char* part : {"<h1>a scene</h1>", "<dt>particles</dt>", "<dd>2965</dd>",
+                           "src=\"pictures/at%20rest.png\"", "src=\"pictures/movie.mp4\"",
+                           "<video controls", "J_min &lt; 0.5", "mesh: box.obj", "sinew 1.2.3"})
+    EXPECT_TRUE(contains(page, part)) << part;
+}
+
+TEST(Report, DrawsEveryPlannedChart) {
+  const std::string page = report_html(some_report());
+  std::size_t drawings = 0;
+  for (std::size_t at = page.find("<svg"); at != page.npos; at = page.find("<svg", at + 1))
+    ++drawings;
+  EXPECT_EQ(drawings, chart_plans().size());
+}
+
+TEST(Report, ChartsDrawMetricsOfTheTableAndAtMostSix) {
+  for (const ChartPlan& plan : chart_plans()) {
+    EXPECT_LE(plan.metrics.size(), 6u) << plan.title;
+    for (const std::string_view name : plan.metrics)
+      EXPECT_LT(metric_index(name), metrics_table().size()) << name;
+  }
+}
+
+TEST(Report, ChartsShowRadiiSharesAndChangesAsTheySay) {
+  auto frames = some_frames(2);
+  frames[0].pair_energy = -7;
+  frames[1].pair_energy = -5;
+  frames[1].pose_error_rms = 3 * r;
+  frames[1].broken_neighbours = 0.25;
+  const auto last = [&](const std::string& metric) {
+    for (const ChartPlan& plan : chart_plans())
+      for (const Line& line : planned_chart(plan, frames, r).lines)
+        if (line.name == metric) return line.values.back();
+    return not_measured;
+  };
+  EXPECT_EQ(last("pair_energy"), 2);
+  EXPECT_EQ(last("pose_error_rms"), 3);
+  EXPECT_EQ(last("broken_neighbours"), 25);
+}
+
+TEST(Report, StandsWithOneFrameAndNothingMeasured) {
+  ReportInput input = some_report(1);
+  EXPECT_TRUE(contains(report_html(input), "</html>"));
+  input.frames = {FrameMetrics{}};
+  input.frames[0].time = 0;
+  input.summary = summarize(input.frames, r);
+  const std::string page = report_html(input);
+  EXPECT_TRUE(contains(page, "not measured"));
+  EXPECT_FALSE(contains(page, "nan"));
+  input.frames.clear();
+  EXPECT_THROW(report_html(input), Error);
+}
+
+TEST(Report, StaysSmallHoweverLongTheRun) {
+  EXPECT_LT(report_html(some_report(50000)).size(), 1u << 20);
+}
+
+TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
+  std::vector<FrameMetrics> frames = some_frames(3);
+  frames[1].volume_error = 0.01;
+  frames[2].volume_error = 0;
+  frames[1].pose_error_far_rms = 3 * r;
+  frames[1].inverted = 100;
+  frames[1].broken_neighbours = 0.02;
+  frames[2].broken_neighbours = 0;
+  Summary summary = summarize(frames, r);
+  summary.residual_rms = 0.1 * r;
+  const auto items = verdict(frames, summary, r);
+  EXPECT_EQ(items[0].value, "1.00 %");
+  EXPECT_EQ(items[0].level, Level::good);
+  EXPECT_EQ(items[1].value, "3.00 r");
+  EXPECT_EQ(items[1].level, Level::fair);
+  EXPECT_EQ(items[2].value, "2.00 %");
+  EXPECT_EQ(items[2].level, Level::fair);
+  EXPECT_EQ(items[3].value, "100");
+  EXPECT_EQ(items[3].level, Level::poor);
+  EXPECT_EQ(items[4].label, "residual after the return");
+  EXPECT_EQ(items[4].value, "0.10 r");
+}
+
+TEST(Verdict, JudgesTheTipWhereThereIsNoReturn) {
+  std::vector<FrameMetrics> frames(1);
+  frames[0].tip_angle = 87;
+  frames[0].bone_angle = 90;
+  const VerdictItem item = verdict(frames, summarize(frames, r), r)[4];
+  EXPECT_EQ(item.label, "turn of the tip at the end");
+  EXPECT_EQ(item.value, "87.0°");
+  EXPECT_EQ(item.level, Level::fair);
+  EXPECT_EQ(verdict(frames, summarize(frames, r), r)[0].level, Level::unknown);
+}
+
+}  // namespace
+}  // namespace sinew::test

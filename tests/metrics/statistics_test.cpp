@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace sinew::test {
+namespace {
+
+TEST(Statistics, OfManyNumbersAreTheirClosedForms) {
+  constexpr std::size_t n = 100000;
+  for (const int threads : {1, 2, 8})
+    with_threads(threads, [&] {
+      const Statistics all =
+          statistics(n, [](std::size_t i) { return static_cast<double>(i) + 1; });
+      EXPECT_EQ(all.count, n);
+      EXPECT_EQ(all.mean(), (n + 1) / 2.0);
+      EXPECT_DOUBLE_EQ(all.rms(), std::sqrt((n + 1) * (2.0 * n + 1) / 6));
+      EXPECT_EQ(all.min(), 1);
+      EXPECT_EQ(all.max(), static_cast<double>(n));
+    });
+}
+
+TEST(Statistics, OfNothingAreNotANumber) {
+  for (const double value : {Statistics{}.mean(), Statistics{}.rms(), Statistics{}.min(),
+                             statistics(0, [](std::size_t) { return 1.0; }).max()})
+    EXPECT_TRUE(std::isnan(value));
+}
+
+}  // namespace
+}  // namespace sinew::test

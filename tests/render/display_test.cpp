@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "render/display.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "helpers.h"
+
+namespace sinew {
+namespace {
+
+std::string self() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+/// Runs this program's test of an empty shot in another environment.
+int draw_with(const std::string& environment, std::string* output) {
+  return run(
+      "env " + environment + " " + self() + " --gtest_filter=Picture.an_empty_shot_is_white 2>&1",
+      output);
+}
+
+TEST(Display, none_is_replaced_by_xvfb) {
+  std::string output;
+  EXPECT_EQ(draw_with("-u DISPLAY", &output), 0) << output;
+  EXPECT_NE(output.find("1 test"), std::string::npos);
+}
+
+TEST(Display, one_that_does_not_answer_is_replaced_by_xvfb) {
+  std::string output;
+  EXPECT_EQ(draw_with("DISPLAY=:54321", &output), 0) << output;
+}
+
+TEST(Display, without_xvfb_one_line_says_what_to_install) {
+  std::string output;
+  EXPECT_EQ(draw_with("-u DISPLAY PATH=/nonexistent", &output), 4);
+  EXPECT_NE(output.find("apt-get install xvfb"), std::string::npos) << output;
+  EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+}
+
+TEST(Display, ends_with_the_program_even_when_that_is_killed) {
+  std::string name;
+  run("env -u DISPLAY " + self() + " --tell-display-and-die", &name);
+  ASSERT_EQ(name.front(), ':');
+  const std::string socket = "/tmp/.X11-unix/X" + name.substr(1, name.size() - 2);
+  for (int i = 0; i < 500 && std::filesystem::exists(socket); ++i) usleep(10000);
+  EXPECT_FALSE(std::filesystem::exists(socket));
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the tests of pictures share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/error.h"
+#include "render/image.h"
+
+namespace sinew {
+
+/// An empty folder that goes away with this value.
+class Folder {
+ public:
+  Folder();
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  bool empty() const { return std::filesystem::is_empty(path_); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Runs a command in the shell; its exit code, and what it printed in `output` when given.
+int run(const std::string& command, std::string* output = nullptr);
+
+/// The error `job` throws; fails the test when it throws none.
+Error error_of(const std::function<void()>& job);
+
+/// Share of the pixels in a rectangle that are not white.
+double painted(const Image& image, int x, int y, int width, int height);
+double painted(const Image& image);
+
+}  // namespace sinew

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "render/image.h"
+
+#include "helpers.h"
+#include "render/text.h"
+
+namespace sinew {
+namespace {
+
+TEST(Image, halving_takes_the_mean_of_four) {
+  Image image(4, 2, {0, 0, 0});
+  fill(image, 0, 0, 1, 2, {200, 100, 40});
+  const Image half = halved(image);
+  ASSERT_EQ(half.width, 2);
+  ASSERT_EQ(half.height, 1);
+  EXPECT_EQ(half.at(0, 0)[0], 100);
+  EXPECT_EQ(half.at(0, 0)[2], 20);
+  EXPECT_EQ(half.at(1, 0)[0], 0);
+}
+
+TEST(Image, what_lies_outside_is_cut_off) {
+  Image image(10, 10);
+  paste(image, Image(6, 6, palette::ink), -3, 7);
+  EXPECT_NEAR(painted(image), 0.09, 1e-12);
+  fill(image, 8, -5, 100, 6, palette::ink);
+  EXPECT_NEAR(painted(image), 0.11, 1e-12);
+}
+
+TEST(Image, png_holds_its_size_and_colours) {
+  const Folder folder;
+  Image image(30, 20, {200, 10, 60});
+  fill(image, 0, 0, 30, 10, {1, 2, 3});
+  write_png(image, folder.file("a.png"));
+  const std::string decode = "ffmpeg -loglevel error -i " + folder.file("a.png") +
+                             " -f rawvideo -pix_fmt rgb24 - < /dev/null";
+  std::string bytes;
+  ASSERT_EQ(run(decode, &bytes), 0);
+  EXPECT_EQ(bytes, std::string(image.rgb.begin(), image.rgb.end()));
+}
+
+TEST(Image, png_in_a_missing_folder_is_an_error_with_a_cure) {
+  const Error error = error_of([] { write_png(Image(20, 20), "/nonexistent/a.png"); });
+  EXPECT_EQ(error.exit(), Exit::not_written);
+  EXPECT_NE(std::string(error.what()).find("/nonexistent/a.png"), std::string::npos);
+}
+
+TEST(Image, png_that_cannot_replace_leaves_nothing_behind) {
+  const Folder folder;
+  std::filesystem::create_directory(folder.file("taken"));
+  EXPECT_EQ(error_of([&] { write_png(Image(20, 20), folder.file("taken")); }).exit(),
+            Exit::not_written);
+  std::filesystem::remove(folder.file("taken"));
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(Text, stands_where_it_is_aligned) {
+  Image image(300, 60);
+  write_text(image, "90\u00b0", 150, 10, {24, palette::ink, Align::right});
+  EXPECT_GT(painted(image, 90, 0, 60, 60), 0.03);
+  EXPECT_EQ(painted(image, 151, 0, 149, 60), 0);
+  write_text(image, "90\u00b0", 150, 10, {24, palette::ink, Align::left});
+  EXPECT_GT(painted(image, 151, 0, 60, 60), 0.03);
+}
+
+TEST(Text, colour_bar_runs_from_low_to_high) {
+  Image image(200, 80);
+  const TextStyle style{16, palette::ink, Align::left};
+  draw_colour_bar(image, {"speed", "m/s", 0, 2}, 10, 5, 180, style);
+  const int y = 5 + line_height(style) + 4;
+  const auto colour = [&](int x) {
+    return Colour{image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
+  };
+  EXPECT_EQ(colour(10), mapped_colour(0));
+  EXPECT_EQ(colour(189), mapped_colour(1));
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run without a simulation: the paper's box, bent or twisted smoothly about its middle.
+#pragma once
+
+#include "core/rigid.h"
+#include "render/shot.h"
+
+namespace sinew {
+
+/// 2,965 particles of 0.01 m coloured by displacement, an 8 x 10 x 25 cell surface and two bones;
+/// the far half bent by `bend` towards +x and turned by `twist` about the bone, rad.
+Shot synthetic_shot(double bend, double twist);
+
+/// Displacement, 0 .. 0.5 m.
+ColourScale synthetic_scale();
+
+}  // namespace sinew

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rig/binding.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+const double V0 = volume_per_particle(r);
+
+Points box() { return test::fcc_box(11, 11, 49, r); }
+Skeleton two_bones() { return make_skeleton(test::box_scene()); }
+
+double weight_of(const Binding& binding, std::size_t i, int bone) {
+  for (const Influence& influence : binding.of(i))
+    if (influence.bone == bone) return influence.weight;
+  return 0;
+}
+
+TEST(NearestBone, IsTheNearestSegmentAndTheLowerIndexOnTies) {
+  Settings settings;
+  settings.bones = {{"a", "", Vec3(0, 0, 0), Vec3(0, 0, 1)},
+                    {"b", "a", {}, Vec3(0, 0, 2)},
+                    {"c", "", Vec3(3, 0, 0), Vec3(3, 0, 1)}};
+  const Skeleton skeleton = make_skeleton(settings);
+  const std::pair<Vec3, int> cases[] = {{{0.4, 0, 0.3}, 0}, {{0.4, 0, 1.3}, 1}, {{0, 0, -9}, 0},
+                                        {{0, 0, 9}, 1},     {{2.9, 5, 0}, 2},   {{0.2, 0.1, 1}, 0},
+                                        {{1.5, 0, 0.5}, 0}, {{1.5, 2, 0.5}, 0}};
+  for (const auto& [point, bone] : cases)
+    EXPECT_EQ(nearest_bone(skeleton, point), bone) << point.transpose();
+}
+
+TEST(Binding, WithoutAZoneGivesEachParticleToOneBone) {
+  const Points rest = box();
+  const Skeleton skeleton = two_bones();
+  const Binding binding = bind_to_bones(rest, skeleton, V0, 0);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    ASSERT_EQ(binding.of(i).size(), 1u);
+    const Influence& held = binding.of(i)[0];
+    EXPECT_EQ(held.weight, 1);
+    EXPECT_EQ(held.bone, nearest_bone(skeleton, rest[i]));
+    EXPECT_LT((held.foot - Vec3(0, 0, rest[i].z())).norm(), 1e-15);
+    EXPECT_DOUBLE_EQ(held.rest_distance, std::hypot(rest[i].x(), rest[i].y()));
+  }
+}
+
+TEST(Binding, FeetOfParticlesBeyondTheEndsAreTheEnds) {
+  const Skeleton skeleton = two_bones();
+  const Binding binding = bind_to_bones({{0.1, 0, -0.5}, {0.1, 0, 5}}, skeleton, V0, 0);
+  EXPECT_EQ(binding.of(0)[0].foot, Vec3::Zero());
+  EXPECT_LT((binding.of(1)[0].foot - skeleton.bones[1].tail()).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(binding.of(0)[0].rest_distance, std::hypot(0.1, 0.5));
+}
+
+TEST(Binding, CrossSectionIsVolumeBoundOverLength) {
+  const Points rest = box();
+  const Skeleton skeleton = two_bones();
+  const double length = skeleton.bones[0].length;
+  const Binding sharp = bind_to_bones(rest, skeleton, V0, 0);
+  double lower = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) lower += sharp.bone(i) == 0;
+  EXPECT_NEAR(sharp.cross_section[0], lower * V0 / length, 1e-14);
+  EXPECT_NEAR(sharp.cross_section[1], (rest.size() - lower) * V0 / length, 1e-14);
+  // A zone shares the middle plane evenly: both bones hold half of all.
+  const Binding zoned = bind_to_bones(rest, skeleton, V0, 3);
+  EXPECT_NEAR(zoned.cross_section[0], rest.size() * V0 / (2 * length), 1e-13);
+  EXPECT_NEAR(zoned.cross_section[0], zoned.cross_section[1], 1e-13);
+}
+
+TEST(Binding, WeightsPassLinearlyOverTheJointZone) {
+  const Points rest = box();
+  const Skeleton skeleton = two_bones();
+  const double joint = skeleton.bones[1].head().z();
+  // Both bones have the same length: the mean of their sections is that of the whole body.
+  const double zone = 2 * std::sqrt(rest.size() * V0 / (2 * joint));
+  const Binding binding = bind_to_bones(rest, skeleton, V0, 2);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const double upper = std::clamp(0.5 + (rest[i].z() - joint) / zone, 0.0, 1.0);
+    EXPECT_NEAR(weight_of(binding, i, 1), upper, 1e-12);
+    EXPECT_NEAR(weight_of(binding, i, 0), 1 - upper, 1e-12);
+    for (const Influence& held : binding.of(i))  // on the axis, extended within the zone
+      EXPECT_LT((held.foot - Vec3(0, 0, rest[i].z())).norm(), 1e-14);
+  }
+}
+
+/// A trunk with two branches, a bend, and a bone that hangs on the tip without touching it.
+Skeleton tree() {
+  Settings settings;
+  settings.bones = {{"trunk", "", Vec3(0, 0, 0), Vec3(0, 0, 0.3)},
+                    {"left", "trunk", {}, Vec3(-0.2, 0, 0.5)},
+                    {"right", "trunk", {}, Vec3(0.2, 0, 0.5)},
+                    {"tip", "right", {}, Vec3(0.4, 0.1, 0.5)},
+                    {"loose", "tip", Vec3(0, 0.4, 0), Vec3(0, 0.4, 0.2)}};
+  return make_skeleton(settings);
+}
+
+Points cloud() {
+  std::mt19937 random(4);
+  Points points;
+  for (int i = 0; i < 3000; ++i) points.push_back(test::random_vector(random) + Vec3(0, 0, 0.3));
+  return points;
+}
+
+TEST(Binding, WeightsArePositiveSumToOneAndBeginWithTheHeaviest) {
+  const Points rest = cloud();
+  for (const double zone : {0.0, 0.3, 1.0, 3.0}) {
+    const Binding binding = bind_to_bones(rest, tree(), 1e-5, zone);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const auto held = binding.of(i);
+      ASSERT_FALSE(held.empty());
+      EXPECT_EQ(binding.bone(i), held[0].bone);
+      double sum = 0;
+      for (const Influence& one : held) {
+        EXPECT_GT(one.weight, 0);
+        EXPECT_LE(one.weight, held[0].weight);
+        EXPECT_NEAR(one.rest_distance, (rest[i] - one.foot).norm(), 1e-15);
+        sum += one.weight;
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+    }
+  }
+}
+
+TEST(Binding, CrossSectionsAccountForAllVolume) {
+  for (const double zone : {0.0, 0.3, 3.0}) {
+    const Skeleton skeleton = tree();
+    const Binding binding = bind_to_bones(cloud(), skeleton, 1e-5, zone);
+    double volume = 0;
+    for (std::size_t b = 0; b < skeleton.size(); ++b)
+      volume += binding.cross_section[b] * skeleton.bones[b].length;
+    EXPECT_NEAR(volume, 3000 * 1e-5, 1e-12);
+  }
+}
+
+TEST(Binding, BonesThatDoNotTouchShareNoParticle) {
+  const Points rest = {{0, 0.4, 0.1}, {0, 0.4, 0}, {0, 0.4, 0.2}};
+  const Binding binding = bind_to_bones(rest, tree(), 1e-5, 3);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    ASSERT_EQ(binding.of(i).size(), 1u);
+    EXPECT_EQ(binding.bone(i), 4);
+  }
+}
+
+TEST(Binding, OfNoParticlesHoldsNothing) {
+  const Binding binding = bind_to_bones({}, two_bones(), V0, 3);
+  EXPECT_EQ(binding.first, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(binding.cross_section, (std::vector<double>{0, 0}));
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rig/skin.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/closest_packing.h"
+#include "core/parallel.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+using test::affine;
+using test::turned;
+
+constexpr double r = 0.01;
+
+RestShape shape(const Points& points) { return rest_shape(points, rest_neighbour_range(r)); }
+
+/// Vertices in and around the box of the points, up to `beyond` outside.
+Points vertices_around(const Points& points, double beyond, int count = 300) {
+  std::mt19937 random(5);
+  Box box;
+  for (const Vec3& point : points) box.extend(point);
+  const Vec3 size = box.sizes() + Vec3::Constant(2 * beyond);
+  Points vertices;
+  for (int i = 0; i < count; ++i)
+    vertices.push_back(box.center() + size.cwiseProduct(test::random_vector(random)));
+  return vertices;
+}
+
+/// The largest error when the body, vertices around it, and all, move by F and a shift.
+double error_under(const Points& points, const Mat3& F, const Vec3& shift) {
+  const RestShape body = shape(points);
+  const Points vertices = vertices_around(points, 2 * r);
+  const Points expected = affine(vertices, F, shift);
+  const Points found = follow(make_skin(vertices, body, r), body, affine(points, F, shift));
+  double most = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    most = std::max(most, (found[i] - expected[i]).norm());
+  return most;
+}
+
+TEST(Skin, FollowsAffineMotionExactly) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Mat3 F = Mat3::Identity() + 0.5 * test::random_matrix(random);
+    EXPECT_LT(error_under(test::fcc_box(7, 7, 15, r), F, {1, -2, 3}), 1e-10);
+  }
+}
+
+TEST(Skin, WeightsArePositiveAndAPartitionOfUnity) {
+  const RestShape body = shape(test::fcc_box(5, 5, 9, r));
+  const Skin skin = make_skin(vertices_around(body.points, 30 * r), body, r);
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    double sum = 0;
+    for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k) {
+      EXPECT_GT(skin.weight[k], 0);
+      sum += skin.weight[k];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+  }
+}
+
+/// The weights of the definition: h = max(6 r, 1.05 times the distance of the 20th).
+std::vector<double> weights_by_definition(const Vec3& vertex, const Points& points) {
+  std::vector<double> distance, weight;
+  for (const Vec3& point : points) distance.push_back((point - vertex).norm());
+  std::vector<double> sorted = distance;
+  std::sort(sorted.begin(), sorted.end());
+  const double h = std::max(6 * r, 1.05 * sorted[std::min<std::size_t>(19, sorted.size() - 1)]);
+  double sum = 0;
+  for (const double s : distance) {
+    weight.push_back(s < h ? std::pow(1 - s * s / (h * h), 3) : 0);
+    sum += weight.back();
+  }
+  for (double& w : weight) w /= sum;
+  return weight;
+}
+
+TEST(Skin, WeightsAreThoseOfTheDefinitionNearAndFar) {
+  for (const Points& points : {test::fcc_box(5, 5, 9, r), test::fcc_box(3, 3, 1, r)}) {
+    const RestShape body = shape(points);
+    const Skin skin = make_skin(vertices_around(points, 12 * r, 2000), body, r);
+    for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+      std::vector<double> found(points.size(), 0.0);
+      for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k)
+        found[skin.particle[k]] += skin.weight[k];
+      const auto expected = weights_by_definition(skin.rest[i], points);
+      for (std::size_t j = 0; j < points.size(); ++j) ASSERT_NEAR(found[j], expected[j], 1e-12);
+    }
+  }
+}
+
+TEST(Skin, OfSmallAndFlatBodiesFollowsRigidMotion) {
+  const Points three_by_three = test::fcc_box(3, 3, 3, r);
+  for (const Points& points :
+       {three_by_three, test::fcc_box(5, 5, 1, r), test::fcc_box(2, 2, 2, r)})
+    for (const double angle : {0, 70, 180})
+      EXPECT_LT(error_under(points, turned({1, 2, -1}, angle), {1, 1, 1}), 1e-12);
+}
+
+TEST(Skin, OfLinesAndSinglePointsRestsAndMovesAlong) {
+  Points line;
+  for (int i = 0; i < 5; ++i) line.push_back(turned({1, 5, 2}, 33) * Vec3(2 * r * i, 0, 0));
+  for (const Points& points : {Points{{1, 2, 3}}, line, Points(line.begin(), line.begin() + 2)}) {
+    EXPECT_LT(error_under(points, Mat3::Identity(), {0, 0, 0}), 1e-12);
+    EXPECT_LT(error_under(points, Mat3::Identity(), {1, 1, 1}), 1e-12);
+  }
+}
+
+TEST(Skin, KeepsOnlyTheRotationWhereTheGradientIsUnreliable) {
+  const RestShape body = shape(test::fcc_box(5, 5, 5, r));
+  const Points vertices = {body.points[10] + Vec3(r, 0, 0)};
+  const Skin skin = make_skin(vertices, body, r);
+  // Ten times as large in all directions: J = 1000 is no gradient to extrapolate with.
+  const Points now = follow(skin, body, affine(body.points, 10 * Mat3::Identity()));
+  Vec3 expected = Vec3::Zero();
+  for (auto k = skin.first[0]; k < skin.first[1]; ++k) {
+    const Vec3& at_rest = body.points[skin.particle[k]];
+    expected += skin.weight[k] * (10 * at_rest + (vertices[0] - at_rest));
+  }
+  EXPECT_LT((now[0] - expected).norm(), 1e-12);
+}
+
+TEST(Skin, HasTheSameBitsForEveryThreadCount) {
+  const RestShape body = shape(test::fcc_box(11, 11, 25, r));
+  const Skin skin = make_skin(vertices_around(body.points, r, 3000), body, r);
+  const Points moved = affine(body.points, turned({1, 1, 0}, 20));
+  const Points expected = follow(skin, body, moved);
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] { EXPECT_EQ(follow(skin, body, moved), expected); });
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Another program of sinew as a child that dies with its parent.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+struct ChildEnd {
+  int exit = 0;        ///< its exit code; 128 + signal when a signal ended it
+  std::string output;  ///< its standard output
+};
+
+/// Runs sinew-COMMAND from beside this program and waits. SIGINT and SIGTERM are passed on to it.
+/// Throws bad input when it cannot be started.
+ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments);
+
+}  // namespace sinew

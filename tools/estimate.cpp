@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate.h"
+
+#include <cstdio>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Real numbers written per particle (position, displacement, velocity, four forces, radius) and per
+// point of the surface (position, displacement, normal), and whole numbers beside them.
+constexpr double reals_per_particle = 22, wholes_per_particle = 6;
+constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
+// Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
+constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
+constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
+// State, forces, lists of the rest shape, and one frame in the making.
+constexpr double memory_per_particle = 1500;
+
+}  // namespace
+
+Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
+               std::size_t surface_faces) {
+  const OutputSettings& output = settings.output;
+  const auto particles = static_cast<double>(setup.body.rest.size());
+  const auto points = static_cast<double>(surface_points);
+  const auto faces = static_cast<double>(surface_faces);
+  const double reals = particles * reals_per_particle + points * reals_per_point;
+  const double wholes =
+      particles * wholes_per_particle + points * wholes_per_point + faces * wholes_per_face;
+  const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
+  const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;
+  const double coded =
+      raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
+  Needs needs;
+  needs.disk = static_cast<std::uint64_t>((coded + bytes_per_frame_beside) * (setup.frames + 1));
+  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle + 3 * raw);
+  return needs;
+}
+
+std::uint64_t free_space(const fs::path& folder) {
+  fs::path existing = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(existing) && existing.has_relative_path()) existing = existing.parent_path();
+  std::error_code failed;
+  const auto space = fs::space(existing, failed);
+  return failed ? UINT64_MAX : space.available;
+}
+
+void check_space(const fs::path& folder, const Needs& needs) {
+  const std::uint64_t available = free_space(folder);
+  if (needs.disk <= available) return;
+  throw not_written(
+      folder.string(),
+      "the run needs about " + bytes_text(needs.disk) + ", the disk has " + bytes_text(available),
+      "make space, choose another folder with -o, or make output.interval longer");
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
+  auto value = static_cast<double>(bytes);
+  int unit = 0;
+  for (; value >= 1000 && unit < 6; ++unit) value /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
+  return text;
+}
+
+}  // namespace sinew

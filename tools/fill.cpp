@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew-fill: fills a mesh, or the mesh of a scene, with closest-packed particles.
+#include <filesystem>
+
+#include "command.h"
+#include "config/scene.h"
+#include "fill/read_surface.h"
+#include "results.h"
+#include "scene_body.h"
+
+namespace {
+
+using namespace sinew;
+
+struct Options {
+  std::string input, output = "body.vtu", packing = "fcc";
+  std::optional<double> radius;
+  std::optional<int> count;
+  double density = MaterialSettings{}.density;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("INPUT", options.input, "Scene (YAML), or mesh (OBJ, OFF, STL, PLY)")->required();
+  app.add_option("-o", options.output, "Where the filled body goes")
+      ->type_name("FILE")
+      ->capture_default_str();
+  auto* radius = app.add_option("--radius", options.radius, "Particle radius, m (for a mesh)")
+                     ->type_name("R")
+                     ->check(CLI::PositiveNumber);
+  app.add_option("--count", options.count, "About how many particles (for a mesh)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->excludes(radius);
+  app.add_option("--packing", options.packing, "fcc or hcp (for a mesh)")
+      ->check(CLI::IsMember({"fcc", "hcp"}))
+      ->capture_default_str();
+  app.add_option("--density", options.density, "kg/m^3 (for a mesh)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+bool is_scene(const std::string& path) {
+  const auto extension = std::filesystem::path(path).extension();
+  return extension == ".yaml" || extension == ".yml";
+}
+
+/// A mesh on the command line as the body of a scene.
+Settings settings_for_mesh(const Options& options) {
+  if (!options.radius && !options.count)
+    throw bad_input("a mesh needs --radius or --count",
+                    "say how large the particles are, or how many; see sinew fill --help");
+  Settings settings;
+  settings.body = {options.input, options.radius, options.count,
+                   options.packing == "hcp" ? Packing::hcp : Packing::fcc};
+  settings.material.density = options.density;
+  return settings;
+}
+
+Settings settings_for_scene(const Options& options, const Common& common) {
+  if (options.radius || options.count)
+    throw bad_input("--radius and --count are for meshes",
+                    "use --set body.radius=R or --set body.count=N with a scene");
+  return read_scene(options.input, common.overrides);
+}
+
+Exit fill(const Options& options, const Common& common) {
+  const Settings settings =
+      is_scene(options.input) ? settings_for_scene(options, common) : settings_for_mesh(options);
+  const ClosedSurface surface = read_mesh(settings);
+  const Filling filling = fill_body(settings, surface);
+  write_body(options.output, body_file(filling, origin_of(settings)));
+  Results results;
+  for (const ReportRow& row : rows_of(filling.report))
+    results.add(row.key, nlohmann::ordered_json::parse(row.value), row.unit);
+  results.add("file", options.output);
+  results.print(common.json);
+  return Exit::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return run_command(
+      argc, argv,
+      {"fill",
+       "Fills a closed mesh with closest-packed particles.",
+       {"sinew fill configs/box_bend.yaml", "sinew fill body.obj --radius 0.01 -o body.vtu",
+        "sinew fill body.stl --count 100000 --packing hcp"}},
+      [&](CLI::App& app) { declare(app, options); },
+      [&](const Common& common) { return fill(options, common); });
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far a run is, on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace sinew {
+
+enum class ProgressStyle { none, lines, rewritten };
+
+/// One line rewritten on a terminal, otherwise one line every tenth of the way; nothing when quiet.
+/// No colours and no escape sequences anywhere, so NO_COLOR and plain terminals get what they ask.
+ProgressStyle progress_style(bool quiet);
+
+/// "frame 30/90  time 1 s  1234 steps/s  0:52 left"; unknown parts (0, negative) are left out.
+std::string progress_text(int frame, int frames, double time, double steps_per_second,
+                          double seconds_left);
+
+class Progress {
+ public:
+  /// `frames`: how many there will be after the first. `out` is for tests.
+  Progress(int frames, ProgressStyle style, std::FILE* out = stderr);
+  ~Progress();  ///< ends a rewritten line, so that what follows begins on its own
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Frame number `frame` is done, at `time` (s of the scene), after `steps` steps of this run.
+  /// The first call starts the clock.
+  void frame(int frame, double time, std::int64_t steps);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void rewrite(const std::string& line);
+
+  int frames_;
+  ProgressStyle style_;
+  std::FILE* out_;
+  bool begun_ = false;
+  Clock::time_point start_, shown_;
+  int first_frame_ = 0;
+  std::int64_t first_steps_ = 0;
+  int tenths_ = 0;
+  std::size_t width_ = 0;
+};
+
+}  // namespace sinew

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew-run: the whole job, each part by its own program.
+#include <filesystem>
+
+#include "child.h"
+#include "command.h"
+#include "results.h"
+#include "run_folder.h"
+
+namespace {
+
+using namespace sinew;
+
+struct Options {
+  std::string scene, folder;
+  bool force = false, resume = false, no_movie = false;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
+  app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
+      ->type_name("DIR");
+  auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
+  app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
+  app.add_flag("--no-movie", options.no_movie, "Pictures, but no movie");
+}
+
+using Words = std::vector<std::string>;
+
+Words shared_words(const Common& common) {
+  Words words{"--json", "--threads", std::to_string(common.threads)};
+  if (common.quiet) words.push_back("--quiet");
+  return words;
+}
+
+Words simulate_words(const Options& options, const Common& common, const std::string& folder) {
+  Words words = shared_words(common);
+  for (const Override& override : common.overrides)
+    words.insert(words.end(), {"--set", override.path + '=' + override.value});
+  if (options.force) words.push_back("--force");
+  if (options.resume) words.push_back("--resume");
+  words.insert(words.end(), {"-o", folder, "--", options.scene});
+  return words;
+}
+
+Words render_words(const Options& options, const Common& common, const std::string& folder) {
+  Words words = shared_words(common);
+  if (options.no_movie) words.push_back("--no-movie");
+  words.insert(words.end(), {"--", folder});
+  return words;
+}
+
+Words measure_words(const Common& common, const std::string& folder) {
+  Words words = shared_words(common);
+  words.insert(words.end(), {"--", folder});
+  return words;
+}
+
+/// Runs one part and takes over what it found out. Its own error line has been printed by itself.
+Exit do_part(const std::string& command, const Words& words, Results& results) {
+  const ChildEnd end = run_child(command, words);
+  const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
+  if (found.is_object())
+    for (const auto& [key, value] : found.items())
+      if (key != "folder") results.add(key, value);
+  return static_cast<Exit>(end.exit);
+}
+
+Exit run(const Options& options, const Common& common) {
+  const std::string folder = run_folder(options.scene, options.folder).path.string();
+  Results results;
+  results.add("folder", folder);
+  Exit exit = do_part("simulate", simulate_words(options, common, folder), results);
+  // The report shows the pictures, so they come first.
+  if (exit == Exit::done) exit = do_part("render", render_words(options, common, folder), results);
+  if (exit == Exit::done) exit = do_part("measure", measure_words(common, folder), results);
+  if (exit == Exit::done) results.add("report", folder + "/report.html");
+  results.print(common.json);
+  return exit;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return run_command(
+      argc, argv,
+      {"run",
+       "The whole job: fills, simulates, draws and measures a scene.",
+       {"sinew run configs/box_bend.yaml",
+        "sinew run configs/box_bend.yaml -o /tmp/soft --set body.radius=0.014"}},
+      [&](CLI::App& app) { declare(app, options); },
+      [&](const Common& common) { return run(options, common); });
+}

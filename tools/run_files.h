@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The files of a run read back: what measuring and drawing begin with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/energies.h"
+#include "core/settings.h"
+#include "core/triangles.h"
+#include "io/body.h"
+#include "io/series.h"
+#include "rig/skeleton.h"
+#include "run_folder.h"
+
+namespace sinew {
+
+struct RunFiles {
+  RunFolder folder;
+  std::string scene_text;
+  Settings settings;
+  Skeleton skeleton;
+  BodyFile body;      ///< at rest, with the bone of each particle
+  Triangles surface;  ///< at rest
+  std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< as many of each
+
+  std::size_t frames() const { return particle_rows.size(); }
+};
+
+/// Opens a run. Throws bad input, naming the file, for a folder that is none. Frames that only some
+/// of the series have (a run still going, or cut off) are left out.
+RunFiles open_run(const RunFolder& folder);
+
+/// Everything about one frame, in the written order.
+struct RunFrame {
+  double time = 0;                               ///< s
+  Points positions, velocities, surface_points;  ///< m, m/s, m
+  std::vector<double> displacement;              ///< its size per particle, m
+  std::vector<RigidFrame> bones;                 ///< heads and axes
+  Energies energies;
+};
+
+/// Throws bad input, naming the file, when it is damaged or of another body.
+RunFrame read_frame(const RunFiles& run, std::size_t frame);
+
+}  // namespace sinew

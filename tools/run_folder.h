@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The folder of a run: what lies where, who works in it, and what of it is an older run's.
+#pragma once
+
+#include <filesystem>
+
+namespace sinew {
+
+struct RunFolder {
+  std::filesystem::path path;
+
+  std::filesystem::path scene() const { return path / "scene.yaml"; }
+  std::filesystem::path record() const { return path / "run.json"; }
+  std::filesystem::path log() const { return path / "log.txt"; }
+  std::filesystem::path body() const { return path / "body.vtu"; }
+  std::filesystem::path pictures() const { return path / "pictures"; }
+
+  /// Whether a run has begun here.
+  bool used() const { return std::filesystem::exists(record()); }
+};
+
+/// out/NAME-OF-SCENE below the current directory, or what the user chose with -o.
+RunFolder run_folder(const std::filesystem::path& scene, const std::filesystem::path& chosen);
+
+/// Creates the folder. Throws not written.
+void create(const RunFolder& folder);
+
+/// Removes what an older run has left, and nothing else; the body stays, it may fit the scene.
+void remove_old_run(const RunFolder& folder);
+
+/// Held while a run works in its folder; the kernel lets go of it however the program ends.
+class FolderLock {
+ public:
+  /// Throws bad input when another process holds it, not written when it cannot be made.
+  explicit FolderLock(const RunFolder& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace sinew

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_record.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "command.h"
+#include "io/atomic_file.h"
+
+namespace sinew {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+}  // namespace
+
+nlohmann::ordered_json read_record(const RunFolder& folder) {
+  auto record = nlohmann::ordered_json::parse(read_file(folder.record()), nullptr, false);
+  if (record.is_object()) return record;
+  throw bad_input(Place{folder.record().string()}, "is not the record of a run",
+                  "run the scene again with --force");
+}
+
+void write_record(const RunFolder& folder, const nlohmann::ordered_json& record) {
+  write_file(folder.record(), record.dump(2) + '\n');
+}
+
+void record_stage(const RunFolder& folder, const std::string& stage, double seconds) {
+  auto record = read_record(folder);
+  record["seconds"][stage] = seconds;
+  write_record(folder, record);
+}
+
+std::string status_of(const RunFolder& folder) {
+  if (!folder.used()) return "";
+  const auto record = read_record(folder);
+  const auto status = record.find("status");
+  return status != record.end() && status->is_string() ? status->get<std::string>() : "";
+}
+
+nlohmann::ordered_json begin_record(int argc, char** argv) {
+  nlohmann::ordered_json record;
+  record["program"] = "sinew";
+  record["version"] = version();
+  record["status"] = "running";
+  record["command"] = std::vector<std::string>(argv, argv + argc);
+  record["host"] = host_name();
+  record["cores"] = std::thread::hardware_concurrency();
+  record["started"] = utc_now();
+  return record;
+}
+
+}  // namespace sinew

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The body of a scene: its mesh read, filled and ready to be written or moved.
+#pragma once
+
+#include <filesystem>
+
+#include "core/settings.h"
+#include "fill/pack.h"
+#include "io/body.h"
+
+namespace sinew {
+
+/// Reads the mesh that a scene names. Errors name the scene's line.
+ClosedSurface read_mesh(const Settings& settings);
+
+/// Fills it as the scene says. Errors name the scene's line.
+Filling fill_body(const Settings& settings, const ClosedSurface& surface);
+
+/// What body.vtu holds of a filling; `origin` tells from what it was made.
+BodyFile body_file(const Filling& filling, const std::string& origin);
+
+/// A text that is the same for the same mesh file and the same way of filling it.
+std::string origin_of(const Settings& settings);
+
+/// The body of this very scene, if `path` holds it.
+std::optional<BodyFile> body_of_scene(const std::filesystem::path& path, const std::string& origin);
+
+}  // namespace sinew

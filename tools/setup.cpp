@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/closest_packing.h"
+#include "core/error.h"
+
+namespace sinew {
+namespace {
+
+int frames_of(const Settings& settings) {
+  const double frames = std::ceil(settings.solver.duration / settings.output.interval - 1e-6);
+  if (!(frames <= 1e6))
+    throw bad_input(settings.place("output.interval"), "the run would have over a million frames",
+                    "make output.interval longer");
+  return static_cast<int>(frames);
+}
+
+Body make_body(const Settings& settings, const Particles& particles) {
+  Body body;
+  body.rest = positions_of(particles);
+  body.skeleton = make_skeleton(settings);
+  body.binding = bind_to_bones(body.rest, body.skeleton, volume_per_particle(particles.radius),
+                               settings.binding.joint_zone);
+  body.material = make_material(settings.material, particles.radius, particles.mass);
+  body.springs = bone_springs(settings.binding, body.material, body.binding);
+  return body;
+}
+
+StepChoice steps_of(const Settings& settings, const Body& body) {
+  const double limit = step_limit(settings.solver.integrator, body.material, body.springs);
+  try {
+    return choose_step(settings.solver, limit, settings.output.interval);
+  } catch (const Error& error) {
+    throw error.within(settings.place("solver.integrator"));
+  }
+}
+
+}  // namespace
+
+Setup set_up(const Settings& settings, const Particles& particles) {
+  Setup setup;
+  setup.frames = frames_of(settings);
+  setup.body = make_body(settings, particles);
+  setup.motion = make_motion(settings, setup.body.skeleton);
+  setup.steps = steps_of(settings, setup.body);
+  return setup;
+}
+
+Simulation start(const Settings& settings, const Setup& setup, const Particles& particles) {
+  return Simulation(setup.body, setup.motion, particles,
+                    {settings.solver.integrator, setup.steps.step, settings.solver.gravity});
+}
+
+double bone_speed(const Setup& setup, double interval) {
+  const Body& body = setup.body;
+  double fastest = 0;
+  constexpr int samples_per_frame = 4;
+  for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
+    const Pose pose = pose_at(body.skeleton, setup.motion, sample * interval / samples_per_frame);
+    for (std::size_t b = 0; b < pose.size(); ++b) {
+      const Vec3 tail = pose[b].frame.origin + body.skeleton.bones[b].length * pose[b].axis();
+      fastest = std::max({fastest, pose[b].velocity.norm(), pose[b].velocity_at(tail).norm()});
+    }
+  }
+  return fastest * setup.steps.step / body.material.pair.r;
+}
+
+}  // namespace sinew

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a scene and its filled body to a simulation that can be stepped.
+#pragma once
+
+#include "core/particles.h"
+#include "core/settings.h"
+#include "physics/simulation.h"
+#include "physics/time_step.h"
+
+namespace sinew {
+
+struct Setup {
+  Body body;
+  Motion motion;
+  StepChoice steps;
+  int frames = 0;  ///< after the first; the last reaches solver.duration
+};
+
+/// Binds the particles to the bones and chooses the step. Errors name the scene's line.
+Setup set_up(const Settings& settings, const Particles& particles);
+
+/// The simulation of a setup, at its start.
+Simulation start(const Settings& settings, const Setup& setup, const Particles& particles);
+
+/// The most any particle's place is moved by the bones in one step, in radii.
+double bone_speed(const Setup& setup, double interval);
+
+}  // namespace sinew

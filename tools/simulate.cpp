@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew-simulate: moves the bones of a scene and writes what the body does.
+#include "command.h"
+#include "config/resolved.h"
+#include "config/scene.h"
+#include "core/number_text.h"
+#include "core/stopwatch.h"
+#include "estimate.h"
+#include "io/atomic_file.h"
+#include "io/view_script.h"
+#include "journal.h"
+#include "progress.h"
+#include "recorder.h"
+#include "results.h"
+#include "run_folder.h"
+#include "run_record.h"
+#include "scene_body.h"
+#include "setup.h"
+#include "stop_signal.h"
+
+namespace {
+
+using namespace sinew;
+
+struct Options {
+  std::string scene, folder;
+  bool force = false, resume = false;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
+  app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
+      ->type_name("DIR");
+  auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
+  app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
+}
+
+/// Whether there is anything to do; refuses to overwrite a run unasked.
+bool may_begin(const RunFolder& folder, const Options& options, const Common& common) {
+  if (!folder.used() || options.force) return true;
+  if (!options.resume)
+    throw bad_input(Place{folder.path.string()}, "holds a run already",
+                    "replace it with --force, or choose another folder with -o");
+  if (status_of(folder) == "finished") {
+    say(common, "the run in " + folder.path.string() + " is finished already");
+    return false;
+  }
+  say(common, "no checkpoint in " + folder.path.string() + ": beginning again");
+  return true;
+}
+
+/// All that is known before the first step.
+struct Prepared {
+  ClosedSurface surface;
+  BodyFile body;
+  Setup setup;
+  double seconds_filling = 0, seconds_binding = 0;
+};
+
+Prepared prepare(const Settings& settings, const RunFolder& folder) {
+  Stopwatch watch;
+  Prepared made;
+  made.surface = read_mesh(settings);
+  const std::string origin = origin_of(settings);
+  auto there = body_of_scene(folder.body(), origin);
+  made.body = there ? *std::move(there) : body_file(fill_body(settings, made.surface), origin);
+  made.seconds_filling = watch.lap();
+  made.setup = set_up(settings, made.body.particles);
+  made.body.bone = bones_of_particles(made.setup.body);
+  made.seconds_binding = watch.lap();
+  const Triangles& skin = made.surface.triangles;
+  check_space(folder.path, needs_of(settings, made.setup, skin.points.size(), skin.faces.size()));
+  return made;
+}
+
+void write_beginning(const Settings& settings, const Prepared& made, const RunFolder& folder) {
+  write_body(folder.body(), made.body, settings.output.encoding);
+  write_file(folder.scene(), resolved_scene(settings, folder.path));
+  write_view_script(folder.path);
+}
+
+/// Steps to the end, a frame at a time.
+Exit step_through(Simulation& simulation, const Setup& setup, double interval, Recorder& recorder,
+                  Journal& journal, Progress& progress) {
+  Stopwatch watch;
+  for (int frame = 0;; ++frame) {
+    recorder.add(simulation, frame * interval);
+    journal.frame(frame, frame * interval);
+    journal.spend("writing", watch.lap());
+    progress.frame(frame, frame * interval, simulation.steps());
+    if (frame == setup.frames) return Exit::done;
+    if (stop_asked()) return Exit::interrupted;
+    for (int step = 0; step < setup.steps.per_frame; ++step) simulation.step();
+    journal.spend("stepping", watch.lap());
+  }
+}
+
+/// Steps through, and closes the books however it ends.
+Exit run_to_end(Simulation& simulation, const Settings& settings, const Prepared& made,
+                const RunFolder& folder, Journal& journal, bool quiet) {
+  try {
+    Recorder recorder(folder.path, settings.output, made.setup.body, made.surface.triangles);
+    Exit exit = Exit::done;
+    try {
+      Progress progress(made.setup.frames, progress_style(quiet));
+      exit = step_through(simulation, made.setup, settings.output.interval, recorder, journal,
+                          progress);
+    } catch (const Error& error) {
+      if (error.exit() == Exit::unstable) recorder.close();  // the frames before it are good
+      throw;
+    }
+    recorder.close();
+    journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
+    return exit;
+  } catch (const Error& error) {
+    journal.fail(error.exit() == Exit::unstable ? "unstable" : "failed", error.what());
+    throw;
+  }
+}
+
+void print_results(const RunFolder& folder, const Journal& journal, bool as_json) {
+  const auto& record = journal.record();
+  Results results;
+  results.add("folder", folder.path.string());
+  for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",
+                          "time_step_factor", "particle_steps_per_second", "state_hash"})
+    results.add(key, record[key]);
+  results.print(as_json);
+}
+
+Exit simulate(int argc, char** argv, const Options& options, const Common& common) {
+  const Settings settings = read_scene(options.scene, common.overrides);
+  const RunFolder folder = run_folder(options.scene, options.folder);
+  create(folder);
+  const FolderLock lock(folder);
+  if (!may_begin(folder, options, common)) return Exit::done;
+
+  const Prepared made = prepare(settings, folder);
+  remove_old_run(folder);
+  Journal journal(folder, argc, argv);
+  journal.spend("filling", made.seconds_filling);
+  journal.spend("binding", made.seconds_binding);
+  journal.describe(settings, made.setup);
+  write_beginning(settings, made, folder);
+  say(common, "step " + three_digits(made.setup.steps.step) + " s, " +
+                  three_digits(made.setup.steps.factor()) + " of the stability limit " +
+                  three_digits(made.setup.steps.limit) + " s");
+
+  catch_stop_signals();
+  Simulation simulation = start(settings, made.setup, made.body.particles);
+  const Exit exit = run_to_end(simulation, settings, made, folder, journal, common.quiet);
+  print_results(folder, journal, common.json);
+  if (exit == Exit::interrupted)
+    say(common, "sinew: stopped; go on with: sinew simulate " + options.scene + " -o " +
+                    folder.path.string() + " --resume");
+  return exit;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return run_command(
+      argc, argv,
+      {"simulate",
+       "Moves the bones of a scene and writes what the body does.",
+       {"sinew simulate configs/box_bend.yaml",
+        "sinew simulate configs/box_bend.yaml -o /tmp/soft --set material.young_modulus=5000"}},
+      [&](CLI::App& app) { declare(app, options); },
+      [&](const Common& common) { return simulate(argc, argv, options, common); });
+}

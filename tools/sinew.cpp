@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew COMMAND ...: becomes the program sinew-COMMAND that lies beside it, so that each command
+// loads only its own packages.
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "command.h"
+#include "core/words.h"
+#include "results.h"
+
+namespace {
+
+using namespace sinew;
+
+struct Known {
+  std::string_view name, purpose;
+};
+
+constexpr std::array<Known, 7> commands = {{
+    {"run", "the whole job: fill, simulate, measure, render"},
+    {"check", "what a run would need, and what is doubtful in its scene"},
+    {"fill", "fill a closed mesh with closest-packed particles"},
+    {"simulate", "move the bones and let the body follow"},
+    {"measure", "metrics and a report of a run"},
+    {"render", "pictures and a movie of a run"},
+    {"info", "what is in a file, and what is wrong with it"},
+}};
+
+std::string usage() {
+  std::string text =
+      "sinew bends elastic bodies with a skeleton.\n\n"
+      "Usage: sinew COMMAND [OPTIONS] ...\n\nCommands:\n";
+  for (const auto& [name, purpose] : commands)
+    text +=
+        "  " + std::string(name) + std::string(10 - name.size(), ' ') + std::string(purpose) + '\n';
+  return text +
+         "\nOptions:\n  -h, --help  Show this help and stop\n"
+         "  --version   Show the version and stop\n\n"
+         "Examples:\n  sinew run configs/box_bend.yaml\n  sinew fill --help\n";
+}
+
+std::string name_of(const std::string& word) {
+  std::vector<std::string_view> names;
+  for (const Known& command : commands) names.push_back(command.name);
+  for (const std::string_view name : names)
+    if (name == word) return word;
+  const bool option = word.substr(0, 1) == "-";
+  throw bad_input((option ? "unknown option " : "unknown command ") + shown(word),
+                  option ? "put options behind the command; see sinew --help"
+                         : suggestion(word, names) + " See sinew --help");
+}
+
+/// Does not return but by throwing.
+Exit become(const std::string& name, const std::vector<char*>& rest) {
+  const auto program =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("sinew-" + name);
+  std::string path = program.string();
+  std::vector<char*> arguments = {path.data()};
+  arguments.insert(arguments.end(), rest.begin(), rest.end());
+  arguments.push_back(nullptr);
+  execv(path.c_str(), arguments.data());
+  throw bad_input({path}, "cannot be started (" + std::generic_category().message(errno) + ")",
+                  "build or install all programs of sinew");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_told([&] {
+    std::vector<char*> rest(argv + std::min(argc, 2), argv + argc);
+    const std::string word = argc > 1 ? argv[1] : "";
+    if (word.empty()) throw bad_input("no command given", "see sinew --help");
+    if (word == "--help" || word == "-h" || (word == "help" && rest.empty())) {
+      print_out(usage());
+      return Exit::done;
+    }
+    if (word == "--version") {
+      print_out("sinew " + version() + '\n');
+      return Exit::done;
+    }
+    if (word != "help") return become(name_of(word), rest);
+    std::string help = "--help";
+    return become(name_of(rest.front()), {help.data()});
+  });
+}
