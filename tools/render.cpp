@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv, about, [&](CLI::App& app) { declare(app, options); },
       [&](const Common& common) {
-        ensure_display(argc, argv);
+        ensure_display();
         return render(options, common);
       });
 }

@@ -15,8 +15,9 @@ namespace sinew {
 double highest_frequency_squared(const Material& material, const std::vector<BoneSprings>& springs);
 
 /// The largest stable step, s. Symplectic Euler and velocity Verlet, which damps with the half-step
-/// velocity: (sqrt(g^2 + 4 w^2) - g) / w^2, with g the largest damping rate. Explicit Euler: the
-/// least of what lattice, damping and bones allow; 0 when no step is stable.
+/// velocity: (sqrt(g^2 + 4 w^2) - g) / w^2, the least of what the modes within the packing (damped
+/// at g = (4/3) C/m, central (2/3) C/m) and those at its surface allow. Explicit Euler: the least
+/// of what lattice, damping and bones allow; 0 when no step is stable.
 double step_limit(Integrator integrator, const Material& material,
                   const std::vector<BoneSprings>& springs);
 

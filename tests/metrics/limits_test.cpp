@@ -101,7 +101,8 @@ std::string message(const std::string& expression) {
 TEST(Limits, AnUnknownMetricIsAnsweredWithTheNearestName) {
   EXPECT_NE(message("volume_eror > 1").find("did you mean volume_error?"), std::string::npos);
   EXPECT_NE(message("max(Jmin) < 1").find("did you mean J_min?"), std::string::npos);
-  EXPECT_NE(message("residual > 1").find("did you mean residual_rms?"), std::string::npos);
+  EXPECT_NE(message("residul_rms > 1").find("did you mean residual_rms?"), std::string::npos);
+  EXPECT_NE(message("beauty > 1").find("use a column of metrics.csv"), std::string::npos);
 }
 
 TEST(Limits, HostileExpressionsAreBadInputInOneLine) {

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "expect_error.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::explicit_euler,
+                                      Integrator::velocity_verlet};
+
+Points bar() { return test::fcc_box(11, 11, 25, r); }
+
+Settings bend_scene() {
+  Settings settings = test::box_scene(25);
+  settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 40)})};
+  return settings;
+}
+
+TEST(FreeFall, HasTheClosedFormOfEachIntegrator) {
+  const double dt = 1e-3;
+  const Vec3 g(1, 2, -9.81);
+  const int n = 100;
+  for (const Integrator integrator : integrators) {
+    Settings settings = test::unbound(test::box_scene(25));
+    settings.solver.integrator = integrator;
+    settings.solver.gravity = g;
+    const Points rest = test::fcc_box(5, 5, 5, r);
+    Simulation simulation = test::simulation_from(settings, rest, particles_at(rest, r, 1), dt);
+    for (int step = 0; step < n; ++step) simulation.step();
+    // Sums of dt v: the velocity after, before, or halfway of each step.
+    const double steps = integrator == Integrator::symplectic_euler ? n * (n + 1.0)
+                         : integrator == Integrator::explicit_euler ? n * (n - 1.0)
+                                                                    : 1.0 * n * n;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const Vec3 fallen = simulation.particles().position(i) - rest[i];
+      ASSERT_LT((fallen - dt * dt / 2 * steps * g).norm(), 1e-12);
+      ASSERT_LT((simulation.particles().velocity(i) - n * dt * g).norm(), 1e-10);
+    }
+    EXPECT_DOUBLE_EQ(simulation.time(), n * dt);
+    EXPECT_EQ(simulation.steps(), n);
+  }
+}
+
+TEST(Rest, StaysRestForBothPackings) {
+  for (const Points& points : {bar(), test::hcp_ball(9, r)}) {
+    Simulation simulation = test::make_simulation(test::box_scene(25), points);
+    for (int step = 0; step < 500; ++step) simulation.step();
+    EXPECT_LT(test::largest_speed(simulation.particles()), 1e-13);
+  }
+}
+
+TEST(ThreadCounts, GiveTheSameBitsAfterABend) {
+  for (const auto& [integrator, form] :
+       {std::pair(Integrator::symplectic_euler, DampingForm::paper),
+        {Integrator::velocity_verlet, DampingForm::central}}) {
+    Settings settings = bend_scene();
+    settings.solver.integrator = integrator;
+    settings.material.damping_form = form;
+    std::vector<std::uint64_t> hashes;
+    std::vector<double> books;
+    for (const int threads : {1, 2, 3, 8})
+      with_threads(threads, [&] {
+        Simulation simulation = test::make_simulation(settings, bar());
+        while (simulation.time() < 0.2) simulation.step();
+        hashes.push_back(state_hash(simulation.particles()));
+        const Energies energies = simulation.energies();
+        books.push_back(energies.stored() + energies.work_of_bones + energies.dissipation);
+      });
+    EXPECT_EQ(hashes, std::vector<std::uint64_t>(4, hashes[0]));
+    EXPECT_EQ(books, std::vector<double>(4, books[0]));
+  }
+}
+
+TEST(OrderOfParticles, ChangesTheStateByRoundingOnly) {
+  const Settings settings = bend_scene();
+  const Points rest = bar();
+  std::vector<std::size_t> order(rest.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  const Particles sorted = particles_at(rest, r, test::material_of(settings).mass);
+  Simulation one = test::simulation_from(settings, rest, sorted, 1e-3);
+  Simulation other = test::simulation_from(settings, rest, test::reordered(sorted, order), 1e-3);
+  for (int step = 0; step < 150; ++step) one.step(), other.step();
+  EXPECT_GT((one.particles().position(rest.size() - 1) - rest.back()).norm(), r);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    ASSERT_EQ(other.particles().id[i], static_cast<std::int32_t>(order[i]));
+    ASSERT_LT((one.particles().position(order[i]) - other.particles().position(i)).norm(),
+              1e-9 * r);
+  }
+}
+
+TEST(Unstable, StopsNamingStepTimeParticleBoneAndCure) {
+  const Settings settings = bend_scene();
+  const Points rest = bar();
+  const Body body = test::make_body(settings, rest);
+  const double limit = step_limit(Integrator::symplectic_euler, body.material, body.springs);
+  Simulation simulation = test::simulation_from(
+      settings, rest, test::shaken(rest, body.material, 0, 1e-6), 1.2 * limit);
+  test::expect_error(Exit::unstable,
+                     [&] {
+                       for (int step = 0; step < 1000; ++step) simulation.step();
+                     },
+                     {"step ", " s: particle ", "bone '", "relative to its bone in one step", "; ",
+                      "solver.time_step"});
+}
+
+TEST(Unstable, NamesTheParticleByItsId) {
+  Points rest = test::fcc_box(5, 5, 5, r);
+  const Settings settings = test::box_scene(25);
+  Particles particles = particles_at(rest, r, 1);
+  std::reverse(particles.id.begin(), particles.id.end());
+  std::reverse(rest.begin(), rest.end());
+  particles.set_velocity(3, {1000, 0, 0});
+  Simulation fast = test::simulation_from(settings, rest, particles, 1e-3);
+  const std::string id = std::to_string(rest.size() - 4);
+  test::expect_error(Exit::unstable, [&] { fast.step(); },
+                     {"step 0 at 0 s: particle " + id + " on bone 'lower'", "0.25 r"});
+  particles.set_velocity(3, {std::nan(""), 0, 0});
+  Settings undamped = settings;  // so that no neighbour is drawn into it in the same step
+  undamped.material.damping = 0;
+  Simulation broken = test::simulation_from(undamped, rest, particles, 1e-3);
+  test::expect_error(Exit::unstable, [&] { broken.step(); }, {"particle " + id, "not finite"});
+}
+
+TEST(Unstable, DoesNotMindTheWholeBodyMovingFastWithItsBone) {
+  Settings settings = test::box_scene(25);
+  KeySettings end = test::bend_key(1, 0);
+  end.translation = {30, 0, 0};  // 3 r in each step
+  settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
+  settings.tracks[0].interpolation = Interpolation::linear;
+  const Points rest = test::fcc_box(5, 5, 25, r);
+  Particles particles = particles_at(rest, r, test::material_of(settings).mass);
+  for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, {30, 0, 0});
+  Simulation simulation = test::simulation_from(settings, rest, particles, 1e-3);
+  EXPECT_NO_THROW({
+    while (simulation.steps() < 200) simulation.step();
+  });
+}
+
+TEST(OpenLoop, SpinsTheBodyThatTheServoHolds) {
+  const auto spin = [](TwistForm form) {
+    Settings settings = test::box_scene(25);
+    settings.binding.twist_form = form;
+    settings.tracks = {test::track("lower", {test::twist_key(0, 0), test::twist_key(0.2, 30)})};
+    Simulation simulation = test::make_simulation(settings, test::fcc_box(7, 7, 25, r));
+    while (simulation.time() < 0.6) simulation.step();
+    double sum = 0;
+    const Particles& now = simulation.particles();
+    for (std::size_t i = 0; i < now.size(); ++i) sum += now.position(i).cross(now.velocity(i)).z();
+    return sum / static_cast<double>(now.size());
+  };
+  EXPECT_GT(spin(TwistForm::open_loop), 10 * std::abs(spin(TwistForm::servo)));
+}
+
+TEST(Forces, AreThoseOfThePresentMomentAndSumToTheAcceleration) {
+  Simulation simulation = test::make_simulation(bend_scene(), bar());
+  for (int step = 0; step < 40; ++step) simulation.step();
+  const Forces forces = simulation.forces();
+  const Particles before = simulation.particles();
+  const double time = simulation.time();
+  simulation.step();
+  const double dt = simulation.time() - time;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Vec3 gained = simulation.particles().velocity(i) - before.velocity(i);
+    ASSERT_LT((gained - dt / before.mass * forces.total(i)).norm(), 1e-14);
+    ASSERT_EQ(forces.total(i), forces.pair[i] + forces.damping[i] + forces.bone[i]);
+  }
+}
+
+}  // namespace
+}  // namespace sinew
