@@ -39,6 +39,26 @@ std::size_t strangeness(const std::string& word, const std::string& name) {
   return part ? std::min<std::size_t>(1, distance(word, name)) : distance(word, name);
 }
 
+/// Bytes of the printable UTF-8 letter that `text` (not empty) begins with, 0 where there is none.
+std::size_t letter_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return std::iscntrl(static_cast<int>(first)) ? 0 : 1;
+  const std::size_t size = first < 0xC2   ? 0
+                           : first < 0xE0 ? 2
+                           : first < 0xF0 ? 3
+                           : first < 0xF5 ? 4
+                                          : 0;
+  if (size == 0 || text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Control characters, letters written too long, surrogates, beyond the last letter.
+  const bool low = (first == 0xC2 && byte(1) < 0xA0) || (first == 0xE0 && byte(1) < 0xA0) ||
+                   (first == 0xF0 && byte(1) < 0x90);
+  const bool high = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
+  return low || high ? 0 : size;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
@@ -62,12 +82,11 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 
 std::string shown(std::string_view text) {
   std::string out = "'";
-  std::size_t count = 0;
-  for (const char c : text) {
-    const bool begins =
-        (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // not inside a UTF-8 letter
-    if (begins && ++count > longest_shown) return out + "...'";
-    out += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
+  for (std::size_t count = 0; !text.empty(); ++count) {
+    if (count == longest_shown) return out + "...'";
+    const std::size_t size = letter_size(text);
+    out += size > 0 ? text.substr(0, size) : "?";
+    text.remove_prefix(std::max<std::size_t>(size, 1));
   }
   return out + "'";
 }

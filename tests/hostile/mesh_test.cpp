@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "core/error.h"
@@ -27,7 +28,8 @@ std::string answer(const std::string& path) {
     EXPECT_EQ(error.exit(), Exit::bad_input) << message;
     EXPECT_EQ(message.rfind(path + ":", 0), 0u) << message;
     EXPECT_NE(message.find("; "), std::string::npos) << message;
-    for (const char c : message) EXPECT_TRUE(c >= ' ' && c <= '~') << message;
+    for (const char c : message)
+      EXPECT_FALSE(std::iscntrl(static_cast<unsigned char>(c))) << message;
     EXPECT_LT(message.size(), path.size() + 300) << message;
     return message;
   }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/words.h"
+
+#include <gtest/gtest.h>
+
+namespace sinew {
+namespace {
+
+TEST(Shown, KeepsLettersOfAnyLanguage) {
+  for (const char* text : {"", "radius", "\xC3\xA9", "\xE7\xAD\x8B", "\xF0\x9F\xA6\xB4"})
+    EXPECT_EQ(shown(text), '\'' + std::string(text) + '\'');
+}
+
+TEST(Shown, ReplacesControlCharactersAndWhatIsNotUtf8) {
+  EXPECT_EQ(shown("a\nb\x1b[2J\x7f"), "'a?b?[2J?'");
+  const auto marks = [](int count) { return '\'' + std::string(count, '?') + '\''; };
+  EXPECT_EQ(shown("\x80\xff\xC3"), marks(3));              // no letter begins or ends so
+  EXPECT_EQ(shown("\xC0\xAF\xED\xA0\x80"), marks(5));      // written too long; a surrogate
+  EXPECT_EQ(shown("\xC2\x9B\xF4\x90\x80\x80"), marks(6));  // a control; beyond the last letter
+}
+
+TEST(Shown, CutsAfter40LettersWhateverTheBytes) {
+  EXPECT_EQ(shown(std::string(40, 'x')).size(), 42u);
+  EXPECT_EQ(shown(std::string(1000, 'x')), '\'' + std::string(40, 'x') + "...'");
+  EXPECT_EQ(shown(std::string(1000, '\x80')), '\'' + std::string(40, '?') + "...'");
+}
+
+}  // namespace
+}  // namespace sinew
