@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics.json and report.html of a run.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "command.h"
@@ -120,16 +121,29 @@ std::vector<FactGroup> facts_of(const RunFolder& folder) {
             {"particle mass", number("particle_mass", "kg")}}}};
 }
 
-/// The pictures that render has left, by name; the movie goes to its own place.
-std::vector<Picture> pictures_in(const RunFolder& folder) {
+/// "0.533 s" for the picture of frame 16, else the file's own name.
+std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
+  const std::string name = picture.stem().string();
+  const auto digits = name.find_first_of("0123456789");
+  if (digits == std::string::npos) return "Over time";
+  const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);
+  return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
+}
+
+/// The pictures that render has left: the contact sheet, then single moments in order.
+std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
   std::vector<Picture> pictures;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder.pictures(), none))
     if (entry.path().extension() == ".png")
       pictures.push_back(
-          {"pictures/" + entry.path().filename().string(), entry.path().stem().string()});
-  std::sort(pictures.begin(), pictures.end(),
-            [](const Picture& a, const Picture& b) { return a.path < b.path; });
+          {"pictures/" + entry.path().filename().string(), caption_of(entry.path(), measured)});
+  const auto is_sheet = [](const Picture& picture) {
+    return picture.path.find("contact_sheet") != std::string::npos;
+  };
+  std::sort(pictures.begin(), pictures.end(), [&](const Picture& a, const Picture& b) {
+    return is_sheet(a) != is_sheet(b) ? is_sheet(a) : a.path < b.path;
+  });
   return pictures;
 }
 
@@ -146,11 +160,15 @@ void write_report(const RunFiles& run, const Measured& measured) {
   input.frames = measured.frames;
   input.summary = measured.summary;
   input.checks = measured.checks;
-  input.pictures = pictures_in(run.folder);
+  input.pictures = pictures_in(run.folder, measured);
   if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;
   write_file(run.folder.path / "report.html", report_html(input));
+}
+
+double worst_of(const Measured& measured, const Metric& metric, const MetricSummary& summary) {
+  return summary.worst_frame ? measured.frames[*summary.worst_frame].*metric.value : not_measured;
 }
 
 void print_results(const Measured& measured, bool as_json) {
@@ -158,10 +176,8 @@ void print_results(const Measured& measured, bool as_json) {
   results.add("frames", measured.frames.size());
   const auto metrics = metrics_table();
   for (std::size_t i = 1; i < metrics.size(); ++i) {
-    const MetricSummary& summary = measured.summary.metrics[i];
-    const bool low = metrics[i].worse == Worse::smaller;
-    results.add(std::string(metrics[i].name) + (low ? "_lowest" : "_highest"),
-                low ? summary.min : summary.max, std::string(metrics[i].unit));
+    const double worst = worst_of(measured, metrics[i], measured.summary.metrics[i]);
+    results.add("worst_" + std::string(metrics[i].name), worst, std::string(metrics[i].unit));
   }
   for (const RunMetric& metric : run_metrics_table())
     results.add(std::string(metric.name), measured.summary.*metric.value, std::string(metric.unit));

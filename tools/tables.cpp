@@ -3,16 +3,42 @@
 #include <string>
 
 #include "command.h"
+#include "io/arrays.h"
+#include "metrics/table.h"
 #include "results.h"
 #include "settings_list.h"
 
+namespace {
+
+using namespace sinew;
+
+std::string arrays_markdown() {
+  std::string text =
+      "| series | on | array | components | unit | meaning |\n|---|---|---|---|---|---|\n";
+  for (const WrittenArray& array : written_arrays()) {
+    std::string components;
+    for (const std::string_view name : array.components)
+      components += (components.empty() ? "" : " ") + std::string(name);
+    text += "| " + std::string(array.series) + " | " + std::string(place_text(array.place)) + " | `" +
+            std::string(array.name) + "` | " + components + " | " + std::string(array.unit) +
+            " | " + std::string(array.help) + " |\n";
+  }
+  return text;
+}
+
+std::string table_named(const std::string& name) {
+  if (name == "settings") return settings_markdown();
+  if (name == "arrays") return arrays_markdown();
+  if (name == "metrics") return metrics_markdown();
+  throw bad_input("no table is named '" + name + "'",
+                  "write sinew-tables settings, arrays or metrics");
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace sinew;
   return run_told([&] {
-    const std::string name = argc == 2 ? argv[1] : "";
-    if (name != "settings")
-      throw bad_input("no table is named '" + name + "'", "write sinew-tables settings");
-    print_out(settings_markdown());
+    print_out(table_named(argc == 2 ? argv[1] : ""));
     return Exit::done;
   });
 }

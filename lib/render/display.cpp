@@ -32,55 +32,59 @@ bool display_answers() {
   return connection;
 }
 
-/// In the child: becomes Xvfb, which looks for a free number and writes it to `report`.
-[[noreturn]] void become_xvfb(pid_t parent, int report, const char* report_text) {
+/// In the child: becomes the display `name` and writes to `report` when it is ready.
+[[noreturn]] void become_xvfb(pid_t parent, const char* name, int report, const char* report_text) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(1);  // it died before it could be watched
   setsid();                           // Ctrl-C is for the program that draws, not for its display
   const int null = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
   fcntl(report, F_SETFD, 0);
-  execlp("Xvfb", "Xvfb", "-displayfd", report_text, "-screen", "0", "1280x1024x24", "-nolisten",
-         "tcp", static_cast<char*>(nullptr));
+  execlp("Xvfb", "Xvfb", name, "-displayfd", report_text, "-screen", "0", "1280x1024x24",
+         "-nolisten", "tcp", static_cast<char*>(nullptr));
   _exit(errno == ENOENT ? not_found : 1);
 }
 
-/// All that can be read until the other end closes or ends a line.
-std::string read_line(int file) {
-  std::string line;
-  for (char c = 0;;) {
-    const ssize_t count = read(file, &c, 1);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0 || c == '\n') return line;
-    line += c;
-  }
+/// Whether a whole line comes before the other end closes.
+bool line_comes(int file) {
+  char byte = 0;
+  ssize_t count = 0;
+  do count = read(file, &byte, 1);
+  while ((count < 0 && errno == EINTR) || (count > 0 && byte != '\n'));
+  return count > 0;
 }
 
-/// The number of a display that dies with this process.
-std::string start_xvfb() {
+/// Starts a display of that name, which dies with this process; whether it is ready.
+bool start_xvfb(const std::string& name) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw no_display("too many open files to start Xvfb");
   const std::string report = std::to_string(ends[1]);
   const pid_t parent = getpid(), child = fork();
-  if (child == 0) become_xvfb(parent, ends[1], report.c_str());
+  if (child == 0) become_xvfb(parent, name.c_str(), ends[1], report.c_str());
   close(ends[1]);
-  std::string number = child > 0 ? read_line(ends[0]) : "";
+  const bool ready = child > 0 && line_comes(ends[0]);
   close(ends[0]);
-  if (!number.empty()) return number;
+  if (ready) return true;
   int status = 0;
   if (child > 0) waitpid(child, &status, 0);
-  const bool missing = WIFEXITED(status) && WEXITSTATUS(status) == not_found;
-  throw no_display(missing ? "Xvfb is not installed" : "Xvfb does not start");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_found)
+    throw no_display("Xvfb is not installed");
+  return false;
 }
 
 }  // namespace
 
 void ensure_display() {
   if (display_answers()) return;
-  std::string name = ":";
-  name += start_xvfb();
-  setenv("DISPLAY", name.c_str(), 1);
-  if (!display_answers()) throw no_display("Xvfb does not answer");
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    // Not the first free number: a display that is just ending there takes the next one's socket.
+    std::string name = ":";
+    name += std::to_string(100 + (getpid() + 7919 * attempt) % 50000);
+    if (!start_xvfb(name)) continue;
+    setenv("DISPLAY", name.c_str(), 1);
+    if (display_answers()) return;
+  }
+  throw no_display("Xvfb does not start");
 }
 
 }  // namespace sinew

@@ -160,7 +160,7 @@ void Movie::Encoder::fail(const std::string& what, const std::string& cure) {
   throw not_written(path, what, cure);
 }
 
-Movie::Movie(std::string path, const MovieOptions& options) : options_(options) {
+Movie::Movie(const std::string& path, const MovieOptions& options) : options_(options) {
   check(options);
   encoder_ = std::make_unique<Encoder>(path);
   encoder_->start(options);

@@ -19,7 +19,7 @@ class Movie {
  public:
   /// Throws not written when ffmpeg is missing or the place cannot be written; bad input for a size
   /// that is odd or outside 16 .. 8192, or a rate outside 0.1 .. 240.
-  Movie(std::string path, const MovieOptions& options);
+  Movie(const std::string& path, const MovieOptions& options);
   ~Movie();
   Movie(const Movie&) = delete;
   Movie& operator=(const Movie&) = delete;

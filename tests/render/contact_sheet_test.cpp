@@ -33,6 +33,8 @@ TEST(ContactSheet, has_a_surface_above_particles_for_each_shot) {
   EXPECT_LE(sheet.width, 800);
   EXPECT_EQ(groups(sheet, margin, 200), 3);
   EXPECT_EQ(groups(sheet, 2 * margin + 200, 200), 3);
+  EXPECT_GT(painted(sheet, 0, margin, sheet.width, 200), 0.2);
+  EXPECT_GT(painted(sheet, 0, 2 * margin + 200, sheet.width, 200), 0.2);
   EXPECT_EQ(painted(sheet, 0, margin + 200, sheet.width, margin), 0);  // between the rows
 }
 

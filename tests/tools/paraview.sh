@@ -4,11 +4,25 @@
 # folder filled by get_paraview_python.sh.
 set -euo pipefail
 
-modules=${1:?usage: paraview.sh MODULES SCRIPT.py ...}/usr/lib/python3/dist-packages
+modules=$(realpath -m "${1:?usage: paraview.sh MODULES SCRIPT.py ...}")/usr/lib/python3/dist-packages
 shift
 if [ ! -d "$modules/paraview" ]; then
   echo "paraview.sh: there is no $modules/paraview; call tests/tools/get_paraview_python.sh first" >&2
   exit 1
 fi
 export PYTHONPATH="$modules" PYTHONDONTWRITEBYTECODE=1
-exec xvfb-run -a pvbatch "$@"
+
+# -noreset: by default the server starts over whenever its last client leaves, and pvbatch, which opens
+# its display more than once, then finds none. -displayfd: the server itself takes a free number and
+# tells it once it is ready, so that two started at once do not meet. Both end with this script.
+exec {ready}< <(exec setpriv --pdeathsig TERM Xvfb -displayfd 1 -noreset -screen 0 1600x1200x24 \
+  -nolisten tcp 2>/dev/null)
+server=$!
+trap 'kill "$server" 2>/dev/null || true' EXIT
+trap 'exit 143' TERM INT
+if ! read -r -t 30 -u "$ready" number; then
+  echo "paraview.sh: Xvfb gives no display; install xvfb" >&2
+  exit 1
+fi
+DISPLAY=":$number" setpriv --pdeathsig TERM pvbatch "$@" &
+wait $!

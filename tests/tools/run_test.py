@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whole commands on small scenes: what they leave behind, and how they end.
+
+usage: run_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import csv
+import json
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+BIN, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+
+SCENE = """
+body:
+  mesh: {mesh}
+  radius: 0.025
+skeleton:
+  bones:
+    - name: lower
+      head: [0, 0, 0]
+      tail: [0, 0, 0.34648]
+    - name: upper
+      parent: lower
+      tail: [0, 0, 0.69296]
+motion:
+  tracks:
+    - bone: upper
+      keys:
+        - time: 0
+        - time: 0.2
+          axis: [0, 1, 0]
+          angle: 30
+        - time: 0.4
+          axis: [0, 1, 0]
+          angle: 0
+solver:
+  duration: 0.4
+"""
+
+SERIES = ["particles", "surface", "bones", "frames"]
+
+
+def sinew(*words, check=None, **options):
+    done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
+                          timeout=60, **options)
+    if check is not None and done.returncode != check:
+        raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
+    return done
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.scene = self.folder / "small.yaml"
+        self.scene.write_text(SCENE.format(mesh=SOURCE / "data/meshes/box.obj"))
+        self.out = self.folder / "run"
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def simulate(self, *words, check=0):
+        return sinew("simulate", self.scene, "-o", self.out, *words, check=check)
+
+    def record(self, folder=None):
+        return json.loads(((folder or self.out) / "run.json").read_text())
+
+    def assert_one_line(self, done, exit_code, *parts):
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        errors = [line for line in done.stderr.splitlines() if line.startswith("sinew: ")]
+        self.assertEqual(len(errors), 1, done.stderr)
+        self.assertIn("; ", errors[0])
+        for part in parts:
+            self.assertIn(part, errors[0])
+
+    def test_run_leaves_everything_behind(self):
+        sinew("run", self.scene, "-o", self.out, "--no-movie", check=0)
+        for name in ["scene.yaml", "run.json", "log.txt", "body.vtu", "metrics.csv", "metrics.json",
+                     "report.html", "view.py", "pictures/contact_sheet.png"]:
+            self.assertGreater((self.out / name).stat().st_size, 0, name)
+        for name in SERIES:
+            self.assertEqual(len(list((self.out / name).glob("*.vtu"))), 13, name)
+        rows = list(csv.DictReader((self.out / "metrics.csv").open()))
+        self.assertEqual(len(rows), 13)
+        self.assertEqual(list(rows[0])[0], "time")
+        record = self.record()
+        for key in ["version", "command", "host", "particles", "steps", "frames", "time_step",
+                    "particle_steps_per_second", "seconds", "state_hash", "arrays"]:
+            self.assertIn(key, record)
+        self.assertEqual(record["status"], "finished")
+        self.assertEqual(record["frames"], 13)
+        self.assertEqual(list(self.folder.rglob("*.tmp")), [])
+
+    def test_default_folder_is_out_and_the_scenes_name(self):
+        sinew("simulate", self.scene, "--set", "solver.duration=0", check=0, cwd=self.folder)
+        self.assertTrue((self.folder / "out/small/particles.pvd").exists())
+
+    def test_used_folder_is_refused_unless_forced_or_resumed(self):
+        self.simulate()
+        before = self.record()["state_hash"]
+        keep = self.out / "notes.txt"
+        keep.write_text("mine")
+        self.assert_one_line(self.simulate(check=2), 2, "--force")
+        self.assertIn("finished", self.simulate("--resume").stderr)
+        self.simulate("--force")
+        self.assertEqual(self.record()["state_hash"], before)
+        self.assertEqual(keep.read_text(), "mine")
+
+    def test_broken_scene_leaves_the_old_run_alone(self):
+        self.simulate()
+        self.simulate("--force", "--set", "body.mesh=missing.obj", check=2)
+        self.assertEqual(self.record()["status"], "finished")
+
+    def test_resolved_scene_gives_the_same_run(self):
+        self.simulate("--set", "material.lambda=0.8")
+        again = self.folder / "again"
+        sinew("simulate", self.out / "scene.yaml", "-o", again, check=0)
+        self.assertEqual(self.record(again)["state_hash"], self.record()["state_hash"])
+
+    def test_state_does_not_depend_on_the_number_of_threads(self):
+        hashes = set()
+        for threads in [1, 2, 3, 8]:
+            self.simulate("--force", "--threads", threads, "--set", "body.radius=0.012",
+                          "--set", "solver.duration=0.1")
+            hashes.add(self.record()["state_hash"])
+        self.assertEqual(len(hashes), 1)
+
+    def test_body_filled_before_is_used_again_only_if_it_fits(self):
+        self.out.mkdir()
+        sinew("fill", self.scene, "-o", self.out / "body.vtu", check=0)
+        self.simulate("--set", "solver.duration=0")
+        count = self.record()["particles"]
+        self.simulate("--force", "--set", "solver.duration=0", "--set", "body.radius=0.02")
+        self.assertGreater(self.record()["particles"], count)
+
+    def test_unstable_run_ends_with_3_and_keeps_its_good_frames(self):
+        done = self.simulate("--set", "solver.time_step=0.0166", "--set", "solver.duration=2", check=3)
+        self.assert_one_line(done, 3, "particle", "solver.time_step")
+        self.assertEqual(self.record()["status"], "unstable")
+        self.assertEqual(self.record()["frames"], len(list((self.out / "particles").glob("*.vtu"))))
+
+    def test_limits_decide_the_exit_code_of_measure(self):
+        self.simulate()
+        sinew("measure", self.out, "--fail-on", "volume_error > 0.5", check=0)
+        done = sinew("measure", self.out, "--fail-on", "displacement_max > 0.001", check=1)
+        self.assertIn("displacement_max", done.stderr)
+        checks = json.loads((self.out / "metrics.json").read_text())["checks"]
+        self.assertFalse(checks[0]["pass"])
+        self.assert_one_line(sinew("measure", self.out, "--fail-on", "volume_eror > 1"), 2,
+                             "volume_error")
+
+    def test_interrupt_finishes_the_frame_and_says_how_to_go_on(self):
+        for name in [signal.SIGINT, signal.SIGTERM]:
+            words = ["simulate", self.scene, "-o", self.out, "--force", "--set", "solver.duration=1000"]
+            with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.PIPE, text=True) as child:
+                while not list(self.out.glob("particles/particles_000002.vtu")):
+                    time.sleep(0.02)
+                self.assert_one_line(sinew("simulate", self.scene, "-o", self.out, "--force"), 2,
+                                     "another sinew")
+                child.send_signal(name)
+                said = child.stderr.read()
+                self.assertEqual(child.wait(30), 130)
+            self.assertIn("--resume", said)
+            self.assertEqual(self.record()["status"], "stopped")
+            files = len(list((self.out / "frames").glob("*.vtu")))
+            self.assertEqual((self.out / "particles.pvd").read_text().count("<DataSet"), files)
+            sinew("measure", self.out, check=0)
+
+    def test_run_dies_with_its_parts(self):
+        words = [BIN / "sinew", "run", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
+        with subprocess.Popen(words, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as child:
+            while not list(self.out.glob("particles/particles_000001.vtu")):
+                time.sleep(0.02)
+            child.kill()
+        time.sleep(1)
+        words = subprocess.run(["pgrep", "-f", f"sinew-simulate.*{self.out}"], capture_output=True)
+        self.assertEqual(words.stdout, b"")
+
+    def test_places_that_cannot_be_written_end_with_4(self):
+        self.assert_one_line(sinew("simulate", self.scene, "-o", "/proc/run"), 4, "/proc/run")
+        self.assert_one_line(sinew("fill", self.scene, "-o", "/proc/body.vtu"), 4, "/proc/body.vtu")
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([BIN / "sinew", "info", SOURCE / "data/meshes/box.obj"], stdout=full,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assert_one_line(done, 4)
+
+    def test_disk_too_small_for_the_run_is_said_before_it_begins(self):
+        done = self.simulate("--set", "solver.duration=3e4", "--set", "body.radius=0.003", check=4)
+        self.assert_one_line(done, 4, "needs about")
+        self.assertFalse((self.out / "particles.pvd").exists())
+
+    def test_mistakes_reached_through_a_scene_name_its_line(self):
+        self.assert_one_line(self.simulate("--set", "body.mesh=none.obj", check=2), 2, "none.obj")
+        bad = self.folder / "bad.yaml"
+        bad.write_text(self.scene.read_text().replace("box.obj", "nobox.obj"))
+        self.assert_one_line(sinew("check", bad), 2, f"{bad}:3:", "nobox.obj")
+        bad.write_text(self.scene.read_text().replace("0.025", "1e-9"))
+        self.assert_one_line(sinew("fill", bad), 2, f"{bad}:4:")
+        bad.write_text(self.scene.read_text().replace("bone: upper", "bone: uper"))
+        self.assert_one_line(sinew("simulate", bad, "-o", self.out), 2, f"{bad}:15:", "uper")
+
+    def test_foreign_and_damaged_run_folders_are_refused(self):
+        self.assert_one_line(sinew("measure", self.folder), 2, "not the folder of a run")
+        self.simulate("--set", "solver.duration=0.1")
+        (self.out / "particles/particles_000002.vtu").write_bytes(b"<VTKFile torn")
+        self.assert_one_line(sinew("measure", self.out), 2, "particles_000002.vtu")
+        self.assert_one_line(sinew("render", self.out), 2, "particles_000002.vtu")
+
+    def test_check_warns_with_number_and_cure(self):
+        done = sinew("check", self.scene, "--set", "material.b=2.83", "--json", check=0)
+        self.assertEqual(json.loads(done.stdout)["warnings"], 1)
+        self.assertIn("2.83", done.stderr)
+        self.assertIn("material.b", done.stderr)
+
+    def test_explicit_euler_without_damping_has_no_step(self):
+        done = sinew("check", self.scene, "--set", "solver.integrator=explicit_euler", "--set",
+                     "material.damping=0")
+        self.assert_one_line(done, 2, "no stable time step")
+
+    def test_every_command_explains_itself(self):
+        for command in ["run", "check", "fill", "simulate", "measure", "render", "info"]:
+            help_text = sinew(command, "--help", check=0).stdout
+            self.assertIn("Examples:", help_text)
+            self.assertIn("--threads", help_text)
+            self.assertIn("sinew 0.", sinew(command, "--version", check=0).stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["run_test", "-v", *sys.argv[3:]])
