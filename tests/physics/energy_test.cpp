@@ -77,6 +77,23 @@ TEST(Energy, OfAFreeUndampedBodyIsKept) {
   EXPECT_EQ(end.dissipation, 0);
 }
 
+TEST(Energy, OfAFreeDampedBodyIsInTheBooksAtEveryMoment) {
+  const Settings settings = test::unbound(test::box_scene(25));
+  const Points rest = test::fcc_box(7, 7, 15, r);
+  const Material material = test::material_of(settings);
+  const double step = 0.1 * step_limit(Integrator::symplectic_euler, material, {});
+  Simulation simulation =
+      test::simulation_from(settings, rest, test::shaken(rest, material, 0, 0.05), step);
+  const Energies start = simulation.energies();
+  while (simulation.steps() < 50) {
+    simulation.step();
+    const Energies now = simulation.energies();
+    ASSERT_NEAR(now.stored() + now.dissipation - start.stored() - start.dissipation, 0,
+                0.003 * start.kinetic);
+  }
+  EXPECT_GT(simulation.energies().dissipation, 0.5 * start.kinetic);
+}
+
 TEST(Energy, AtRestIsTheCohesionOfAllBonds) {
   Simulation simulation = test::make_simulation(test::box_scene(25), test::fcc_box(5, 5, 9, r));
   const PairForce pair = simulation.body().material.pair;

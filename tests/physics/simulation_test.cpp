@@ -131,6 +131,18 @@ TEST(Unstable, NamesTheParticleByItsId) {
   test::expect_error(Exit::unstable, [&] { broken.step(); }, {"particle " + id, "not finite"});
 }
 
+TEST(Unstable, NamesTheFirstOfManyForEveryThreadCount) {
+  const Settings settings = test::box_scene(25);
+  const Points rest = bar();
+  Particles particles = particles_at(rest, r, 1);
+  for (std::size_t i = 700; i < rest.size(); ++i) particles.set_velocity(i, {1000, 0, 0});
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] {
+      Simulation fast = test::simulation_from(settings, rest, particles, 1e-3);
+      test::expect_error(Exit::unstable, [&] { fast.step(); }, {"particle 700 "});
+    });
+}
+
 TEST(Unstable, DoesNotMindTheWholeBodyMovingFastWithItsBone) {
   Settings settings = test::box_scene(25);
   KeySettings end = test::bend_key(1, 0);
