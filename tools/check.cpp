@@ -22,6 +22,7 @@ using Warnings = std::vector<std::string>;
 
 // Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
+constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
 constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
 
 void warn_of_material(const Material& material, Warnings& warnings) {
@@ -48,7 +49,7 @@ void warn_of_step(const StepChoice& steps, Warnings& warnings) {
 }
 
 void warn_of_speed(double speed, Warnings& warnings) {
-  if (speed > 0.1)
+  if (speed > fastest_bone)
     warnings.push_back("a bone moves " + three_digits(speed) +
                        " radii in a step: the body cannot follow; slow the motion down or shorten "
                        "solver.time_step");

@@ -157,7 +157,8 @@ class Commands(unittest.TestCase):
 
     def test_interrupt_finishes_the_frame_and_says_how_to_go_on(self):
         for name in [signal.SIGINT, signal.SIGTERM]:
-            words = ["simulate", self.scene, "-o", self.out, "--force", "--set", "solver.duration=1000"]
+            self.out = self.folder / name.name
+            words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
             with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.PIPE, text=True) as child:
                 while not list(self.out.glob("particles/particles_000002.vtu")):
                     time.sleep(0.02)
