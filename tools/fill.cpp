@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-fill: fills a mesh, or the mesh of a scene, with closest-packed particles.
-#include <filesystem>
 
 #include "command.h"
 #include "config/scene.h"
@@ -37,11 +36,6 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--density", options.density, "kg/m^3 (for a mesh)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-}
-
-bool is_scene(const std::string& path) {
-  const auto extension = std::filesystem::path(path).extension();
-  return extension == ".yaml" || extension == ".yml";
 }
 
 /// A mesh on the command line as the body of a scene.

@@ -2,7 +2,6 @@
 // sinew-info: what is in a mesh or a scene, and what is wrong with it.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "command.h"
 #include "config/scene.h"
@@ -10,15 +9,11 @@
 #include "fill/read_surface.h"
 #include "results.h"
 #include "rig/motion.h"
+#include "scene_body.h"
 
 namespace {
 
 using namespace sinew;
-
-bool is_scene(const std::string& path) {
-  const auto extension = std::filesystem::path(path).extension();
-  return extension == ".yaml" || extension == ".yml";
-}
 
 nlohmann::ordered_json as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "command.h"
+#include "core/file.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
-#include "io/atomic_file.h"
 #include "metrics/csv.h"
 #include "metrics/json.h"
 #include "metrics/measure.h"

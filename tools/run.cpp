@@ -6,24 +6,15 @@
 #include "command.h"
 #include "results.h"
 #include "run_folder.h"
+#include "run_options.h"
 
 namespace {
 
 using namespace sinew;
 
-struct Options {
-  std::string scene, folder;
-  bool force = false, resume = false, no_movie = false;
+struct Options : RunOptions {
+  bool no_movie = false;
 };
-
-void declare(CLI::App& app, Options& options) {
-  app.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
-  app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
-      ->type_name("DIR");
-  auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
-  app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
-  app.add_flag("--no-movie", options.no_movie, "Pictures, but no movie");
-}
 
 using Words = std::vector<std::string>;
 
@@ -89,6 +80,9 @@ int main(int argc, char** argv) {
        "The whole job: fills, simulates, draws and measures a scene.",
        {"sinew run configs/box_bend.yaml",
         "sinew run configs/box_bend.yaml -o /tmp/soft --set body.radius=0.014"}},
-      [&](CLI::App& app) { declare(app, options); },
+      [&](CLI::App& app) {
+        declare(app, options);
+        app.add_flag("--no-movie", options.no_movie, "Pictures, but no movie");
+      },
       [&](const Common& common) { return run(options, common); });
 }

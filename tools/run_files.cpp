@@ -6,7 +6,7 @@
 #include "config/scene.h"
 #include "core/dataset.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "core/file.h"
 
 namespace sinew {
 namespace {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "command.h"
-#include "io/atomic_file.h"
+#include "core/file.h"
 
 namespace sinew {
 namespace {

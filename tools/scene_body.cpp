@@ -5,10 +5,11 @@
 
 #include "command.h"
 #include "core/closest_packing.h"
+#include "core/file.h"
 #include "core/hash.h"
+#include "core/scene_text.h"
 #include "core/settings_table.h"
 #include "fill/read_surface.h"
-#include "io/atomic_file.h"
 
 namespace sinew {
 namespace {
@@ -26,6 +27,10 @@ auto told_at(const Settings& settings, const char* key, Job&& job) {
 }
 
 }  // namespace
+
+bool is_scene(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
 
 ClosedSurface read_mesh(const Settings& settings) {
   return told_at(settings, "body.mesh", [&] { return read_surface(settings.body.mesh); });

@@ -10,6 +10,9 @@
 
 namespace sinew {
 
+/// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
+bool is_scene(const std::filesystem::path& path);
+
 /// Reads the mesh that a scene names. Errors name the scene's line.
 ClosedSurface read_mesh(const Settings& settings);
 

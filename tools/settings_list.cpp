@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/values.h"
+#include "core/scene_text.h"
 #include "core/settings_table.h"
 
 namespace sinew {

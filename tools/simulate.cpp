@@ -3,16 +3,17 @@
 #include "command.h"
 #include "config/resolved.h"
 #include "config/scene.h"
+#include "core/file.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "estimate.h"
-#include "io/atomic_file.h"
 #include "io/view_script.h"
 #include "journal.h"
 #include "progress.h"
 #include "recorder.h"
 #include "results.h"
 #include "run_folder.h"
+#include "run_options.h"
 #include "run_record.h"
 #include "scene_body.h"
 #include "setup.h"
@@ -22,21 +23,8 @@ namespace {
 
 using namespace sinew;
 
-struct Options {
-  std::string scene, folder;
-  bool force = false, resume = false;
-};
-
-void declare(CLI::App& app, Options& options) {
-  app.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
-  app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
-      ->type_name("DIR");
-  auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
-  app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
-}
-
 /// Whether there is anything to do; refuses to overwrite a run unasked.
-bool may_begin(const RunFolder& folder, const Options& options, const Common& common) {
+bool may_begin(const RunFolder& folder, const RunOptions& options, const Common& common) {
   if (!folder.used() || options.force) return true;
   if (!options.resume)
     throw bad_input(Place{folder.path.string()}, "holds a run already",
@@ -128,7 +116,7 @@ void print_results(const RunFolder& folder, const Journal& journal, bool as_json
   results.print(as_json);
 }
 
-Exit simulate(int argc, char** argv, const Options& options, const Common& common) {
+Exit simulate(int argc, char** argv, const RunOptions& options, const Common& common) {
   const Settings settings = read_scene(options.scene, common.overrides);
   const RunFolder folder = run_folder(options.scene, options.folder);
   create(folder);
@@ -159,7 +147,7 @@ Exit simulate(int argc, char** argv, const Options& options, const Common& commo
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
+  RunOptions options;
   return run_command(
       argc, argv,
       {"simulate",

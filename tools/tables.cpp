@@ -19,9 +19,9 @@ std::string arrays_markdown() {
     std::string components;
     for (const std::string_view name : array.components)
       components += (components.empty() ? "" : " ") + std::string(name);
-    text += "| " + std::string(array.series) + " | " + std::string(place_text(array.place)) + " | `" +
-            std::string(array.name) + "` | " + components + " | " + std::string(array.unit) +
-            " | " + std::string(array.help) + " |\n";
+    text += "| " + std::string(array.series) + " | " + std::string(place_text(array.place)) +
+            " | `" + std::string(array.name) + "` | " + components + " | " +
+            std::string(array.unit) + " | " + std::string(array.help) + " |\n";
   }
   return text;
 }

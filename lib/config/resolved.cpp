@@ -4,6 +4,7 @@
 #include "config/checks.h"
 #include "config/paths.h"
 #include "config/values.h"
+#include "core/scene_text.h"
 #include "core/settings_table.h"
 
 namespace sinew {

@@ -56,7 +56,4 @@ std::span<const Field<KeySettings>> key_fields();      ///< motion.tracks[].keys
 /// The order of sections in a scene.
 std::span<const std::string_view> sections();
 
-/// A value as a scene writes it: number_text, true, [1, 2, 3], quoted where YAML asks for it.
-std::string scene_text(const FieldValue& value, std::string_view absent);
-
 }  // namespace sinew

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/settings_table.h"
-#include "io/atomic_file.h"
+#include "core/file.h"
 #include "io/series.h"
 #include "io/vtk_messages.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/settings_table.h"
-#include "io/atomic_file.h"
+#include "core/file.h"
 
 namespace sinew {
 namespace {

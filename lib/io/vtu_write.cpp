@@ -21,7 +21,7 @@
 
 #include "core/error.h"
 #include "io/arrays.h"
-#include "io/atomic_file.h"
+#include "core/file.h"
 #include "io/vtk_messages.h"
 #include "io/vtu.h"
 

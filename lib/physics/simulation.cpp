@@ -2,7 +2,6 @@
 #include "physics/simulation.h"
 
 #include <atomic>
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
@@ -83,23 +82,26 @@ void Simulation::advance(std::size_t i) {
   }
 }
 
+bool Simulation::in_bounds(std::size_t i, const Vec3& before) const {
+  const int bone = body_.binding.bone(particles_.id[i]);
+  const Vec3 moved = particles_.position(i) - before;
+  const Vec3 ridden = stepping_.step * pose_[bone].velocity_at(before);
+  const double most = most_radii_per_step * particles_.radius;
+  // False for values that are not numbers as well.
+  return (moved - ridden).squaredNorm() <= most * most && particles_.velocity(i).allFinite();
+}
+
 void Simulation::step() {
   evaluate();
   const std::size_t n = particles_.size();
-  std::atomic<std::size_t> first_bad = std::numeric_limits<std::size_t>::max();
-  const double most = most_radii_per_step * particles_.radius;
+  std::atomic<std::size_t> first_bad = n;
   parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 before = particles_.position(i);
       advance(i);
-      const int bone = body_.binding.bone(particles_.id[i]);
-      const Vec3 moved = particles_.position(i) - before;
-      const Vec3 ridden = stepping_.step * pose_[bone].velocity_at(before);
-      // The negated form also catches values that are not numbers.
-      if (!((moved - ridden).squaredNorm() <= most * most) || !particles_.velocity(i).allFinite()) {
-        std::size_t least = first_bad;  // the lowest index wins, whichever thread finds it
-        while (i < least && !first_bad.compare_exchange_weak(least, i)) {
-        }
+      if (in_bounds(i, before)) continue;
+      std::size_t least = first_bad;  // the lowest index wins, whichever thread finds it
+      while (i < least && !first_bad.compare_exchange_weak(least, i)) {
       }
     }
   });

@@ -52,6 +52,7 @@ class Simulation {
   Vec3 centred_velocity(std::size_t i) const;
   void advance(std::size_t i);
   void account();
+  bool in_bounds(std::size_t i, const Vec3& before) const;
   [[noreturn]] void fail(std::size_t i) const;
 
   Body body_;

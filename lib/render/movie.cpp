@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "render/new_file.h"
+#include "core/file.h"
 
 namespace sinew {
 namespace {
@@ -101,7 +101,7 @@ void Movie::Encoder::start(const MovieOptions& options) {
   if (!complaints || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     fail(std::strerror(errno), "free some space or memory");
   input = ends[0];
-  spawn(command(options, file.temporary()), ends[1]);
+  spawn(command(options, file.temporary().string()), ends[1]);
 }
 
 void Movie::Encoder::spawn(const std::vector<std::string>& words, int its_end) {

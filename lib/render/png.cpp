@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "render/image.h"
-#include "render/new_file.h"
+#include "core/file.h"
 
 namespace sinew {
 namespace {

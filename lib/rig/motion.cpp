@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sinew {
 namespace {
@@ -46,10 +47,9 @@ Quat rotation_by(const Vec3& vector) {
 }
 
 LocalMotion between(const Key& from, const Key& to, const Eased& way) {
-  const Vec3 turn = rotation_between(from.rotation, to.rotation);
   LocalMotion motion;
-  motion.rotation = rotation_by(way.value * turn) * from.rotation;
-  motion.angular_velocity = way.rate * turn;
+  motion.rotation = rotation_by(way.value * to.turn) * from.rotation;
+  motion.angular_velocity = way.rate * to.turn;
   motion.twist = from.twist + way.value * (to.twist - from.twist);
   motion.twist_rate = way.rate * (to.twist - from.twist);
   motion.translation = from.translation + way.value * (to.translation - from.translation);
@@ -101,6 +101,26 @@ Quat rotation_of(const KeySettings& key, const std::string& order, const Place& 
   return Quat(Eigen::AngleAxisd(radians(*key.angle), key.axis->normalized()));
 }
 
+/// The angle of a key about `axis`, if that is how it is given; no rotation is no angle.
+std::optional<double> angle_about(const Vec3& axis, const KeySettings& key) {
+  if (!key.angle && !key.euler) return 0;
+  if (!key.axis || (key.axis->normalized() - axis).norm() > 1e-12) return std::nullopt;
+  return radians(*key.angle);
+}
+
+/// From one key to the next: angles about one axis as they are given, of any size; else the short
+/// way.
+Vec3 turn_between(const KeySettings& from, const KeySettings& to, const Quat& start,
+                  const Quat& end) {
+  const auto given = to.axis ? to.axis : from.axis;
+  if (given) {
+    const Vec3 axis = given->normalized();
+    const auto before = angle_about(axis, from), after = angle_about(axis, to);
+    if (before && after) return (*after - *before) * axis;
+  }
+  return rotation_between(start, end);
+}
+
 void check_order(const TrackSettings& track, const Place& place) {
   std::string sorted = track.order;
   std::sort(sorted.begin(), sorted.end());
@@ -118,8 +138,10 @@ std::vector<Key> make_keys(const Settings& settings, std::size_t index) {
     if (i > 0 && given.time <= keys.back().time)
       throw bad_input(settings.place(path_of(index, i) + ".time"), "keys are not in ascending time",
                       "sort them, each with its own time");
-    keys.push_back({given.time, rotation_of(given, track.order, place), radians(given.twist),
-                    given.translation});
+    const Quat rotation = rotation_of(given, track.order, place);
+    const Vec3 turn = i > 0 ? turn_between(track.keys[i - 1], given, keys.back().rotation, rotation)
+                            : Vec3::Zero();
+    keys.push_back({given.time, rotation, turn, radians(given.twist), given.translation});
   }
   if (keys.empty())
     throw bad_input(settings.place(path_of(index)), "a track without keys",

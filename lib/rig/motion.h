@@ -27,6 +27,7 @@ struct LocalMotion {
 struct Key {
   double time = 0;  ///< s
   Quat rotation = Quat::Identity();
+  Vec3 turn = Vec3::Zero();         ///< rotation vector that leads here from the key before, rad
   double twist = 0;                 ///< rad
   Vec3 translation = Vec3::Zero();  ///< m
 };

@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-#include "io/atomic_file.h"
+#include "core/file.h"
 #include "io/series.h"
 #include "scratch.h"
 #include "synthetic_run.h"

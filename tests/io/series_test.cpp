@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/series.h"
 
-#include "io/atomic_file.h"
+#include "core/file.h"
 #include "scratch.h"
 #include "synthetic_run.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/atomic_file.h"
+#include "core/file.h"
 
 #include <sys/stat.h>
 
@@ -8,9 +8,9 @@
 namespace sinew {
 namespace {
 
-using AtomicFile = Scratch;
+using File = Scratch;
 
-TEST_F(AtomicFile, ReadsBackWhatWasWritten) {
+TEST_F(File, ReadsBackWhatWasWritten) {
   const std::string text("a\0b\n", 4);
   write_file(folder / "f", "older and longer");
   write_file(folder / "f", text);
@@ -18,7 +18,7 @@ TEST_F(AtomicFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFile, LeavesTheOlderFileWhenFillingFails) {
+TEST_F(File, LeavesTheOlderFileWhenFillingFails) {
   write_file(folder / "f", "older");
   EXPECT_THROW(replace_file(folder / "f",
                             [](const auto& temporary) {
@@ -30,25 +30,25 @@ TEST_F(AtomicFile, LeavesTheOlderFileWhenFillingFails) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFile, NamesTheFileThatCannotBeWritten) {
+TEST_F(File, NamesTheFileThatCannotBeWritten) {
   const Error error = error_of([&] { write_file(folder / "missing" / "f", "text"); });
   EXPECT_EQ(error.exit(), Exit::not_written);
   EXPECT_TRUE(contains(error.what(), "missing/f: cannot be written")) << error.what();
 }
 
-TEST_F(AtomicFile, RefusesAFolderInItsPlace) {
+TEST_F(File, RefusesAFolderInItsPlace) {
   std::filesystem::create_directories(folder / "f" / "g");
   EXPECT_EQ(error_of([&] { write_file(folder / "f", "text"); }).exit(), Exit::not_written);
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFile, ReadsNoMoreThanTheLimit) {
+TEST_F(File, ReadsNoMoreThanTheLimit) {
   write_file(folder / "f", "12345");
   EXPECT_EQ(read_file(folder / "f", 5), "12345");
   EXPECT_EQ(error_of([&] { read_file(folder / "f", 4); }).exit(), Exit::bad_input);
 }
 
-TEST_F(AtomicFile, ReadsOnlyRegularFiles) {
+TEST_F(File, ReadsOnlyRegularFiles) {
   ::mkfifo((folder / "pipe").c_str(), 0600);
   for (const char* name : {"absent", "pipe", "."}) {
     const Error error = error_of([&] { read_file(folder / name); });

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "core/error.h"
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* cure_for(int error) {
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+    return "free some space or choose another place for the results";
+  if (error == ENOENT || error == ENOTDIR) return "create its folder first";
+  return "choose a place you may write to";
+}
+
+Error refused(const fs::path& path, int error) {
+  return not_written(path.string(), std::string("cannot be written: ") + std::strerror(error),
+                     cure_for(error));
+}
+
+Error unreadable(const fs::path& path, int error) {
+  return bad_input({path.string()}, std::string("cannot be read: ") + std::strerror(error),
+                   "check the path and the permissions");
+}
+
+void close_file(const int* file) { ::close(*file); }
+
+}  // namespace
+
+NewFile::NewFile(fs::path path)
+    : path_(std::move(path)),
+      temporary_(path_.parent_path() / ("." + path_.filename().string() + ".tmp")) {
+  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0) throw refused(path_, errno);
+}
+
+NewFile::~NewFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void NewFile::write(const void* bytes, std::size_t count) {
+  const char* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = ::write(file_, next, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw refused(path_, errno);
+    next += written;
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
+void NewFile::finish() {
+  // The close itself may report that the data did not arrive (network file systems).
+  if (::close(std::exchange(file_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0)
+    throw refused(path_, errno);
+  temporary_.clear();
+}
+
+void replace_file(const fs::path& path, const std::function<void(const fs::path&)>& fill) {
+  NewFile file(path);
+  fill(file.temporary());
+  file.finish();
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  NewFile file(path);
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+std::string read_file(const fs::path& path, std::uint64_t limit) {
+  // Not blocking: a pipe without a writer would hold us at the door for ever.
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) throw unreadable(path, errno);
+  const std::unique_ptr<const int, decltype(&close_file)> closed_at_the_end(&file, close_file);
+  struct stat status;
+  if (::fstat(file, &status) != 0) throw unreadable(path, errno);
+  if (!S_ISREG(status.st_mode))
+    throw bad_input({path.string()}, "is not a regular file", "name a file");
+  std::string text;
+  std::string piece(1 << 16, '\0');
+  while (const ssize_t count = ::read(file, piece.data(), piece.size())) {
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw unreadable(path, errno);
+    text.append(piece, 0, static_cast<std::size_t>(count));
+    if (text.size() > limit)
+      throw bad_input({path.string()}, "is larger than " + std::to_string(limit) + " bytes",
+                      "check that this is the file you mean");
+  }
+  return text;
+}
+
+}  // namespace sinew
