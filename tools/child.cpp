@@ -19,15 +19,16 @@ namespace {
 
 volatile pid_t child_of_signals = 0;  // whom a signal handler passes signals on to
 
-void pass_on(int signal) {
-  if (child_of_signals > 0) ::kill(child_of_signals, signal);
+void pass_on(int signal, siginfo_t* origin, void*) {
+  // The terminal tells all programs in the foreground itself; a second time would end the child.
+  const bool from_terminal = origin->si_code == SI_KERNEL;
+  if (child_of_signals > 0 && !from_terminal) ::kill(child_of_signals, signal);
 }
 
-void pass_signals_to(pid_t child) {
-  child_of_signals = child;
+void pass_signals_on() {
   struct sigaction action {};
-  action.sa_handler = pass_on;
-  action.sa_flags = SA_RESTART;
+  action.sa_sigaction = pass_on;
+  action.sa_flags = SA_RESTART | SA_SIGINFO;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
@@ -75,12 +76,13 @@ ChildEnd run_child(const std::string& command, const std::vector<std::string>& a
 
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start;
+  pass_signals_on();  // exec gives the child the usual ones back
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
+  if (child > 0) child_of_signals = child;
   if (child == 0) become(program, words, pipe[1], parent);
   ::close(pipe[1]);
   if (child < 0) throw cannot_start;
-  pass_signals_to(child);
   ChildEnd end;
   end.output = read_all(pipe[0]);
   ::close(pipe[0]);

@@ -99,7 +99,8 @@ Exit parse_and_run(int argc, char** argv, const About& about,
 
 int tell(Exit exit, std::string message) {
   std::replace_if(
-      message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; },
+      ' ');  // names from files may hold any
   std::fprintf(stderr, "sinew: %s\n", message.c_str());
   return static_cast<int>(exit);
 }

@@ -44,14 +44,16 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
 
 std::uint64_t free_space(const fs::path& folder) {
   fs::path existing = fs::absolute(folder).lexically_normal();
-  while (!fs::exists(existing) && existing.has_relative_path()) existing = existing.parent_path();
   std::error_code failed;
+  while (!fs::exists(existing, failed) && existing.has_relative_path())
+    existing = existing.parent_path();
   const auto space = fs::space(existing, failed);
   return failed ? UINT64_MAX : space.available;
 }
 
-void check_space(const fs::path& folder, const Needs& needs) {
-  const std::uint64_t available = free_space(folder);
+void check_space(const fs::path& folder, const Needs& needs, std::uint64_t freed) {
+  const std::uint64_t space = free_space(folder);
+  const std::uint64_t available = space > UINT64_MAX - freed ? space : space + freed;
   if (needs.disk <= available) return;
   throw not_written(
       folder.string(),

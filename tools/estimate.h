@@ -21,8 +21,9 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
 /// Bytes a user may still write where `folder` lies or will lie.
 std::uint64_t free_space(const std::filesystem::path& folder);
 
-/// Throws not written when the disk has less room than the run needs.
-void check_space(const std::filesystem::path& folder, const Needs& needs);
+/// Throws not written when the disk has less room than the run needs; `freed` bytes will be given
+/// back before it begins.
+void check_space(const std::filesystem::path& folder, const Needs& needs, std::uint64_t freed);
 
 /// "12.3 MB"
 std::string bytes_text(std::uint64_t bytes);

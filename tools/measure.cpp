@@ -103,7 +103,7 @@ std::vector<FactGroup> facts_of(const RunFolder& folder) {
            {{"status", record.value("status", "")},
             {"particles", std::to_string(record.value("particles", 0))},
             {"frames", std::to_string(record.value("frames", 0))},
-            {"steps", std::to_string(record.value("steps", 0))},
+            {"steps", std::to_string(record.value("steps", std::int64_t{0}))},
             {"time step", number("time_step", "s")},
             {"share of the stability limit", number("time_step_factor", "")},
             {"particle-steps per second", number("particle_steps_per_second", "")},
@@ -156,7 +156,12 @@ void write_report(const RunFiles& run, const Measured& measured) {
   input.title = title_of(run.folder);
   input.version = version();
   input.radius = run.body.particles.radius;
-  input.facts = facts_of(run.folder);
+  try {
+    input.facts = facts_of(run.folder);
+  } catch (const nlohmann::json::exception&) {
+    throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
+                    "run the scene again with --force");
+  }
   input.frames = measured.frames;
   input.summary = measured.summary;
   input.checks = measured.checks;

@@ -54,7 +54,12 @@ Exit do_part(const std::string& command, const Words& words, Results& results) {
   if (found.is_object())
     for (const auto& [key, value] : found.items())
       if (key != "folder") results.add(key, value);
-  return static_cast<Exit>(end.exit);
+  for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
+                           Exit::not_written, Exit::interrupted})
+    if (end.exit == static_cast<int>(known)) return known;
+  throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
+                      (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
+                  "see whether memory ran out; run sinew " + command + " by itself");
 }
 
 Exit run(const Options& options, const Common& common) {
@@ -66,7 +71,7 @@ Exit run(const Options& options, const Common& common) {
   if (exit == Exit::done) exit = do_part("render", render_words(options, common, folder), results);
   if (exit == Exit::done) exit = do_part("measure", measure_words(common, folder), results);
   if (exit == Exit::done) results.add("report", folder + "/report.html");
-  results.print(common.json);
+  if (exit != Exit::bad_input) results.print(common.json);  // else nothing was run
   return exit;
 }
 

@@ -5,15 +5,42 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstring>
+#include <regex>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/error.h"
 
 namespace sinew {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
+bool written_by_a_run(const fs::path& relative) {
+  static const std::regex ours(
+      "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|"
+      "(particles|surface|bones|frames)\\.pvd|"
+      "(particles|surface|bones|frames)/\\.?[a-z]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
+      "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?))");
+  return std::regex_match(relative.generic_string(), ours);
+}
+
+std::vector<fs::path> files_of_run(const RunFolder& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (const char* part : {"", "particles", "surface", "bones", "frames", "pictures"})
+    for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
+      if (!entry.is_directory(failed) &&
+          written_by_a_run(entry.path().lexically_relative(folder.path / "")))
+        files.push_back(entry.path());
+  return files;
+}
+
+}  // namespace
 
 RunFolder run_folder(const fs::path& scene, const fs::path& chosen) {
   return {chosen.empty() ? fs::path("out") / scene.stem() : chosen};
@@ -28,18 +55,29 @@ void create(const RunFolder& folder) {
 }
 
 void remove_old_run(const RunFolder& folder) {
-  static constexpr std::array names = {"scene.yaml",   "run.json",    "log.txt",    "particles.pvd",
-                                       "surface.pvd",  "bones.pvd",   "frames.pvd", "particles",
-                                       "surface",      "bones",       "frames",     "metrics.csv",
-                                       "metrics.json", "report.html", "pictures",   "view.py"};
   std::error_code failed;
-  for (const char* name : names) {
-    fs::remove_all(folder.path / name, failed);
+  for (const fs::path& file : files_of_run(folder)) {
+    fs::remove(file, failed);
     if (failed)
-      throw not_written((folder.path / name).string(),
-                        "cannot be removed (" + failed.message() + ")",
+      throw not_written(file.string(), "cannot be removed (" + failed.message() + ")",
                         "remove it by hand or choose another folder with -o");
   }
+}
+
+void refuse_foreign_files(const RunFolder& folder) {
+  for (const fs::path& file : files_of_run(folder))
+    throw bad_input(Place{file.string()}, "is there, but no run.json of a run beside it",
+                    "choose another folder with -o, or move the file away");
+}
+
+std::uint64_t size_of_old_run(const RunFolder& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code failed;
+  for (const fs::path& file : files_of_run(folder)) {
+    const auto size = fs::file_size(file, failed);
+    if (!failed) bytes += size;
+  }
+  return bytes;
 }
 
 FolderLock::FolderLock(const RunFolder& folder) {

@@ -2,7 +2,9 @@
 // The folder of a run: what lies where, who works in it, and what of it is an older run's.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <system_error>
 
 namespace sinew {
 
@@ -16,7 +18,10 @@ struct RunFolder {
   std::filesystem::path pictures() const { return path / "pictures"; }
 
   /// Whether a run has begun here.
-  bool used() const { return std::filesystem::exists(record()); }
+  bool used() const {
+    std::error_code unreachable;
+    return std::filesystem::exists(record(), unreachable);
+  }
 };
 
 /// out/NAME-OF-SCENE below the current directory, or what the user chose with -o.
@@ -27,6 +32,12 @@ void create(const RunFolder& folder);
 
 /// Removes what an older run has left, and nothing else; the body stays, it may fit the scene.
 void remove_old_run(const RunFolder& folder);
+
+/// Throws bad input when the folder, which no run has used, holds a file that a run would replace.
+void refuse_foreign_files(const RunFolder& folder);
+
+/// Bytes that remove_old_run would free.
+std::uint64_t size_of_old_run(const RunFolder& folder);
 
 /// Held while a run works in its folder; the kernel lets go of it however the program ends.
 class FolderLock {

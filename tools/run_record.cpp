@@ -6,6 +6,7 @@
 #include <array>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "command.h"
@@ -33,7 +34,8 @@ std::string utc_now() {
 
 nlohmann::ordered_json read_record(const RunFolder& folder) {
   auto record = nlohmann::ordered_json::parse(read_file(folder.record()), nullptr, false);
-  if (record.is_object()) return record;
+  if (record.is_object() && record.value("program", nlohmann::ordered_json()) == "sinew")
+    return record;
   throw bad_input(Place{folder.record().string()}, "is not the record of a run",
                   "run the scene again with --force");
 }
@@ -43,7 +45,14 @@ void write_record(const RunFolder& folder, const nlohmann::ordered_json& record)
 }
 
 void record_stage(const RunFolder& folder, const std::string& stage, double seconds) {
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(folder);
+  } catch (const Error&) {
+    return;  // a run still going on writes its record itself; a folder for reading keeps its own
+  }
   auto record = read_record(folder);
+  if (!record["seconds"].is_object()) record["seconds"] = nlohmann::ordered_json::object();
   record["seconds"][stage] = seconds;
   write_record(folder, record);
 }

@@ -15,7 +15,7 @@ nlohmann::ordered_json read_record(const RunFolder& folder);
 /// Replaces run.json. Throws not written.
 void write_record(const RunFolder& folder, const nlohmann::ordered_json& record);
 
-/// Writes seconds.STAGE into run.json.
+/// Writes seconds.STAGE into run.json, unless a run is going on in the folder.
 void record_stage(const RunFolder& folder, const std::string& stage, double seconds);
 
 /// "status" of the run: running, finished, stopped, unstable, failed; "" without a record.

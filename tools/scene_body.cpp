@@ -70,7 +70,8 @@ std::string origin_of(const Settings& settings) {
 
 std::optional<BodyFile> body_of_scene(const std::filesystem::path& path,
                                       const std::string& origin) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code unreachable;
+  if (!std::filesystem::exists(path, unreachable)) return std::nullopt;
   try {
     BodyFile body = read_body(path);
     const auto meta = nlohmann::json::parse(body.meta, nullptr, false);

@@ -10,10 +10,12 @@
 namespace sinew {
 namespace {
 
+constexpr double most_steps = 2e9;  // files count them in 32 bits
+
 int frames_of(const Settings& settings) {
   const double frames = std::ceil(settings.solver.duration / settings.output.interval - 1e-6);
   if (!(frames <= 1e6))
-    throw bad_input(settings.place("output.interval"), "the run would have over a million frames",
+    throw bad_input(settings.place("solver.duration"), "the run would have over a million frames",
                     "make output.interval longer");
   return static_cast<int>(frames);
 }
@@ -44,8 +46,12 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   Setup setup;
   setup.frames = frames_of(settings);
   setup.body = make_body(settings, particles);
+  setup.joint_zone = settings.binding.joint_zone;
   setup.motion = make_motion(settings, setup.body.skeleton);
   setup.steps = steps_of(settings, setup.body);
+  if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
+    throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
+                    "make solver.duration shorter or solver.time_step longer");
   return setup;
 }
 
@@ -56,13 +62,18 @@ Simulation start(const Settings& settings, const Setup& setup, const Particles& 
 
 double bone_speed(const Setup& setup, double interval) {
   const Body& body = setup.body;
+  std::vector<double> reach(body.skeleton.size(), 0.0);  // from the bone's axis
+  for (const Influence& influence : body.binding.influences)
+    reach[influence.bone] = std::max(reach[influence.bone], influence.rest_distance);
   double fastest = 0;
   constexpr int samples_per_frame = 4;
   for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
     const Pose pose = pose_at(body.skeleton, setup.motion, sample * interval / samples_per_frame);
     for (std::size_t b = 0; b < pose.size(); ++b) {
       const Vec3 tail = pose[b].frame.origin + body.skeleton.bones[b].length * pose[b].axis();
-      fastest = std::max({fastest, pose[b].velocity.norm(), pose[b].velocity_at(tail).norm()});
+      const double spin = pose[b].angular_velocity.norm() * reach[b];
+      fastest = std::max(
+          {fastest, pose[b].velocity.norm() + spin, pose[b].velocity_at(tail).norm() + spin});
     }
   }
   return fastest * setup.steps.step / body.material.pair.r;

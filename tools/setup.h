@@ -13,7 +13,8 @@ struct Setup {
   Body body;
   Motion motion;
   StepChoice steps;
-  int frames = 0;  ///< after the first; the last reaches solver.duration
+  double joint_zone = 0;  ///< in square roots of the bones' cross-section
+  int frames = 0;         ///< after the first; the last is at solver.duration or just beyond
 };
 
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.
@@ -22,7 +23,7 @@ Setup set_up(const Settings& settings, const Particles& particles);
 /// The simulation of a setup, at its start.
 Simulation start(const Settings& settings, const Setup& setup, const Particles& particles);
 
-/// The most any particle's place is moved by the bones in one step, in radii.
+/// A bound of how far the bones move any particle's place in one step, in radii.
 double bone_speed(const Setup& setup, double interval);
 
 }  // namespace sinew

@@ -25,11 +25,14 @@ using namespace sinew;
 
 /// Whether there is anything to do; refuses to overwrite a run unasked.
 bool may_begin(const RunFolder& folder, const RunOptions& options, const Common& common) {
-  if (!folder.used() || options.force) return true;
+  if (!folder.used()) refuse_foreign_files(folder);
+  if (!folder.used()) return true;
+  const std::string status = status_of(folder);
+  if (options.force) return true;
   if (!options.resume)
     throw bad_input(Place{folder.path.string()}, "holds a run already",
                     "replace it with --force, or choose another folder with -o");
-  if (status_of(folder) == "finished") {
+  if (status == "finished") {
     say(common, "the run in " + folder.path.string() + " is finished already");
     return false;
   }
@@ -57,7 +60,8 @@ Prepared prepare(const Settings& settings, const RunFolder& folder) {
   made.body.bone = bones_of_particles(made.setup.body);
   made.seconds_binding = watch.lap();
   const Triangles& skin = made.surface.triangles;
-  check_space(folder.path, needs_of(settings, made.setup, skin.points.size(), skin.faces.size()));
+  check_space(folder.path, needs_of(settings, made.setup, skin.points.size(), skin.faces.size()),
+              size_of_old_run(folder));
   return made;
 }
 
@@ -83,25 +87,36 @@ Exit step_through(Simulation& simulation, const Setup& setup, double interval, R
   }
 }
 
-/// Steps through, and closes the books however it ends.
-Exit run_to_end(Simulation& simulation, const Settings& settings, const Prepared& made,
+/// Steps through and closes the series; the good frames of an unstable run too.
+Exit record_run(Simulation& simulation, const Settings& settings, const Prepared& made,
                 const RunFolder& folder, Journal& journal, bool quiet) {
+  Recorder recorder(folder.path, settings.output, made.setup.body, made.surface.triangles);
+  Exit exit = Exit::done;
   try {
-    Recorder recorder(folder.path, settings.output, made.setup.body, made.surface.triangles);
-    Exit exit = Exit::done;
-    try {
-      Progress progress(made.setup.frames, progress_style(quiet));
-      exit = step_through(simulation, made.setup, settings.output.interval, recorder, journal,
-                          progress);
-    } catch (const Error& error) {
-      if (error.exit() == Exit::unstable) recorder.close();  // the frames before it are good
-      throw;
-    }
-    recorder.close();
+    Progress progress(made.setup.frames, progress_style(quiet));
+    exit =
+        step_through(simulation, made.setup, settings.output.interval, recorder, journal, progress);
+  } catch (const Error& error) {
+    if (error.exit() == Exit::unstable) recorder.close();
+    throw;
+  }
+  recorder.close();
+  return exit;
+}
+
+Exit run_to_end(const Settings& settings, const Prepared& made, const RunFolder& folder,
+                Journal& journal, bool quiet) {
+  try {
+    write_beginning(settings, made, folder);
+    Simulation simulation = start(settings, made.setup, made.body.particles);
+    const Exit exit = record_run(simulation, settings, made, folder, journal, quiet);
     journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
     return exit;
   } catch (const Error& error) {
     journal.fail(error.exit() == Exit::unstable ? "unstable" : "failed", error.what());
+    throw;
+  } catch (const std::exception& error) {
+    journal.fail("failed", error.what());
     throw;
   }
 }
@@ -129,14 +144,12 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
   journal.spend("filling", made.seconds_filling);
   journal.spend("binding", made.seconds_binding);
   journal.describe(settings, made.setup);
-  write_beginning(settings, made, folder);
   say(common, "step " + three_digits(made.setup.steps.step) + " s, " +
                   three_digits(made.setup.steps.factor()) + " of the stability limit " +
                   three_digits(made.setup.steps.limit) + " s");
 
   catch_stop_signals();
-  Simulation simulation = start(settings, made.setup, made.body.particles);
-  const Exit exit = run_to_end(simulation, settings, made, folder, journal, common.quiet);
+  const Exit exit = run_to_end(settings, made, folder, journal, common.quiet);
   print_results(folder, journal, common.json);
   if (exit == Exit::interrupted)
     say(common, "sinew: stopped; go on with: sinew simulate " + options.scene + " -o " +

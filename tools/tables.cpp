@@ -17,11 +17,13 @@ std::string arrays_markdown() {
       "| series | on | array | components | unit | meaning |\n|---|---|---|---|---|---|\n";
   for (const WrittenArray& array : written_arrays()) {
     std::string components;
+    const std::string place(place_text(array.place));
     for (const std::string_view name : array.components)
       components += (components.empty() ? "" : " ") + std::string(name);
-    text += "| " + std::string(array.series) + " | " + std::string(place_text(array.place)) +
-            " | `" + std::string(array.name) + "` | " + components + " | " +
-            std::string(array.unit) + " | " + std::string(array.help) + " |\n";
+    for (const std::string_view cell : {array.series, std::string_view(place), array.name,
+                                        std::string_view(components), array.unit, array.help})
+      text.append("| ").append(cell).append(" ");
+    text += "|\n";
   }
   return text;
 }

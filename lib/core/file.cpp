@@ -38,9 +38,13 @@ void close_file(const int* file) { ::close(*file); }
 
 }  // namespace
 
-NewFile::NewFile(fs::path path)
-    : path_(std::move(path)),
-      temporary_(path_.parent_path() / ("." + path_.filename().string() + ".tmp")) {
+NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_.parent_path() / ".") {
+  std::error_code ignored;
+  const auto there = fs::status(path_, ignored);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw not_written(path_.string(), "is there, and no regular file", "choose another name");
+  temporary_ += path_.filename();
+  temporary_ += ".tmp";
   file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file_ < 0) throw refused(path_, errno);
 }

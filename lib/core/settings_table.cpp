@@ -135,7 +135,7 @@ std::vector<Field<Settings>> make_settings() {
       field<S>("material", "density", SINEW_AT(S, material.density), "kg/m^3",
                "mass of the body over its mesh's volume", positive),
       field<S>("material", "young_modulus", SINEW_AT(S, material.young_modulus), "Pa",
-               "Young's modulus, averaged over directions (Hill); sets k1 = E / 2.70", positive),
+               "Young's modulus, averaged over directions (Hill); sets k1 = E / 2.701", positive),
       field<S>("material", "k1", SINEW_AT(S, material.k1), "Pa",
                "the paper's repulsion constant, instead of young_modulus", positive),
       field<S>("material", "k2", SINEW_AT(S, material.k2), "Pa",
@@ -186,7 +186,7 @@ std::vector<Field<Settings>> make_settings() {
       field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
                "time of the scene between frames", positive),
       choice<S>("output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
-                "of the arrays in VTU files; lz4 is fastest, none is plain base64"),
+                "of the arrays in VTU files; none is plain base64; raw is for readers other than VTK before 9.3"),
       field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
                "write Float64 instead of Float32"),
   };

@@ -69,7 +69,8 @@ Error MeshFile::broken(int line, const std::string& what, const std::string& cur
 }
 
 MeshFile open_mesh(const std::string& path) {
-  MeshFile file{path, format_of(path), std::string(size_of(path), '\0')};
+  const std::size_t size = size_of(path);  // first: whether there is a file at all
+  MeshFile file{path, format_of(path), std::string(size, '\0')};
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw bad_input({path}, std::string("the file cannot be opened: ") + std::strerror(errno),

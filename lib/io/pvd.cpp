@@ -7,13 +7,16 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/settings_table.h"
 #include "core/file.h"
+#include "core/settings_table.h"
 #include "io/series.h"
 #include "io/vtk_messages.h"
+#include "io/xml_depth.h"
 
 namespace sinew {
 namespace {
+
+constexpr std::uint64_t largest_pvd = std::uint64_t{256} << 20;  // bytes: two million rows
 
 Error refused(const std::string& what) { return bad_input(what, "use a PVD file of a run"); }
 
@@ -67,7 +70,8 @@ std::string pvd_text(const std::vector<PvdRow>& rows) {
 }
 
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  const std::string text = read_file(path, largest_pvd);
+  if (!nests_moderately(text)) throw refused("it is not a PVD file").within({path.string()});
   const VtkMessages messages;
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
       vtkXMLUtilities::ReadElementFromString(text.c_str()));

@@ -5,8 +5,8 @@
 #include <regex>
 
 #include "core/error.h"
-#include "core/settings_table.h"
 #include "core/file.h"
+#include "core/settings_table.h"
 
 namespace sinew {
 namespace {

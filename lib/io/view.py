@@ -10,6 +10,7 @@ x, y, z axes in red, green, blue inside the translucent surface. Choose another 
 """
 import argparse
 import math
+import mmap
 import os
 import re
 import sys
@@ -65,23 +66,22 @@ def frame_files(folder, series):
 
 
 def described_arrays(path):
-    """The XML of a VTU file's point arrays, by name: the head of the file, before the data."""
-    head = b""
-    with open(path, "rb") as file:
-        while b"<AppendedData" not in head:
-            piece = file.read(1 << 16)
-            if not piece:
-                break
-            head += piece
-    root = ET.fromstring(head.split(b"<AppendedData")[0] + b"</VTKFile>")
-    return {array.get("Name"): array for array in root.iter("DataArray")}
+    """What a VTU file says of its arrays, by name: attributes and unit, without their data."""
+    arrays = {}
+    with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as text:
+        for tag in re.finditer(rb"<DataArray ([^>]*)>", text):
+            array = {key.decode(): value.decode()
+                     for key, value in re.findall(rb'(\w+)="([^"]*)"', tag[1])}
+            end = text.find(b"<DataArray ", tag.end())
+            label = re.compile(rb'"UNITS_LABEL"[^>]*>\s*([^<]*?)\s*<').search(
+                text, tag.end(), end if end >= 0 else len(text))
+            array["unit"] = label[1].decode() if label else "1"
+            arrays[array["Name"]] = array
+    return arrays
 
 
 def unit_of(array):
-    for key in array.iter("InformationKey"):
-        if key.get("name") == "UNITS_LABEL":
-            return key.text.strip()
-    return "1"
+    return array["unit"]
 
 
 def ranges_over_time(frames, name):

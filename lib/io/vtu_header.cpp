@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "io/vtu_blocks.h"
+#include "io/xml_depth.h"
 
 namespace sinew {
 namespace {
@@ -189,6 +190,7 @@ void check_vtu_header(const std::filesystem::path& path) {
   if (!document.file) throw bad_input("it cannot be opened", "check the path and the permissions");
   check_start_and_end(document);
   read_xml(document);
+  if (!nests_moderately(document.xml)) throw refused("its elements are nested too deeply");
   check_xml(document);
 }
 

@@ -20,8 +20,8 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "io/arrays.h"
 #include "core/file.h"
+#include "io/arrays.h"
 #include "io/vtk_messages.h"
 #include "io/vtu.h"
 
@@ -141,7 +141,10 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Dataset& data, const VtuForma
 }
 
 void set_encoding(Encoding encoding, vtkXMLWriter& writer) {
-  writer.SetDataModeToAppended();
+  // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which Debian 12
+  // has by its updates: only data within the elements is safe.
+  if (encoding == Encoding::raw) writer.SetDataModeToAppended();
+  else writer.SetDataModeToBinary();
   writer.SetHeaderTypeToUInt64();
   writer.SetByteOrderToLittleEndian();
   writer.SetEncodeAppendedData(encoding != Encoding::raw);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // metrics.json: a run summed up, for scripts.
 //
-//   schema_version   1; grows when a key changes its meaning or goes
-//   frames, duration
-//   metrics          by name: unit, meaning, formula, min, max, mean, final, worst_frame,
-//   worst_time run              by name, once per run: unit, meaning, formula, value holds from,
-//   to, settled_after (s) checks           name, expression, value, limit, frame, pass
+// - schema_version: 1; grows when a key changes its meaning or goes
+// - frames, duration
+// - metrics, by name: unit, meaning, formula, min, max, mean, final, worst_frame, worst_time
+// - run, by name, once per run: unit, meaning, formula, value
+// - holds: from, to, settled_after (s)
+// - checks: name, expression, value, limit, frame, pass
 //
 // null stands where there was nothing to measure.
 #pragma once

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/number_text.h"
 
 namespace sinew {
 namespace {
@@ -43,7 +44,7 @@ double semi_implicit_limit(const Material& material, const std::vector<BoneSprin
   for (const Mode& mode : worst_modes(material)) {
     const double w2 = (mode.w2 * material.stiffness() + stiffest_spring(springs)) / material.mass;
     const double g = (mode.rate * material.damping + largest_damping(springs)) / material.mass;
-    limit = std::min(limit, (std::sqrt(g * g + 4 * w2) - g) / w2);
+    limit = std::min(limit, 4 / (std::sqrt(g * g + 4 * w2) + g));  // (sqrt(g^2 + 4 w^2) - g) / w^2
   }
   return limit;
 }
@@ -81,7 +82,7 @@ StepChoice choose_step(const SolverSettings& settings, double limit, double inte
   // The tolerance keeps a step that divides the interval from becoming one shorter by rounding.
   const double steps = std::ceil(interval / wanted * (1 - 1e-12));
   if (!(steps < 1e9))
-    throw bad_input("a frame would take " + std::to_string(steps) + " steps",
+    throw bad_input("a frame would take " + three_digits(steps) + " steps",
                     "make solver.time_step longer or output.interval shorter");
   StepChoice choice;
   choice.limit = limit;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "core/cell_grid.h"
 #include "core/parallel.h"
@@ -34,16 +35,17 @@ std::vector<Near> within(const CellGrid& grid, const Points& points, const Vec3&
   return near;
 }
 
-/// The particles around `vertex` and the distance h at which weights end. `grid` reaches as far as
-/// the least h may.
-std::pair<std::vector<Near>, double> support(const CellGrid& grid, const Points& points,
+/// The particles around `vertex` and the distance h at which weights end. `grids` of doubled reach
+/// are made as vertices ask for them: few do.
+std::pair<std::vector<Near>, double> support(std::deque<CellGrid>& grids, const Points& points,
                                              const Vec3& vertex, double range) {
   if (points.empty()) return {{}, range};
   const std::size_t wanted = std::min(least_particles, points.size());
-  for (double wide = range;; wide *= 2) {
+  double wide = range;
+  for (std::size_t level = 0;; ++level, wide *= 2) {
     const double furthest = margin * wide;
-    std::vector<Near> near =
-        within(wide == range ? grid : CellGrid(points, furthest), points, vertex, furthest);
+    if (level == grids.size()) grids.emplace_back(points, furthest);
+    std::vector<Near> near = within(grids[level], points, vertex, furthest);
     if (near.size() < wanted || near[wanted - 1].distance >= wide) continue;
     const double h = std::max(range, margin * near[wanted - 1].distance);
     std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
@@ -72,12 +74,12 @@ Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
 
 Skin make_skin(const Points& vertices, const RestShape& body, double radius) {
   const double range = reach_in_radii * radius;
-  const CellGrid grid(body.points, margin * range);
+  std::deque<CellGrid> grids;
   Skin skin;
   skin.rest = vertices;
   skin.first.push_back(0);
   for (const Vec3& vertex : vertices) {
-    const auto [near, h] = support(grid, body.points, vertex, range);
+    const auto [near, h] = support(grids, body.points, vertex, range);
     double sum = 0;
     for (const Near& one : near) {
       const double rise = 1 - (one.distance / h) * (one.distance / h);

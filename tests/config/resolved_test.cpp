@@ -11,6 +11,7 @@
 #include "config/scene.h"
 #include "config/small_scene.h"
 #include "config/temp_folder.h"
+#include "core/scene_text.h"
 #include "core/settings_table.h"
 
 namespace sinew {

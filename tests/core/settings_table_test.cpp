@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/scene_text.h"
+
 namespace sinew {
 namespace {
 

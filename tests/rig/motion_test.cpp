@@ -174,11 +174,25 @@ TEST(Pose, VelocitiesAreTheDerivativesOfThePose) {
       expect_derivatives(busy_chain(kind), time);
 }
 
-TEST(Pose, RotationsBetweenKeysTakeTheShortWay) {
+TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
   Settings settings = chain(1);
-  settings.tracks = {track("b0", {bend_key(0, 170), bend_key(1, -170)})};
+  KeySettings start;  // no rotation counts as no angle
+  settings.tracks = {track("b0", {start, bend_key(1, 270), bend_key(2, -90)})};
   settings.tracks[0].interpolation = Interpolation::linear;
-  EXPECT_LT((pose_of(settings, 0.5)[0].turn - turned(Vec3::UnitY(), 180)).norm(), 1e-13);
+  for (const double time : {0.3, 0.8, 1.0})
+    EXPECT_LT((pose_of(settings, time)[0].turn - turned(Vec3::UnitY(), 270 * time)).norm(), 1e-13);
+  EXPECT_NEAR(pose_of(settings, 1.5)[0].angular_velocity.y(), radians(-360), 1e-12);
+}
+
+TEST(Pose, EulerAnglesBetweenKeysTakeTheShortWay) {
+  Settings settings = chain(1);
+  KeySettings quarter, three_quarters;
+  quarter.euler = Vec3(0, 0, 0);
+  three_quarters.time = 1;
+  three_quarters.euler = Vec3(0, 270, 0);
+  settings.tracks = {track("b0", {quarter, three_quarters})};
+  settings.tracks[0].interpolation = Interpolation::linear;
+  EXPECT_LT((pose_of(settings, 0.5)[0].turn - turned(Vec3::UnitY(), -45)).norm(), 1e-13);
 }
 
 TEST(Motion, EulerAnglesTurnAboutFixedAxesInTheOrderNamed) {

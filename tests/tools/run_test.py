@@ -6,6 +6,8 @@ usage: run_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import csv
 import json
+import os
+import pty
 import signal
 import subprocess
 import sys
@@ -70,6 +72,14 @@ class Commands(unittest.TestCase):
 
     def record(self, folder=None):
         return json.loads(((folder or self.out) / "run.json").read_text())
+
+    def wait_for(self, child, file):
+        for _ in range(1000):
+            if (self.out / file).exists():
+                return
+            self.assertIsNone(child.poll(), "the run ended by itself")
+            time.sleep(0.02)
+        self.fail(f"no {file} after 20 s")
 
     def assert_one_line(self, done, exit_code, *parts):
         self.assertEqual(done.returncode, exit_code, done.stderr)
@@ -160,8 +170,7 @@ class Commands(unittest.TestCase):
             self.out = self.folder / name.name
             words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
             with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.PIPE, text=True) as child:
-                while not list(self.out.glob("particles/particles_000002.vtu")):
-                    time.sleep(0.02)
+                self.wait_for(child, "particles/particles_000002.vtu")
                 self.assert_one_line(sinew("simulate", self.scene, "-o", self.out, "--force"), 2,
                                      "another sinew")
                 child.send_signal(name)
@@ -173,11 +182,56 @@ class Commands(unittest.TestCase):
             self.assertEqual((self.out / "particles.pvd").read_text().count("<DataSet"), files)
             sinew("measure", self.out, check=0)
 
+    def test_interrupt_from_a_terminal_stops_a_whole_run(self):
+        words = ["sinew", "run", str(self.scene), "-o", str(self.out), "--set", "solver.duration=1000"]
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.execv(BIN / "sinew", words)
+        for _ in range(1000):
+            if (self.out / "particles/particles_000002.vtu").exists():
+                break
+            time.sleep(0.02)
+        os.write(terminal, b"\x03")  # Ctrl-C goes to all programs of the terminal
+        said = b""
+        try:
+            while part := os.read(terminal, 4096):
+                said += part
+        except OSError:
+            pass  # the terminal closes with its last program
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 130)
+        self.assertEqual(self.record()["status"], "stopped")
+        self.assertIn(b"--resume", said)
+
+    def test_files_that_are_no_runs_are_never_touched(self):
+        self.out.mkdir()
+        (self.out / "pictures").mkdir()
+        (self.out / "pictures/holiday.png").write_text("mine")
+        (self.out / "surface").mkdir()
+        (self.out / "surface/notes").write_text("mine")
+        self.simulate("--set", "solver.duration=0")
+        self.simulate("--force", "--set", "solver.duration=0")
+        self.assertEqual((self.out / "pictures/holiday.png").read_text(), "mine")
+        self.assertEqual((self.out / "surface/notes").read_text(), "mine")
+        foreign = self.folder / "foreign"
+        foreign.mkdir()
+        (foreign / "scene.yaml").write_text(self.scene.read_text())
+        for words in [[], ["--force"], ["--resume"]]:
+            done = sinew("simulate", foreign / "scene.yaml", "-o", foreign, *words)
+            self.assert_one_line(done, 2, "scene.yaml")
+        self.assertEqual((foreign / "scene.yaml").read_text(), self.scene.read_text())
+
+    def test_deeply_nested_files_are_refused(self):
+        self.simulate("--set", "solver.duration=0")
+        deep = "<a>" * 400000 + "</a>" * 400000
+        for name in ["body.vtu", "particles.pvd"]:
+            (self.out / name).write_text(f'<?xml version="1.0"?><VTKFile type="Collection">{deep}</VTKFile>')
+            self.assert_one_line(sinew("measure", self.out), 2, name)
+            self.simulate("--force", "--set", "solver.duration=0")
+
     def test_run_dies_with_its_parts(self):
         words = [BIN / "sinew", "run", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
         with subprocess.Popen(words, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as child:
-            while not list(self.out.glob("particles/particles_000001.vtu")):
-                time.sleep(0.02)
+            self.wait_for(child, "particles/particles_000001.vtu")
             child.kill()
         time.sleep(1)
         words = subprocess.run(["pgrep", "-f", f"sinew-simulate.*{self.out}"], capture_output=True)
@@ -218,6 +272,22 @@ class Commands(unittest.TestCase):
         self.assertEqual(json.loads(done.stdout)["warnings"], 1)
         self.assertIn("2.83", done.stderr)
         self.assertIn("material.b", done.stderr)
+        text = self.scene.read_text()
+        for old, new, word in [("angle: 30", "twist: 30", "cuts the body"),
+                               ("axis: [0, 1, 0]\n          angle: 30", "axis: [0, 0, 1]\n          angle: 30",
+                                "cuts the body"),
+                               ("time: 0.2", "time: 0.02", "cannot follow"),
+                               ("- time: 0\n", "- time: 0\n          twist: 9\n", "begin at rest"),
+                               ("- bone: upper", "- bone: upper\n      interpolation: step", "jumps"),
+                               ("skeleton:\n  bones:\n", "skeleton:\n  bones:\n    - name: idle\n"
+                                "      head: [9, 9, 9]\n      tail: [9, 9, 10]\n", "no particle follows")]:
+            doubtful = self.folder / "doubtful.yaml"
+            changed = text.replace(old, new, 1)
+            if word == "cuts the body" and "twist" in new:
+                changed = changed.replace("axis: [0, 1, 0]\n          twist", "twist", 1)
+            self.assertNotEqual(changed, text)
+            doubtful.write_text(changed)
+            self.assertIn(word, sinew("check", doubtful, check=0).stderr)
 
     def test_explicit_euler_without_damping_has_no_step(self):
         done = sinew("check", self.scene, "--set", "solver.integrator=explicit_euler", "--set",

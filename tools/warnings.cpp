@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/closest_packing.h"
+#include "core/number_text.h"
+
+namespace sinew {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+// Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
+constexpr double largest_stable_b = 2.75;
+constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
+constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
+
+void warn_of_material(const PairForce& pair, Warnings& warnings) {
+  if (pair.b > largest_stable_b * pair.r)
+    warnings.push_back("b is " + three_digits(pair.b / pair.r) +
+                       " radii: second neighbours at 2.83 weaken the packing until it collapses by "
+                       "itself; set material.b to 2.75 or less");
+  if (pair.a > 2 * pair.r * (1 + 1e-9))
+    warnings.push_back("a is " + three_digits(pair.a / pair.r) +
+                       " radii: between 2 and a neighbours do not pull and a free body swells; set "
+                       "material.a to 2");
+}
+
+void warn_of_step(const StepChoice& steps, Warnings& warnings) {
+  const std::string share =
+      "the time step is " + three_digits(steps.factor()) + " of the stability limit: ";
+  if (steps.factor() > 1)
+    warnings.push_back(share + "the run will become unstable; use solver.time_step " +
+                       three_digits(steps.limit / 2) + " or auto");
+  else if (steps.factor() > 0.9)
+    warnings.push_back(share + "bent joints rattle above 0.9; use solver.time_step auto");
+}
+
+void warn_of_speed(double speed, Warnings& warnings) {
+  if (speed > fastest_bone)
+    warnings.push_back("a bone moves particles by " + three_digits(speed) +
+                       " radii in a step: the body cannot follow; slow the motion down or shorten "
+                       "solver.time_step");
+}
+
+std::string bone_of(const Setup& setup, const Track& track) {
+  return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
+}
+
+/// The part of a key's rotation that turns the bone about itself, and its twist, rad.
+double turn_about_bone(const Bone& bone, const Key& key) {
+  const double along = key.rotation.vec().dot(bone.axis());
+  return std::abs(2 * std::atan2(along, std::abs(key.rotation.w()))) + std::abs(key.twist);
+}
+
+/// Planes of particles over which a turn about the bone is spread.
+double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
+  const double length = joint_zone * std::sqrt(setup.body.binding.cross_section[bone]);
+  return std::max(1.0, length / half_plane_spacing(setup.body.material.pair.r));
+}
+
+void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
+  const Bone& bone = setup.body.skeleton.bones[track.bone];
+  if (bone.parent == no_bone) return;
+  double turn = 0;
+  for (const Key& key : track.keys) turn = std::max(turn, turn_about_bone(bone, key));
+  const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
+  if (step > steepest_joint)
+    warnings.push_back("bone " + bone_of(setup, track) + " turns " + three_digits(degrees(turn)) +
+                       " degrees about itself, " + three_digits(step) +
+                       " from one plane of particles to the next: that cuts the body; set "
+                       "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
+}
+
+void warn_of_jumps(const Setup& setup, const Track& track, Warnings& warnings) {
+  const Key& first = track.keys.front();
+  const bool turned = Eigen::AngleAxisd(first.rotation).angle() > radians(1);
+  const bool shifted = first.translation.norm() > 0.1 * setup.body.material.pair.r;
+  if (turned || shifted || std::abs(first.twist) > radians(1))
+    warnings.push_back(
+        "bone " + bone_of(setup, track) +
+        " does not begin at rest: the body is torn at the first step; begin its keys "
+        "with one that has no rotation and no translation");
+  if (track.interpolation == Interpolation::step && track.keys.size() > 1)
+    warnings.push_back("bone " + bone_of(setup, track) +
+                       " jumps from key to key: the body is torn at each; use interpolation linear "
+                       "or smooth");
+}
+
+void warn_of_idle_bones(const Body& body, Warnings& warnings) {
+  for (std::size_t b = 0; b < body.skeleton.size(); ++b)
+    if (!(body.binding.cross_section[b] > 0))
+      warnings.push_back("no particle follows bone '" + body.skeleton.bones[b].name +
+                         "'; move it into the body");
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Setup& setup, double bone_speed) {
+  Warnings warnings;
+  warn_of_material(setup.body.material.pair, warnings);
+  warn_of_step(setup.steps, warnings);
+  warn_of_speed(bone_speed, warnings);
+  for (const Track& track : setup.motion.tracks) {
+    warn_of_cut(setup, track, warnings);
+    warn_of_jumps(setup, track, warnings);
+  }
+  warn_of_idle_bones(setup.body, warnings);
+  return warnings;
+}
+
+}  // namespace sinew
