@@ -149,7 +149,9 @@ bool block_is_sound(vtkXMLDataElement& array, Document& document) {
                           values, coding);
   }
   if (attribute(array, "format") != "binary") return true;
-  std::string_view text = array.GetCharacterData() ? array.GetCharacterData() : "";
+  std::string_view text = document.xml;  // the element itself keeps no data
+  text.remove_prefix(std::min<std::size_t>(array.GetXMLByteIndex(), text.size()));
+  text.remove_prefix(std::min(text.find('>'), text.size() - 1) + 1);
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   return block_is_sound([&](std::size_t count) { return std::string(text.substr(0, count)); },
                         values, coding);
