@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/closest_packing.h"
@@ -14,6 +13,7 @@
 #include "fill/inside.h"
 #include "fill/lattice.h"
 #include "core/stopwatch.h"
+#include "core/number_text.h"
 
 namespace sinew {
 namespace {
@@ -33,12 +33,6 @@ struct RowSites {
 double rounded(double value, double (*to)(double)) {  // to two digits
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return to(value / unit) * unit;
-}
-
-std::string short_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 double wanted_radius(const PackOptions& options, double volume) {
@@ -68,19 +62,19 @@ void refuse_too_many(const Box& box, double volume, double radius) {
   if (particles <= most_ids && bytes <= memory) return;
   double fits = std::max(radius, radius_for_count(volume, most_ids));
   while (bytes_needed(box, volume, fits) > memory) fits *= 1.02;
-  throw bad_input("the radius " + short_text(radius) + " m gives about " + short_text(particles) +
-                      " particles, which need " + short_text(bytes / 1e9) + " GB of memory where " +
-                      short_text(memory / 1e9) +
+  throw bad_input("the radius " + three_digits(radius) + " m gives about " + three_digits(particles) +
+                      " particles, which need " + three_digits(bytes / 1e9) + " GB of memory where " +
+                      three_digits(memory / 1e9) +
                       " GB are free (the most in any case is 2.15e+09 particles)",
-                  "a radius of " + short_text(rounded(fits, std::ceil)) + " m fits");
+                  "a radius of " + three_digits(rounded(fits, std::ceil)) + " m fits");
 }
 
 void refuse_too_large(double volume, double radius) {
   if (volume / volume_per_particle(radius) >= 0.5) return;  // 1 less rounding for a count of 1
-  throw bad_input("the radius " + short_text(radius) + " m is too large for a body of " +
-                      short_text(volume) + " m^3: it holds less than one particle",
+  throw bad_input("the radius " + three_digits(radius) + " m is too large for a body of " +
+                      three_digits(volume) + " m^3: it holds less than one particle",
                   "a radius of " +
-                      short_text(rounded(radius_for_count(volume, enough), std::floor)) +
+                      three_digits(rounded(radius_for_count(volume, enough), std::floor)) +
                       " m fits");
 }
 
@@ -128,8 +122,8 @@ Points gathered(const Lattice& lattice, const std::vector<RowSites>& found) {
     }
     fits /= 2;
   }
-  throw bad_input("no particle of radius " + short_text(radius) + " m has its centre inside",
-                  "a radius of " + short_text(rounded(fits, std::floor)) + " m fits");
+  throw bad_input("no particle of radius " + three_digits(radius) + " m has its centre inside",
+                  "a radius of " + three_digits(rounded(fits, std::floor)) + " m fits");
 }
 
 std::vector<std::int32_t> components(const ClosedSurface& surface, const InsideTest& test,

@@ -9,7 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "core/number_text.h"
 
 namespace sinew {
 namespace {
@@ -53,13 +54,6 @@ void write_line(Image& image, const std::string& line, int x, int baseline,
     }
 }
 
-std::string short_number(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
-
 }  // namespace
 
 int line_height(const TextStyle& style) { return static_cast<int>(std::lround(1.35 * style.size)); }
@@ -84,7 +78,7 @@ void draw_colour_bar(Image& image, const ColourScale& scale, int x, int y, int w
   for (const double part : {0.0, 0.5, 1.0}) {
     const double value = scale.low + part * (scale.high - scale.low);
     words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::centre;
-    write_text(image, short_number(value), x + static_cast<int>(part * width), y + line + thick + 2,
+    write_text(image, three_digits(value), x + static_cast<int>(part * width), y + line + thick + 2,
                words);
   }
 }

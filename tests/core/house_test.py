@@ -18,7 +18,9 @@ HEAVY = {
     r"vtk\w*\.h": ("io", "render"),
     r"yaml-cpp/": ("config",),
     r"(tbb|oneapi)/": ("core/parallel.cpp",),
-    r"(nlohmann|spdlog|fmt|CLI)/": tuple(ARROWS),
+    r"nlohmann/": ("metrics",),
+    r"X11/": ("render",),
+    r"(spdlog|fmt|CLI)/": (),
 }
 # Pattern of a CMake target -> the rooms that may link it, PRIVATE.
 HEAVY_TARGETS = {
@@ -26,7 +28,9 @@ HEAVY_TARGETS = {
     r"VTK::": ("io", "render"),
     r"yaml-cpp": ("config",),
     r"TBB::": ("core",),
-    r"nlohmann_json::|spdlog::|fmt::|CLI11::": tuple(ARROWS),
+    r"nlohmann_json::": ("metrics",),
+    r"X11::": ("render",),
+    r"spdlog::|fmt::|CLI11::": (),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
