@@ -55,7 +55,7 @@ std::string name_of(const std::string& word) {
   const bool option = word.substr(0, 1) == "-";
   throw bad_input((option ? "unknown option " : "unknown command ") + shown(word),
                   option ? "put options behind the command; see sinew --help"
-                         : suggestion(word, names) + " See sinew --help");
+                         : suggestion(word, names) + " (see sinew --help)");
 }
 
 /// Does not return but by throwing.

@@ -121,8 +121,9 @@ void Simulation::fail(std::size_t i) const {
   throw Error(Exit::unstable, "step " + std::to_string(steps_) + " at " + three_digits(time()) +
                                   " s: particle " + std::to_string(particles_.id[i]) +
                                   " on bone '" + body_.skeleton.bones[bone].name +
-                                  (finite ? "' moved over 0.25 r relative to its bone in one step"
-                                          : "' reached a value that is not finite") +
+                                  (finite ? "' moved over " + three_digits(most_radii_per_step) +
+                                                " r relative to its bone in one step"
+                                          : std::string("' reached a value that is not finite")) +
                                   "; use solver.time_step " + three_digits(stepping_.step / 2) +
                                   " or less");
 }
