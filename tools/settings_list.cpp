@@ -9,6 +9,7 @@
 #include "config/values.h"
 #include "core/scene_text.h"
 #include "core/settings_table.h"
+#include "markdown.h"
 
 namespace sinew {
 namespace {
@@ -67,12 +68,6 @@ std::vector<Group> groups() {
   return all;
 }
 
-std::string cell(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
-  return out;
-}
-
 }  // namespace
 
 std::string settings_help() {
@@ -94,8 +89,7 @@ std::string settings_markdown() {
   for (const Group& group : groups()) {
     text += "| " + group.title + " | default | unit | values | meaning |\n|---|---|---|---|---|\n";
     for (const Row& row : group.rows)
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, cell(row.standard),
-                          cell(row.unit), cell(row.values), cell(row.help));
+      text += markdown_row({'`' + row.name + '`', row.standard, row.unit, row.values, row.help});
     text += '\n';
   }
   text.pop_back();

@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "io/arrays.h"
+#include "markdown.h"
 #include "metrics/table.h"
 #include "results.h"
 #include "settings_list.h"
@@ -17,14 +18,24 @@ std::string arrays_markdown() {
       "| series | on | array | components | unit | meaning |\n|---|---|---|---|---|---|\n";
   for (const WrittenArray& array : written_arrays()) {
     std::string components;
-    const std::string place(place_text(array.place));
     for (const std::string_view name : array.components)
-      components += (components.empty() ? "" : " ") + std::string(name);
-    for (const std::string_view cell : {array.series, std::string_view(place), array.name,
-                                        std::string_view(components), array.unit, array.help})
-      text.append("| ").append(cell).append(" ");
-    text += "|\n";
+      (components += components.empty() ? "" : " ") += name;
+    text += markdown_row({array.series, place_text(array.place),
+                          '`' + std::string(array.name) + '`', components, array.unit, array.help});
   }
+  return text;
+}
+
+template <class Row>
+std::string metric_row(const Row& metric) {
+  return markdown_row(
+      {'`' + std::string(metric.name) + '`', metric.unit, metric.help, metric.formula});
+}
+
+std::string metrics_markdown() {
+  std::string text = "| metric | unit | meaning | formula |\n|---|---|---|---|\n";
+  for (const Metric& metric : metrics_table()) text += metric_row(metric);
+  for (const RunMetric& metric : run_metrics_table()) text += metric_row(metric);
   return text;
 }
 

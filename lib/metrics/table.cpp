@@ -80,19 +80,6 @@ constexpr std::array run_table = {
               "until sqrt(mean |x - x_end|^2) stays below 0.2 r", &Summary::settling_time},
 };
 
-/// A bar would end the cell.
-std::string cell(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
-  return out;
-}
-
-template <class Row>
-std::string markdown_row(const Row& row) {
-  return "| `" + std::string(row.name) + "` | " + cell(row.unit) + " | " + cell(row.help) + " | " +
-         cell(row.formula) + " |\n";
-}
-
 }  // namespace
 
 std::span<const Metric> metrics_table() { return table; }
@@ -103,13 +90,6 @@ std::size_t metric_index(std::string_view name) {
   const auto found = std::find_if(table.begin(), table.end(),
                                   [&](const Metric& metric) { return metric.name == name; });
   return static_cast<std::size_t>(found - table.begin());
-}
-
-std::string metrics_markdown() {
-  std::string text = "| metric | unit | meaning | formula |\n| --- | --- | --- | --- |\n";
-  for (const Metric& metric : table) text += markdown_row(metric);
-  for (const RunMetric& metric : run_table) text += markdown_row(metric);
-  return text;
 }
 
 }  // namespace sinew

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "metrics/frame.h"
@@ -36,8 +35,5 @@ std::span<const RunMetric> run_metrics_table();
 
 /// The place of the metric in metrics_table(); its size where there is none of that name.
 std::size_t metric_index(std::string_view name);
-
-/// Both tables in Markdown, for the README.
-std::string metrics_markdown();
 
 }  // namespace sinew
