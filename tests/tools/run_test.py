@@ -245,6 +245,18 @@ class Commands(unittest.TestCase):
                                   stderr=subprocess.PIPE, text=True)
         self.assert_one_line(done, 4)
 
+    def test_fill_replaces_neither_its_input_nor_a_special_file(self):
+        mesh = self.folder / "mine.obj"
+        mesh.write_bytes((SOURCE / "data/meshes/box.obj").read_bytes())
+        before = mesh.read_bytes()
+        words = ["fill", mesh, "--radius", "0.02", "-o"]
+        self.assert_one_line(sinew(*words, mesh), 2, "mine.obj")
+        self.assertEqual(mesh.read_bytes(), before)
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        self.assert_one_line(sinew(*words, pipe), 4, "pipe")
+        self.assertTrue(pipe.is_fifo())
+
     def test_disk_too_small_for_the_run_is_said_before_it_begins(self):
         done = self.simulate("--set", "solver.duration=3e4", "--set", "body.radius=0.003", check=4)
         self.assert_one_line(done, 4, "needs about")
