@@ -54,6 +54,9 @@ Prepared prepare(const Settings& settings, const RunFolder& folder) {
   made.surface = read_mesh(settings);
   const std::string origin = origin_of(settings);
   auto there = body_of_scene(folder.body(), origin);
+  if (!there && !folder.used() && std::filesystem::exists(folder.body()))
+    throw bad_input(Place{folder.body().string()}, "is there, and not the body of this scene",
+                    "choose another folder with -o, or move the file away");
   made.body = there ? *std::move(there) : body_file(fill_body(settings, made.surface), origin);
   made.seconds_filling = watch.lap();
   made.setup = set_up(settings, made.body.particles);

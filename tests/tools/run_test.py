@@ -219,6 +219,11 @@ class Commands(unittest.TestCase):
             done = sinew("simulate", foreign / "scene.yaml", "-o", foreign, *words)
             self.assert_one_line(done, 2, "scene.yaml")
         self.assertEqual((foreign / "scene.yaml").read_text(), self.scene.read_text())
+        (foreign / "scene.yaml").unlink()
+        (foreign / "body.vtu").write_text("mine")
+        done = sinew("simulate", self.scene, "-o", foreign, "--force")
+        self.assert_one_line(done, 2, "body.vtu")
+        self.assertEqual((foreign / "body.vtu").read_text(), "mine")
 
     def test_deeply_nested_files_are_refused(self):
         self.simulate("--set", "solver.duration=0")
