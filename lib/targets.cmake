@@ -7,9 +7,10 @@ target_compile_features(sinew_options INTERFACE cxx_std_20)
 target_compile_options(sinew_options INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off $<$<BOOL:${SINEW_STRICT}>:-Werror>)
 
-# sinew_library(ROOM SOURCES ... PUBLIC targets PRIVATE targets)
+# sinew_library(ROOM SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets)
+# CGAL asks for -frounding-math: only its own sources get that.
 function(sinew_library room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(sinew_${room} STATIC ${ARG_SOURCES})
   add_library(sinew::${room} ALIAS sinew_${room})
   set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
@@ -18,6 +19,15 @@ function(sinew_library room)
   target_compile_features(sinew_${room} PUBLIC cxx_std_20)
   target_link_libraries(sinew_${room}
     PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:sinew_options> ${ARG_PRIVATE})
+  if(ARG_CGAL_SOURCES)
+    find_package(CGAL 5.5 REQUIRED)
+    add_library(sinew_${room}_cgal OBJECT ${ARG_CGAL_SOURCES})
+    set_target_properties(sinew_${room}_cgal PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_include_directories(sinew_${room}_cgal PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+    target_link_libraries(sinew_${room}_cgal PRIVATE sinew_options ${ARG_PUBLIC} CGAL::CGAL)
+    target_sources(sinew_${room} PRIVATE $<TARGET_OBJECTS:sinew_${room}_cgal>)
+    target_link_libraries(sinew_${room} PRIVATE $<LINK_ONLY:CGAL::CGAL>)
+  endif()
   install(TARGETS sinew_${room} EXPORT sinew ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${room}
     FILES_MATCHING PATTERN "*.h")

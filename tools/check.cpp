@@ -38,7 +38,7 @@ double seconds_per_step(const Settings& settings, Setup setup, const Particles& 
   return steps > 0 ? spent / steps : 0;
 }
 
-void add_sizes(const Filling& filling, const ClosedSurface& surface, Results& results) {
+void add_sizes(const Filling& filling, const Surface& surface, Results& results) {
   const Particles& particles = filling.particles;
   results.add("particles", particles.size());
   results.add("radius", particles.radius, "m");
@@ -80,7 +80,7 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
 
 Exit check(const std::string& scene, const Common& common) {
   const Settings settings = read_scene(scene, common.overrides);
-  const ClosedSurface surface = read_mesh(settings);
+  const Surface surface = read_mesh(settings);
   const Filling filling = fill_body(settings, surface);
   const Setup setup = set_up(settings, filling.particles);
   const Triangles& skin = surface.triangles;

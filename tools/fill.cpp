@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "config/scene.h"
-#include "fill/read_surface.h"
+#include "mesh/read_surface.h"
 #include "results.h"
 #include "scene_body.h"
 
@@ -83,7 +83,7 @@ Exit fill(const Options& options, const Common& common) {
   const Settings settings = is_scene(options.input) ? settings_for_scene(options, common)
                                                     : settings_for_mesh(options, common);
   refuse_to_overwrite(options.output, {options.input, settings.body.mesh});
-  const ClosedSurface surface = read_mesh(settings);
+  const Surface surface = read_mesh(settings);
   const Filling filling = fill_body(settings, surface);
   write_body(options.output, body_file(filling, origin_of(settings)));
   Results results;

@@ -6,7 +6,7 @@
 #include "command.h"
 #include "config/scene.h"
 #include "fill/pack.h"
-#include "fill/read_surface.h"
+#include "mesh/read_surface.h"
 #include "results.h"
 #include "rig/motion.h"
 #include "scene_body.h"
@@ -18,7 +18,7 @@ using namespace sinew;
 nlohmann::ordered_json as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 void add_mesh(const std::string& path, Results& results) {
-  const ClosedSurface surface = read_surface(path);
+  const Surface surface = read_surface(path);
   const double enclosed = volume(surface.triangles);
   results.add("points", surface.triangles.points.size());
   results.add("triangles", surface.triangles.faces.size());

@@ -9,7 +9,7 @@
 #include "core/hash.h"
 #include "core/scene_text.h"
 #include "core/settings_table.h"
-#include "fill/read_surface.h"
+#include "mesh/read_surface.h"
 
 namespace sinew {
 namespace {
@@ -32,11 +32,11 @@ bool is_scene(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
-ClosedSurface read_mesh(const Settings& settings) {
+Surface read_mesh(const Settings& settings) {
   return told_at(settings, "body.mesh", [&] { return read_surface(settings.body.mesh); });
 }
 
-Filling fill_body(const Settings& settings, const ClosedSurface& surface) {
+Filling fill_body(const Settings& settings, const Surface& surface) {
   const BodySettings& body = settings.body;
   const PackOptions options{body.packing, body.radius, body.count, settings.material.density};
   return told_at(settings, body.radius ? "body.radius" : "body.count",

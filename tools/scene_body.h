@@ -14,10 +14,10 @@ namespace sinew {
 bool is_scene(const std::filesystem::path& path);
 
 /// Reads the mesh that a scene names. Errors name the scene's line.
-ClosedSurface read_mesh(const Settings& settings);
+Surface read_mesh(const Settings& settings);
 
 /// Fills it as the scene says. Errors name the scene's line.
-Filling fill_body(const Settings& settings, const ClosedSurface& surface);
+Filling fill_body(const Settings& settings, const Surface& surface);
 
 /// What body.vtu holds of a filling; `origin` tells from what it was made.
 BodyFile body_file(const Filling& filling, const std::string& origin);

@@ -42,7 +42,7 @@ bool may_begin(const RunFolder& folder, const RunOptions& options, const Common&
 
 /// All that is known before the first step.
 struct Prepared {
-  ClosedSurface surface;
+  Surface surface;
   BodyFile body;
   Setup setup;
   double seconds_filling = 0, seconds_binding = 0;

@@ -14,12 +14,26 @@
 namespace sinew {
 
 enum class Packing { fcc, hcp };
+enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
+enum class FillRule { unite, hollow };
+enum class Keep { centre, sphere };
 
 struct BodySettings {
   std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
+  LengthUnit unit = LengthUnit::m;
+  double scale = 1;
+  double weld = 0;
+  FillRule rule = FillRule::unite;
+  bool close_holes = false;
+  std::optional<double> wrap;
+  std::optional<double> thickness;
   std::optional<double> radius;
   std::optional<int> count;
   Packing packing = Packing::fcc;
+  std::optional<Vec3> lattice_origin;
+  Vec3 lattice_rotation = Vec3::Zero();
+  Keep keep = Keep::centre;
+  double clearance = 0;
 };
 
 enum class MaterialModel { paper };

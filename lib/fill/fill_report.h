@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/particles.h"
-#include "fill/closed_surface.h"
+#include "mesh/surface.h"
 
 namespace sinew {
 

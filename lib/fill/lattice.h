@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sites of closest packings (FCC, HCP) in a box, as rows along a close-packed direction, in
-// which sites follow each other at 2r. A site lies at the box's centre, so that a symmetric body is
-// filled symmetrically and no layer lies on the faces of a box.
+// which sites follow each other at 2r. A site lies at the box's centre unless told otherwise, so
+// that a symmetric body is filled symmetrically and no layer lies on the faces of a box.
+//
+// Every coordinate of every site is a whole multiple of one power of two that is as small as
+// doubles allow at the box's farthest corner: sums and differences of sites are exact, and the
+// sites of a row lie on one line to the last bit. Exact predicates can then speak of rows.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/settings.h"
@@ -12,26 +18,43 @@
 
 namespace sinew {
 
-using LatticePlace = std::array<int, 3>;  ///< a site in steps of Lattice::unit from the centre
+using LatticePlace = std::array<int, 3>;  ///< a site in steps of Lattice::unit from the origin
 
 struct LatticeRow {
   LatticePlace first;
   int sites;
 };
 
-struct Lattice {
-  Vec3 centre;                   ///< of the box, m; a site
-  Vec3 unit;                     ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
-  LatticePlace along;            ///< from a site to the next of its row
-  std::vector<LatticeRow> rows;  ///< by z, then across the row: a fixed order
+/// The rows of one layer z = origin.z + k unit.z: evenly spaced across.
+struct LatticeLayer {
+  std::size_t first_row;  ///< index into Lattice::rows
+  int rows;
+  int across;  ///< of the first row; each next one is `Lattice::across_step` farther
+};
 
-  /// Site n of a row, m. Sites of one layer have bit-identical coordinates.
-  Vec3 site(const LatticeRow& row, int n) const;
+struct Lattice {
+  Packing packing;
+  Vec3 origin;        ///< a site, m
+  Vec3 unit;          ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
+  LatticePlace along;  ///< from a site to the next of its row
+  LatticePlace low, high;              ///< limits of i, j, k
+  std::vector<LatticeRow> rows;        ///< by z, then across the row: a fixed order
+  std::vector<LatticeLayer> layers;    ///< of k = low[2] .. high[2]
+
+  /// Site n of a row, m; exact for any n near the row, outside of it too.
+  Vec3 site(const LatticeRow& row, int n) const {
+    return {origin[0] + unit[0] * (row.first[0] + n * along[0]),
+            origin[1] + unit[1] * (row.first[1] + n * along[1]),
+            origin[2] + unit[2] * row.first[2]};
+  }
+
+  std::uint64_t sites() const;
 };
 
 /// All sites within the box (not empty; a size below 1e9 r) and on its surface, for radius r > 0
-/// (m).
-Lattice lattice_in(const Box& box, Packing packing, double radius);
+/// (m). A site lies at `origin`, by default the box's centre (rounded as above).
+Lattice lattice_in(const Box& box, Packing packing, double radius,
+                   const std::optional<Vec3>& origin = std::nullopt);
 
 /// About how many sites and rows that will be.
 struct LatticeSize {

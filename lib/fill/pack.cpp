@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/settings_table.h"
-#include "fill/available_memory.h"
+#include "core/available_memory.h"
 #include "fill/inside.h"
 #include "fill/lattice.h"
 #include "core/stopwatch.h"
@@ -107,7 +107,7 @@ Points gathered(const Lattice& lattice, const std::vector<RowSites>& found) {
 
 /// A radius, from below `radius`, at which sites do lie inside: their spacing is halved until some
 /// do.
-[[noreturn]] void refuse_empty(const ClosedSurface& surface, const InsideTest& test,
+[[noreturn]] void refuse_empty(const Surface& surface, const InsideTest& test,
                                Packing packing, double radius) {
   constexpr double most = 1e5;
   const double enclosed = volume(surface.triangles);
@@ -126,7 +126,7 @@ Points gathered(const Lattice& lattice, const std::vector<RowSites>& found) {
                   "a radius of " + three_digits(rounded(fits, std::floor)) + " m fits");
 }
 
-std::vector<std::int32_t> components(const ClosedSurface& surface, const InsideTest& test,
+std::vector<std::int32_t> components(const Surface& surface, const InsideTest& test,
                                      const Points& points) {
   std::vector<std::int32_t> component(points.size(), 0);
   if (surface.bodies > 1)  // the first face in any direction bounds the body around the point
@@ -137,7 +137,7 @@ std::vector<std::int32_t> components(const ClosedSurface& surface, const InsideT
   return component;
 }
 
-FillReport basic_report(const ClosedSurface& surface, const Particles& particles) {
+FillReport basic_report(const Surface& surface, const Particles& particles) {
   FillReport report;
   report.particles = particles.size();
   report.radius = particles.radius;
@@ -171,7 +171,7 @@ double radius_for_count(double volume, double count) {
   return std::cbrt(volume / count / volume_per_particle(1));
 }
 
-Filling pack(const ClosedSurface& surface, const PackOptions& options) {
+Filling pack(const Surface& surface, const PackOptions& options) {
   const double enclosed = volume(surface.triangles);
   const double radius = wanted_radius(options, enclosed);
   const Box box = bounds(surface.triangles.points);

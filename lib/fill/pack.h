@@ -10,7 +10,7 @@
 
 #include "core/particles.h"
 #include "core/settings.h"
-#include "fill/closed_surface.h"
+#include "mesh/surface.h"
 #include "fill/fill_report.h"
 
 namespace sinew {
@@ -32,7 +32,7 @@ struct Filling {
 /// The same particles for every number of threads. Throws Error (bad input) before it fills when
 /// there would be too many particles for memory or for 32-bit ids, when the body holds less than
 /// one, and when no site lies inside; all name a radius that fits.
-Filling pack(const ClosedSurface& surface, const PackOptions& options);
+Filling pack(const Surface& surface, const PackOptions& options);
 
 /// The radius (m) at which a volume (m^3) holds about `count` particles: (V / (4 sqrt(2) N))^(1/3).
 double radius_for_count(double volume, double count);

@@ -10,11 +10,11 @@
 #include "core/hash.h"
 #include "core/neighbours.h"
 #include "core/parallel.h"
-#include "fill/clean.h"
+#include "mesh/clean.h"
 #include "fill/inside.h"
 #include "fill/lattice.h"
-#include "fill/read_surface.h"
-#include "fill/shapes.h"
+#include "mesh/read_surface.h"
+#include "mesh/shapes.h"
 
 namespace sinew {
 namespace {
@@ -41,7 +41,7 @@ std::string message_of(const std::function<void()>& job) {
 
 TEST(PaperBox, Has1062PointsInFileOrderAnd2120Triangles) {
   const PolygonSoup soup = read_polygons(paper_box);
-  const ClosedSurface surface = read_surface(paper_box);
+  const Surface surface = read_surface(paper_box);
   EXPECT_EQ(surface.triangles.points.size(), 1062u);
   EXPECT_EQ(surface.triangles.faces.size(), 2120u);
   EXPECT_EQ(surface.triangles.points, soup.points);
@@ -62,7 +62,7 @@ TEST(PaperBox, HoldsThePapers2965Particles) {
 }
 
 TEST(Pack, GivesTheMeshsMassInAll) {
-  const ClosedSurface surface = read_surface(paper_box);
+  const Surface surface = read_surface(paper_box);
   PackOptions options = with_radius(0.010);
   options.density = 1234;
   const Particles particles = pack(surface, options).particles;
@@ -91,7 +91,7 @@ struct Truth {
 };
 
 void compare(const Truth& truth, double radius, Packing packing) {
-  const ClosedSurface surface = clean(truth.body);
+  const Surface surface = clean(truth.body);
   const Points found = positions_of(pack(surface, with_radius(radius, packing)).particles);
   const Lattice lattice = lattice_in(bounds(surface.triangles.points), packing, radius);
   std::size_t next = 0, sure = 0;
@@ -152,7 +152,7 @@ TEST(Inside, IsNotAffectedByAFaceWithoutArea) {
   body.points.emplace_back(half.x(), half.y(), 0);  // on the edge from point 3 to point 7
   body.polygons[5] = {1, 3, 8, 7, 5};
   body.polygons.push_back({3, 7, 8});
-  const ClosedSurface surface = clean(body);
+  const Surface surface = clean(body);
   EXPECT_EQ(surface.cleaning.faces_flat, 1u);
   const auto filling = pack(surface, with_radius(r));
   EXPECT_EQ(state_hash(filling.particles), state_hash(plain.particles));
@@ -169,13 +169,13 @@ TEST(Inside, LeavesOutFacesWithoutArea) {
 TEST(Pack, FillsAnInvertedBodyTheSame) {
   const auto body = shapes::torus(1, 0.4);
   const Filling outward = pack(clean(body), with_radius(0.05));
-  const ClosedSurface inverted = clean(shapes::inverted(body));
+  const Surface inverted = clean(shapes::inverted(body));
   EXPECT_GT(volume(inverted.triangles), 0);
   EXPECT_EQ(state_hash(pack(inverted, with_radius(0.05)).particles), state_hash(outward.particles));
 }
 
 TEST(Pack, IsTheSameForAnyNumberOfThreads) {
-  const ClosedSurface surface = clean(shapes::together(
+  const Surface surface = clean(shapes::together(
       shapes::sphere(1, 3), shapes::moved(shapes::torus(1, 0.4), Vec3(0.1, 0.2, 2))));
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 3, 8})
@@ -202,7 +202,7 @@ TEST(Pack, KeepsItsSitesWhenTheBodyIsMovedByExactAmounts) {
 }
 
 TEST(Pack, FindsTheRadiusForACount) {
-  const ClosedSurface surface = clean(shapes::sphere(1, 4));
+  const Surface surface = clean(shapes::sphere(1, 4));
   PackOptions options;
   options.count = 20000;
   const Filling filling = pack(surface, options);
@@ -223,7 +223,7 @@ TEST(Pack, TellsBodiesApart) {
 TEST(Pack, LeavesACavityHollowWhicheverWayItTurns) {
   const auto outer = shapes::sphere(1, 4), inner = shapes::sphere(0.5, 4);
   for (const auto& hole : {inner, shapes::inverted(inner)}) {
-    const ClosedSurface surface = clean(shapes::together(outer, hole));
+    const Surface surface = clean(shapes::together(outer, hole));
     EXPECT_EQ(surface.bodies, 1);
     EXPECT_EQ(surface.cavities, 1);
     EXPECT_NEAR(volume(surface.triangles),
@@ -238,7 +238,7 @@ TEST(Pack, LeavesACavityHollowWhicheverWayItTurns) {
 TEST(Pack, FillsAHollowBodyWithinACavity) {
   const auto outer = shapes::together(shapes::sphere(1, 3), shapes::sphere(0.8, 3));
   const auto inner = shapes::together(shapes::sphere(0.3, 3), shapes::sphere(0.6, 3));
-  const ClosedSurface surface = clean(shapes::together(outer, inner));
+  const Surface surface = clean(shapes::together(outer, inner));
   EXPECT_EQ(surface.bodies, 2);
   EXPECT_EQ(surface.cavities, 2);
   const std::size_t each = shapes::sphere(1, 3).polygons.size();
@@ -264,7 +264,7 @@ TEST(Report, GivesTheSpheresCentreAndVolume) {
 }
 
 TEST(Report, HasTheTetrahedronsCentre) {
-  const ClosedSurface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
+  const Surface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
   EXPECT_LT((centre_of_volume(surface.triangles) - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
 }
 
@@ -274,7 +274,7 @@ double radius_named_in(const std::string& message) {
 }
 
 TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
-  const ClosedSurface surface = read_surface(paper_box);
+  const Surface surface = read_surface(paper_box);
   const std::string message = message_of([&] { pack(surface, with_radius(1e-7)); });
   const double named = radius_named_in(message);
   EXPECT_GT(named, 1e-7) << message;
@@ -284,7 +284,7 @@ TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
 /// The torus has no site in its hole's middle; in the box one lies at the centre whatever the
 /// radius.
 TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
-  const ClosedSurface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
+  const Surface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
   for (const auto& [surface, radius] : {std::pair(&torus, 0.75), std::pair(&torus, 3.0),
                                         std::pair(&box, 1.0), std::pair(&box, 1e300)}) {
     const std::string message = message_of([&] { pack(*surface, with_radius(radius)); });
@@ -302,7 +302,7 @@ TEST(Pack, FillsASingleParticleWhenAskedForOne) {
 }
 
 TEST(Pack, WantsEitherARadiusOrACount) {
-  const ClosedSurface surface = clean(shapes::tetrahedron());
+  const Surface surface = clean(shapes::tetrahedron());
   PackOptions options;
   EXPECT_NE(message_of([&] { pack(surface, options); }).find("; "), std::string::npos);
   options.count = 10, options.radius = 0.1;

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "fill/mesh_files.h"
-#include "fill/read_surface.h"
-#include "fill/shapes.h"
+#include "mesh/mesh_files.h"
+#include "mesh/read_surface.h"
+#include "mesh/shapes.h"
 
 namespace sinew {
 namespace {

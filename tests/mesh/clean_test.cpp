@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/clean.h"
+#include "mesh/clean.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "fill/shapes.h"
-#include "fill/triangulate.h"
+#include "mesh/shapes.h"
+#include "mesh/triangulate.h"
 
 namespace sinew {
 namespace {
@@ -25,7 +25,7 @@ PolygonSoup unit_box() { return shapes::box(Vec3::Zero(), Vec3::Ones()); }
 
 TEST(Clean, KeepsTheOrderOfPointsAndFaces) {
   const auto body = shapes::sphere(1, 2);
-  const ClosedSurface surface = clean(body);
+  const Surface surface = clean(body);
   EXPECT_EQ(surface.triangles.points, body.points);
   for (std::size_t i = 0; i < body.polygons.size(); ++i)
     EXPECT_TRUE(std::equal(body.polygons[i].begin(), body.polygons[i].end(),
@@ -33,7 +33,7 @@ TEST(Clean, KeepsTheOrderOfPointsAndFaces) {
 }
 
 TEST(Clean, CutsQuadsIntoTriangles) {
-  const ClosedSurface surface = clean(unit_box());
+  const Surface surface = clean(unit_box());
   EXPECT_EQ(surface.triangles.faces.size(), 12u);
   EXPECT_EQ(surface.cleaning.polygons_cut, 6u);
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1);
@@ -47,7 +47,7 @@ TEST(Clean, MergesEqualPointsOfATriangleSoup) {
     for (const int corner : f) soup.points.push_back(body.points[corner]);
     soup.polygons.push_back({first, first + 1, first + 2});
   }
-  const ClosedSurface surface = clean(soup);
+  const Surface surface = clean(soup);
   EXPECT_EQ(surface.triangles.points.size(), body.points.size());
   EXPECT_EQ(surface.cleaning.points_merged, soup.points.size() - body.points.size());
   EXPECT_DOUBLE_EQ(volume(surface.triangles), volume(clean(body).triangles));
@@ -66,7 +66,7 @@ TEST(Clean, DropsCollapsedAndDoubledFacesAndUnusedPoints) {
   soup.polygons.push_back({0, 1, 1});
   soup.polygons.push_back({1, 2, 0});
   soup.polygons.push_back({0, 1, 2});
-  const ClosedSurface surface = clean(soup);
+  const Surface surface = clean(soup);
   EXPECT_EQ(surface.triangles.faces.size(), 4u);
   EXPECT_EQ(surface.cleaning.faces_collapsed, 1u);
   EXPECT_EQ(surface.cleaning.faces_doubled, 2u);
@@ -80,7 +80,7 @@ TEST(Clean, TurnsAnyMixtureOfDirectionsOutward) {
     std::size_t turned = 0;
     for (std::size_t i = 0; i < mixed.polygons.size(); i += every, ++turned)
       std::swap(mixed.polygons[i][0], mixed.polygons[i][1]);
-    const ClosedSurface surface = clean(mixed);
+    const Surface surface = clean(mixed);
     EXPECT_DOUBLE_EQ(volume(surface.triangles), volume(clean(body).triangles));
     EXPECT_EQ(surface.cleaning.faces_turned, turned);
   }
@@ -92,7 +92,7 @@ TEST(Clean, KeepsAFaceWithoutAreaThatClosesTheSurface) {
   soup.polygons[1] = {0, 4, 3};
   soup.polygons.push_back({4, 1, 3});
   soup.polygons.push_back({0, 1, 4});
-  const ClosedSurface surface = clean(soup);
+  const Surface surface = clean(soup);
   EXPECT_EQ(surface.cleaning.faces_flat, 1u);
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
 }
@@ -145,7 +145,7 @@ TEST(Clean, RefusesAFaceFoldedOntoItsNeighbour) {
 
 TEST(Clean, AcceptsBodiesThatShareACorner) {
   auto other = shapes::tetrahedron(-1);
-  const ClosedSurface surface = clean(shapes::together(shapes::tetrahedron(), other));
+  const Surface surface = clean(shapes::together(shapes::tetrahedron(), other));
   EXPECT_EQ(surface.bodies, 2);
   EXPECT_EQ(surface.triangles.points.size(), 7u);
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 2.0 / 6);

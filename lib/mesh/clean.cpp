@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/clean.h"
+#include "mesh/clean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include "core/error.h"
 #include "core/settings_table.h"
-#include "fill/edges.h"
-#include "fill/merge.h"
-#include "fill/nesting.h"
-#include "fill/self_intersections.h"
+#include "mesh/edges.h"
+#include "mesh/merge.h"
+#include "mesh/nesting.h"
+#include "mesh/self_intersections.h"
 
 namespace sinew {
 namespace {
@@ -43,7 +43,7 @@ std::vector<double> volumes(const Triangles& surface, const Shells& shells) {
 }
 
 /// Bodies outward, cavities inward; counts the faces turned against the file.
-void orient(ClosedSurface& surface, Shells& shells, const Nesting& nesting) {
+void orient(Surface& surface, Shells& shells, const Nesting& nesting) {
   const std::vector<double> volume_of = volumes(surface.triangles, shells);
   for (std::size_t i = 0; i < shells.of_face.size(); ++i) {
     const int shell = shells.of_face[i];
@@ -68,8 +68,8 @@ void refuse_without_volume(const Triangles& surface) {
 
 }  // namespace
 
-ClosedSurface clean(PolygonSoup soup) {
-  ClosedSurface surface;
+Surface clean(PolygonSoup soup) {
+  Surface surface;
   surface.triangles = merged_triangles(std::move(soup), surface.cleaning);
   if (surface.triangles.faces.empty())
     throw bad_input(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/mesh_file.h"
+#include "mesh/mesh_file.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <optional>
 
-#include "fill/available_memory.h"
-#include "fill/mesh_text.h"
+#include "core/available_memory.h"
+#include "mesh/mesh_text.h"
 
 namespace sinew {
 namespace {

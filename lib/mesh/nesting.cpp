@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/nesting.h"
+#include "mesh/nesting.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/read_surface.h"
+#include "mesh/read_surface.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "core/error.h"
-#include "fill/mesh_files.h"
-#include "fill/shapes.h"
+#include "mesh/mesh_files.h"
+#include "mesh/shapes.h"
 
 namespace sinew {
 namespace {
@@ -76,7 +76,7 @@ TEST(Read, TakesObjAsProgramsWriteIt) {
       "vt 0 0\r\nvn 0 0 1\r\ncall x\r\nl 1 2\r\ng all\r\nf\t1/1/1\t3/1/1\t2/1/1\r\nf 1//1 2//1 "
       "4//1\r\n"
       "f -3 -2 -1\r\nf 3/1 \\\r\n1/1 4/1";
-  const ClosedSurface surface = read_surface(folder.file("a.obj", text));
+  const Surface surface = read_surface(folder.file("a.obj", text));
   EXPECT_EQ(surface.triangles.points, shapes::tetrahedron().points);
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
 }

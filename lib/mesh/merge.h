@@ -2,8 +2,8 @@
 // The first half of cleaning: triangles over points that differ, none collapsed, none doubled.
 #pragma once
 
-#include "fill/closed_surface.h"
-#include "fill/polygon_soup.h"
+#include "mesh/surface.h"
+#include "core/polygon_soup.h"
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/edges.h"
+#include "mesh/edges.h"
 
 #include <algorithm>
 #include <cstdio>

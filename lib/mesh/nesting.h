@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fill/edges.h"
+#include "mesh/edges.h"
 
 namespace sinew {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/vector.h"
-#include "fill/polygon_soup.h"
+#include "core/polygon_soup.h"
 
 namespace sinew::shapes {
 

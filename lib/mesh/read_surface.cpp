@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/read_surface.h"
+#include "mesh/read_surface.h"
 
-#include "fill/cgal_soup.h"
-#include "fill/clean.h"
-#include "fill/plain_mesh.h"
+#include "mesh/cgal_soup.h"
+#include "mesh/clean.h"
+#include "mesh/plain_mesh.h"
 #include "core/stopwatch.h"
 
 namespace sinew {
@@ -50,12 +50,12 @@ PolygonSoup read_polygons(const std::string& path) {
   return *soup;
 }
 
-ClosedSurface read_surface(const std::string& path) {
+Surface read_surface(const std::string& path) {
   Stopwatch watch;
   PolygonSoup soup = read_polygons(path);
   const double reading = watch.lap();
   try {
-    ClosedSurface surface = clean(std::move(soup));
+    Surface surface = clean(std::move(soup));
     surface.seconds_reading = reading;
     surface.seconds_cleaning = watch.lap();
     return surface;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/mesh_text.h"
+#include "mesh/mesh_text.h"
 
 #include <algorithm>
 #include <charconv>

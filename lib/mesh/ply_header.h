@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fill/mesh_file.h"
+#include "mesh/mesh_file.h"
 
 namespace sinew {
 

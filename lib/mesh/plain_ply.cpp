@@ -4,9 +4,9 @@
 
 #include "core/words.h"
 
-#include "fill/mesh_text.h"
-#include "fill/plain_mesh.h"
-#include "fill/ply_header.h"
+#include "mesh/mesh_text.h"
+#include "mesh/plain_mesh.h"
+#include "mesh/ply_header.h"
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/triangulate.h"
+#include "mesh/triangulate.h"
 
 #include <string>
 

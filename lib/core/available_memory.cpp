@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/available_memory.h"
+#include "core/available_memory.h"
 
 #include <unistd.h>
 

@@ -5,8 +5,8 @@
 
 #include "core/words.h"
 
-#include "fill/mesh_text.h"
-#include "fill/plain_mesh.h"
+#include "mesh/mesh_text.h"
+#include "mesh/plain_mesh.h"
 
 namespace sinew {
 namespace {

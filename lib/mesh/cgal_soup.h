@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "fill/mesh_file.h"
-#include "fill/polygon_soup.h"
+#include "mesh/mesh_file.h"
+#include "core/polygon_soup.h"
 
 namespace sinew {
 

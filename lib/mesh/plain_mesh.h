@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "fill/mesh_file.h"
+#include "mesh/mesh_file.h"
 
 namespace sinew {
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/settings_table.h"
-#include "fill/polygon_soup.h"
+#include "core/polygon_soup.h"
 
 namespace sinew::mesh_files {
 

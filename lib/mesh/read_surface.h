@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "fill/closed_surface.h"
-#include "fill/polygon_soup.h"
+#include "mesh/surface.h"
+#include "core/polygon_soup.h"
 
 namespace sinew {
 
@@ -14,7 +14,7 @@ namespace sinew {
 /// Throws Error (bad input) naming file, line where there is one, fault and cure.
 PolygonSoup read_polygons(const std::string& path);
 
-/// The same, cleaned as fill/clean.h says. Throws Error (bad input) for broken and open meshes too.
-ClosedSurface read_surface(const std::string& path);
+/// The same, cleaned as mesh/clean.h says. Throws Error (bad input) for broken and open meshes too.
+Surface read_surface(const std::string& path);
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/merge.h"
+#include "mesh/merge.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include <unordered_set>
 
 #include "core/hash.h"
-#include "fill/triangulate.h"
+#include "mesh/triangulate.h"
 
 namespace sinew {
 namespace {

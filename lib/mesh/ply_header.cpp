@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/ply_header.h"
+#include "mesh/ply_header.h"
 
 #include <algorithm>
 #include <array>
 
 #include "core/words.h"
 
-#include "fill/mesh_text.h"
+#include "mesh/mesh_text.h"
 
 namespace sinew {
 namespace {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From what a file holds to a surface that can be filled.
+#pragma once
+
+#include "core/polygon_soup.h"
+#include "core/settings.h"
+#include "mesh/surface.h"
+
+namespace sinew {
+
+struct CleaningOptions {
+  double weld = 0;  ///< points closer than this become one, m; 0: only equal ones
+  FillRule rule = FillRule::unite;
+};
+
+/// In this order: cuts polygons into triangles, merges points (the first of them keeps its place,
+/// so a mesh without defects keeps its points in file order), drops collapsed faces, merges doubled
+/// ones whatever their direction, makes directions agree across edges of two faces, turns bodies
+/// outward by the sign of their volume. A closed shell within another one is a cavity where it
+/// turns against that one in the file; with the rule `hollow` every second shell is one. Never
+/// refuses a surface for holes, crowded edges or cuts: it counts them. Throws Error (bad input),
+/// naming the number that decided and a cure, when no face is left or coordinates are too large
+/// for numbers to hold volumes.
+Surface clean(PolygonSoup soup, const CleaningOptions& options = {});
+
+}  // namespace sinew

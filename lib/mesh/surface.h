@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A surface as the fill takes it: triangles that agree on what is outside as far as they can, and
+// what closes them where they do not.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/triangles.h"
+
+namespace sinew {
+
+/// What cleaning found and did.
+struct CleaningCounts {
+  std::size_t points_read = 0;
+  std::size_t polygons_read = 0;
+  std::size_t polygons_cut = 0;     ///< polygons of four or more corners, cut into triangles
+  std::size_t points_merged = 0;    ///< points equal to, or within the weld distance of, another
+  std::size_t points_unused = 0;    ///< points of no face, left out
+  std::size_t faces_collapsed = 0;  ///< faces left out because two of their corners are one point
+  std::size_t faces_doubled = 0;    ///< faces left out because an earlier one has the same corners
+  std::size_t faces_flat = 0;       ///< faces without area, kept: they may close the surface
+  std::size_t faces_turned = 0;     ///< faces whose direction was reversed
+  std::size_t edges_twisted = 0;    ///< edges whose two faces cannot agree (as on a Moebius strip)
+};
+
+/// Where the surface ends. Each edge counts the directions its faces go along it, forward minus
+/// backward; where that is not 0 the surface is open. Such edges form closed loops: the holes.
+struct Border {
+  std::size_t holes = 0;          ///< loops
+  std::size_t edges = 0;          ///< open edges
+  std::size_t crowded_edges = 0;  ///< edges of three or more faces, open or not
+  double length = 0;              ///< of the open edges, m
+};
+
+/// The faces of a body point outward (counter-clockwise seen from outside), those of a cavity into
+/// the cavity. They may cut each other, and overlap.
+struct Surface {
+  Triangles triangles;
+  std::vector<int> component;  ///< per face: faces joined by edges, numbered by their first face
+  int components = 0;
+  /// Faces that close every hole: fans from the holes' middles, each with points of its own, so that
+  /// triangles and caps together have no border. They fill nothing; they are a means to compute
+  /// winding numbers.
+  Triangles caps;
+  Border border;
+  CleaningCounts cleaning;
+  double seconds_reading = 0, seconds_cleaning = 0;
+
+  bool closed() const { return caps.faces.empty(); }
+};
+
+}  // namespace sinew
