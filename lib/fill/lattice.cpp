@@ -9,57 +9,80 @@
 namespace sinew {
 namespace {
 
-/// Steps from the centre to the box's side. Rounding must not lose a site on the surface.
-LatticePlace reach(const Box& box, const Vec3& unit) {
-  LatticePlace steps;
-  for (int axis = 0; axis < 3; ++axis)
-    steps[axis] = static_cast<int>(std::floor(box.sizes()[axis] / 2 / unit[axis] + 1e-9));
-  return steps;
+/// Of which all coordinates are multiples: sums of two coordinates still fit into 53 bits.
+double quantum(const Box& box, const Vec3& origin, const Vec3& unit) {
+  const double farthest =
+      std::max({box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff(),
+                origin.cwiseAbs().maxCoeff()}) +
+      2 * unit.maxCoeff();
+  return std::ldexp(1.0, std::ilogb(farthest) - 51);
 }
+
+Vec3 rounded(const Vec3& v, double quantum) {
+  return (v / quantum).array().round().matrix() * quantum;
+}
+
+/// Steps from the origin to a side of the box. Rounding must not lose a site on the surface.
+int steps(double length, double unit) { return static_cast<int>(std::floor(length / unit + 1e-9)); }
 
 bool odd(int i) { return i % 2 != 0; }
 
+int floor_third(int i) { return i >= 0 ? i / 3 : -((2 - i) / 3); }
+
 /// Rows along (1, 1, 0) of the sites with i + j + k even: i - j stays the same in each.
-void add_fcc_layer(Lattice& lattice, const LatticePlace& most, int k) {
-  const int widest = most[0] + most[1];
-  for (int across = -widest; across <= widest; ++across) {
-    if (odd(across) != odd(k)) continue;
-    const int from = std::max(-most[0], across - most[1]);
-    const int to = std::min(most[0], across + most[1]);
-    if (from <= to) lattice.rows.push_back({{from, from - across, k}, to - from + 1});
+void add_fcc_layer(Lattice& lattice, int k) {
+  const LatticePlace &low = lattice.low, &high = lattice.high;
+  int across = low[0] - high[1];
+  if (odd(across) != odd(k)) ++across;
+  LatticeLayer layer{lattice.rows.size(), 0, across};
+  for (; across <= high[0] - low[1]; across += 2, ++layer.rows) {
+    const int from = std::max(low[0], across + low[1]);
+    const int to = std::min(high[0], across + high[1]);
+    lattice.rows.push_back({{from, from - across, k}, std::max(0, to - from + 1)});
   }
+  lattice.layers.push_back(layer);
 }
 
 /// Rows along x in steps of 2 r; layers alternate, every second one lies in the first one's dips.
-void add_hcp_layer(Lattice& lattice, const LatticePlace& most, int k) {
+void add_hcp_layer(Lattice& lattice, int k) {
+  const LatticePlace &low = lattice.low, &high = lattice.high;
   const int dip = odd(k) ? 1 : 0;
-  const int rows = most[1] / 3 + 1;
-  for (int row = -rows; row <= rows; ++row) {
-    const int j = 3 * row + dip;
-    if (std::abs(j) > most[1]) continue;
-    const int from = odd(most[0]) == odd(row + dip) ? -most[0] : -most[0] + 1;
-    if (from <= most[0]) lattice.rows.push_back({{from, j, k}, (most[0] - from) / 2 + 1});
+  int row = floor_third(low[1] - dip + 2);  // the first with 3 row + dip >= low
+  LatticeLayer layer{lattice.rows.size(), 0, 3 * row + dip};
+  for (; 3 * row + dip <= high[1]; ++row, ++layer.rows) {
+    const int from = odd(low[0]) == odd(row + dip) ? low[0] : low[0] + 1;
+    lattice.rows.push_back({{from, 3 * row + dip, k}, std::max(0, (high[0] - from) / 2 + 1)});
   }
+  lattice.layers.push_back(layer);
 }
 
 }  // namespace
 
-Vec3 Lattice::site(const LatticeRow& row, int n) const {
-  const Vec3 steps(row.first[0] + n * along[0], row.first[1] + n * along[1],
-                   row.first[2] + n * along[2]);
-  return centre + unit.cwiseProduct(steps);
+std::uint64_t Lattice::sites() const {
+  std::uint64_t sum = 0;
+  for (const LatticeRow& row : rows) sum += row.sites;
+  return sum;
 }
 
-Lattice lattice_in(const Box& box, Packing packing, double radius) {
+Lattice lattice_in(const Box& box, Packing packing, double radius,
+                   const std::optional<Vec3>& origin) {
   const bool fcc = packing == Packing::fcc;
+  const Vec3 centre = origin.value_or(box.center());
+  const Vec3 unit = fcc ? Vec3(Vec3::Constant(half_plane_spacing(radius)))
+                        : Vec3(radius, radius / std::sqrt(3.0), radius * std::sqrt(8.0 / 3));
+  const double step = quantum(box, centre, unit);
   Lattice lattice;
-  lattice.centre = box.center();
-  lattice.unit = fcc ? Vec3::Constant(half_plane_spacing(radius))
-                     : Vec3(radius, radius / std::sqrt(3.0), radius * std::sqrt(8.0 / 3));
+  lattice.packing = packing;
+  lattice.unit = rounded(unit, step);
+  lattice.origin = rounded(centre, step);
   lattice.along = fcc ? LatticePlace{1, 1, 0} : LatticePlace{2, 0, 0};
-  const LatticePlace most = reach(box, lattice.unit);
-  for (int k = -most[2]; k <= most[2]; ++k)
-    fcc ? add_fcc_layer(lattice, most, k) : add_hcp_layer(lattice, most, k);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = lattice.origin[axis], size = lattice.unit[axis];
+    lattice.low[axis] = -steps(at - box.min()[axis], size);
+    lattice.high[axis] = steps(box.max()[axis] - at, size);
+  }
+  for (int k = lattice.low[2]; k <= lattice.high[2]; ++k)
+    fcc ? add_fcc_layer(lattice, k) : add_hcp_layer(lattice, k);
   return lattice;
 }
 

@@ -34,12 +34,12 @@ struct LatticeLayer {
 
 struct Lattice {
   Packing packing;
-  Vec3 origin;        ///< a site, m
-  Vec3 unit;          ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
-  LatticePlace along;  ///< from a site to the next of its row
-  LatticePlace low, high;              ///< limits of i, j, k
-  std::vector<LatticeRow> rows;        ///< by z, then across the row: a fixed order
-  std::vector<LatticeLayer> layers;    ///< of k = low[2] .. high[2]
+  Vec3 origin;                   ///< a site, m
+  Vec3 unit;                     ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
+  LatticePlace along;            ///< from a site to the next of its row
+  LatticePlace low, high;        ///< limits of i, j, k
+  std::vector<LatticeRow> rows;  ///< by z, then across the row: a fixed order
+  std::vector<LatticeLayer> layers;  ///< of k = low[2] .. high[2]
 
   /// Site n of a row, m; exact for any n near the row, outside of it too.
   Vec3 site(const LatticeRow& row, int n) const {

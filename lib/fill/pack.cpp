@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "core/available_memory.h"
 #include "core/closest_packing.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/settings_table.h"
-#include "core/available_memory.h"
+#include "core/stopwatch.h"
 #include "fill/inside.h"
 #include "fill/lattice.h"
-#include "core/stopwatch.h"
-#include "core/number_text.h"
 
 namespace sinew {
 namespace {
@@ -62,11 +62,11 @@ void refuse_too_many(const Box& box, double volume, double radius) {
   if (particles <= most_ids && bytes <= memory) return;
   double fits = std::max(radius, radius_for_count(volume, most_ids));
   while (bytes_needed(box, volume, fits) > memory) fits *= 1.02;
-  throw bad_input("the radius " + three_digits(radius) + " m gives about " + three_digits(particles) +
-                      " particles, which need " + three_digits(bytes / 1e9) + " GB of memory where " +
-                      three_digits(memory / 1e9) +
-                      " GB are free (the most in any case is 2.15e+09 particles)",
-                  "a radius of " + three_digits(rounded(fits, std::ceil)) + " m fits");
+  throw bad_input(
+      "the radius " + three_digits(radius) + " m gives about " + three_digits(particles) +
+          " particles, which need " + three_digits(bytes / 1e9) + " GB of memory where " +
+          three_digits(memory / 1e9) + " GB are free (the most in any case is 2.15e+09 particles)",
+      "a radius of " + three_digits(rounded(fits, std::ceil)) + " m fits");
 }
 
 void refuse_too_large(double volume, double radius) {
@@ -107,8 +107,8 @@ Points gathered(const Lattice& lattice, const std::vector<RowSites>& found) {
 
 /// A radius, from below `radius`, at which sites do lie inside: their spacing is halved until some
 /// do.
-[[noreturn]] void refuse_empty(const Surface& surface, const InsideTest& test,
-                               Packing packing, double radius) {
+[[noreturn]] void refuse_empty(const Surface& surface, const InsideTest& test, Packing packing,
+                               double radius) {
   constexpr double most = 1e5;
   const double enclosed = volume(surface.triangles);
   const Box box = bounds(surface.triangles.points);

@@ -10,8 +10,8 @@
 
 #include "core/particles.h"
 #include "core/settings.h"
-#include "mesh/surface.h"
 #include "fill/fill_report.h"
+#include "mesh/surface.h"
 
 namespace sinew {
 

@@ -39,9 +39,9 @@ struct Surface {
   Triangles triangles;
   std::vector<int> component;  ///< per face: faces joined by edges, numbered by their first face
   int components = 0;
-  /// Faces that close every hole: fans from the holes' middles, each with points of its own, so that
-  /// triangles and caps together have no border. They fill nothing; they are a means to compute
-  /// winding numbers.
+  /// Faces that close every hole: fans from the holes' middles, each with points of its own, so
+  /// that triangles and caps together have no border. They fill nothing; they are a means to
+  /// compute winding numbers.
   Triangles caps;
   Border border;
   CleaningCounts cleaning;
@@ -49,5 +49,9 @@ struct Surface {
 
   bool closed() const { return caps.faces.empty(); }
 };
+
+/// The volume that each component encloses, m^3; negative for cavities. Of open surfaces without
+/// the volume behind their caps.
+std::vector<double> component_volumes(const Surface& surface);
 
 }  // namespace sinew
