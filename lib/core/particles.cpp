@@ -7,16 +7,21 @@
 
 namespace sinew {
 
-Particles particles_at(const Points& positions, double radius, double mass) {
-  const std::size_t n = positions.size();
+Particles particles_at_rest(std::size_t count) {
   Particles particles;
+  for (auto* axis :
+       {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
+    axis->assign(count, 0.0);
+  particles.id.resize(count);
+  std::iota(particles.id.begin(), particles.id.end(), 0);
+  return particles;
+}
+
+Particles particles_at(const Points& positions, double radius, double mass) {
+  Particles particles = particles_at_rest(positions.size());
   particles.radius = radius;
   particles.mass = mass;
-  for (auto* axis : {&particles.x, &particles.y, &particles.z}) axis->resize(n);
-  for (auto* axis : {&particles.u, &particles.v, &particles.w}) axis->assign(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) particles.set_position(i, positions[i]);
-  particles.id.resize(n);
-  std::iota(particles.id.begin(), particles.id.end(), 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) particles.set_position(i, positions[i]);
   return particles;
 }
 

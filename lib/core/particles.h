@@ -26,6 +26,9 @@ struct Particles {
   void set_velocity(std::size_t i, const Vec3& p) { u[i] = p.x(), v[i] = p.y(), w[i] = p.z(); }
 };
 
+/// `count` particles at rest at the origin, ids in order.
+Particles particles_at_rest(std::size_t count);
+
 /// Particles at rest at `positions` (n x 3, m), in that order.
 Particles particles_at(const Points& positions, double radius, double mass);
 

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fill/fill_report.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/cell_grid.h"
 #include "core/closest_packing.h"
-#include "core/parallel.h"
-#include "core/settings_table.h"
+#include "core/number_text.h"
 
 namespace sinew {
 namespace {
-
-constexpr std::size_t grain = 1024;
-constexpr double none = std::numeric_limits<double>::infinity();
 
 std::string text(const Vec3& v) {
   return '[' + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ']';
@@ -38,6 +31,41 @@ void add_cleaning(std::vector<ReportRow>& rows, const CleaningCounts& counts) {
   add("faces_doubled", counts.faces_doubled);
   add("faces_flat", counts.faces_flat);
   add("faces_turned", counts.faces_turned);
+  add("edges_twisted", counts.edges_twisted);
+}
+
+void add_defects(std::vector<ReportRow>& rows, const FillReport& report) {
+  const auto add = [&](const char* key, std::size_t count) {
+    if (count > 0) rows.push_back({key, std::to_string(count), ""});
+  };
+  add("holes", report.border.holes);
+  add("open_edges", report.border.edges);
+  if (report.border.length > 0)
+    rows.push_back({"border_length", number_text(report.border.length), "m"});
+  add("crowded_edges", report.border.crowded_edges);
+  if (report.ambiguous > 0) rows.push_back({"ambiguous_share", number_text(report.ambiguous), ""});
+  if (report.deepest > 1)
+    rows.push_back({"deepest_overlap", std::to_string(report.deepest), "parts at one place"});
+}
+
+/// Only where it tells more than the totals.
+void add_bodies(std::vector<ReportRow>& rows, const FillReport& report) {
+  constexpr std::size_t most = 100;
+  if (report.bodies.size() < 2 || report.bodies.size() > most) return;
+  std::string volumes, counts;
+  for (const BodyReport& body : report.bodies) {
+    volumes.append(volumes.empty() ? "[" : ", ").append(number_text(body.volume));
+    counts.append(counts.empty() ? "[" : ", ").append(std::to_string(body.particles));
+  }
+  rows.push_back({"body_volumes", volumes + ']', "m^3"});
+  rows.push_back({"body_particles", counts + ']', ""});
+}
+
+void add_verification(std::vector<ReportRow>& rows, const FillReport& report) {
+  if (!report.verification) return;
+  rows.push_back({"verified_sites", std::to_string(report.verification->sites), ""});
+  rows.push_back({"verified_on_surface", std::to_string(report.verification->on_surface), ""});
+  rows.push_back({"mismatches", std::to_string(report.verification->mismatches), ""});
 }
 
 void add_seconds(std::vector<ReportRow>& rows, const FillReport& report) {
@@ -46,82 +74,61 @@ void add_seconds(std::vector<ReportRow>& rows, const FillReport& report) {
   };
   add("seconds_reading", report.seconds_reading);
   add("seconds_cleaning", report.seconds_cleaning);
-  add("seconds_tree", report.seconds_tree);
   add("seconds_inside", report.seconds_inside);
-  add("seconds_report", report.seconds_report);
+  add("seconds_particles", report.seconds_particles);
+  if (report.verification) add("seconds_verifying", report.seconds_verifying);
+}
+
+/// Principal moments of inertia, kg m^2.
+std::string inertia(const Moments& moments, double mass) {
+  return text(Vec3(moments.principal() * (moments.volume > 0 ? mass / moments.volume : 0)));
+}
+
+void add_shape(std::vector<ReportRow>& rows, const FillReport& report) {
+  const double mass = report.mass * static_cast<double>(report.particles);
+  rows.push_back({"box_size", text(report.box_size), "m"});
+  rows.push_back({"centre_of_mass", text(report.packed.centre), "m"});
+  rows.push_back({"inertia", inertia(report.packed, mass), "kg m^2"});
+  if (!report.closed) return;
+  rows.push_back({"mesh_centre_of_mass", text(report.mesh.centre), "m"});
+  rows.push_back({"mesh_inertia", inertia(report.mesh, mass), "kg m^2"});
+  rows.push_back(
+      {"centre_offset", number_text((report.packed.centre - report.mesh.centre).norm()), "m"});
 }
 
 }  // namespace
 
-Contacts contacts_of(const Particles& particles) {
-  const double range = rest_neighbour_range(particles.radius);
-  const CellGrid grid(particles.x, particles.y, particles.z, range);
-  Contacts contacts;
-  contacts.neighbours.resize(particles.size());
-  std::vector<double> nearest(particles.size(), none);
-  parallel_for(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      grid.for_each_near(particles.position(i), [&](std::uint32_t j) {
-        const double distance = (particles.position(j) - particles.position(i)).norm();
-        if (j == i || distance >= range) return;
-        ++contacts.neighbours[i];
-        nearest[i] = std::min(nearest[i], distance);
-      });
-  });
-  const double full = nearest_distance(particles.radius);
-  std::size_t touching = 0;
-  double smallest = none, sum = 0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    ++contacts.histogram[std::min(contacts.neighbours[i], 12)];
-    if (nearest[i] == none) continue;
-    smallest = std::min(smallest, nearest[i]);
-    sum += nearest[i] / full;
-    ++touching;
-  }
-  if (touching > 0) contacts.smallest = smallest / full;
-  if (touching > 0) contacts.mean = sum / static_cast<double>(touching);
-  return contacts;
-}
-
-Vec3 centre_of_volume(const Triangles& surface) {
-  const Vec3 middle = bounds(surface.points).center();  // keeps digits far from the origin
-  Vec3 moment = Vec3::Zero();
-  double sum = 0;
-  for (const auto& [i, j, k] : surface.faces) {
-    const Vec3 a = surface.points[i] - middle, b = surface.points[j] - middle,
-               c = surface.points[k] - middle;
-    const double part = a.dot(b.cross(c));  // six times the volume of a tetrahedron
-    sum += part;
-    moment += part * (a + b + c) / 4;
-  }
-  return middle + moment / sum;
-}
-
 std::vector<ReportRow> rows_of(const FillReport& report) {
   const auto count = [](std::size_t n) { return std::to_string(n); };
-  std::vector<ReportRow> rows = {
-      {"particles", count(report.particles), ""},
-      {"radius", number_text(report.radius), "m"},
-      {"spacing", number_text(nearest_distance(report.radius)), "m"},
-      {"mesh_volume", number_text(report.mesh_volume), "m^3"},
-      {"packed_volume", number_text(report.packed_volume), "m^3"},
-      {"volume_ratio", number_text(report.packed_volume / report.mesh_volume), ""},
-      {"particle_mass", number_text(report.mass), "kg"},
-      {"total_mass", number_text(report.mass * static_cast<double>(report.particles)), "kg"},
-      {"box_size", text(report.box_size), "m"},
-      {"centre_of_mass", text(report.centre), "m"},
-      {"mesh_centre_of_mass", text(report.mesh_centre), "m"},
-      {"centre_offset", number_text((report.centre - report.mesh_centre).norm()), "m"},
-      {"neighbours", text(report.histogram), "particles with 0, 1, .. 12"},
-      {"smallest_distance", number_text(report.smallest_distance), "2r"},
-      {"mean_distance", number_text(report.mean_distance), "2r"},
-      {"sites_tested", count(report.sites), ""},
-      {"sites_on_surface", count(report.ties), ""},
-      {"bodies", std::to_string(report.bodies), ""},
-      {"cavities", std::to_string(report.cavities), ""},
-      {"points_read", count(report.cleaning.points_read), ""},
-      {"faces_read", count(report.cleaning.polygons_read), ""}};
+  std::vector<ReportRow> rows = {{"particles", count(report.particles), ""},
+                                 {"radius", number_text(report.radius), "m"},
+                                 {"spacing", number_text(nearest_distance(report.radius)), "m"}};
+  if (report.closed) rows.push_back({"mesh_volume", number_text(report.mesh.volume), "m^3"});
+  rows.push_back({"packed_volume", number_text(report.packed.volume), "m^3"});
+  if (report.closed)
+    rows.push_back({"volume_ratio", number_text(report.packed.volume / report.mesh.volume), ""});
+  rows.push_back({"mass_from", report.volume_of_mesh ? "\"mesh\"" : "\"particles\"", ""});
+  rows.push_back({"particle_mass", number_text(report.mass), "kg"});
+  rows.push_back(
+      {"total_mass", number_text(report.mass * static_cast<double>(report.particles)), "kg"});
+  add_shape(rows, report);
+  rows.push_back({"neighbours", text(report.neighbours), "particles with 0, 1, .. 12"});
+  rows.push_back({"smallest_distance", number_text(report.smallest_distance), "2r"});
+  rows.push_back({"mean_distance", number_text(report.mean_distance), "2r"});
+  rows.push_back({"sites_tested", count(report.sites), ""});
+  rows.push_back({"sites_on_surface", count(report.ties), ""});
+  if (report.kept_out > 0) rows.push_back({"sites_too_close", count(report.kept_out), ""});
+  rows.push_back({"closed", report.closed ? "true" : "false", ""});
+  rows.push_back({"components", count(report.components), ""});
+  rows.push_back({"bodies", count(report.bodies.size()), ""});
+  rows.push_back({"cavities", count(report.cavities), ""});
+  rows.push_back({"touching_groups", count(report.groups), ""});
+  add_bodies(rows, report);
+  add_defects(rows, report);
+  rows.push_back({"points_read", count(report.cleaning.points_read), ""});
+  rows.push_back({"faces_read", count(report.cleaning.polygons_read), ""});
   add_cleaning(rows, report.cleaning);
+  add_verification(rows, report);
   add_seconds(rows, report);
   return rows;
 }

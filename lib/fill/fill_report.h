@@ -4,49 +4,61 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/particles.h"
+#include "fill/moments.h"
 #include "mesh/surface.h"
 
 namespace sinew {
 
-/// How the particles touch each other: pairs closer than 2.2 r.
-struct Contacts {
-  std::vector<std::int32_t> neighbours;        ///< per particle
-  std::array<std::size_t, 13> histogram = {};  ///< particles with 0, 1, .. 12 neighbours
-  double smallest = 0, mean = 0;  ///< distance to the nearest one over 2r; 0 where nothing touches
+/// What became of one body of the mesh.
+struct BodyReport {
+  double volume = 0;  ///< within its surface, m^3; 0 where the surface is open
+  std::size_t particles = 0;
+};
+
+/// Every site of the lattice asked of CGAL, too.
+struct Verification {
+  std::size_t sites = 0;
+  std::size_t on_surface = 0;  ///< by CGAL
+  std::size_t mismatches = 0;  ///< sites that one of the two puts inside and the other does not
 };
 
 struct FillReport {
   std::size_t particles = 0;
-  std::size_t sites = 0;            ///< tested
-  std::size_t ties = 0;             ///< sites on the surface: outside
-  double radius = 0;                ///< m
-  double mass = 0;                  ///< of one particle, kg
-  double mesh_volume = 0;           ///< m^3
-  double packed_volume = 0;         ///< N V0, m^3
-  Vec3 box_size = Vec3::Zero();     ///< of the mesh, m
-  Vec3 centre = Vec3::Zero();       ///< of mass, of the particles, m
-  Vec3 mesh_centre = Vec3::Zero();  ///< of mass, of the mesh's volume, m
-  std::array<std::size_t, 13> histogram = {};
-  double smallest_distance = 0, mean_distance = 0;  ///< as in Contacts
-  int bodies = 0, cavities = 0;
+  std::uint64_t sites = 0;   ///< of the lattice in the mesh's box
+  std::size_t ties = 0;      ///< sites on the surface: outside
+  std::size_t kept_out = 0;  ///< sites inside but too close to the surface
+  double radius = 0;         ///< m
+  double mass = 0;           ///< of one particle, kg
+  double volume = 0;         ///< that the mass stands for, m^3: the mesh's, else the particles'
+  bool volume_of_mesh = true;
+  Moments mesh, packed;
+  Vec3 box_size = Vec3::Zero();                     ///< of the mesh, m
+  std::array<std::size_t, 13> neighbours = {};      ///< particles with 0, 1, .. 12
+  double smallest_distance = 0, mean_distance = 0;  ///< to the nearest, over 2r; 0: none touch
+  std::vector<BodyReport> bodies;
+  int cavities = 0;
+  int groups = 0;   ///< particles that hang together by touching
+  int deepest = 0;  ///< winding number; above 1 where parts of the mesh overlap
+  bool closed = true;
+  double ambiguous = 0;  ///< share of places whose winding number is far from a whole number
+  Border border;
+  int components = 0;
   CleaningCounts cleaning;
-  double seconds_reading = 0, seconds_cleaning = 0, seconds_tree = 0, seconds_inside = 0,
-         seconds_report = 0;
+  std::optional<Verification> verification;
+  std::vector<std::string> warnings;  ///< what deserves a look, with its cure
+  double seconds_reading = 0, seconds_cleaning = 0, seconds_inside = 0, seconds_particles = 0,
+         seconds_verifying = 0;
 };
 
-/// A line of the report. The value is a number, or numbers in brackets: JSON as it stands.
+/// A line of the report. The value is a number, a word in quotes, or numbers in brackets: JSON as
+/// it stands.
 struct ReportRow {
   std::string key, value, unit;
 };
-
-Contacts contacts_of(const Particles& particles);
-
-/// The centre of mass of the enclosed volume, m.
-Vec3 centre_of_volume(const Triangles& surface);
 
 /// The report for people and scripts, `particles` first. Counts of defects only where not 0.
 std::vector<ReportRow> rows_of(const FillReport& report);

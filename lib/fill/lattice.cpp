@@ -58,6 +58,56 @@ void add_hcp_layer(Lattice& lattice, int k) {
 
 }  // namespace
 
+std::int64_t Lattice::row_at(int k, int across) const {
+  if (k < low[2] || k > high[2]) return -1;
+  const LatticeLayer& layer = layers[k - low[2]];
+  const int step = packing == Packing::fcc ? 2 : 3, from = across - layer.across;
+  if (from < 0 || from % step != 0 || from / step >= layer.rows) return -1;
+  return static_cast<std::int64_t>(layer.first_row) + from / step;
+}
+
+std::span<const LatticePlace, 12> Lattice::nearest(int k) const {
+  using Steps = std::array<LatticePlace, 12>;
+  static constexpr Steps fcc = {{{1, 1, 0},
+                                 {-1, -1, 0},
+                                 {1, -1, 0},
+                                 {-1, 1, 0},
+                                 {1, 0, 1},
+                                 {-1, 0, 1},
+                                 {0, 1, 1},
+                                 {0, -1, 1},
+                                 {1, 0, -1},
+                                 {-1, 0, -1},
+                                 {0, 1, -1},
+                                 {0, -1, -1}}};
+  static constexpr Steps hcp_even = {{{2, 0, 0},
+                                      {-2, 0, 0},
+                                      {1, 3, 0},
+                                      {-1, 3, 0},
+                                      {1, -3, 0},
+                                      {-1, -3, 0},
+                                      {1, 1, 1},
+                                      {-1, 1, 1},
+                                      {0, -2, 1},
+                                      {1, 1, -1},
+                                      {-1, 1, -1},
+                                      {0, -2, -1}}};
+  static constexpr Steps hcp_odd = {{{2, 0, 0},
+                                     {-2, 0, 0},
+                                     {1, 3, 0},
+                                     {-1, 3, 0},
+                                     {1, -3, 0},
+                                     {-1, -3, 0},
+                                     {1, -1, 1},
+                                     {-1, -1, 1},
+                                     {0, 2, 1},
+                                     {1, -1, -1},
+                                     {-1, -1, -1},
+                                     {0, 2, -1}}};
+  if (packing == Packing::fcc) return fcc;
+  return odd(k) ? hcp_odd : hcp_even;
+}
+
 std::uint64_t Lattice::sites() const {
   std::uint64_t sum = 0;
   for (const LatticeRow& row : rows) sum += row.sites;
@@ -73,6 +123,7 @@ Lattice lattice_in(const Box& box, Packing packing, double radius,
   const double step = quantum(box, centre, unit);
   Lattice lattice;
   lattice.packing = packing;
+  lattice.radius = radius;
   lattice.unit = rounded(unit, step);
   lattice.origin = rounded(centre, step);
   lattice.along = fcc ? LatticePlace{1, 1, 0} : LatticePlace{2, 0, 0};

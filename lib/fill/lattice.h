@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/settings.h"
@@ -34,6 +35,7 @@ struct LatticeLayer {
 
 struct Lattice {
   Packing packing;
+  double radius;                 ///< of the particles, m
   Vec3 origin;                   ///< a site, m
   Vec3 unit;                     ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
   LatticePlace along;            ///< from a site to the next of its row
@@ -47,6 +49,14 @@ struct Lattice {
             origin[1] + unit[1] * (row.first[1] + n * along[1]),
             origin[2] + unit[2] * row.first[2]};
   }
+
+  Vec3 site(std::int32_t row, int n) const { return site(rows[row], n); }
+
+  /// The row with that k and `across` (FCC: i - j, HCP: j), or -1.
+  std::int64_t row_at(int k, int across) const;
+
+  /// The steps to the 12 nearest sites, from a site of layer k.
+  std::span<const LatticePlace, 12> nearest(int k) const;
 
   std::uint64_t sites() const;
 };

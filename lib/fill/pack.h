@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fills a closed surface with equal particles in closest packing: every lattice site strictly
-// inside becomes a particle. A site on the surface counts as outside. (Komiya and Tokoi fill their
-// bodies so; which lattice, and where it lies, they leave open.)
+// Fills a surface with equal particles in closest packing: every lattice site strictly inside
+// becomes a particle. A site on the surface counts as outside. (Komiya and Tokoi fill their bodies
+// so; which lattice, and where it lies, they leave open.) Any surface will do as long as it has an
+// inside: open, overlapping, of single triangles; with a thickness even a sheet.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/particles.h"
-#include "core/settings.h"
 #include "fill/fill_report.h"
+#include "fill/pack_options.h"
 #include "mesh/surface.h"
 
 namespace sinew {
-
-struct PackOptions {
-  Packing packing = Packing::fcc;
-  std::optional<double> radius;  ///< m; either this
-  std::optional<int> count;      ///< or about so many particles
-  double density = 1000;         ///< kg/m^3
-};
 
 struct Filling {
   Particles particles;                  ///< at rest, by lattice rows; mass = density volume / count
@@ -31,10 +24,8 @@ struct Filling {
 
 /// The same particles for every number of threads. Throws Error (bad input) before it fills when
 /// there would be too many particles for memory or for 32-bit ids, when the body holds less than
-/// one, and when no site lies inside; all name a radius that fits.
+/// one, when the surface has no inside (naming the share of ambiguous places), and when no site
+/// lies inside; all name a radius that fits, or the option that helps.
 Filling pack(const Surface& surface, const PackOptions& options);
-
-/// The radius (m) at which a volume (m^3) holds about `count` particles: (V / (4 sqrt(2) N))^(1/3).
-double radius_for_count(double volume, double count);
 
 }  // namespace sinew

@@ -143,8 +143,8 @@ int Winding::before(const View& view, int first, int last) const {
 struct Winding::Ray {
   Vec3 to;
   double length;
-  double rest;   ///< length + to.x(), also where that is almost nothing
-  bool on_row;   ///< the row meets the corner
+  double rest;  ///< length + to.x(), also where that is almost nothing
+  bool on_row;  ///< the row meets the corner
 };
 
 /// A row that meets a corner is shifted a little across, and by much less up.
@@ -164,8 +164,7 @@ Winding::Ray Winding::ray(const View& view, const Vec3& corner) const {
 double Winding::strips(const View& view, const Cap& cap) const {
   const auto& face = caps_.faces[cap.face];
   std::array<Ray, 3> rays;
-  for (int corner = 0; corner < 3; ++corner)
-    rays[corner] = ray(view, caps_.points[face[corner]]);
+  for (int corner = 0; corner < 3; ++corner) rays[corner] = ray(view, caps_.points[face[corner]]);
   double sum = 0;
   for (int corner = 0; corner < 3; ++corner) {
     const Ray &a = rays[corner], &b = rays[(corner + 1) % 3];
@@ -180,8 +179,7 @@ double Winding::turn(const View& view, const Cap& cap, int corner, const Ray& a,
                      const Ray& b) const {
   const double one = a.to.y() * b.to.z(), other = a.to.z() * b.to.y();
   const double found = one - other;
-  if (a.on_row || b.on_row ||
-      std::abs(found) > 16 * rounding * (std::abs(one) + std::abs(other)))
+  if (a.on_row || b.on_row || std::abs(found) > 16 * rounding * (std::abs(one) + std::abs(other)))
     return found;
   const auto& face = caps_.faces[cap.face];
   const Vec3 &from = caps_.points[face[corner]], &to = caps_.points[face[(corner + 1) % 3]];

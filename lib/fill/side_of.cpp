@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/inside.h"
+#include "fill/side_of.h"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
@@ -23,35 +23,30 @@ Point point_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
 
-struct InsideTest::Tree {
+struct SideOf::Tree {
   explicit Tree(const Triangles& surface) {
-    for (std::size_t i = 0; i < surface.faces.size(); ++i) {
-      const auto& [a, b, c] = surface.faces[i];
-      add(static_cast<int>(i), point_of(surface.points[a]), point_of(surface.points[b]),
-          point_of(surface.points[c]));
-    }
+    for (const auto& [a, b, c] : surface.faces)
+      add(point_of(surface.points[a]), point_of(surface.points[b]), point_of(surface.points[c]));
     tree.insert(faces(mesh).begin(), faces(mesh).end(), mesh);
     tree.build();  // before many threads use it
     side = std::make_unique<CGAL::Side_of_triangle_mesh<Mesh, Kernel>>(tree);
   }
 
   /// Each face with corners of its own: crossings need no connections, and none can fail.
-  void add(int face, const Point& a, const Point& b, const Point& c) {
+  void add(const Point& a, const Point& b, const Point& c) {
     if (CGAL::collinear(a, b, c)) return;
     mesh.add_face(mesh.add_vertex(a), mesh.add_vertex(b), mesh.add_vertex(c));
-    face_of.push_back(face);
   }
 
   Mesh mesh;
-  std::vector<int> face_of;  ///< the surface's face of each of the mesh's
   AabbTree tree;
   std::unique_ptr<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side;
 };
 
-InsideTest::InsideTest(const Triangles& surface) : tree_(std::make_unique<Tree>(surface)) {}
-InsideTest::~InsideTest() = default;
+SideOf::SideOf(const Triangles& surface) : tree_(std::make_unique<Tree>(surface)) {}
+SideOf::~SideOf() = default;
 
-Side InsideTest::side(const Vec3& point) const {
+Side SideOf::side(const Vec3& point) const {
   switch ((*tree_->side)(point_of(point))) {
     case CGAL::ON_BOUNDED_SIDE:
       return Side::inside;
@@ -60,12 +55,6 @@ Side InsideTest::side(const Vec3& point) const {
     default:
       return Side::outside;
   }
-}
-
-int InsideTest::face_above(const Vec3& point) const {
-  const Kernel::Ray_3 up(point_of(point), Kernel::Vector_3(0, 0, 1));
-  const auto face = tree_->tree.first_intersected_primitive(up);
-  return face ? tree_->face_of[face->idx()] : 0;
 }
 
 }  // namespace sinew

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What cannot be filled, said before it is tried. All of these throw Error (bad input) with the
+// number that decided and the cure.
+#pragma once
+
+#include "fill/filled_sites.h"
+
+namespace sinew {
+
+/// Above this share of ambiguous places a surface has no inside: open shells that still fill reach
+/// 0.64, random triangles have 0.77, a Moebius strip has 0.87.
+inline constexpr double most_ambiguous = 0.7;
+
+/// Refuses surfaces without an inside, unless a layer is to be filled. Returns the share of
+/// ambiguous places.
+double refuse_without_inside(const BodySpace& space, const PackOptions& options);
+
+/// The radius that the options ask for, m. Refuses one that needs more particles than memory or
+/// 32-bit ids hold, and one of which less than one particle fits.
+double wanted_radius(const BodySpace& space, const PackOptions& options);
+
+/// When no site became a particle: names a radius at which some do.
+[[noreturn]] void refuse_empty(const BodySpace& space, const PackOptions& options, double radius);
+
+}  // namespace sinew

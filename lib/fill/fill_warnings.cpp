@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fill/fill_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/closest_packing.h"
+#include "core/number_text.h"
+
+namespace sinew {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+constexpr double much_lost = 0.01;           // of the volume
+constexpr double huge = 100, minute = 1e-3;  // m: outside of these a unit may have been mistaken
+
+std::string percent(double share) { return three_digits(100 * share) + " %"; }
+
+void warn_of_size(const FillReport& report, Warnings& warnings) {
+  const double size = report.box_size.maxCoeff();
+  if (size <= huge && size >= minute) return;
+  warnings.push_back("the body is " + three_digits(size) +
+                     " m long: if its file is in another unit than metres, set the unit");
+}
+
+void warn_of_holes(const FillReport& report, Warnings& warnings) {
+  if (report.closed) return;
+  warnings.push_back("the surface is open: " + std::to_string(report.border.holes) +
+                     " holes with a border of " + three_digits(report.border.length) +
+                     " m; inside is where the winding number is above 0.5, and " +
+                     percent(report.ambiguous) +
+                     " of the places in the box are ambiguous; close the holes if the body bulges "
+                     "in or out there");
+}
+
+/// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is no
+/// scatter.
+double scatter(double area, double radius) {
+  return 0.9 * std::sqrt(area / (4 * radius * radius)) * volume_per_particle(radius);
+}
+
+void warn_of_lost_volume(const FillReport& report, const Surface& surface, Warnings& warnings) {
+  if (!report.closed || !report.volume_of_mesh) return;
+  const double lost = report.volume - report.packed.volume;
+  if (lost < std::max(much_lost * report.volume, scatter(area(surface.triangles), report.radius)))
+    return;
+  warnings.push_back("particles fill " + percent(report.packed.volume / report.volume) +
+                     " of the volume: parts thinner than about 3 radii are lost; give a smaller "
+                     "radius");
+}
+
+void warn_of_lost_bodies(const FillReport& report, Warnings& warnings) {
+  const auto empty = std::count_if(report.bodies.begin(), report.bodies.end(),
+                                   [](const BodyReport& body) { return body.particles == 0; });
+  if (empty > 0)
+    warnings.push_back(std::to_string(empty) + " of " + std::to_string(report.bodies.size()) +
+                       " separate bodies are too small for a particle; give a smaller radius");
+}
+
+void warn_of_groups(const FillReport& report, Warnings& warnings) {
+  if (!report.closed) return;
+  const auto filled = std::count_if(report.bodies.begin(), report.bodies.end(),
+                                    [](const BodyReport& body) { return body.particles > 0; });
+  if (report.groups < filled)
+    warnings.push_back(std::to_string(filled) + " separate bodies touch after filling and make " +
+                       std::to_string(report.groups) +
+                       ": they will stick together; give a smaller radius, or a clearance");
+  if (report.groups > filled)
+    warnings.push_back("the particles fall into " + std::to_string(report.groups) +
+                       " groups that do not touch, where the mesh has " + std::to_string(filled) +
+                       " bodies: parts are too thin; give a smaller radius");
+}
+
+}  // namespace
+
+Warnings warnings_of(const FillReport& report, const Surface& surface) {
+  Warnings warnings;
+  warn_of_size(report, warnings);
+  warn_of_holes(report, warnings);
+  warn_of_lost_volume(report, surface, warnings);
+  warn_of_lost_bodies(report, warnings);
+  warn_of_groups(report, warnings);
+  return warnings;
+}
+
+}  // namespace sinew

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What in a filling deserves a look.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fill/fill_report.h"
+
+namespace sinew {
+
+/// One sentence each, with the number that decided and a cure. Looks at the surface only where
+/// something was lost.
+std::vector<std::string> warnings_of(const FillReport& report, const Surface& surface);
+
+}  // namespace sinew

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fill/filled_sites.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fill/near_surface.h"
+#include "fill/runs.h"
+#include "fill/volume_inside.h"
+
+namespace sinew {
+namespace {
+
+constexpr double coarse_sites = 50000;
+
+FilledSites fill_at(const BodySpace& space, const PackOptions& options, double radius) {
+  FilledSites filled{lattice_in(space.box, options.packing, radius, space.lattice_origin), {}, {}};
+  if (options.thickness) {
+    filled.runs = runs_near(filled.lattice, space.surface.triangles, *options.thickness / 2);
+    return filled;
+  }
+  filled.inside = inside_runs(filled.lattice, space.surface);
+  filled.runs = filled.inside.runs;
+  const double within = clearance_of(options, radius);
+  if (within > 0)
+    filled.runs =
+        runs_without(filled.runs, runs_near(filled.lattice, space.surface.triangles, within));
+  return filled;
+}
+
+}  // namespace
+
+BodySpace::BodySpace(const Surface& given, const PackOptions& options)
+    : placement(given.triangles.points, options.lattice_axes), surface(given) {
+  surface.triangles = placement.to_lattice(given.triangles);
+  surface.caps = placement.to_lattice(given.caps);
+  box = bounds(surface.triangles.points);
+  if (options.lattice_origin) lattice_origin = placement.to_lattice(*options.lattice_origin);
+  const Vec3 margin = Vec3::Constant(options.thickness.value_or(0) / 2);
+  box = Box(box.min() - margin, box.max() + margin);
+}
+
+FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius) {
+  FilledSites filled = fill_at(space, options, radius);
+  const bool known = space.surface.closed() && !options.thickness && filled.inside.deepest <= 1 &&
+                     clearance_of(options, radius) == 0;
+  for (int round = 0; !known && options.count && round < 3 && !filled.runs.empty(); ++round) {
+    const auto found = static_cast<double>(count_of(filled.runs));
+    filled = fill_at(space, options, filled.lattice.radius * std::cbrt(found / *options.count));
+  }
+  return filled;
+}
+
+std::size_t count_of(const std::vector<Run>& runs) {
+  std::size_t sum = 0;
+  for (const Run& run : runs) sum += run.sites();
+  return sum;
+}
+
+double clearance_of(const PackOptions& options, double radius) {
+  return options.clearance + (options.keep == Keep::sphere ? radius : 0);
+}
+
+Lattice coarse_lattice(const Box& box) {
+  const double longest = box.sizes().maxCoeff();
+  return lattice_in(box, Packing::fcc,
+                    std::max(radius_for_count(box.volume(), coarse_sites), longest / 300));
+}
+
+}  // namespace sinew

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The promise that a filling is right, in the user's hand: every site of the lattice asked of CGAL.
+#pragma once
+
+#include "fill/fill_report.h"
+#include "fill/inside_runs.h"
+
+namespace sinew {
+
+/// Compares the sites inside with CGAL's Side_of_triangle_mesh. Throws Error (bad input) unless the
+/// surface is closed. Where parts of it overlap mismatches are to be expected: CGAL counts
+/// crossings modulo 2.
+Verification verify(const Lattice& lattice, const Surface& surface, const InsideRuns& inside);
+
+}  // namespace sinew
