@@ -9,7 +9,7 @@
 #include "core/hash.h"
 #include "core/scene_text.h"
 #include "core/settings_table.h"
-#include "mesh/read_surface.h"
+#include "mesh_input.h"
 
 namespace sinew {
 namespace {
@@ -26,6 +26,15 @@ auto told_at(const Settings& settings, const char* key, Job&& job) {
   }
 }
 
+/// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
+Mat3 turned_about_xyz(const Vec3& angles) {
+  if (angles.isZero(0)) return Mat3::Identity();
+  const auto about = [&](int axis) {
+    return Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis));
+  };
+  return (about(2) * about(1) * about(0)).toRotationMatrix();
+}
+
 }  // namespace
 
 bool is_scene(const std::filesystem::path& path) {
@@ -33,17 +42,27 @@ bool is_scene(const std::filesystem::path& path) {
 }
 
 Surface read_mesh(const Settings& settings) {
-  return told_at(settings, "body.mesh", [&] { return read_surface(settings.body.mesh); });
+  return told_at(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
 }
 
-Filling fill_body(const Settings& settings, const Surface& surface) {
+Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
   const BodySettings& body = settings.body;
-  const PackOptions options{body.packing, body.radius, body.count, settings.material.density};
+  PackOptions options;
+  options.packing = body.packing;
+  options.radius = body.radius;
+  options.count = body.count;
+  options.density = settings.material.density;
+  options.lattice_origin = body.lattice_origin;
+  options.lattice_axes = turned_about_xyz(body.lattice_rotation);
+  options.keep = body.keep;
+  options.clearance = body.clearance;
+  options.thickness = body.thickness;
+  options.verify = verify;
   return told_at(settings, body.radius ? "body.radius" : "body.count",
                  [&] { return pack(surface, options); });
 }
 
-BodyFile body_file(const Filling& filling, const std::string& origin) {
+BodyFile body_file(Filling filling, const std::string& origin) {
   nlohmann::ordered_json meta;
   meta["program"] = "sinew";
   meta["version"] = version();
@@ -51,9 +70,9 @@ BodyFile body_file(const Filling& filling, const std::string& origin) {
   for (const ReportRow& row : rows_of(filling.report))
     meta["fill"][row.key] = nlohmann::ordered_json::parse(row.value, nullptr, false);
   BodyFile body;
-  body.particles = filling.particles;
-  body.neighbours = filling.neighbours;
-  body.component = filling.component;
+  body.particles = std::move(filling.particles);
+  body.neighbours = std::move(filling.neighbours);
+  body.component = std::move(filling.component);
   body.meta = meta.dump();
   return body;
 }

@@ -16,11 +16,11 @@ bool is_scene(const std::filesystem::path& path);
 /// Reads the mesh that a scene names. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);
 
-/// Fills it as the scene says. Errors name the scene's line.
-Filling fill_body(const Settings& settings, const Surface& surface);
+/// Fills it as the scene says. Errors name the scene's line. `verify`: every site is asked of CGAL.
+Filling fill_body(const Settings& settings, const Surface& surface, bool verify = false);
 
 /// What body.vtu holds of a filling; `origin` tells from what it was made.
-BodyFile body_file(const Filling& filling, const std::string& origin);
+BodyFile body_file(Filling filling, const std::string& origin);
 
 /// A text that is the same for the same mesh file and the same way of filling it.
 std::string origin_of(const Settings& settings);

@@ -49,11 +49,11 @@ Override parse_override(const std::string& text) {
   if (equals == text.npos || dot == path.npos || dot == 0 || dot + 1 == path.size())
     throw bad_input("--set " + shown(text) + " is no setting",
                     "write --set section.key=value, as in --set body.radius=0.01");
-  return {path, text.substr(equals + 1)};
+  return {path, text.substr(equals + 1), "--set " + text};
 }
 
 void apply_override(const Override& given, YamlNode& scene) {
-  const Place place = {"--set " + given.path + '=' + given.value};
+  const Place place = {given.given};
   YamlNode value = parse_yaml(given.value, place.file);
   place_all(value, place);
   if (scene.kind != Kind::map) return;

@@ -11,6 +11,7 @@ namespace sinew {
 struct Override {
   std::string path;   ///< section.key
   std::string value;  ///< YAML: a word, a number, [x, y, z]
+  std::string given;  ///< how it stood on the command line: errors name it
 };
 
 /// Splits "section.key=value". Throws bad input for another shape.
@@ -18,7 +19,7 @@ Override parse_override(const std::string& text);
 
 /// Puts the value into the tree of a scene and takes out its rival (body.radius that of
 /// body.count). A tree that is no mapping of mappings stays as it is: its reader says what is wrong
-/// with it. Throws bad input, "--set KEY=VALUE: ...", for wrong YAML.
+/// with it. Throws bad input, as "--set KEY=VALUE: ...", for wrong YAML.
 void apply_override(const Override& given, YamlNode& scene);
 
 }  // namespace sinew

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "config/scene.h"
 
+#include <array>
+
 #include "config/checks.h"
 #include "config/mapping.h"
 #include "config/paths.h"
@@ -64,14 +66,15 @@ YamlNode section_of(const YamlNode& scene, std::string_view name, Settings& sett
   return section;
 }
 
-Settings read_settings(const YamlNode& scene, const std::string& file) {
+Settings read_settings(const YamlNode& scene, const std::string& file,
+                       std::span<const std::string_view> known) {
   Settings settings;
   settings.places[""] = {file};
   if (scene.kind == Kind::empty)
     throw bad_input({file}, "there is no scene in this file",
-                    "write its sections: " + listed(sections()));
-  check_keys(scene, "", sections());
-  for (const std::string_view name : sections()) {
+                    "write its sections: " + listed(known));
+  check_keys(scene, "", known);
+  for (const std::string_view name : known) {
     const YamlNode section = section_of(scene, name, settings);
     const bool skeleton = name == "skeleton", motion = name == "motion";
     read_fields<Settings>(section, std::string(name), rows_of(name),
@@ -91,9 +94,21 @@ Settings read_scene(const std::filesystem::path& path, std::span<const Override>
   const std::string file = path.string();
   YamlNode scene = parse_yaml(read_text(path), file);
   for (const Override& given : overrides) apply_override(given, scene);
-  Settings settings = read_settings(scene, file);
+  Settings settings = read_settings(scene, file, sections());
   check_together(settings);
   open_paths_from_here(settings, path.parent_path());
+  return settings;
+}
+
+Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides) {
+  static constexpr std::array<std::string_view, 2> known = {"body", "material"};
+  const Place place = {mesh.string()};
+  const YamlNode path = {Kind::scalar, place, mesh.string(), true, {}, {}};
+  const YamlNode body = {Kind::map, place, "", false, {path}, {{"mesh", place}}};
+  YamlNode scene = {Kind::map, place, "", false, {body}, {{"body", place}}};
+  for (const Override& given : overrides) apply_override(given, scene);
+  Settings settings = read_settings(scene, place.file, known);
+  check_together(settings);
   return settings;
 }
 

@@ -20,4 +20,8 @@ namespace sinew {
 /// to do" or "--set KEY=VALUE: ...".
 Settings read_scene(const std::filesystem::path& path, std::span<const Override> overrides = {});
 
+/// The settings of a body alone: a mesh that is to be filled, with overrides for the sections body
+/// and material; all else has its defaults. Throws bad input as read_scene does.
+Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides);
+
 }  // namespace sinew

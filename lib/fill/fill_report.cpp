@@ -32,6 +32,9 @@ void add_cleaning(std::vector<ReportRow>& rows, const CleaningCounts& counts) {
   add("faces_flat", counts.faces_flat);
   add("faces_turned", counts.faces_turned);
   add("edges_twisted", counts.edges_twisted);
+  add("holes_closed", counts.holes_closed);
+  add("faces_added", counts.faces_added);
+  add("faces_wrapped", counts.faces_wrapped);
 }
 
 void add_defects(std::vector<ReportRow>& rows, const FillReport& report) {

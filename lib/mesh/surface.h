@@ -21,6 +21,9 @@ struct CleaningCounts {
   std::size_t faces_doubled = 0;    ///< faces left out because an earlier one has the same corners
   std::size_t faces_flat = 0;       ///< faces without area, kept: they may close the surface
   std::size_t faces_turned = 0;     ///< faces whose direction was reversed
+  std::size_t holes_closed = 0;     ///< by faces_added new faces, where that was asked for
+  std::size_t faces_added = 0;
+  std::size_t faces_wrapped = 0;    ///< of the skin that replaced the mesh, where asked for
   std::size_t edges_twisted = 0;    ///< edges whose two faces cannot agree (as on a Moebius strip)
 };
 

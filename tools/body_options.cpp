@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "body_options.h"
+
+#include <algorithm>
+
+#include "core/scene_text.h"
+#include "core/settings_table.h"
+
+namespace sinew {
+namespace {
+
+using Row = Field<Settings>;
+
+std::vector<const Row*> rows() {
+  std::vector<const Row*> wanted;
+  for (const Row& row : settings_table())
+    if ((row.section == "body" && row.name != "mesh") ||
+        (row.section == "material" && row.name == "density"))
+      wanted.push_back(&row);
+  return wanted;
+}
+
+std::string option_name(const Row& row) {
+  std::string name = "--";
+  name += row.name;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string type_name(const Row& row) {
+  if (row.kind == FieldKind::vector) return "X,Y,Z";
+  if (row.kind != FieldKind::choice) return row.kind == FieldKind::whole ? "N" : "NUMBER";
+  std::string names;
+  for (const std::string_view choice : row.choices) (names += names.empty() ? "" : "|") += choice;
+  return names;
+}
+
+std::string help_of(const Row& row) {
+  std::string help(row.help);
+  if (!row.unit.empty()) (help += ", ") += row.unit;
+  if (row.absent.empty() && row.kind != FieldKind::flag)
+    help += " [" + scene_text(row.get(Settings{}), "") + ']';
+  return help;
+}
+
+}  // namespace
+
+void BodyOptions::declare(CLI::App& app) {
+  const auto wanted = rows();
+  given_.resize(wanted.size());  // options keep the places of their values
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Row& row = *wanted[i];
+    Given& one = given_[i];
+    one.path = std::string(row.section) + '.' + std::string(row.name);
+    one.option = option_name(row);
+    one.flag = row.kind == FieldKind::flag;
+    one.parsed = one.flag ? app.add_flag(one.option, help_of(row))
+                          : app.add_option(one.option, one.value, help_of(row))
+                                ->type_name(type_name(row));
+    const_cast<CLI::Option*>(one.parsed)->group("Options for a mesh");
+  }
+}
+
+std::vector<Override> BodyOptions::overrides() const {
+  std::vector<Override> all;
+  for (const Given& one : given_) {
+    if (one.parsed->count() == 0) continue;
+    std::string value = one.flag ? "true" : one.value;
+    if (value.find(',') != std::string::npos && value.front() != '[') value = '[' + value + ']';
+    all.push_back({one.path, value, one.option + (one.flag ? "" : ' ' + one.value)});
+  }
+  return all;
+}
+
+}  // namespace sinew
