@@ -57,6 +57,14 @@ std::size_t count_of(const std::vector<Run>& runs) {
   return sum;
 }
 
+Points positions_of(const Lattice& lattice, const std::vector<Run>& runs) {
+  Points points(count_of(runs));
+  for_each_site(runs, [&](std::size_t place, const Run& run, int n) {
+    points[place] = lattice.site(run.row, n);
+  });
+  return points;
+}
+
 double clearance_of(const PackOptions& options, double radius) {
   return options.clearance + (options.keep == Keep::sphere ? radius : 0);
 }

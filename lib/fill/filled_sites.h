@@ -2,6 +2,7 @@
 // Which sites of a lattice become particles.
 #pragma once
 
+#include "core/parallel.h"
 #include "fill/inside_runs.h"
 #include "fill/pack_options.h"
 #include "fill/placement.h"
@@ -29,6 +30,23 @@ struct FilledSites {
 FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius);
 
 std::size_t count_of(const std::vector<Run>& runs);
+
+/// Calls visit(place, run, n) for each site n of each run; `place` counts the sites from 0. Many
+/// threads at once.
+template <class Visit>
+void for_each_site(const std::vector<Run>& runs, const Visit& visit) {
+  constexpr std::size_t runs_at_a_time = 256;
+  std::vector<std::size_t> place(runs.size() + 1);
+  for (std::size_t i = 0; i < runs.size(); ++i) place[i + 1] = place[i] + runs[i].sites();
+  parallel_for(runs.size(), runs_at_a_time, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int n = runs[i].first; n < runs[i].last; ++n)
+        visit(place[i] + (n - runs[i].first), runs[i], n);
+  });
+}
+
+/// Positions of the runs' sites in the lattice's space (n x 3, m), in their order.
+Points positions_of(const Lattice& lattice, const std::vector<Run>& runs);
 
 /// How far within the body a centre has to lie, m.
 double clearance_of(const PackOptions& options, double radius);

@@ -7,7 +7,6 @@
 #include "core/closest_packing.h"
 #include "core/error.h"
 #include "core/number_text.h"
-#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "fill/fill_limits.h"
 #include "fill/fill_warnings.h"
@@ -17,8 +16,6 @@
 
 namespace sinew {
 namespace {
-
-constexpr std::size_t runs_at_a_time = 256;
 
 void check(const PackOptions& options) {
   if (options.radius.has_value() == options.count.has_value())
@@ -38,16 +35,10 @@ void check(const PackOptions& options) {
 
 /// Particles at the sites of the runs, in their order.
 Particles particles_in(const FilledSites& filled, const Placement& placement) {
-  const std::vector<Run>& runs = filled.runs;
-  std::vector<std::size_t> place(runs.size() + 1);
-  for (std::size_t i = 0; i < runs.size(); ++i) place[i + 1] = place[i] + runs[i].sites();
-  Particles particles = particles_at_rest(place.back());
+  Particles particles = particles_at_rest(count_of(filled.runs));
   particles.radius = filled.lattice.radius;
-  parallel_for(runs.size(), runs_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (int n = 0; n < runs[i].sites(); ++n)
-        particles.set_position(place[i] + n, placement.from_lattice(filled.lattice.site(
-                                                 runs[i].row, runs[i].first + n)));
+  for_each_site(filled.runs, [&](std::size_t place, const Run& run, int n) {
+    particles.set_position(place, placement.from_lattice(filled.lattice.site(run.row, n)));
   });
   return particles;
 }
