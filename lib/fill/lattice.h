@@ -5,7 +5,9 @@
 //
 // Every coordinate of every site is a whole multiple of one power of two that is as small as
 // doubles allow at the box's farthest corner: sums and differences of sites are exact, and the
-// sites of a row lie on one line to the last bit. Exact predicates can then speak of rows.
+// sites of a row lie on one line to the last bit. Exact predicates can then speak of rows. Spacings
+// are rounded up: no two sites are closer than 2r, and sites that would lie on the faces of a box
+// do not fall inside by rounding.
 #pragma once
 
 #include <array>

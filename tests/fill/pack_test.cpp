@@ -10,9 +10,9 @@
 #include "core/hash.h"
 #include "core/neighbours.h"
 #include "core/parallel.h"
-#include "mesh/clean.h"
-#include "fill/inside.h"
 #include "fill/lattice.h"
+#include "fill/side_of.h"
+#include "mesh/clean.h"
 #include "mesh/read_surface.h"
 #include "mesh/shapes.h"
 
@@ -58,7 +58,7 @@ TEST(PaperBox, HoldsThePapers2965Particles) {
   const Filling filling = pack(read_surface(paper_box), with_radius(0.010));
   EXPECT_EQ(filling.particles.size(), 2965u);
   EXPECT_EQ(filling.report.ties, 0u);
-  EXPECT_EQ(filling.report.histogram[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
+  EXPECT_EQ(filling.report.neighbours[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
 }
 
 TEST(Pack, GivesTheMeshsMassInAll) {
@@ -137,11 +137,20 @@ TEST(Inside, AgreesWithATorus) {
 }
 
 TEST(Inside, CountsSitesOnTheSurfaceAsOutside) {
-  const double r = 0.125, plane = half_plane_spacing(r);
-  const Vec3 half = Vec3::Constant(4 * plane);  // half-planes of sites lie on all six sides
+  const double r = 0.125;
+  const Vec3 about = Vec3::Constant(4.1 * half_plane_spacing(r));
+  const Vec3 half = 4 * lattice_in({-about, about}, Packing::fcc, r).unit;  // sites on all sides
   const Filling filling = pack(clean(shapes::box(-half, half)), with_radius(r));
   EXPECT_EQ(filling.particles.size(), (7u * 7 * 7 - 1) / 2);
   EXPECT_EQ(filling.report.ties, (9u * 9 * 9 + 1) / 2 - (7u * 7 * 7 - 1) / 2);
+}
+
+TEST(Inside, LeavesOutSitesThatRoundingWouldPutOnTheSurface) {
+  for (const double r : {0.125, 0.1, 0.3, 0.017}) {
+    const Vec3 half = Vec3::Constant(4 * half_plane_spacing(r));
+    EXPECT_EQ(pack(clean(shapes::box(-half, half)), with_radius(r)).particles.size(),
+              (7u * 7 * 7 - 1) / 2);
+  }
 }
 
 TEST(Inside, IsNotAffectedByAFaceWithoutArea) {
@@ -163,7 +172,7 @@ TEST(Inside, LeavesOutFacesWithoutArea) {
   Triangles body = clean(shapes::tetrahedron()).triangles;
   for (const double x : {0.1, 0.2, 0.3}) body.points.emplace_back(x, 0.1, 0.1);
   body.faces.push_back({4, 5, 6});
-  EXPECT_EQ(InsideTest(body).side(Vec3(0.25, 0.1, 0.1)), Side::inside);
+  EXPECT_EQ(SideOf(body).side(Vec3(0.25, 0.1, 0.1)), Side::inside);
 }
 
 TEST(Pack, FillsAnInvertedBodyTheSame) {
@@ -215,36 +224,45 @@ TEST(Pack, TellsBodiesApart) {
   const double r = 0.05;
   const auto far = shapes::moved(shapes::tetrahedron(), Vec3(3, 0, 0));
   const Filling filling = pack(clean(shapes::together(shapes::sphere(1, 3), far)), with_radius(r));
-  EXPECT_EQ(filling.report.bodies, 2);
+  EXPECT_EQ(filling.report.bodies.size(), 2u);
   for (std::size_t i = 0; i < filling.particles.size(); ++i)
     ASSERT_EQ(filling.component[i], filling.particles.x[i] > 2 ? 1 : 0);
 }
 
-TEST(Pack, LeavesACavityHollowWhicheverWayItTurns) {
+CleaningOptions hollow() { return {0, FillRule::hollow}; }
+
+TEST(Pack, LeavesACavityHollow) {
   const auto outer = shapes::sphere(1, 4), inner = shapes::sphere(0.5, 4);
-  for (const auto& hole : {inner, shapes::inverted(inner)}) {
-    const Surface surface = clean(shapes::together(outer, hole));
-    EXPECT_EQ(surface.bodies, 1);
-    EXPECT_EQ(surface.cavities, 1);
+  const auto into_the_cavity = shapes::together(outer, shapes::inverted(inner));
+  for (const Surface& surface : {clean(into_the_cavity), clean(shapes::inverted(into_the_cavity)),
+                                 clean(shapes::together(outer, inner), hollow())}) {
     EXPECT_NEAR(volume(surface.triangles),
                 volume(clean(outer).triangles) - volume(clean(inner).triangles), 1e-12);
     const Filling filling = pack(surface, with_radius(0.05));
+    EXPECT_EQ(filling.report.bodies.size(), 1u);
+    EXPECT_EQ(filling.report.cavities, 1);
     for (std::size_t i = 0; i < filling.particles.size(); ++i)
       ASSERT_GT(filling.particles.position(i).norm(), 0.49);
-    EXPECT_NEAR(filling.report.packed_volume / filling.report.mesh_volume, 1, 0.03);
+    EXPECT_NEAR(filling.report.packed.volume / filling.report.mesh.volume, 1, 0.03);
   }
+}
+
+TEST(Pack, FillsNestedShellsThatTurnTheSameWay) {
+  const auto outer = shapes::sphere(1, 4);
+  const Filling both =
+      pack(clean(shapes::together(outer, shapes::sphere(0.5, 4))), with_radius(0.05));
+  const Filling alone = pack(clean(outer), with_radius(0.05));
+  EXPECT_EQ(both.particles.x, alone.particles.x);
+  EXPECT_EQ(both.report.deepest, 2);
+  EXPECT_FALSE(both.report.volume_of_mesh);
 }
 
 TEST(Pack, FillsAHollowBodyWithinACavity) {
   const auto outer = shapes::together(shapes::sphere(1, 3), shapes::sphere(0.8, 3));
   const auto inner = shapes::together(shapes::sphere(0.3, 3), shapes::sphere(0.6, 3));
-  const Surface surface = clean(shapes::together(outer, inner));
-  EXPECT_EQ(surface.bodies, 2);
-  EXPECT_EQ(surface.cavities, 2);
-  const std::size_t each = shapes::sphere(1, 3).polygons.size();
-  for (std::size_t i = 0; i < surface.body.size(); ++i)
-    ASSERT_EQ(surface.body[i], i < 2 * each ? 0 : 1);
-  const Filling filling = pack(surface, with_radius(0.04));
+  const Filling filling = pack(clean(shapes::together(outer, inner), hollow()), with_radius(0.04));
+  EXPECT_EQ(filling.report.bodies.size(), 2u);
+  EXPECT_EQ(filling.report.cavities, 2);
   for (std::size_t i = 0; i < filling.particles.size(); ++i) {
     const double from_centre = filling.particles.position(i).norm();
     ASSERT_TRUE(from_centre > 0.79 || (from_centre > 0.29 && from_centre < 0.6));
@@ -255,9 +273,9 @@ TEST(Pack, FillsAHollowBodyWithinACavity) {
 TEST(Report, GivesTheSpheresCentreAndVolume) {
   const Vec3 centre(1, 2, 3);
   const FillReport report = pack(clean(shapes::sphere(1, 5, centre)), with_radius(0.05)).report;
-  EXPECT_LT((report.mesh_centre - centre).norm(), 1e-12);
-  EXPECT_LT((report.centre - centre).norm(), 1e-12);
-  EXPECT_NEAR(report.mesh_volume, 4 * pi / 3, 0.01);
+  EXPECT_LT((report.mesh.centre - centre).norm(), 1e-12);
+  EXPECT_LT((report.packed.centre - centre).norm(), 1e-12);
+  EXPECT_NEAR(report.mesh.volume, 4 * pi / 3, 0.01);
   EXPECT_LT((report.box_size - Vec3::Constant(2)).norm(), 1e-12);
   EXPECT_EQ(rows_of(report)[0].key, "particles");
   EXPECT_EQ(rows_of(report)[0].value, std::to_string(report.particles));
@@ -265,7 +283,7 @@ TEST(Report, GivesTheSpheresCentreAndVolume) {
 
 TEST(Report, HasTheTetrahedronsCentre) {
   const Surface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
-  EXPECT_LT((centre_of_volume(surface.triangles) - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
+  EXPECT_LT((moments_of(surface.triangles).centre - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
 }
 
 double radius_named_in(const std::string& message) {

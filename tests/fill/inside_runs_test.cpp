@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fill/inside_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/closest_packing.h"
+#include "core/parallel.h"
+#include "fill/filled_sites.h"
+#include "fill/verify.h"
+#include "mesh/clean.h"
+#include "mesh/shapes.h"
+
+namespace sinew {
+namespace {
+
+Lattice lattice_about(const Surface& surface, Packing packing, double radius,
+                      const std::optional<Vec3>& origin = std::nullopt) {
+  return lattice_in(bounds(surface.triangles.points), packing, radius, origin);
+}
+
+/// The generalized winding number from the solid angles of all faces (van Oosterom and Strackee).
+double winding_number(const Triangles& surface, const Vec3& from) {
+  double angle = 0;
+  for (const auto& [i, j, k] : surface.faces) {
+    const Vec3 a = surface.points[i] - from, b = surface.points[j] - from,
+               c = surface.points[k] - from;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2 * std::atan2(a.dot(b.cross(c)),
+                            la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (4 * pi);
+}
+
+/// Sites on the wrong side of one half, of those whose winding number is not too close to it.
+std::size_t wrong_sites(const Surface& surface, const Lattice& lattice) {
+  const InsideRuns inside = inside_runs(lattice, surface);
+  std::size_t wrong = 0;
+  auto next = inside.runs.begin();
+  for (std::int32_t row = 0; row < static_cast<std::int32_t>(lattice.rows.size()); ++row)
+    for (int n = 0; n < lattice.rows[row].sites; ++n) {
+      while (next != inside.runs.end() &&
+             (next->row < row || (next->row == row && next->last <= n)))
+        ++next;
+      const bool taken = next != inside.runs.end() && next->row == row && next->first <= n;
+      const double w = winding_number(surface.triangles, lattice.site(row, n));
+      wrong += std::abs(w - 0.5) > 1e-9 && taken != (w > 0.5);
+    }
+  return wrong;
+}
+
+PolygonSoup rotated(PolygonSoup soup, double angle) {
+  const Eigen::AngleAxisd turn(angle, Vec3(1, 2, 3).normalized());
+  for (Vec3& point : soup.points) point = turn * point;
+  return soup;
+}
+
+/// Each face by itself with this probability.
+PolygonSoup without(PolygonSoup soup, double share) {
+  std::mt19937 random(1);
+  std::erase_if(soup.polygons, [&](const auto&) { return random() < share * 4294967296.0; });
+  return soup;
+}
+
+/// Every polygon with points of its own, moved by up to `jitter`.
+PolygonSoup torn(const PolygonSoup& soup, double jitter) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  PolygonSoup pieces;
+  for (auto polygon : soup.polygons) {
+    for (int& corner : polygon) {
+      pieces.points.push_back(
+          soup.points[corner] +
+          (jitter > 0 ? Vec3(shift(random), shift(random), shift(random)) : Vec3(Vec3::Zero())));
+      corner = static_cast<int>(pieces.points.size()) - 1;
+    }
+    pieces.polygons.push_back(polygon);
+  }
+  return pieces;
+}
+
+class EachPacking : public testing::TestWithParam<Packing> {};
+INSTANTIATE_TEST_SUITE_P(InsideRuns, EachPacking, testing::Values(Packing::fcc, Packing::hcp));
+
+TEST_P(EachPacking, AgreesWithCgalOnClosedBodies) {
+  const auto ball = shapes::sphere(1, 3, Vec3(0.1, 0.2, 0.3)), ring = shapes::torus(1, 0.4);
+  const auto cube = shapes::box({0, 0, 0}, {1, 1, 1});
+  for (const auto& body : {ball, ring, cube, rotated(cube, 0.5), rotated(ring, 1.1),
+                           shapes::tetrahedron(), shapes::sphere(1, 0)})
+    for (const double radius : {0.2, 0.0625, 0.031}) {
+      const Surface surface = clean(body);
+      const Lattice lattice = lattice_about(surface, GetParam(), radius);
+      const InsideRuns inside = inside_runs(lattice, surface);
+      const Verification found = verify(lattice, surface, inside);
+      EXPECT_EQ(found.mismatches, 0u);
+      EXPECT_EQ(found.on_surface, inside.on_surface.size());
+    }
+}
+
+/// Bodies whose corners are sites: rows meet edges and corners, and lie in faces.
+TEST_P(EachPacking, AgreesWithCgalWhereSitesAreCorners) {
+  const Vec3 wide = Vec3::Constant(1.01);
+  const Vec3 unit = lattice_in({-wide, wide}, GetParam(), 0.1).unit;
+  for (const auto& body : {shapes::box(-Vec3::Ones(), Vec3::Ones()), shapes::sphere(1, 0),
+                           shapes::box({-1, -1, 0}, Vec3::Ones())})
+    for (const double steps : {6, 5, 4}) {
+      PolygonSoup on_sites = body;
+      for (Vec3& point : on_sites.points) point = point.cwiseProduct(steps * unit);
+      const Surface surface = clean(on_sites);
+      const Lattice lattice = lattice_in({-wide, wide}, GetParam(), 0.1, Vec3(Vec3::Zero()));
+      const InsideRuns inside = inside_runs(lattice, surface);
+      const Verification found = verify(lattice, surface, inside);
+      EXPECT_EQ(found.mismatches, 0u);
+      EXPECT_EQ(found.on_surface, inside.on_surface.size());
+      EXPECT_GT(found.on_surface, 5u);
+    }
+}
+
+TEST_P(EachPacking, AgreesWithCgalOnAHollowBody) {
+  const Surface surface =
+      clean(shapes::together(shapes::sphere(1, 3), shapes::inverted(shapes::torus(0.5, 0.2))));
+  const Lattice lattice = lattice_about(surface, GetParam(), 0.04);
+  EXPECT_EQ(verify(lattice, surface, inside_runs(lattice, surface)).mismatches, 0u);
+}
+
+TEST_P(EachPacking, FollowsTheWindingNumberOfOpenSurfaces) {
+  const auto ball = shapes::sphere(1, 3);
+  for (const auto& body :
+       {without(ball, 0.05), without(ball, 0.3), without(shapes::torus(1, 0.4), 0.1),
+        without(shapes::box({0, 0, 0}, {1, 1, 1}), 0.2), torn(ball, 0.01)}) {
+    const Surface surface = clean(body);
+    ASSERT_FALSE(surface.closed());
+    EXPECT_EQ(wrong_sites(surface, lattice_about(surface, GetParam(), 0.07)), 0u);
+  }
+}
+
+/// Rows that meet the border's edges and corners, and lie in the plane of a hole.
+TEST_P(EachPacking, FollowsTheWindingNumberWhereSitesAreOnTheBorder) {
+  const Vec3 wide = Vec3::Constant(1.01);
+  const Lattice lattice = lattice_in({-wide, wide}, GetParam(), 0.1, Vec3(Vec3::Zero()));
+  for (std::size_t missing = 0; missing < 6; ++missing) {
+    PolygonSoup body = shapes::box(-6 * lattice.unit, 6 * lattice.unit);
+    body.polygons.erase(body.polygons.begin() + static_cast<std::ptrdiff_t>(missing));
+    EXPECT_LE(wrong_sites(clean(body), lattice), 0u) << missing;
+  }
+}
+
+TEST(InsideRuns, AreThoseOfTheWholeBodyForDefectsThatDoNotOpenIt) {
+  const auto ring = shapes::torus(1, 0.4);
+  PolygonSoup flipped = ring;
+  for (std::size_t i = 0; i < flipped.polygons.size(); i += 10)
+    std::reverse(flipped.polygons[i].begin(), flipped.polygons[i].end());
+  const Surface whole = clean(ring);
+  const Lattice lattice = lattice_about(whole, Packing::fcc, 0.04);
+  const auto expected = inside_runs(lattice, whole).runs;
+  EXPECT_GT(expected.size(), 100u);
+  for (const auto& body : {shapes::together(ring, ring), shapes::inverted(ring), torn(ring, 0),
+                           shapes::together(ring, shapes::inverted(ring)), flipped})
+    EXPECT_EQ(inside_runs(lattice, clean(body)).runs, expected);
+}
+
+TEST(InsideRuns, UniteOverlappingPartsIntoOneBody) {
+  const auto left = shapes::sphere(1, 3), right = shapes::moved(left, Vec3(0.9, 0.1, 0));
+  const Surface both = clean(shapes::together(left, shapes::inverted(right)));
+  const Lattice lattice = lattice_about(both, Packing::fcc, 0.05);
+  const InsideRuns inside = inside_runs(lattice, both);
+  EXPECT_EQ(inside.deepest, 2);
+  EXPECT_EQ(inside.bodies, 1);
+  std::size_t expected = 0;
+  const Surface one = clean(left), other = clean(right);
+  for (const LatticeRow& row : lattice.rows)
+    for (int n = 0; n < row.sites; ++n)
+      expected += winding_number(one.triangles, lattice.site(row, n)) +
+                      winding_number(other.triangles, lattice.site(row, n)) >
+                  0.5;
+  EXPECT_EQ(count_of(inside.runs), expected);
+}
+
+TEST(InsideRuns, AreTheSameForAnyNumberOfThreadsAndOrderOfFaces) {
+  PolygonSoup body = without(shapes::torus(1, 0.4), 0.1);
+  const Lattice lattice = lattice_about(clean(body), Packing::fcc, 0.03);
+  const auto expected = inside_runs(lattice, clean(body)).runs;
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] { EXPECT_EQ(inside_runs(lattice, clean(body)).runs, expected); });
+  std::reverse(body.polygons.begin(), body.polygons.end());
+  EXPECT_EQ(inside_runs(lattice, clean(body)).runs, expected);
+}
+
+TEST(InsideRuns, MoveWithTheBody) {
+  PolygonSoup body = shapes::sphere(1, 3);
+  for (Vec3& point : body.points)  // multiples of 1/1024, so that moving loses no digit
+    for (double& x : point) x = std::round(x * 1024) / 1024;
+  const Surface here = clean(body), there = clean(shapes::moved(body, Vec3(4, -8, 2)));
+  EXPECT_EQ(inside_runs(lattice_about(there, Packing::fcc, 0.05), there).runs,
+            inside_runs(lattice_about(here, Packing::fcc, 0.05), here).runs);
+}
+
+TEST(AmbiguousShare, TellsWhatHasNoInside) {
+  PolygonSoup scattered;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (int i = 0; i < 300; ++i) {
+    scattered.polygons.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    for (int corner = 0; corner < 3; ++corner)
+      scattered.points.emplace_back(place(random), place(random), place(random));
+  }
+  const auto share = [](const PolygonSoup& soup) {
+    const Surface surface = clean(soup);
+    return ambiguous_share(lattice_about(surface, Packing::fcc, 0.05), surface);
+  };
+  EXPECT_GT(share(scattered), 0.7);
+  EXPECT_EQ(share(shapes::sphere(1, 3)), 0);
+  EXPECT_LT(share(without(shapes::sphere(1, 3), 0.05)), 0.2);
+}
+
+}  // namespace
+}  // namespace sinew
