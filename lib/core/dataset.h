@@ -32,12 +32,13 @@ struct Dataset {
   Points points;           ///< n x 3, m
   CellKind kind = CellKind::vertex;
   std::vector<std::int32_t> connectivity;  ///< points of each cell, one cell after the other
+  std::vector<std::int32_t> lines;         ///< ends of line cells that follow those cells
   std::vector<Column> point_columns;
   std::vector<Column> cell_columns;
   std::vector<Column> field_columns;  ///< one row each: what holds for the whole file
   std::string meta;                   ///< UTF-8 JSON, or empty
 
-  std::size_t cells() const { return connectivity.size() / static_cast<std::size_t>(kind); }
+  std::size_t cells() const { return connectivity.size() / static_cast<std::size_t>(kind) + lines.size() / 2; }
 };
 
 /// One vertex cell per point: 0, 1, 2, ...

@@ -47,26 +47,30 @@ BodyFile body_of(const Dataset& data) {
 
 }  // namespace
 
-Dataset body_dataset(const BodyFile& body) {
+Dataset body_dataset(BodyFile body) {
   const std::size_t count = body.particles.size();
+  const double radius = body.particles.radius, mass = body.particles.mass;
   Dataset data;
   data.points = positions_of(body.particles);
+  Column id = column("id", std::move(body.particles.id));
+  body.particles = {};
   data.connectivity = vertex_cells(count);
-  data.point_columns = {column("id", body.particles.id),
-                        column("radius", std::vector<double>(count, body.particles.radius)),
-                        column("mass", std::vector<double>(count, body.particles.mass)),
-                        column("neighbours", body.neighbours), column("component", body.component)};
-  if (body.bone) data.point_columns.push_back(column("bone", *body.bone));
-  data.meta = body.meta;
+  data.point_columns.push_back(std::move(id));
+  data.point_columns.push_back(column("radius", std::vector<double>(count, radius)));
+  data.point_columns.push_back(column("mass", std::vector<double>(count, mass)));
+  data.point_columns.push_back(column("neighbours", std::move(body.neighbours)));
+  data.point_columns.push_back(column("component", std::move(body.component)));
+  if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
+  data.meta = std::move(body.meta);
   return data;
 }
 
-void write_body(const std::filesystem::path& path, const BodyFile& body, Encoding encoding) {
+void write_body(const std::filesystem::path& path, BodyFile body, Encoding encoding) {
   VtuFormat format;
   format.encoding = encoding;
   format.series = "body";
   format.radius = body.particles.radius;
-  write_vtu(path, body_dataset(body), format);
+  write_vtu(path, body_dataset(std::move(body)), format);
 }
 
 BodyFile read_body(const std::filesystem::path& path) {

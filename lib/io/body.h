@@ -22,10 +22,11 @@ struct BodyFile {
   std::string meta;                               ///< UTF-8 JSON, or empty
 };
 
-Dataset body_dataset(const BodyFile& body);
+/// Arrays of millions of particles are moved, not copied, where the body is given away.
+Dataset body_dataset(BodyFile body);
 
 /// Throws not written.
-void write_body(const std::filesystem::path& path, const BodyFile& body,
+void write_body(const std::filesystem::path& path, BodyFile body,
                 Encoding encoding = Encoding::zlib);
 
 /// Throws bad input, naming the file, when it is not a body: arrays missing, ids that are not

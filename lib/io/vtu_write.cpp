@@ -39,14 +39,29 @@ bool beyond_float32(const Points& points, double radius) {
          });
 }
 
+/// VTK's view of values that outlive it, or a copy where it wants another type.
 template <class Array, class T>
 ArrayPointer filled(const T* values, std::size_t count, int components) {
   auto array = vtkSmartPointer<Array>::New();
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count / components));
   using Stored = typename Array::ValueType;
-  std::transform(values, values + count, array->GetPointer(0),
-                 [](T value) { return static_cast<Stored>(value); });
+  if constexpr (std::is_same_v<Stored, T>) {
+    constexpr int not_owned = 1;
+    array->SetArray(const_cast<T*>(values), static_cast<vtkIdType>(count), not_owned);
+  } else {
+    array->SetNumberOfTuples(static_cast<vtkIdType>(count / components));
+    std::transform(values, values + count, array->GetPointer(0),
+                   [](T value) { return static_cast<Stored>(value); });
+  }
+  return array;
+}
+
+/// A copy that VTK owns: for values that do not outlive it.
+template <class Array, class T>
+ArrayPointer copied(const std::vector<T>& values) {
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
   return array;
 }
 
@@ -91,15 +106,16 @@ void add_attributes(const std::vector<Column>& columns, ArrayPlace place, const 
 }
 
 void add_field(const Dataset& data, const VtuFormat& format, vtkFieldData& field) {
-  const std::vector<Column> always = {column("TimeValue", std::vector<double>{data.time}),
-                                      column("CYCLE", std::vector<std::int32_t>{data.cycle})};
-  add_columns(always, ArrayPlace::field, format, field);
+  const auto add = [&](const ArrayPointer& array, const char* name) {
+    describe(*array, name, find_written(format.series, ArrayPlace::field, name));
+    field.AddArray(array);
+  };
+  add(copied<vtkDoubleArray>(std::vector<double>{data.time}), "TimeValue");
+  add(copied<vtkTypeInt32Array>(std::vector<std::int32_t>{data.cycle}), "CYCLE");
   add_columns(data.field_columns, ArrayPlace::field, format, field);
   if (data.meta.empty()) return;
   const auto* bytes = reinterpret_cast<const unsigned char*>(data.meta.data());
-  const ArrayPointer meta = filled<vtkUnsignedCharArray>(bytes, data.meta.size(), 1);
-  describe(*meta, "sinew_meta", find_written(format.series, ArrayPlace::field, "sinew_meta"));
-  field.AddArray(meta);
+  add(filled<vtkUnsignedCharArray>(bytes, data.meta.size(), 1), "sinew_meta");
 }
 
 vtkSmartPointer<vtkPoints> points_of(const Dataset& data, const VtuFormat& format) {
@@ -121,13 +137,18 @@ int vtk_type(CellKind kind) {
 /// VTK writes connectivity as wide as the cell array stores it, so it is built on Int32.
 void set_cells(const Dataset& data, vtkUnstructuredGrid& grid) {
   const int size = static_cast<int>(data.kind);
+  const std::size_t alike = data.connectivity.size() / size;
   std::vector<std::int32_t> offsets(data.cells() + 1);
-  for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] = static_cast<std::int32_t>(i) * size;
-  const auto first = filled<vtkTypeInt32Array>(offsets.data(), offsets.size(), 1);
-  const auto ids = filled<vtkTypeInt32Array>(data.connectivity.data(), data.connectivity.size(), 1);
+  std::vector<unsigned char> types(data.cells(), VTK_LINE);
+  std::fill_n(types.begin(), alike, static_cast<unsigned char>(vtk_type(data.kind)));
+  for (std::size_t i = 1; i < offsets.size(); ++i)
+    offsets[i] = offsets[i - 1] + (i <= alike ? size : 2);
+  std::vector<std::int32_t> corners = data.connectivity;
+  corners.insert(corners.end(), data.lines.begin(), data.lines.end());
   vtkNew<vtkCellArray> cells;
-  cells->SetData(vtkTypeInt32Array::SafeDownCast(first), vtkTypeInt32Array::SafeDownCast(ids));
-  grid.SetCells(vtk_type(data.kind), cells);
+  cells->SetData(vtkTypeInt32Array::SafeDownCast(copied<vtkTypeInt32Array>(offsets)),
+                 vtkTypeInt32Array::SafeDownCast(copied<vtkTypeInt32Array>(corners)));
+  grid.SetCells(vtkUnsignedCharArray::SafeDownCast(copied<vtkUnsignedCharArray>(types)), cells);
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Dataset& data, const VtuFormat& format) {
