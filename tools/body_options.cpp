@@ -2,6 +2,7 @@
 #include "body_options.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/scene_text.h"
 #include "core/settings_table.h"
@@ -11,12 +12,20 @@ namespace {
 
 using Row = Field<Settings>;
 
-std::vector<const Row*> rows() {
+bool is_wanted(const Row& row, BodyOptions::Kind kind) {
+  static constexpr std::array<std::string_view, 6> of_mesh = {"unit", "scale",       "weld",
+                                                              "rule", "close_holes", "wrap"};
+  if (row.section == "body" && kind == BodyOptions::Kind::mesh)
+    return std::find(of_mesh.begin(), of_mesh.end(), row.name) != of_mesh.end();
+  if (kind == BodyOptions::Kind::mesh) return false;
+  return (row.section == "body" && row.name != "mesh") ||
+         (row.section == "material" && row.name == "density");
+}
+
+std::vector<const Row*> rows(BodyOptions::Kind kind) {
   std::vector<const Row*> wanted;
   for (const Row& row : settings_table())
-    if ((row.section == "body" && row.name != "mesh") ||
-        (row.section == "material" && row.name == "density"))
-      wanted.push_back(&row);
+    if (is_wanted(row, kind)) wanted.push_back(&row);
   return wanted;
 }
 
@@ -45,8 +54,8 @@ std::string help_of(const Row& row) {
 
 }  // namespace
 
-void BodyOptions::declare(CLI::App& app) {
-  const auto wanted = rows();
+void BodyOptions::declare(CLI::App& app, Kind kind) {
+  const auto wanted = rows(kind);
   given_.resize(wanted.size());  // options keep the places of their values
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Row& row = *wanted[i];

@@ -14,8 +14,13 @@ namespace sinew {
 
 class BodyOptions {
  public:
-  /// Adds one option for each setting of the section body but its mesh, and --density.
-  void declare(CLI::App& app);
+  enum class Kind {
+    all,   ///< each setting of the section body but its mesh, and the density
+    mesh,  ///< those that say how the mesh is read
+  };
+
+  /// Adds one option for each.
+  void declare(CLI::App& app, Kind kind = Kind::all);
 
   bool any() const { return !overrides().empty(); }
 

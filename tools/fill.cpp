@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-fill: fills a mesh, or the mesh of a scene, with closest-packed particles.
 
-#include <filesystem>
-#include <initializer_list>
+#include <algorithm>
 
 #include "body_options.h"
 #include "command.h"
@@ -50,14 +49,6 @@ Settings settings_for_scene(const Options& options, const Common& common) {
     throw bad_input(options.body.overrides().front().given + " is for meshes",
                     "use --set body.KEY=VALUE with a scene");
   return read_scene(options.input, common.overrides);
-}
-
-void refuse_to_overwrite(const std::string& output, std::initializer_list<std::string> inputs) {
-  std::error_code missing;
-  for (const std::string& input : inputs)
-    if (std::filesystem::equivalent(output, input, missing))
-      throw bad_input(Place{output}, "is what is to be filled",
-                      "give the body another name with -o");
 }
 
 void print(const FillReport& report, const Options& options, const Common& common) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-info: what is in a mesh or a scene, and what is wrong with it.
 #include <algorithm>
-#include <cmath>
 
+#include "body_options.h"
 #include "command.h"
 #include "config/scene.h"
-#include "fill/pack.h"
-#include "mesh/read_surface.h"
-#include "results.h"
+#include "mesh_info.h"
+#include "mesh_input.h"
 #include "rig/motion.h"
 #include "scene_body.h"
 
@@ -15,25 +14,10 @@ namespace {
 
 using namespace sinew;
 
-nlohmann::ordered_json as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-void add_mesh(const std::string& path, Results& results) {
-  const Surface surface = read_surface(path);
-  const double enclosed = volume(surface.triangles);
-  results.add("points", surface.triangles.points.size());
-  results.add("triangles", surface.triangles.faces.size());
-  results.add("bodies", surface.bodies);
-  results.add("cavities", surface.cavities);
-  results.add("closed", true);  // read_surface refuses everything else, with the reason
-  results.add("faces_turned", surface.cleaning.faces_turned);
-  results.add("points_merged", surface.cleaning.points_merged);
-  results.add("volume", enclosed, "m^3");
-  results.add("area", area(surface.triangles), "m^2");
-  results.add("box_size", as_list(bounds(surface.triangles.points).sizes()), "m");
-  for (const double count : {1e3, 1e4, 1e5, 1e6})
-    results.add("radius_for_1e" + std::to_string(static_cast<int>(std::lround(std::log10(count)))),
-                radius_for_count(enclosed, count), "m");
-}
+struct Options {
+  std::string path, drawing;
+  BodyOptions body;
+};
 
 double duration_of(const Motion& motion) {
   double last = 0;
@@ -41,8 +25,7 @@ double duration_of(const Motion& motion) {
   return last;
 }
 
-void add_scene(const std::string& path, const Common& common, Results& results) {
-  const Settings settings = read_scene(path, common.overrides);
+void add_scene(const Settings& settings, Results& results) {
   const Skeleton skeleton = make_skeleton(settings);
   const Motion motion = make_motion(settings, skeleton);
   results.add("mesh", settings.body.mesh);
@@ -52,31 +35,51 @@ void add_scene(const std::string& path, const Common& common, Results& results) 
                 bone.parent == no_bone ? "m" : "m, on " + skeleton.bones[bone.parent].name);
   results.add("tracks", motion.tracks.size());
   results.add("duration", duration_of(motion), "s");
-  add_mesh(settings.body.mesh, results);
 }
 
-Exit info(const std::string& path, const Common& common) {
+BodySettings body_of_mesh(const Options& options, const Common& common) {
+  std::vector<Override> overrides = common.overrides;
+  for (const Override& one : options.body.overrides()) overrides.push_back(one);
+  overrides.push_back({"body.count", "1000", "--count 1000"});  // not used, but a body needs one
+  return settings_of_mesh(options.path, overrides).body;
+}
+
+Exit info(const Options& options, const Common& common) {
   Results results;
-  results.add("file", path);
-  if (is_scene(path))
-    add_scene(path, common, results);
-  else
-    add_mesh(path, results);
+  results.add("file", options.path);
+  BodySettings body;
+  if (is_scene(options.path)) {
+    const Settings settings = read_scene(options.path, common.overrides);
+    add_scene(settings, results);
+    body = settings.body;
+  } else {
+    body = body_of_mesh(options, common);
+  }
+  refuse_to_overwrite(options.drawing, {options.path, body.mesh});
+  const auto warnings = add_mesh_info(body, options.drawing, results);
+  results.add("warnings", warnings);
   results.print(common.json);
+  for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
   return Exit::done;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string path;
+  Options options;
   return run_command(
       argc, argv,
       {"info",
        "Says what is in a mesh or a scene, and what is wrong with it.",
-       {"sinew info data/meshes/box.obj", "sinew info configs/box_bend.yaml"}},
+       {"sinew info data/meshes/box.obj", "sinew info part.stl --unit mm -o defects.vtu",
+        "sinew info configs/box_bend.yaml"}},
       [&](CLI::App& app) {
-        app.add_option("FILE", path, "Mesh (OBJ, OFF, STL, PLY) or scene (YAML)")->required();
+        app.add_option("FILE", options.path,
+                       std::string("Mesh (").append(mesh_formats) + ") or scene (YAML)")
+            ->required();
+        app.add_option("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
+            ->type_name("FILE.vtu");
+        options.body.declare(app, BodyOptions::Kind::mesh);
       },
-      [&](const Common& common) { return info(path, common); });
+      [&](const Common& common) { return info(options, common); });
 }

@@ -41,6 +41,14 @@ bool is_scene(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
+void refuse_to_overwrite(const std::string& output, std::initializer_list<std::string> inputs) {
+  std::error_code missing;
+  for (const std::string& input : inputs)
+    if (std::filesystem::equivalent(output, input, missing))
+      throw bad_input(Place{output}, "is an input, and would be replaced",
+                      "give another name with -o");
+}
+
 Surface read_mesh(const Settings& settings) {
   return told_at(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
 }

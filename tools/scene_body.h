@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 
 #include "core/settings.h"
 #include "fill/pack.h"
@@ -12,6 +13,9 @@ namespace sinew {
 
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
+
+/// Throws Error (bad input) where an output is one of the inputs.
+void refuse_to_overwrite(const std::string& output, std::initializer_list<std::string> inputs);
 
 /// Reads the mesh that a scene names. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "fill/winding.h"
+#include "fill/open_winding.h"
 
 namespace sinew {
 namespace {
@@ -179,7 +179,7 @@ class Sweep {
   const Lattice& lattice_;
   const Surface& surface_;
   RowCrossings crossings_, cap_crossings_;
-  Winding winding_;
+  OpenWinding winding_;
 };
 
 int root(std::vector<int>& parent, int i) {

@@ -94,10 +94,22 @@ std::vector<WrittenArray> table_of_frames() {
   };
 }
 
+std::vector<WrittenArray> table_of_defects() {
+  return {
+      {"defects", point, "Points", "m", xyz, exact, plain, "point of the cleaned mesh"},
+      {"defects", cell, "defect", "1", one, whole, scalars,
+       "0 none; edges: 1 open, 2 crowded, 3 twisted; faces: 4 turned, 5 cutting another, 6 flat"},
+      {"defects", cell, "component", "1", one, whole, plain,
+       "piece the face belongs to, from 0; -1 for edges"},
+      {"defects", cell, "hole", "1", one, whole, plain,
+       "hole the edge belongs to, from 0; -1 for faces"},
+  };
+}
+
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
   for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_surface,
-                    table_of_bones, table_of_frames})
+                    table_of_bones, table_of_frames, table_of_defects})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

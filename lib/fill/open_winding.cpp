@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/winding.h"
+#include "fill/open_winding.h"
 
 #include <algorithm>
 #include <array>
@@ -17,14 +17,14 @@ Vec3 middle_of(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; 
 
 }  // namespace
 
-struct Winding::View {
+struct OpenWinding::View {
   std::size_t row;
   int site;
   Vec3 site_at;
   Vec3 eye;  ///< the same in the frame of the rows, m
 };
 
-Winding::Winding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings)
+OpenWinding::OpenWinding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings)
     : lattice_(lattice),
       caps_(caps),
       crossings_(crossings),
@@ -42,7 +42,7 @@ Winding::Winding(const Lattice& lattice, const Triangles& caps, const RowCrossin
 }
 
 /// Halves by the middles' order along the longest side of their box; ties by the file's order.
-int Winding::build(int first, int last) {
+int OpenWinding::build(int first, int last) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back(summary(first, last));
   if (last - first <= caps_in_a_leaf) return index;
@@ -62,7 +62,7 @@ int Winding::build(int first, int last) {
   return index;
 }
 
-Winding::Node Winding::summary(int first, int last) const {
+OpenWinding::Node OpenWinding::summary(int first, int last) const {
   Node node{first, last, -1, -1, Vec3::Zero(), 0, Vec3::Zero(), 0, Mat3::Zero()};
   Box box;
   for (int i = first; i < last; ++i)
@@ -79,12 +79,12 @@ Winding::Node Winding::summary(int first, int last) const {
   return node;
 }
 
-double Winding::share(std::size_t row, int site) const {
+double OpenWinding::share(std::size_t row, int site) const {
   double doubt = 0;
   return sum(view(row, site), std::numeric_limits<double>::infinity(), doubt);
 }
 
-double Winding::share(std::size_t row, int site, const Enough& enough) const {
+double OpenWinding::share(std::size_t row, int site, const Enough& enough) const {
   const View from = view(row, site);
   for (double farness = 2; farness < 50; farness *= 2) {
     double doubt = 0;
@@ -94,12 +94,12 @@ double Winding::share(std::size_t row, int site, const Enough& enough) const {
   return share(row, site);
 }
 
-Winding::View Winding::view(std::size_t row, int site) const {
+OpenWinding::View OpenWinding::view(std::size_t row, int site) const {
   const Vec3 at = lattice_.site(lattice_.rows[row], site);
   return {row, site, at, frame_.turned(at)};
 }
 
-double Winding::sum(const View& view, double farness, double& doubt) const {
+double OpenWinding::sum(const View& view, double farness, double& doubt) const {
   std::array<int, 64> waiting;  // halving keeps the tree below that depth
   int count = 0;
   double sum = 0;
@@ -123,7 +123,7 @@ double Winding::sum(const View& view, double farness, double& doubt) const {
 }
 
 /// The caps' own winding number, from the moments of their areas.
-double Winding::from_afar(const Node& node, const Vec3& to, double distance) {
+double OpenWinding::from_afar(const Node& node, const Vec3& to, double distance) {
   const double cube = distance * distance * distance;
   const double first = node.area.dot(to) / cube;
   const double second =
@@ -131,7 +131,7 @@ double Winding::from_afar(const Node& node, const Vec3& to, double distance) {
   return (first + second) / (4 * pi);
 }
 
-int Winding::before(const View& view, int first, int last) const {
+int OpenWinding::before(const View& view, int first, int last) const {
   int sum = 0;
   for (const Crossing& one : crossings_.of(view.row))
     if (one.site <= view.site && place_[one.face] >= first && place_[one.face] < last)
@@ -140,7 +140,7 @@ int Winding::before(const View& view, int first, int last) const {
 }
 
 /// What a corner is to the eye: along the row, across, up.
-struct Winding::Ray {
+struct OpenWinding::Ray {
   Vec3 to;
   double length;
   double rest;  ///< length + to.x(), also where that is almost nothing
@@ -148,7 +148,7 @@ struct Winding::Ray {
 };
 
 /// A row that meets a corner is shifted a little across, and by much less up.
-Winding::Ray Winding::ray(const View& view, const Vec3& corner) const {
+OpenWinding::Ray OpenWinding::ray(const View& view, const Vec3& corner) const {
   Ray ray{frame_.turned_between(view.site_at, corner), 0, 0, false};
   ray.length = ray.to.norm();
   if (ray.to.y() == 0 && ray.to.z() == 0) {
@@ -161,7 +161,7 @@ Winding::Ray Winding::ray(const View& view, const Vec3& corner) const {
   return ray;
 }
 
-double Winding::strips(const View& view, const Cap& cap) const {
+double OpenWinding::strips(const View& view, const Cap& cap) const {
   const auto& face = caps_.faces[cap.face];
   std::array<Ray, 3> rays;
   for (int corner = 0; corner < 3; ++corner) rays[corner] = ray(view, caps_.points[face[corner]]);
@@ -175,7 +175,7 @@ double Winding::strips(const View& view, const Cap& cap) const {
 }
 
 /// a x b along the row, with a sign that holds even where rounding leaves none.
-double Winding::turn(const View& view, const Cap& cap, int corner, const Ray& a,
+double OpenWinding::turn(const View& view, const Cap& cap, int corner, const Ray& a,
                      const Ray& b) const {
   const double one = a.to.y() * b.to.z(), other = a.to.z() * b.to.y();
   const double found = one - other;

@@ -20,10 +20,10 @@
 
 namespace sinew {
 
-class Winding {
+class OpenWinding {
  public:
   /// Both must outlive this. `crossings` are those of the caps.
-  Winding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings);
+  OpenWinding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings);
 
   bool none() const { return nodes_.empty(); }
 
