@@ -63,9 +63,9 @@ void BodyOptions::declare(CLI::App& app, Kind kind) {
     one.path = std::string(row.section) + '.' + std::string(row.name);
     one.option = option_name(row);
     one.flag = row.kind == FieldKind::flag;
-    one.parsed = one.flag ? app.add_flag(one.option, help_of(row))
-                          : app.add_option(one.option, one.value, help_of(row))
-                                ->type_name(type_name(row));
+    one.parsed =
+        one.flag ? app.add_flag(one.option, help_of(row))
+                 : app.add_option(one.option, one.value, help_of(row))->type_name(type_name(row));
     const_cast<CLI::Option*>(one.parsed)->group("Options for a mesh");
   }
 }

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics.json and report.html of a run.
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-
+#include "metrics/measure.h"
 #include "command.h"
 #include "core/file.h"
-#include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "metrics/csv.h"
 #include "metrics/json.h"
-#include "metrics/measure.h"
-#include "metrics/report.h"
 #include "metrics/settling.h"
 #include "metrics/table.h"
+#include "report_input.h"
 #include "results.h"
 #include "run_files.h"
 #include "run_record.h"
@@ -25,12 +20,6 @@ using namespace sinew;
 struct Options {
   std::string folder;
   std::vector<std::string> limits;
-};
-
-struct Measured {
-  std::vector<FrameMetrics> frames;
-  Summary summary;
-  std::vector<Check> checks;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -86,92 +75,6 @@ Measured measure_run(const RunFiles& run, const std::vector<Limit>& limits) {
   return measured;
 }
 
-std::string with_unit(double value, const char* unit) {
-  return three_digits(value) + (*unit ? std::string(" ") + unit : "");
-}
-
-std::vector<FactGroup> facts_of(const RunFolder& folder) {
-  const auto record = read_record(folder);
-  const auto number = [&](const char* key, const char* unit) {
-    return with_unit(record.value(key, 0.0), unit);
-  };
-  const auto material = record.value("material", nlohmann::ordered_json::object());
-  const auto constant = [&](const char* key, const char* unit) {
-    return with_unit(material.value(key, 0.0), unit);
-  };
-  return {{"Run",
-           {{"status", record.value("status", "")},
-            {"particles", std::to_string(record.value("particles", 0))},
-            {"frames", std::to_string(record.value("frames", 0))},
-            {"steps", std::to_string(record.value("steps", std::int64_t{0}))},
-            {"time step", number("time_step", "s")},
-            {"share of the stability limit", number("time_step_factor", "")},
-            {"particle-steps per second", number("particle_steps_per_second", "")},
-            {"state hash", record.value("state_hash", "")},
-            {"started", record.value("started", "")}}},
-          {"Material",
-           {{"Young's modulus", constant("young_modulus", "Pa")},
-            {"k1", constant("k1", "Pa")},
-            {"k2", constant("k2", "Pa")},
-            {"a", constant("a", "m")},
-            {"b", constant("b", "m")},
-            {"lambda", constant("lambda", "")},
-            {"damping constant C", constant("damping", "kg/s")},
-            {"particle radius", number("radius", "m")},
-            {"particle mass", number("particle_mass", "kg")}}}};
-}
-
-/// "0.533 s" for the picture of frame 16, else the file's own name.
-std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
-  const std::string name = picture.stem().string();
-  const auto digits = name.find_first_of("0123456789");
-  if (digits == std::string::npos) return "Over time";
-  const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);
-  return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
-}
-
-/// The pictures that render has left: the contact sheet, then single moments in order.
-std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
-  std::vector<Picture> pictures;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.pictures(), none))
-    if (entry.path().extension() == ".png")
-      pictures.push_back(
-          {"pictures/" + entry.path().filename().string(), caption_of(entry.path(), measured)});
-  const auto is_sheet = [](const Picture& picture) {
-    return picture.path.find("contact_sheet") != std::string::npos;
-  };
-  std::sort(pictures.begin(), pictures.end(), [&](const Picture& a, const Picture& b) {
-    return is_sheet(a) != is_sheet(b) ? is_sheet(a) : a.path < b.path;
-  });
-  return pictures;
-}
-
-std::string title_of(const RunFolder& folder) {
-  return std::filesystem::absolute(folder.path / ".").lexically_normal().parent_path().filename();
-}
-
-void write_report(const RunFiles& run, const Measured& measured) {
-  ReportInput input;
-  input.title = title_of(run.folder);
-  input.version = version();
-  input.radius = run.body.particles.radius;
-  try {
-    input.facts = facts_of(run.folder);
-  } catch (const nlohmann::json::exception&) {
-    throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
-                    "run the scene again with --force");
-  }
-  input.frames = measured.frames;
-  input.summary = measured.summary;
-  input.checks = measured.checks;
-  input.pictures = pictures_in(run.folder, measured);
-  if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
-    input.movie = "pictures/movie.mp4";
-  input.scene_text = run.scene_text;
-  write_file(run.folder.path / "report.html", report_html(input));
-}
-
 double worst_of(const Measured& measured, const Metric& metric, const MetricSummary& summary) {
   return summary.worst_frame ? measured.frames[*summary.worst_frame].*metric.value : not_measured;
 }
@@ -199,7 +102,7 @@ Exit measure_folder(const Options& options, const Common& common) {
   write_file(run.folder.path / "metrics.json",
              metrics_json(measured.frames, measured.summary, measured.checks));
   record_stage(run.folder, "measuring", watch.lap());
-  write_report(run, measured);
+  write_file(run.folder.path / "report.html", report_html(report_input(run, measured)));
   print_results(measured, common.json);
   Exit exit = Exit::done;
   for (const Check& check : measured.checks) {

@@ -75,8 +75,11 @@ BodyFile body_file(Filling filling, const std::string& origin) {
   meta["program"] = "sinew";
   meta["version"] = version();
   meta["origin"] = origin;
-  for (const ReportRow& row : rows_of(filling.report))
+  for (const ReportRow& row : rows_of(filling.report)) {
     meta["fill"][row.key] = nlohmann::ordered_json::parse(row.value, nullptr, false);
+    if (!row.unit.empty()) meta["fill_units"][row.key] = row.unit;
+  }
+  meta["fill"]["warnings"] = filling.report.warnings;
   BodyFile body;
   body.particles = std::move(filling.particles);
   body.neighbours = std::move(filling.neighbours);
