@@ -2,92 +2,68 @@
 #include "mesh/clean.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "core/error.h"
-#include "core/settings_table.h"
-#include "mesh/edges.h"
+#include "core/number_text.h"
+#include "mesh/border.h"
+#include "mesh/caps.h"
+#include "mesh/flat_faces.h"
 #include "mesh/merge.h"
-#include "mesh/nesting.h"
-#include "mesh/self_intersections.h"
+#include "mesh/orient.h"
 
 namespace sinew {
 namespace {
 
-// A volume this small against area times size is what rounding leaves of a flat body.
-constexpr double rounding = 1e-13;
+constexpr double largest_coordinate = 1e90;  // its cube and sums of that are still numbers
 
-void refuse(const SelfIntersections& found) {
-  if (found.pairs == 0) return;
-  throw bad_input((found.complete ? "" : "at least ") + std::to_string(found.pairs) +
-                      " pairs of faces cut or touch each other, the first faces " +
-                      std::to_string(found.first[0]) + " and " + std::to_string(found.first[1]) +
-                      " (counted from 0)",
-                  "separate the parts or join them with a boolean union");
+void refuse_empty(const Surface& surface) {
+  if (!surface.triangles.faces.empty()) return;
+  throw bad_input("all " + std::to_string(surface.cleaning.polygons_read) + " faces are collapsed",
+                  surface.cleaning.points_merged > 0
+                      ? "give a smaller weld distance or export the mesh again"
+                      : "export the mesh again");
 }
 
-void turn(std::array<int, 3>& face) { std::swap(face[1], face[2]); }
-
-/// Volume of each shell as its faces turn, m^3.
-std::vector<double> volumes(const Triangles& surface, const Shells& shells) {
-  std::vector<double> sums(shells.count);
-  const Vec3 centre = bounds(surface.points).center();
-  for (std::size_t i = 0; i < surface.faces.size(); ++i) {
-    const auto& [a, b, c] = surface.faces[i];
-    const Vec3 from_b = surface.points[b] - centre;
-    sums[shells.of_face[i]] +=
-        (surface.points[a] - centre).dot(from_b.cross(surface.points[c] - centre)) / 6;
-  }
-  return sums;
+void refuse_large(const Points& points) {
+  double largest = 0;
+  for (const Vec3& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  if (largest <= largest_coordinate) return;
+  throw bad_input("a coordinate is " + three_digits(largest) + " m from 0, more than 1e+90 m",
+                  "give a body of a size that numbers can hold");
 }
 
-/// Bodies outward, cavities inward; counts the faces turned against the file.
-void orient(Surface& surface, Shells& shells, const Nesting& nesting) {
-  const std::vector<double> volume_of = volumes(surface.triangles, shells);
-  for (std::size_t i = 0; i < shells.of_face.size(); ++i) {
-    const int shell = shells.of_face[i];
-    if ((volume_of[shell] < 0) != nesting.cavity[shell]) {
-      turn(surface.triangles.faces[i]);
-      shells.turned[i] = !shells.turned[i];
-    }
-    surface.body.push_back(nesting.body[shell]);
-  }
-  surface.cleaning.faces_turned = std::count(shells.turned.begin(), shells.turned.end(), true);
+void turn(Surface& surface, std::vector<EdgeUse>& uses) {
+  for (std::size_t i = 0; i < surface.turned.size(); ++i)
+    if (surface.turned[i]) std::swap(surface.triangles.faces[i][1], surface.triangles.faces[i][2]);
+  for (EdgeUse& use : uses) use.forward = use.forward != surface.turned[use.face];
+  surface.cleaning.faces_turned = std::count(surface.turned.begin(), surface.turned.end(), true);
 }
 
-void refuse_without_volume(const Triangles& surface) {
-  const double enclosed = volume(surface), skin = area(surface);
-  const double size = bounds(surface.points).diagonal().norm();
-  if (std::isfinite(enclosed) && std::isfinite(skin * size) && enclosed > rounding * skin * size)
-    return;
-  throw bad_input("the surface encloses a volume of " + number_text(enclosed) +
-                      " m^3 with an area of " + number_text(skin) + " m^2",
-                  "give a solid body of a size that numbers can hold");
+void close_holes(Surface& surface, std::span<const EdgeUse> uses) {
+  const std::vector<Loop> holes = border_loops(uses);
+  surface.border = border_of(surface.triangles, uses, holes);
+  surface.caps = caps_of(holes, surface.triangles.points);
 }
 
 }  // namespace
 
-Surface clean(PolygonSoup soup) {
+Surface clean(const PolygonSoup& soup, const CleaningOptions& options) {
   Surface surface;
-  surface.triangles = merged_triangles(std::move(soup), surface.cleaning);
-  if (surface.triangles.faces.empty())
-    throw bad_input(
-        "all " + std::to_string(surface.cleaning.polygons_read) + " faces are collapsed",
-        "export the mesh again");
-  const std::vector<EdgeUse> uses = edge_uses(surface.triangles.faces);
-  refuse_open(surface.triangles, uses);
-  Shells shells = shells_of(surface.triangles, uses);
-  for (std::size_t i = 0; i < shells.turned.size(); ++i)
-    if (shells.turned[i]) turn(surface.triangles.faces[i]);
-  const SelfIntersections found = self_intersections(surface.triangles);
-  refuse(found);
-  surface.cleaning.faces_flat = found.flat;
-  const Nesting nesting = nesting_of(surface.triangles, shells);
-  orient(surface, shells, nesting);
-  refuse_without_volume(surface.triangles);
-  surface.bodies = nesting.bodies;
-  surface.cavities = shells.count - nesting.bodies;
+  surface.triangles = merged_triangles(soup, options.weld, surface.cleaning);
+  refuse_empty(surface);
+  refuse_large(surface.triangles.points);
+  std::vector<EdgeUse> uses = edge_uses(surface.triangles);
+  const Patches patches = patches_of(surface.triangles, uses);
+  surface.cleaning.edges_twisted = patches.twisted_edges;
+  surface.turned = faces_to_turn(surface.triangles, uses, patches, options.rule);
+  turn(surface, uses);
+  close_holes(surface, uses);
+  Components components = components_of(patches, uses);
+  surface.component = std::move(components.of_face);
+  surface.components = components.count;
+  const std::vector<bool> flat = flat_faces(surface.triangles);
+  surface.cleaning.faces_flat = std::count(flat.begin(), flat.end(), true);
   return surface;
 }
 

@@ -15,12 +15,13 @@ struct CleaningOptions {
 
 /// In this order: cuts polygons into triangles, merges points (the first of them keeps its place,
 /// so a mesh without defects keeps its points in file order), drops collapsed faces, merges doubled
-/// ones whatever their direction, makes directions agree across edges of two faces, turns bodies
-/// outward by the sign of their volume. A closed shell within another one is a cavity where it
-/// turns against that one in the file; with the rule `hollow` every second shell is one. Never
-/// refuses a surface for holes, crowded edges or cuts: it counts them. Throws Error (bad input),
-/// naming the number that decided and a cure, when no face is left or coordinates are too large
-/// for numbers to hold volumes.
-Surface clean(PolygonSoup soup, const CleaningOptions& options = {});
+/// ones whatever their direction, makes directions agree across edges of two faces, as most of the
+/// area has them, and turns bodies outward by the sign of the volume they enclose once their holes
+/// are capped. Pieces too flat to tell follow the others. A shell within another one is a cavity
+/// where it turns against that one in the file; with the rule `hollow` every second shell is one.
+/// Shells that cut each other are bodies each. Never refuses a surface for holes, crowded edges or
+/// cuts: it counts them. Throws Error (bad input), naming the number that decided and a cure, when
+/// no face is left or coordinates are too large for numbers to hold volumes.
+Surface clean(const PolygonSoup& soup, const CleaningOptions& options = {});
 
 }  // namespace sinew

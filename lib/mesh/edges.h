@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which faces meet at which edges, and what follows: holes, shells, directions that agree.
+// Which faces meet at which edges.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct EdgeUse {
 };
 
 /// Every side of every face, sorted by edge and then by face.
-std::vector<EdgeUse> edge_uses(const std::vector<std::array<int, 3>>& faces);
+std::vector<EdgeUse> edge_uses(const Triangles& surface);
 
 /// Calls visit(span) for the uses of each edge.
 template <class Visit>
@@ -30,18 +30,5 @@ void for_each_edge(std::span<const EdgeUse> uses, Visit&& visit) {
     visit(uses.subspan(begin, end - begin));
   }
 }
-
-/// Throws Error (bad input) unless each edge has exactly two faces.
-void refuse_open(const Triangles& surface, std::span<const EdgeUse> uses);
-
-/// Faces joined by edges.
-struct Shells {
-  std::vector<int> of_face;  ///< shell of each face; shells are numbered by their first face
-  std::vector<bool> turned;  ///< faces to reverse for all of a shell to turn like its first face
-  int count = 0;
-};
-
-/// Throws Error (bad input) where no choice of directions agrees. Each edge must have two faces.
-Shells shells_of(const Triangles& surface, std::span<const EdgeUse> uses);
 
 }  // namespace sinew

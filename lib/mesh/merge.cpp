@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/merge.h"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
-#include <unordered_set>
+#include <utility>
 
-#include "core/hash.h"
+#include "mesh/first_of.h"
 #include "mesh/triangulate.h"
+#include "mesh/weld.h"
 
 namespace sinew {
 namespace {
@@ -19,33 +17,21 @@ std::vector<Face> cut(const PolygonSoup& soup, CleaningCounts& counts) {
   std::vector<Face> faces;
   faces.reserve(soup.polygons.size());
   for (const std::vector<int>& polygon : soup.polygons) {
-    if (polygon.size() > 3) ++counts.polygons_cut;
+    if (polygon.size() == 3) {
+      faces.push_back({polygon[0], polygon[1], polygon[2]});
+      continue;
+    }
+    ++counts.polygons_cut;
     const auto parts = triangulate(polygon, soup.points);
     faces.insert(faces.end(), parts.begin(), parts.end());
   }
   return faces;
 }
 
-/// For each point the first point equal to it.
-std::vector<int> first_equal(const Points& points) {
-  std::vector<int> order(points.size()), first(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto before = [&](int a, int b) {
-    const auto& p = points[a];
-    const auto& q = points[b];
-    return std::tie(p[0], p[1], p[2], a) < std::tie(q[0], q[1], q[2], b);
-  };
-  std::sort(order.begin(), order.end(), before);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool repeated = i > 0 && points[order[i]] == points[order[i - 1]];
-    first[order[i]] = repeated ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
-
-/// 2. Equal points become one.
-void merge_points(std::vector<Face>& faces, const Points& points, CleaningCounts& counts) {
-  const std::vector<int> first = first_equal(points);
+/// 2. Equal and close points become one.
+void merge_points(std::vector<Face>& faces, const Points& points, double weld,
+                  CleaningCounts& counts) {
+  const std::vector<int> first = first_within(points, weld);
   for (std::size_t i = 0; i < first.size(); ++i)
     counts.points_merged += first[i] != static_cast<int>(i);
   for (Face& face : faces)
@@ -58,21 +44,27 @@ void drop_collapsed(std::vector<Face>& faces, CleaningCounts& counts) {
       faces, [](const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
 }
 
-struct FaceHash {
-  std::size_t operator()(const Face& face) const {
-    Hash hash;
-    hash.add(face.data(), sizeof face);
-    return hash.value();
-  }
-};
+Face sorted(Face face) {
+  if (face[0] > face[1]) std::swap(face[0], face[1]);
+  if (face[1] > face[2]) std::swap(face[1], face[2]);
+  if (face[0] > face[1]) std::swap(face[0], face[1]);
+  return face;
+}
 
 /// 4. Of faces with the same corners the first stays.
 void drop_doubled(std::vector<Face>& faces, CleaningCounts& counts) {
-  std::unordered_set<Face, FaceHash> seen(2 * faces.size());
-  counts.faces_doubled = std::erase_if(faces, [&](Face face) {
-    std::sort(face.begin(), face.end());
-    return !seen.insert(face).second;
-  });
+  FirstOf first_of(faces.size());
+  int kept = 0;
+  for (const Face& face : faces) {
+    const Face corners = sorted(face);
+    std::uint64_t hash = 0;
+    for (const int corner : corners) hash = mixed(hash, static_cast<std::uint64_t>(corner));
+    const int first = first_of.find_or_add(
+        hash, kept, [&](int other) { return sorted(faces[other]) == corners; });
+    if (first == kept) faces[kept++] = face;
+  }
+  counts.faces_doubled = faces.size() - kept;
+  faces.resize(kept);
 }
 
 /// 5. Points that no face uses go; the others keep their order.
@@ -95,11 +87,11 @@ Triangles used(const Points& points, std::vector<Face> faces, CleaningCounts& co
 
 }  // namespace
 
-Triangles merged_triangles(PolygonSoup soup, CleaningCounts& counts) {
+Triangles merged_triangles(const PolygonSoup& soup, double weld, CleaningCounts& counts) {
   counts.points_read = soup.points.size();
   counts.polygons_read = soup.polygons.size();
   std::vector<Face> faces = cut(soup, counts);
-  merge_points(faces, soup.points, counts);
+  merge_points(faces, soup.points, weld, counts);
   drop_collapsed(faces, counts);
   drop_doubled(faces, counts);
   return used(soup.points, std::move(faces), counts);

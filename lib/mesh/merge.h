@@ -2,12 +2,12 @@
 // The first half of cleaning: triangles over points that differ, none collapsed, none doubled.
 #pragma once
 
-#include "mesh/surface.h"
 #include "core/polygon_soup.h"
+#include "mesh/surface.h"
 
 namespace sinew {
 
-/// Cuts, merges and drops as clean() says, counting into `counts`.
-Triangles merged_triangles(PolygonSoup soup, CleaningCounts& counts);
+/// Cuts, merges (points closer than `weld`, m) and drops as clean() says, counting into `counts`.
+Triangles merged_triangles(const PolygonSoup& soup, double weld, CleaningCounts& counts);
 
 }  // namespace sinew

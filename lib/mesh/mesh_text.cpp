@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
 
 namespace sinew {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
-
-bool blank(char c) { return blanks.find(c) != std::string_view::npos; }
+bool blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n'); }
 
 std::string_view without_plus(std::string_view word) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
@@ -57,11 +54,6 @@ std::optional<std::int64_t> integer_in(std::string_view word) {
   if (word.empty() || end != word.data() + word.size() || failure != std::errc())
     return std::nullopt;
   return value;
-}
-
-bool finite(std::string_view word) {
-  const auto value = number_in(word);
-  return value && std::isfinite(*value);
 }
 
 std::string lower(std::string_view text) {

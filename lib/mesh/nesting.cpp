@@ -2,73 +2,89 @@
 #include "mesh/nesting.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <tuple>
 
 namespace sinew {
 namespace {
 
-struct Shell {
-  std::vector<int> faces;
-  Box box;
-  Vec3 place;               ///< in the middle of its largest face
-  std::vector<int> around;  ///< shells it lies in
-};
+constexpr std::size_t most_samples = 256;
 
-double solid_angle(const Triangles& surface, int face, const Vec3& from) {
-  const auto& [i, j, k] = surface.faces[face];
-  const Vec3 a = surface.points[i] - from, b = surface.points[j] - from,
-             c = surface.points[k] - from;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * std::atan2(a.dot(b.cross(c)), below);
+bool holds(const Box& outer, const Box& inner) {
+  return outer.contains(inner) && outer.sizes() != inner.sizes();
 }
 
-bool encloses(const Triangles& surface, const Shell& shell, const Vec3& place) {
-  if (!shell.box.contains(place)) return false;
-  double angle = 0;
-  for (const int face : shell.faces) angle += solid_angle(surface, face, place);
-  return std::abs(angle) > 2 * pi;  // 4 pi within, 0 without
+/// By where boxes begin along x; of two that begin at the same place the longer one comes first.
+std::vector<int> swept(std::span<const Box> boxes) {
+  std::vector<int> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::tuple(boxes[a].min().x(), -boxes[a].max().x(), a) <
+           std::tuple(boxes[b].min().x(), -boxes[b].max().x(), b);
+  });
+  return order;
 }
 
-std::vector<Shell> gathered(const Triangles& surface, const Shells& shells) {
-  std::vector<Shell> result(shells.count);
-  std::vector<double> largest(shells.count, -1);
-  for (std::size_t i = 0; i < surface.faces.size(); ++i) {
-    Shell& shell = result[shells.of_face[i]];
-    shell.faces.push_back(static_cast<int>(i));
-    const auto& [p, q, r] = surface.faces[i];
-    const Vec3 &a = surface.points[p], &b = surface.points[q], &c = surface.points[r];
-    for (const Vec3* corner : {&a, &b, &c}) shell.box.extend(*corner);
-    const double size = (b - a).cross(c - a).squaredNorm();
-    if (size <= largest[shells.of_face[i]]) continue;
-    largest[shells.of_face[i]] = size;
-    shell.place = (a + b + c) / 3;
+/// Calls visit(box, around) for each box with those that hold it, the smallest first.
+template <class Visit>
+void for_each_held(std::span<const Box> boxes, Visit&& visit) {
+  std::vector<int> open, around;
+  for (const int i : swept(boxes)) {
+    std::erase_if(open, [&](int other) { return boxes[other].max().x() < boxes[i].min().x(); });
+    around.clear();
+    std::copy_if(open.begin(), open.end(), std::back_inserter(around),
+                 [&](int other) { return holds(boxes[other], boxes[i]); });
+    std::sort(around.begin(), around.end(), [&](int a, int b) {
+      return std::pair(boxes[a].volume(), a) < std::pair(boxes[b].volume(), b);
+    });
+    if (!around.empty()) visit(i, around);
+    open.push_back(i);
   }
-  return result;
+}
+
+Points samples_of(const Shell& shell) {
+  Points samples;
+  const std::size_t count = std::min(shell.faces.size(), most_samples);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Corners& face = shell.faces[i * shell.faces.size() / count];
+    samples.push_back((face[0] + face[1] + face[2]) / 3);
+  }
+  return samples;
+}
+
+bool encloses(const Winding& outer, const Points& samples) {
+  bool within = false;
+  for (const Vec3& sample : samples) {
+    const std::optional<int> winding = outer.around(sample);
+    if (winding && *winding <= 0) return false;
+    within = within || winding;
+  }
+  return within;
 }
 
 }  // namespace
 
-Nesting nesting_of(const Triangles& surface, const Shells& shells) {
-  std::vector<Shell> shell = gathered(surface, shells);
-  for (int inner = 0; inner < shells.count; ++inner)
-    for (int outer = 0; outer < shells.count; ++outer)
-      if (inner != outer && encloses(surface, shell[outer], shell[inner].place))
-        shell[inner].around.push_back(outer);
-
-  Nesting nesting{std::vector<int>(shells.count), std::vector<bool>(shells.count), 0};
-  for (int i = 0; i < shells.count; ++i) {
-    nesting.cavity[i] = shell[i].around.size() % 2 == 1;
-    if (!nesting.cavity[i]) nesting.body[i] = nesting.bodies++;
-  }
-  const auto depth = [&](int i) { return shell[i].around.size(); };
-  for (int i = 0; i < shells.count; ++i) {
-    if (!nesting.cavity[i]) continue;
-    const auto& around = shell[i].around;  // of these the deepest is the next one outwards
-    nesting.body[i] = nesting.body[*std::max_element(
-        around.begin(), around.end(), [&](int a, int b) { return depth(a) < depth(b); })];
-  }
-  return nesting;
+std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shell(int)>& shell_of) {
+  std::vector<std::optional<Winding>> winding(boxes.size());
+  const auto winding_of = [&](int i) -> const Winding& {
+    if (!winding[i]) {
+      Shell shell = shell_of(i);
+      shell.faces.insert(shell.faces.end(), shell.caps.begin(), shell.caps.end());
+      winding[i].emplace(std::move(shell.faces));
+    }
+    return *winding[i];
+  };
+  std::vector<int> outer(boxes.size(), -1);
+  for_each_held(boxes, [&](int i, const std::vector<int>& around) {
+    const Points samples = samples_of(shell_of(i));
+    const auto found = std::find_if(around.begin(), around.end(), [&](int candidate) {
+      return encloses(winding_of(candidate), samples);
+    });
+    if (found != around.end()) outer[i] = *found;
+  });
+  return outer;
 }
 
 }  // namespace sinew

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which shells lie within which: every second one within another bounds a cavity.
+// Which shells lie within which.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
-#include "mesh/edges.h"
+#include "mesh/winding.h"
 
 namespace sinew {
 
-struct Nesting {
-  std::vector<int> body;     ///< per shell: the body it bounds
-  std::vector<bool> cavity;  ///< per shell: whether it bounds a cavity of that body
-  int bodies = 0;
+/// A body's or cavity's boundary, outward.
+struct Shell {
+  std::vector<Corners> faces;
+  std::vector<Corners> caps;  ///< close it
 };
 
-/// For closed shells that do not cut each other, each turning one way throughout. By the sum of the
-/// solid angles (van Oosterom and Strackee 1983) under which a shell is seen from another one's
-/// face.
-Nesting nesting_of(const Triangles& surface, const Shells& shells);
+/// For each box of a shell the next shell outwards, -1 where there is none: the smallest around it
+/// whose box holds its box and which holds the middles of its faces (up to 256, spread evenly), not
+/// counting those on it. Shells are asked for only where boxes lie in each other.
+std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shell(int)>& shell_of);
 
 }  // namespace sinew

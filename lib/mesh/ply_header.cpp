@@ -5,7 +5,6 @@
 #include <array>
 
 #include "core/words.h"
-
 #include "mesh/mesh_text.h"
 
 namespace sinew {
@@ -99,36 +98,40 @@ class HeaderReader {
   PlyHeader header_;
 };
 
-void refuse_vertices(const MeshFile& file, const PlyElement& vertices) {
-  for (const char* axis : {"x", "y", "z"}) {
-    const PlyProperty* property = vertices.find(axis);
-    if (!property || property->count || !property->type->real)
-      throw file.broken(0, std::string("the vertices have no ") + axis + " of type float or double",
+void find_coordinates(const MeshFile& file, PlyElement& vertices) {
+  constexpr std::array<const char*, 3> names = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    PlyProperty* property = vertices.find(names[axis]);
+    if (!property || property->count)
+      throw file.broken(0, std::string("the vertices have no number ") + names[axis],
                         "export the mesh again as PLY");
+    property->axis = axis;
   }
 }
 
-void refuse_faces(const MeshFile& file, const PlyElement& faces) {
-  const PlyProperty* property = faces.find("vertex_indices");
+void find_corners(const MeshFile& file, PlyElement& faces) {
+  PlyProperty* property = faces.find("vertex_indices");
   if (!property) property = faces.find("vertex_index");
   if (!property || !property->count)
     throw file.broken(0, "the faces have no list vertex_indices", "export the mesh again as PLY");
-  if (property->type->real || property->type->bytes != 4)
+  if (property->type->real)
     throw file.broken(0,
                       "the faces' vertex_indices are of type " + std::string(property->type->name),
-                      "export them as int or uint");
+                      "export them as integers");
+  property->corners = true;
 }
 
-void refuse(const MeshFile& file, const PlyHeader& header) {
+/// Marks what the body's reader needs.
+void find_mesh(const MeshFile& file, PlyHeader& header) {
   std::int64_t vertices = 0, faces = 0;
-  for (const PlyElement& element : header.elements) {
+  for (PlyElement& element : header.elements) {
     if (element.properties.empty() && element.count > 0)
       throw file.broken(0, "the element " + shown(element.name) + " has no properties",
                         "export the mesh again as PLY");
     if (element.name == "tristrips")
       throw file.broken(0, "triangle strips cannot be read", "export the mesh as single triangles");
-    if (element.vertices()) vertices += element.count, refuse_vertices(file, element);
-    if (element.faces()) faces += element.count, refuse_faces(file, element);
+    if (element.vertices()) vertices += element.count, find_coordinates(file, element);
+    if (element.faces()) faces += element.count, find_corners(file, element);
   }
   if (vertices == 0 || faces == 0)
     throw file.broken(0, vertices ? "there are no faces, only points" : "there are no vertices",
@@ -137,29 +140,15 @@ void refuse(const MeshFile& file, const PlyHeader& header) {
 
 }  // namespace
 
-const PlyProperty* PlyElement::find(std::string_view property) const {
-  for (const PlyProperty& candidate : properties)
+PlyProperty* PlyElement::find(std::string_view property) {
+  for (PlyProperty& candidate : properties)
     if (candidate.name == property) return &candidate;
   return nullptr;
 }
 
-std::string PlyHeader::text() const {
-  std::string text = "ply\nformat ";
-  text.append(encodings[static_cast<std::size_t>(encoding)]) += " 1.0\n";
-  for (const PlyElement& element : elements) {
-    text += "element " + element.name + ' ' + std::to_string(element.count) + '\n';
-    for (const auto& [name, type, count] : element.properties) {
-      text += "property ";
-      if (count) (text += "list ").append(count->name) += ' ';
-      text.append(type->name) += ' ' + name + '\n';
-    }
-  }
-  return text + "end_header\n";
-}
-
 PlyHeader ply_header(const MeshFile& file) {
-  const PlyHeader header = HeaderReader(file).header();
-  refuse(file, header);
+  PlyHeader header = HeaderReader(file).header();
+  find_mesh(file, header);
   return header;
 }
 

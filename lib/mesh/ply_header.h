@@ -26,6 +26,8 @@ struct PlyProperty {
   std::string name;
   const PlyType* type;
   const PlyType* count = nullptr;  ///< the type of a list's length; nullptr for single numbers
+  int axis = -1;                   ///< of a vertex's coordinate: 0, 1, 2
+  bool corners = false;            ///< whether it is the list of a face's corners
 };
 
 struct PlyElement {
@@ -35,7 +37,7 @@ struct PlyElement {
 
   bool vertices() const { return name == "vertex" || name == "vertices"; }
   bool faces() const { return name == "face" || name == "faces"; }
-  const PlyProperty* find(std::string_view property) const;
+  PlyProperty* find(std::string_view property);
 };
 
 struct PlyHeader {
@@ -43,12 +45,10 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   std::size_t size = 0;  ///< bytes up to the body
   int lines = 0;
-
-  /// Without comments and with the types' first names.
-  std::string text() const;
 };
 
-/// Reads and checks the header: x, y, z as float or double, faces as lists of int or uint.
+/// Reads and checks the header: vertices have x, y, z, faces a list of integers vertex_indices (or
+/// vertex_index); any other element and property may stand between them.
 PlyHeader ply_header(const MeshFile& file);
 
 }  // namespace sinew

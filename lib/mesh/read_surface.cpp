@@ -1,63 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/read_surface.h"
 
-#include "mesh/cgal_soup.h"
-#include "mesh/clean.h"
-#include "mesh/plain_mesh.h"
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/number_text.h"
 #include "core/stopwatch.h"
+#include "mesh/clean.h"
+#include "mesh/mesh_readers.h"
 
 namespace sinew {
 namespace {
 
-/// The guards have seen to all of this; a reader that errs must not take it further.
-void refuse_unsound(const MeshFile& file, const PolygonSoup& soup) {
+void check_polygon(const std::vector<int>& polygon, std::size_t points) {
   const std::string cure = "export the mesh again";
-  if (soup.polygons.empty()) throw file.broken(0, "there are no faces", cure);
-  for (const Vec3& point : soup.points)
-    if (!point.allFinite()) throw file.broken(0, "a coordinate is not finite", cure);
-  for (const auto& polygon : soup.polygons) {
-    if (polygon.size() < 3) throw file.broken(0, "a face has fewer than 3 corners", cure);
-    for (const int corner : polygon)
-      if (corner < 0 || static_cast<std::size_t>(corner) >= soup.points.size())
-        throw file.broken(0,
-                          "a face names vertex " + std::to_string(corner) + " of " +
-                              std::to_string(soup.points.size()),
-                          cure);
-  }
+  if (polygon.size() < 3)
+    throw bad_input("a face has " + std::to_string(polygon.size()) + " corners", cure);
+  for (const int corner : polygon)
+    if (corner < 0 || static_cast<std::size_t>(corner) >= points)
+      throw bad_input("a face names vertex " + std::to_string(corner) + " of " +
+                          std::to_string(points) + " (counted from 0)",
+                      cure);
+}
+
+void scale(PolygonSoup& soup, double by) {
+  if (!(by > 0) || !std::isfinite(by))
+    throw bad_input("the scale is " + number_text(by), "give a number above 0");
+  if (by == 1) return;
+  for (Vec3& point : soup.points) point *= by;
 }
 
 }  // namespace
 
-std::string plain_mesh(const MeshFile& file) {
-  switch (file.format) {
-    case MeshFormat::obj:
-      return plain_obj(file);
-    case MeshFormat::off:
-      return plain_off(file);
-    case MeshFormat::stl:
-      return plain_stl(file);
-    case MeshFormat::ply:
-      return plain_ply(file);
-  }
-  return {};
+PolygonSoup read_polygons(const std::string& path) { return read_mesh(open_mesh(path)); }
+
+void check_soup(const PolygonSoup& soup) {
+  if (soup.polygons.empty())
+    throw bad_input("there are no faces", "export the mesh with its faces");
+  if (soup.points.size() > std::numeric_limits<int>::max())
+    throw bad_input("there are " + std::to_string(soup.points.size()) + " points",
+                    "reduce the number of triangles");
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    if (!soup.points[i].allFinite())
+      throw bad_input("vertex " + std::to_string(i) + " has a coordinate that is not finite",
+                      "export the mesh again");
+  for (const auto& polygon : soup.polygons) check_polygon(polygon, soup.points.size());
 }
 
-PolygonSoup read_polygons(const std::string& path) {
-  const MeshFile file = open_mesh(path);
-  const auto soup = soup_by_cgal(file.format, plain_mesh(file));
-  if (!soup) throw file.broken(0, "the mesh cannot be read", "export it again");
-  refuse_unsound(file, *soup);
-  return *soup;
+Surface surface_from(PolygonSoup soup, const ReadOptions& options) {
+  Stopwatch watch;
+  check_soup(soup);
+  scale(soup, options.scale);
+  Surface surface = clean(soup, {options.weld, options.rule});
+  surface.seconds_cleaning = watch.lap();
+  return surface;
 }
 
-Surface read_surface(const std::string& path) {
+Surface read_surface(const std::string& path, const ReadOptions& options) {
   Stopwatch watch;
   PolygonSoup soup = read_polygons(path);
   const double reading = watch.lap();
   try {
-    Surface surface = clean(std::move(soup));
+    Surface surface = surface_from(std::move(soup), options);
     surface.seconds_reading = reading;
-    surface.seconds_cleaning = watch.lap();
     return surface;
   } catch (const Error& error) {
     throw error.within({path});

@@ -20,6 +20,8 @@ using Point = Kernel::Point_3;
 using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 using Face = std::array<int, 3>;
 
+constexpr std::size_t least_tests = 2'000'000, tests_per_face = 20;  // usual are 5 to 12
+
 /// Brings corners that both faces have to the front, in the same order; returns how many.
 int align(Face& a, Face& b) {
   int shared = 0;
@@ -41,8 +43,9 @@ class PairTest {
     const int shared = align(a, b);
     if (shared == 0) return CGAL::do_intersect(triangle(a), triangle(b));
     if (shared == 1)  // beyond the corner they share, one's far side must cross the other
-      return CGAL::do_intersect(triangle(a), Kernel::Segment_3(point(b[1]), point(b[2]))) ||
-             CGAL::do_intersect(triangle(b), Kernel::Segment_3(point(a[1]), point(a[2])));
+      return !aside(a, b) && !aside(b, a) &&
+             (CGAL::do_intersect(triangle(a), Kernel::Segment_3(point(b[1]), point(b[2]))) ||
+              CGAL::do_intersect(triangle(b), Kernel::Segment_3(point(a[1]), point(a[2]))));
     return folded(a, b);
   }
 
@@ -53,6 +56,14 @@ class PairTest {
   CGAL::Bbox_3 box(const Face& face) const { return triangle(face).bbox(); }
 
  private:
+  /// Whether all of b but the corner they share lies on one side of a's plane: the usual case.
+  bool aside(const Face& a, const Face& b) const {
+    const auto side = [&](int i) {
+      return CGAL::orientation(point(a[0]), point(a[1]), point(a[2]), point(i));
+    };
+    return side(b[1]) != CGAL::COPLANAR && side(b[1]) == side(b[2]);
+  }
+
   /// Two faces at one edge overlap only when one is folded flat onto the other.
   bool folded(const Face& a, const Face& b) const {
     const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(b[2]);
@@ -114,30 +125,53 @@ std::vector<Part> parts_of(const Triangles& surface, const PairTest& test) {
 
 struct Enough {};
 
+/// Takes pairs of boxes and keeps those whose parts meet.
+class Search {
+ public:
+  Search(const Triangles& surface, const PairTest& test, std::size_t most)
+      : test_(test),
+        parts_(parts_of(surface, test)),
+        most_pairs_(most),
+        most_tests_(std::max(least_tests, tests_per_face * surface.faces.size())) {
+    found_.faces.resize(surface.faces.size());
+  }
+
+  SelfIntersections run() {
+    std::vector<FaceBox> boxes;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      boxes.emplace_back(test_.box(parts_[i].corners), static_cast<int>(i));
+    try {
+      CGAL::box_self_intersection_d(
+          boxes.begin(), boxes.end(),
+          [this](const FaceBox& a, const FaceBox& b) { take(a.info(), b.info()); });
+    } catch (const Enough&) {
+      found_.complete = false;
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void take(int a, int b) {
+    if (++tests_ > most_tests_) throw Enough{};
+    const auto [p, q] = std::minmax(a, b);
+    const std::array<int, 2> pair = {parts_[p].face, parts_[q].face};
+    if (pair[0] == pair[1] || !test_.meet(parts_[p].corners, parts_[q].corners)) return;
+    found_.first = found_.pairs == 0 ? pair : std::min(found_.first, pair);
+    for (const int face : pair) found_.faces[face] = true;
+    if (++found_.pairs == most_pairs_) throw Enough{};
+  }
+
+  const PairTest& test_;
+  std::vector<Part> parts_;
+  std::size_t most_pairs_, most_tests_, tests_ = 0;
+  SelfIntersections found_;
+};
+
 }  // namespace
 
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most) {
   const PairTest test(surface.points);
-  const std::vector<Part> parts = parts_of(surface, test);
-  std::vector<FaceBox> boxes;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    boxes.emplace_back(test.box(parts[i].corners), static_cast<int>(i));
-
-  SelfIntersections found;
-  const auto visit = [&](const FaceBox& a, const FaceBox& b) {
-    const auto [p, q] = std::minmax({a.info(), b.info()});
-    if (parts[p].face == parts[q].face || !test.meet(parts[p].corners, parts[q].corners)) return;
-    const std::array<int, 2> pair = {parts[p].face, parts[q].face};
-    found.first = found.pairs == 0 ? pair : std::min(found.first, pair);
-    if (++found.pairs == most) throw Enough{};
-  };
-  try {
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), visit);
-  } catch (const Enough&) {
-    found.complete = false;
-  }
-  for (const Face& face : surface.faces) found.flat += test.flat(face);
-  return found;
+  return Search(surface, test, most).run();
 }
 
 }  // namespace sinew

@@ -40,11 +40,11 @@ struct Border {
 /// the cavity. They may cut each other, and overlap.
 struct Surface {
   Triangles triangles;
+  std::vector<bool> turned;    ///< per face: whether it points against the file
   std::vector<int> component;  ///< per face: faces joined by edges, numbered by their first face
   int components = 0;
-  /// Faces that close every hole: fans from the holes' middles, each with points of its own, so
-  /// that triangles and caps together have no border. They fill nothing; they are a means to
-  /// compute winding numbers.
+  /// Faces that close every hole, with points of their own, so that triangles and caps together
+  /// have no border. They fill nothing; they are a means to compute winding numbers.
   Triangles caps;
   Border border;
   CleaningCounts cleaning;

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 
 #include "core/words.h"
-
-#include "mesh/mesh_text.h"
-#include "mesh/plain_mesh.h"
+#include "mesh/mesh_readers.h"
 
 namespace sinew {
 namespace {
 
-class OffGuard {
+class OffReader {
  public:
-  explicit OffGuard(const MeshFile& file) : file_(file), lines_(file.content) {}
+  explicit OffReader(const MeshFile& file) : file_(file), lines_(file.content) {}
 
-  std::string plain() {
+  PolygonSoup soup() {
     const auto [vertices, faces] = header();
-    std::string body;
-    for (std::int64_t i = 0; i < vertices; ++i) vertex(body);
-    for (std::int64_t i = 0; i < faces; ++i) face(body, vertices);
-    return "OFF\n" + std::to_string(vertices) + ' ' + std::to_string(faces) + " 0\n" + body;
+    const auto bytes = static_cast<std::int64_t>(file_.content.size());
+    PolygonSoup soup;  // a vertex takes 6 bytes or more, a face 8
+    soup.points.reserve(std::min(vertices, bytes / 6));
+    soup.polygons.reserve(std::min(faces, bytes / 8));
+    for (std::int64_t i = 0; i < vertices; ++i) {
+      Words words = line();
+      soup.points.push_back(next_point(words, file_));
+    }
+    refuse_too_many_points(file_, soup.points.size());
+    for (std::int64_t i = 0; i < faces; ++i) soup.polygons.push_back(face(vertices));
+    return soup;
   }
 
  private:
@@ -56,40 +62,29 @@ class OffGuard {
                          "export the mesh as plain OFF");
   }
 
-  void vertex(std::string& body) {
-    Words words = line();
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::string_view word = words.next();
-      if (!finite(word))
-        throw file_.broken(words.line(),
-                           word.empty()
-                               ? "the vertex has fewer than 3 coordinates"
-                               : "the coordinate " + shown(word) + " is not a finite number",
-                           "correct the line or export the mesh again");
-      body.append(word) += axis < 2 ? ' ' : '\n';
-    }
-  }
-
-  void face(std::string& body, std::int64_t vertices) {
+  std::vector<int> face(std::int64_t vertices) {
     Words words = line();
     const std::string_view count = words.next();
     const auto corners = integer_in(count);
     if (!corners || *corners < 3)
       throw file_.broken(words.line(), "the face has " + shown(count) + " corners",
                          "a face needs 3 or more; export the mesh again");
-    body.append(count);
-    for (std::int64_t i = 0; i < *corners; ++i) {
-      const std::string_view word = words.next();
-      const auto index = integer_in(word);
-      if (!index || *index < 0 || *index >= vertices)
-        throw file_.broken(words.line(),
-                           word.empty() ? "the face has fewer corners than it says"
-                                        : "the face names vertex " + shown(word) + " of " +
-                                              std::to_string(vertices),
-                           "vertices count from 0; export the mesh again");
-      (body += ' ').append(word);
-    }
-    body += '\n';
+    std::vector<int> polygon;
+    polygon.reserve(std::min<std::int64_t>(*corners, 4));
+    for (std::int64_t i = 0; i < *corners; ++i) polygon.push_back(corner(words, vertices));
+    return polygon;
+  }
+
+  int corner(Words& words, std::int64_t vertices) {
+    const std::string_view word = words.next();
+    const auto index = integer_in(word);
+    if (!index || *index < 0 || *index >= vertices)
+      throw file_.broken(
+          words.line(),
+          word.empty() ? "the face has fewer corners than it says"
+                       : "the face names vertex " + shown(word) + " of " + std::to_string(vertices),
+          "vertices count from 0; export the mesh again");
+    return static_cast<int>(*index);
   }
 
   const MeshFile& file_;
@@ -98,6 +93,6 @@ class OffGuard {
 
 }  // namespace
 
-std::string plain_off(const MeshFile& file) { return OffGuard(file).plain(); }
+PolygonSoup read_off(const MeshFile& file) { return OffReader(file).soup(); }
 
 }  // namespace sinew

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
-#include "core/words.h"
-
-#include "mesh/mesh_text.h"
-#include "mesh/plain_mesh.h"
+#include "mesh/mesh_readers.h"
 
 namespace sinew {
 namespace {
 
 // Binary STL: 80 bytes of anything, the number of triangles, then 12 floats and 2 bytes for each.
 constexpr std::size_t header_bytes = 80, start = header_bytes + 4, triangle_bytes = 50;
-constexpr std::size_t normal_bytes = 12, floats = 9;
+constexpr std::size_t normal_bytes = 12;
 
 std::uint32_t stated_triangles(std::string_view content) {
   std::uint32_t count;
@@ -29,37 +25,45 @@ bool binary(std::string_view content) {
   return content.find('\0') != std::string_view::npos || lower(Words(content).next()) != "solid";
 }
 
-void refuse_not_finite(const MeshFile& file, std::uint32_t triangles) {
-  for (std::size_t i = 0; i < triangles; ++i) {
-    float corners[floats];
-    std::memcpy(corners, file.content.data() + start + i * triangle_bytes + normal_bytes,
-                sizeof corners);
-    if (!std::all_of(corners, corners + floats, [](float value) { return std::isfinite(value); }))
-      throw file.broken(0, "triangle " + std::to_string(i) + " has a coordinate that is not finite",
-                        "export the mesh again");
-  }
+/// Every three points are a triangle.
+PolygonSoup soup_of(const MeshFile& file, Points points) {
+  if (points.empty()) throw file.broken(0, "there are no triangles", "export the mesh again");
+  refuse_too_many_points(file, points.size());
+  PolygonSoup soup{std::move(points), {}};
+  const int count = static_cast<int>(soup.points.size());
+  soup.polygons.reserve(soup.points.size() / 3);
+  for (int i = 0; i < count; i += 3) soup.polygons.push_back({i, i + 1, i + 2});
+  return soup;
 }
 
-std::string plain_binary(const MeshFile& file) {
-  const std::uint32_t triangles = stated_triangles(file.content);
+PolygonSoup read_binary(const MeshFile& file) {
+  const std::size_t triangles = stated_triangles(file.content);
   const std::size_t held = (file.content.size() - start) / triangle_bytes;
   if (triangles > held)
     throw file.broken(0,
                       "the file says " + std::to_string(triangles) + " triangles but holds " +
                           std::to_string(held),
                       "it is cut short or no STL: export the mesh again");
-  if (triangles == 0) throw file.broken(0, "there are no triangles", "export the mesh again");
-  refuse_not_finite(file, triangles);
-  // A header of "solid" would make CGAL take it for text.
-  return std::string(header_bytes, '\0') +
-         file.content.substr(header_bytes, start - header_bytes + triangles * triangle_bytes);
+  Points points;
+  points.reserve(3 * triangles);
+  for (std::size_t i = 0; i < triangles; ++i) {
+    Eigen::Matrix3f corners;  // a column each; the machine is little-endian, as the file
+    std::memcpy(corners.data(), file.content.data() + start + i * triangle_bytes + normal_bytes,
+                sizeof corners);
+    if (!corners.allFinite())
+      throw file.broken(0, "triangle " + std::to_string(i) + " has a coordinate that is not finite",
+                        "export the mesh again");
+    for (int corner = 0; corner < 3; ++corner)
+      points.emplace_back(corners.col(corner).cast<double>());
+  }
+  return soup_of(file, std::move(points));
 }
 
 class StlText {
  public:
   explicit StlText(const MeshFile& file) : file_(file), words_(file.content) {}
 
-  std::string plain() {
+  PolygonSoup soup() {
     if (lower(words_.next()) != "solid")
       throw file_.broken(0, "this is neither text nor binary STL", "export the mesh again");
     bool closed = false;
@@ -71,8 +75,7 @@ class StlText {
       if (keyword == "endsolid") closed = true;
     }
     if (!closed) throw cut_short();
-    if (plain_.empty()) throw file_.broken(0, "there are no triangles", "export the mesh again");
-    return "solid\n" + plain_ + "endsolid\n";
+    return soup_of(file_, std::move(points_));
   }
 
  private:
@@ -82,42 +85,28 @@ class StlText {
   }
 
   void facet() {
-    plain_ += "facet outer loop";
-    int corners = 0;
+    const std::size_t before = points_.size();
     for (std::string keyword; keyword != "endfacet";) {
       const std::string_view word = words_.next();
       if (word.empty()) throw cut_short();
       keyword = lower(word);
-      if (keyword == "vertex") ++corners, corner();
+      if (keyword == "vertex") points_.push_back(next_point(words_, file_));
     }
+    const std::size_t corners = points_.size() - before;
     if (corners != 3)
       throw file_.broken(words_.line(), "the facet has " + std::to_string(corners) + " corners",
                          "STL knows triangles only: export the mesh again");
-    plain_ += " endloop endfacet\n";
-  }
-
-  void corner() {
-    plain_ += " vertex";
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::string_view word = words_.next();
-      if (word.empty()) throw cut_short();
-      if (!finite(word))
-        throw file_.broken(words_.line(),
-                           "the coordinate " + shown(word) + " is not a finite number",
-                           "correct the line or export the mesh again");
-      (plain_ += ' ').append(word);
-    }
   }
 
   const MeshFile& file_;
   Words words_;
-  std::string plain_;
+  Points points_;
 };
 
 }  // namespace
 
-std::string plain_stl(const MeshFile& file) {
-  return binary(file.content) ? plain_binary(file) : StlText(file).plain();
+PolygonSoup read_stl(const MeshFile& file) {
+  return binary(file.content) ? read_binary(file) : StlText(file).soup();
 }
 
 }  // namespace sinew
