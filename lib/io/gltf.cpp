@@ -8,8 +8,9 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include <algorithm>
 #include <limits>
+#include <new>
+#include <utility>
 
 #include "core/available_memory.h"
 #include "core/error.h"

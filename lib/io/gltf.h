@@ -16,8 +16,8 @@ namespace sinew {
 /// stay apart.
 ///
 /// Throws bad input, with the path, for all that is not such a file, is damaged, holds no
-/// triangles, or needs an extension that changes shapes (compression, instancing); not written
-/// where the system's temporary folder takes no file.
+/// triangles, has 2 GiB or more, or needs an extension that changes shapes (compression,
+/// instancing); not written where the system's temporary folder takes no file.
 PolygonSoup read_gltf(const std::filesystem::path& path);
 
 }  // namespace sinew

@@ -21,10 +21,15 @@ void check_extent(const GltfDocument& document, const std::string& user, int vie
                        std::to_string(view.size));
 }
 
+/// Bytes.
+std::int64_t element_size(const GltfAccessor& accessor) {
+  return std::int64_t{size_of(accessor.number)} * components_of(accessor.type);
+}
+
 void check_accessor(const GltfDocument& document, std::size_t index) {
   const GltfAccessor& accessor = document.accessors[index];
   const std::string user = nth("accessors", index);
-  const std::int64_t size = size_of(accessor.number) * components_of(accessor.type);
+  const std::int64_t size = element_size(accessor);
   if (accessor.view >= 0)
     check_extent(document, user, accessor.view, accessor.offset, accessor.count, size);
   if (!accessor.sparse) return;
@@ -38,7 +43,7 @@ void check_accessor(const GltfDocument& document, std::size_t index) {
 }
 
 std::int64_t number_at(const char* from, GltfNumber number) {
-  std::uint32_t value = 0;  // both machine and file are little-endian
+  std::uint32_t value = 0;  // as in the file, little-endian machines only
   std::memcpy(&value, from, static_cast<std::size_t>(size_of(number)));
   return value;
 }

@@ -78,7 +78,7 @@ struct GltfNode {
 
 struct GltfDocument {
   std::string version, least_version;  ///< least_version: "" where the file names none
-  std::vector<std::string> extensions_used, extensions_required;
+  std::vector<std::string> extensions_required;
   std::vector<GltfBuffer> buffers;
   std::vector<GltfView> views;
   std::vector<GltfAccessor> accessors;

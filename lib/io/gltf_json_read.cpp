@@ -107,7 +107,6 @@ GltfDocument gltf_document(std::string_view json) {
   GltfDocument document;
   document.version = asset["version"].text();
   document.least_version = asset["minVersion"].text_or_none();
-  document.extensions_used = root["extensionsUsed"].texts();
   document.extensions_required = root["extensionsRequired"].texts();
   document.buffers = all(root["buffers"], buffer_in);
   document.views = all(root["bufferViews"], view_in);

@@ -65,7 +65,7 @@ bool is_whole(vtkGLTFDocumentLoader& loader, const GltfDocument& document) {
 
 std::shared_ptr<vtkGLTFDocumentLoader> loaded_gltf(const GuardedGltf& gltf) {
   const VtkMessages messages;
-  const std::shared_ptr<vtkGLTFDocumentLoader> loader(
+  std::shared_ptr<vtkGLTFDocumentLoader> loader(
       vtkGLTFDocumentLoader::New(), [](vtkGLTFDocumentLoader* last) { last->Delete(); });
   const bool loaded = load(*loader, gltf);
   if (!loaded || messages.failed() || !is_whole(*loader, gltf.document))
