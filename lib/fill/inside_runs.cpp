@@ -193,7 +193,7 @@ void number_bodies(const std::vector<Found>& found, const Surface& surface, Insi
   std::iota(parent.begin(), parent.end(), 0);
   for (const Found& piece : found)
     for (const auto& [a, b] : piece.overlaps) {
-      const auto [low, high] = std::minmax(root(parent, a), root(parent, b));
+      const auto [low, high] = std::minmax({root(parent, a), root(parent, b)});
       parent[high] = low;
     }
   const std::vector<double> volumes = component_volumes(surface);

@@ -77,7 +77,7 @@ void join(const std::vector<std::vector<Pair>>& pairs, std::size_t runs, Touchin
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& piece : pairs)
     for (const auto& [a, b] : piece) {
-      const auto [low, high] = std::minmax(root(parent, a), root(parent, b));
+      const auto [low, high] = std::minmax({root(parent, a), root(parent, b)});
       parent[high] = low;
     }
   result.group.resize(runs);

@@ -18,7 +18,7 @@ HEAVY = {
     r"vtk\w*\.h": ("io", "render"),
     r"yaml-cpp/": ("config",),
     r"(tbb|oneapi)/": ("core/parallel.cpp",),
-    r"nlohmann/": ("metrics",),
+    r"nlohmann/": ("io", "metrics"),
     r"X11/": ("render",),
     r"(spdlog|fmt|CLI)/": (),
 }
@@ -28,7 +28,7 @@ HEAVY_TARGETS = {
     r"VTK::": ("io", "render"),
     r"yaml-cpp": ("config",),
     r"TBB::": ("core",),
-    r"nlohmann_json::": ("metrics",),
+    r"nlohmann_json::": ("io", "metrics"),
     r"X11::": ("render",),
     r"spdlog::|fmt::|CLI11::": (),
 }

@@ -12,10 +12,10 @@
 namespace sinew {
 namespace {
 
-class EachPacking : public testing::TestWithParam<Packing> {};
-INSTANTIATE_TEST_SUITE_P(Touching, EachPacking, testing::Values(Packing::fcc, Packing::hcp));
+class TouchingInPacking : public testing::TestWithParam<Packing> {};
+INSTANTIATE_TEST_SUITE_P(Touching, TouchingInPacking, testing::Values(Packing::fcc, Packing::hcp));
 
-TEST_P(EachPacking, CountsTheSitesWithin2r) {
+TEST_P(TouchingInPacking, CountsTheSitesWithin2r) {
   const double r = 0.06;
   const Surface surface = clean(shapes::torus(1, 0.3));
   const Lattice lattice = lattice_in(bounds(surface.triangles.points), GetParam(), r);
@@ -28,7 +28,7 @@ TEST_P(EachPacking, CountsTheSitesWithin2r) {
   EXPECT_EQ(found.groups, 1);
 }
 
-TEST_P(EachPacking, TellsGroupsThatDoNotTouch) {
+TEST_P(TouchingInPacking, TellsGroupsThatDoNotTouch) {
   const double r = 0.05;
   const auto ball = shapes::sphere(1, 3);
   for (const double gap : {0.0, 6 * r}) {

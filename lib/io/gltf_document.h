@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a glTF 2.0 file says about shapes and where they stand, as plain values. Names and defaults
+// are those of its specification (registry.khronos.org/glTF/specs/2.0); -1 is no index.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+struct GltfBuffer {
+  std::int64_t size = 0;           ///< bytes
+  std::optional<std::string> uri;  ///< none: the binary chunk of a .glb
+};
+
+struct GltfView {
+  int buffer = -1;
+  std::int64_t offset = 0, size = 0;  ///< bytes
+  std::int64_t stride = 0;            ///< bytes from element to element, 0 for dense ones
+};
+
+/// OpenGL's numbers.
+enum class GltfNumber { int8 = 5120, uint8, int16, uint16, uint32 = 5125, float32 };
+
+/// Elements of an accessor given one by one, over the others.
+struct GltfSparse {
+  std::int64_t count = 0;
+  int index_view = -1, value_view = -1;
+  std::int64_t index_offset = 0, value_offset = 0;  ///< bytes
+  GltfNumber index_number = GltfNumber::uint32;
+};
+
+struct GltfAccessor {
+  int view = -1;
+  std::int64_t offset = 0;  ///< bytes
+  std::int64_t count = 0;   ///< elements
+  GltfNumber number = GltfNumber::float32;
+  std::string type;  ///< "SCALAR", "VEC3", ...
+  bool normalized = false;
+  std::optional<GltfSparse> sparse;
+};
+
+enum class GltfMode {
+  points,
+  lines,
+  line_loop,
+  line_strip,
+  triangles,
+  triangle_strip,
+  triangle_fan
+};
+
+struct GltfPrimitive {
+  GltfMode mode = GltfMode::triangles;
+  int indices = -1;
+  std::map<std::string, int> attributes;  ///< "POSITION", ... -> accessor
+
+  /// Whether it has triangles to draw.
+  bool is_surface() const { return mode >= GltfMode::triangles && attributes.contains("POSITION"); }
+  int positions() const { return attributes.at("POSITION"); }  ///< of a surface
+};
+
+struct GltfMesh {
+  std::string name;
+  std::vector<GltfPrimitive> primitives;
+};
+
+struct GltfNode {
+  std::vector<int> children;
+  int mesh = -1, skin = -1;
+  std::vector<double> matrix;  ///< 16, column by column, or none: then the other three
+  std::vector<double> translation, rotation, scale;  ///< 3, 4 (x y z w, unit length), 3, or none
+};
+
+struct GltfDocument {
+  std::string version, least_version;  ///< least_version: "" where the file names none
+  std::vector<std::string> extensions_required;
+  std::vector<GltfBuffer> buffers;
+  std::vector<GltfView> views;
+  std::vector<GltfAccessor> accessors;
+  std::vector<GltfMesh> meshes;
+  std::vector<GltfNode> nodes;
+  int skins = 0;                         ///< how many
+  std::vector<std::vector<int>> scenes;  ///< the topmost nodes of each
+  int scene = -1;                        ///< the default one
+};
+
+/// Bytes of one number, numbers of one element ("VEC3": 3; 0 for an unknown type).
+int size_of(GltfNumber number);
+int components_of(std::string_view type);
+
+}  // namespace sinew
