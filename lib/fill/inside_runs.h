@@ -3,22 +3,14 @@
 // not on the surface itself. As runs of sites that follow each other in a row.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "fill/lattice.h"
 #include "fill/row_crossings.h"
+#include "fill/runs.h"
 #include "mesh/surface.h"
 
 namespace sinew {
-
-struct Run {
-  std::int32_t row, first, last;  ///< sites first .. last - 1
-  std::int32_t body;
-
-  int sites() const { return last - first; }
-  bool operator==(const Run&) const = default;
-};
 
 struct InsideRuns {
   std::vector<Run> runs;            ///< by row, then site; never touching with the same body
