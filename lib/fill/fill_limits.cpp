@@ -77,7 +77,9 @@ double radius_that_fits(const BodySpace& space, const PackOptions& options, doub
   const double longest = space.box.sizes().maxCoeff();
   PackOptions tried = options;
   tried.count.reset();
-  for (double fits = radius / 2; longest / fits < finest; fits /= 2)
+  const double about = volume_inside(space.surface);
+  double fits = about > 0 ? std::min(radius / 2, radius_for_count(about, enough)) : radius / 2;
+  for (; longest / fits < finest; fits /= 2)
     if (!fill_sites(space, tried, rounded_down(fits)).runs.empty()) return rounded_down(fits);
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "fill/depths.h"
 #include "fill/open_winding.h"
 
 namespace sinew {
@@ -53,34 +54,6 @@ class RowRuns {
   std::vector<RowSite>::const_iterator next_, end_;
 };
 
-/// The winding numbers of the components at one place of a row.
-class Depths {
- public:
-  void cross(int component, int winding) {
-    const auto at = std::lower_bound(depths_.begin(), depths_.end(), std::array{component, -99});
-    if (at == depths_.end() || (*at)[0] != component)
-      depths_.insert(at, {component, winding});
-    else if (((*at)[1] += winding) == 0)
-      depths_.erase(at);
-  }
-
-  /// The first component around this place; others around it are noted as overlapping.
-  int body(std::vector<std::array<int, 2>>& overlaps) const {
-    int first = -1;
-    for (const auto& [component, depth] : depths_) {
-      if (depth <= 0) continue;
-      if (first < 0)
-        first = component;
-      else if (overlaps.empty() || overlaps.back() != std::array{first, component})
-        overlaps.push_back({first, component});
-    }
-    return std::max(first, 0);
-  }
-
- private:
-  std::vector<std::array<int, 2>> depths_;  ///< component and winding number, not 0
-};
-
 class Sweep {
  public:
   Sweep(const Lattice& lattice, const Surface& surface)
@@ -88,7 +61,9 @@ class Sweep {
         surface_(surface),
         crossings_(row_crossings(lattice, surface.triangles)),
         cap_crossings_(row_crossings(lattice, surface.caps)),
-        winding_(lattice, surface.caps, cap_crossings_) {}
+        winding_(lattice, surface.caps, cap_crossings_) {
+    if (surface.closed() && surface.components > 1) owner_ = owners_of(surface, crossings_);
+  }
 
   std::vector<RowSite> take_on_surface() { return std::move(crossings_.on_surface); }
 
@@ -100,7 +75,7 @@ class Sweep {
       take(runs, from, one.site, sum, depths, found);
       from = one.site;
       sum += one.winding;
-      if (surface_.components > 1) depths.cross(surface_.component[one.face], one.winding);
+      if (!owner_.empty()) depths.cross(owner_[surface_.component[one.face]], one.winding);
     }
     take(runs, from, lattice_.rows[row].sites, sum, depths, found);
   }
@@ -180,6 +155,7 @@ class Sweep {
   const Surface& surface_;
   RowCrossings crossings_, cap_crossings_;
   OpenWinding winding_;
+  std::vector<int> owner_;  ///< of each component, where there are several
 };
 
 int root(std::vector<int>& parent, int i) {

@@ -12,6 +12,22 @@ namespace {
 
 using Face = std::array<int, 3>;
 
+/// The same triangles wherever the polygon begins and whichever way it turns: polygons that double
+/// each other are cut into triangles that do.
+std::vector<Face> cut_alike(std::vector<int> polygon, const Points& points) {
+  const auto at = [&](int i) { return std::tie(points[i][0], points[i][1], points[i][2]); };
+  std::rotate(polygon.begin(),
+              std::min_element(polygon.begin(), polygon.end(),
+                               [&](int a, int b) { return at(a) < at(b); }),
+              polygon.end());
+  const bool turned = at(polygon.back()) < at(polygon[1]);
+  if (turned) std::reverse(polygon.begin() + 1, polygon.end());
+  std::vector<Face> parts = triangulate(polygon, points);
+  for (Face& part : parts)
+    if (turned) std::swap(part[1], part[2]);
+  return parts;
+}
+
 /// 1. Polygons into triangles.
 std::vector<Face> cut(const PolygonSoup& soup, CleaningCounts& counts) {
   std::vector<Face> faces;
@@ -22,8 +38,7 @@ std::vector<Face> cut(const PolygonSoup& soup, CleaningCounts& counts) {
       continue;
     }
     ++counts.polygons_cut;
-    const auto parts = triangulate(polygon, soup.points);
-    faces.insert(faces.end(), parts.begin(), parts.end());
+    for (const Face& part : cut_alike(polygon, soup.points)) faces.push_back(part);
   }
   return faces;
 }
