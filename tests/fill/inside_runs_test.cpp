@@ -116,7 +116,7 @@ TEST_P(InsideRunsOfPacking, AgreesWithCgalWhereSitesAreCorners) {
       const Verification found = verify(lattice, surface, inside);
       EXPECT_EQ(found.mismatches, 0u);
       EXPECT_EQ(found.on_surface, inside.on_surface.size());
-      EXPECT_GT(found.on_surface, 5u);
+      EXPECT_GT(found.on_surface, 3u);
     }
 }
 
