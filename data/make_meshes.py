@@ -5,7 +5,12 @@
 import math
 from pathlib import Path
 
+import bodies
+from mesh_files import write_obj, write_ply
+from polygonise import polygonise
+
 MESHES = Path(__file__).resolve().parent / "meshes"
+ORIGIN = ["Made by data/make_meshes.py. SPDX-License-Identifier: GPL-3.0-or-later"]
 
 
 def grid_box(cells, low, size):
@@ -41,23 +46,24 @@ def grid_box(cells, low, size):
     return points, faces
 
 
-def write_obj(name, comment, points, faces):
-    lines = [f"# {line}" for line in comment]
-    lines += ["v " + " ".join(repr(x) for x in point) for point in points]
-    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
-    (MESHES / name).write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
-
-
 def paper_box():
     """The body of Komiya and Tokoi: 11 x 11 x 49 half-planes of closest packing at r = 0.010 m."""
     plane = math.sqrt(2) * 0.010
     size = [11 * plane, 11 * plane, 49 * plane]
     points, faces = grid_box((8, 10, 25), (-size[0] / 2, -size[1] / 2, 0.0), size)
-    comment = ["The box of Komiya and Tokoi: 1062 points, lengths in metres.",
-               "Made by data/make_meshes.py. SPDX-License-Identifier: GPL-3.0-or-later"]
-    write_obj("box.obj", comment, points, faces)
+    comment = ["The box of Komiya and Tokoi: 1062 points, lengths in metres.", *ORIGIN]
+    write_obj(MESHES / "box.obj", comment, points, faces)
+
+
+def smooth_body(name, body, cell):
+    points, faces = polygonise(body, cell)
+    comment = [f"{body.title}: {len(points)} points, lengths in metres.", *ORIGIN]
+    write_ply(MESHES / name, comment, points, faces, real="float")
 
 
 if __name__ == "__main__":
     MESHES.mkdir(exist_ok=True)
     paper_box()
+    smooth_body("arm.ply", bodies.arm(), 0.005)
+    smooth_body("creature.ply", bodies.creature(), 0.0066)
+    smooth_body("tentacle.ply", bodies.tentacle(), 0.005)
