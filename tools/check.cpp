@@ -44,7 +44,7 @@ void add_sizes(const Filling& filling, const Surface& surface, Results& results)
   results.add("radius", particles.radius, "m");
   results.add("surface_points", surface.triangles.points.size());
   results.add("surface_triangles", surface.triangles.faces.size());
-  results.add("volume", filling.report.mesh_volume, "m^3");
+  results.add("volume", filling.report.volume, "m^3");
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
 }
 
