@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mesh/crowded.h"
 #include "mesh/measures.h"
 #include "mesh/nesting.h"
 #include "mesh/patch_shapes.h"
@@ -93,32 +92,48 @@ bool inside_out(const Triangles& surface, const Patches& patches) {
   return volume < -volume_rounding(area(surface), box);
 }
 
-/// Whether patches that do not decide turn.
-bool others_turn(const Triangles& surface, const Patches& patches, const PatchShapes& shapes,
-                 const std::vector<bool>& turn) {
-  double excess = 0;  // of area that turns over area that stays
-  bool decided = false;
+/// Of patches that decide, the area of those that turn less that of those that stay.
+struct Vote {
+  bool cast = false;
+  double excess = 0;
+
+  void add(bool turns, double area) {
+    cast = true;
+    excess += turns ? area : -area;
+  }
+};
+
+/// Lets patches that do not decide follow.
+void follow(std::vector<bool>& turn, const Triangles& surface, const Patches& patches,
+            const PatchShapes& shapes, const Components& components) {
+  std::vector<int> component(patches.count);
+  for (std::size_t i = 0; i < patches.of_face.size(); ++i)
+    component[patches.of_face[i]] = components.of_face[i];
+  Vote all;
+  std::vector<Vote> vote(components.count);
   for (int patch = 0; patch < patches.count; ++patch) {
     if (!shapes.shape[patch].decides()) continue;
-    decided = true;
-    excess += (turn[patch] ? 1 : -1) * shapes.shape[patch].area;
+    all.add(turn[patch], shapes.shape[patch].area);
+    vote[component[patch]].add(turn[patch], shapes.shape[patch].area);
   }
-  return decided ? excess > 0 : inside_out(surface, patches);
+  const bool otherwise = all.cast ? all.excess > 0 : inside_out(surface, patches);
+  for (int patch = 0; patch < patches.count; ++patch) {
+    const Vote& nearby = vote[component[patch]];
+    if (!shapes.shape[patch].decides()) turn[patch] = nearby.cast ? nearby.excess > 0 : otherwise;
+  }
 }
 
 }  // namespace
 
 std::vector<bool> faces_to_turn(const Triangles& surface, std::span<const EdgeUse> uses,
-                                const Patches& patches, FillRule rule) {
+                                const Patches& patches, const Components& components,
+                                FillRule rule) {
   const PatchShapes shapes = shapes_of(surface, uses, patches);
   const auto cavity = cavities(shapes, outer_patches(surface, patches, shapes), rule);
   std::vector<bool> turn(patches.count);
   for (int patch = 0; patch < patches.count; ++patch)
     turn[patch] = (shapes.shape[patch].volume < 0) != cavity[patch];
-  const bool others = others_turn(surface, patches, shapes, turn);
-  for (int patch = 0; patch < patches.count; ++patch)
-    if (!shapes.shape[patch].decides()) turn[patch] = others;
-  shorten_border(surface, uses, patches, shapes, turn);
+  follow(turn, surface, patches, shapes, components);
 
   std::vector<bool> turned(surface.faces.size());
   for (std::size_t i = 0; i < turned.size(); ++i)

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
-#include "core/vector.h"
 #include "core/polygon_soup.h"
+#include "core/vector.h"
 
 namespace sinew::shapes {
 
@@ -88,6 +89,67 @@ inline PolygonSoup inverted(PolygonSoup soup) {
 
 inline PolygonSoup moved(PolygonSoup soup, const Vec3& by) {
   for (Vec3& point : soup.points) point += by;
+  return soup;
+}
+
+/// A share of the faces, chosen at random, turned.
+inline PolygonSoup flipped(PolygonSoup soup, double share, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  for (auto& polygon : soup.polygons)
+    if (random() < share * 4294967296.0) std::reverse(polygon.begin(), polygon.end());
+  return soup;
+}
+
+/// A share of the faces, chosen at random, left out.
+inline PolygonSoup without(PolygonSoup soup, double share, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::erase_if(soup.polygons, [&](const auto&) { return random() < share * 4294967296.0; });
+  return soup;
+}
+
+/// Each face with points of its own, shrunk towards its middle: a soup of single triangles.
+inline PolygonSoup burst(const PolygonSoup& soup, double size = 1) {
+  PolygonSoup parts;
+  for (const auto& f : soup.polygons) {
+    Vec3 middle = Vec3::Zero();
+    for (const int corner : f) middle += soup.points[corner] / static_cast<double>(f.size());
+    parts.polygons.emplace_back();
+    for (const int corner : f) {
+      parts.polygons.back().push_back(static_cast<int>(parts.points.size()));
+      const Vec3& place = soup.points[corner];
+      parts.points.push_back(size == 1 ? place : middle + size * (place - middle));
+    }
+  }
+  return parts;
+}
+
+/// `n` quads around a ring, two rows of them, with half a turn.
+inline PolygonSoup moebius_strip(int n) {
+  PolygonSoup soup;
+  for (int i = 0; i < n; ++i)
+    for (int j = -1; j <= 1; ++j) {
+      const double a = 2 * pi * i / n, rho = 1 + 0.3 * j * std::cos(a / 2);
+      soup.points.emplace_back(rho * std::cos(a), rho * std::sin(a), 0.3 * j * std::sin(a / 2));
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const bool last = i + 1 == n;
+      const int next = last ? 2 - j : 3 * (i + 1) + j, step = last ? -1 : 1;
+      soup.polygons.push_back({3 * i + j, next, next + step, 3 * i + j + 1});
+    }
+  return soup;
+}
+
+/// n x n quads in the plane z = 0, x and y from 0 to 1.
+inline PolygonSoup sheet(int n) {
+  PolygonSoup soup;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) soup.points.emplace_back(i / double(n), j / double(n), 0);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int at = i * (n + 1) + j;
+      soup.polygons.push_back({at, at + n + 1, at + n + 2, at + 1});
+    }
   return soup;
 }
 
