@@ -136,16 +136,17 @@ class Sweep {
     double margin;
   };
 
-  /// The sites between two, of which neither is the first or the last.
+  /// The sites between two, of which neither is the first or the last. Where the margin changes by
+  /// less than a fifth of itself it keeps its sign.
   template <class Margin>
   static void between(const Place& a, const Place& b, const Margin& margin, RowRuns& runs) {
     if (b.site - a.site < 2) return;
+    if (std::abs(a.margin - b.margin) < std::min(std::abs(a.margin), std::abs(b.margin)) / 5) {
+      if (a.margin > 0) runs.add(a.site + 1, b.site, 0);
+      return;
+    }
     const int site = a.site + (b.site - a.site) / 2;
     const Place middle{site, margin(site)};
-    const auto [least, most] = std::minmax({a.margin, b.margin, middle.margin});
-    const double doubt = most - least;
-    if (least > doubt) return runs.add(a.site + 1, b.site, 0);
-    if (most < -doubt) return;
     between(a, middle, margin, runs);
     if (middle.margin > 0) runs.add(site, site + 1, 0);
     between(middle, b, margin, runs);

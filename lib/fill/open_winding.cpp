@@ -110,8 +110,8 @@ double OpenWinding::sum(const View& view, double farness, double& doubt) const {
     const double distance = to.norm();
     if (distance > farness * node.reach && distance > 0) {
       sum += before(view, node.first, node.last) - from_afar(node, to, distance);
-      const double nearest = distance - node.reach;
-      doubt += 3 * node.reach * node.reach * node.size / (4 * pi * std::pow(nearest, 4));
+      const double nearest = distance - node.reach, square = nearest * nearest;
+      doubt += 3 * node.reach * node.reach * node.size / (4 * pi * square * square);
     } else if (node.left < 0) {
       for (int i = node.first; i < node.last; ++i) sum += strips(view, sorted_[i]);
     } else {
