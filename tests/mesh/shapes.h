@@ -107,6 +107,41 @@ inline PolygonSoup without(PolygonSoup soup, double share, unsigned seed = 1) {
   return soup;
 }
 
+/// Triangles cut in four until there are `faces` of them: the same surface.
+inline PolygonSoup refined(PolygonSoup soup, std::size_t faces) {
+  while (soup.polygons.size() < faces) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [at, added] = middles.try_emplace(std::minmax(a, b), soup.points.size());
+      if (added) soup.points.push_back((soup.points[a] + soup.points[b]) / 2);
+      return at->second;
+    };
+    std::vector<std::vector<int>> finer;
+    for (const auto& f : soup.polygons) {
+      const int ab = middle(f[0], f[1]), bc = middle(f[1], f[2]), ca = middle(f[2], f[0]);
+      finer.insert(finer.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
+    }
+    soup.polygons = finer;
+  }
+  return soup;
+}
+
+/// Every face with points of its own, moved by up to `jitter` along each axis.
+inline PolygonSoup torn(const PolygonSoup& soup, double jitter) {
+  std::mt19937 random(1);
+  const auto shift = [&] { return jitter * (random() / 2147483648.0 - 1); };
+  PolygonSoup pieces;
+  for (auto polygon : soup.polygons) {
+    for (int& corner : polygon) {
+      const Vec3 by(shift(), shift(), shift());
+      pieces.points.push_back(soup.points[corner] + by);
+      corner = static_cast<int>(pieces.points.size()) - 1;
+    }
+    pieces.polygons.push_back(polygon);
+  }
+  return pieces;
+}
+
 /// Each face with points of its own, shrunk towards its middle: a soup of single triangles.
 inline PolygonSoup burst(const PolygonSoup& soup, double size = 1) {
   PolygonSoup parts;
