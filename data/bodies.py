@@ -77,7 +77,7 @@ def head(body):
         body.add(flattened(ear, base, (1, 0.35 * side, 0.08), 0.62), 0.015)
 
 
-TENTACLE = [(0, 0, 0.045, 0.046), (0.012, 0, 0.15, 0.042), (0.008, 0, 0.27, 0.035),
+TENTACLE = [(0, 0, 0.054, 0.046), (0.012, 0, 0.15, 0.042), (0.008, 0, 0.27, 0.035),
             (-0.014, 0, 0.39, 0.027), (-0.010, 0, 0.50, 0.019), (0.035, 0, 0.584, 0.0115)]
 
 
@@ -85,7 +85,7 @@ def tentacle():
     """An arm of an octopus that rises from z = 0; two rows of suckers look along x."""
     body = Body("An arm of an octopus")
     body.add(tube(*TENTACLE), 0)
-    body.add(ellipsoid((0, 0, 0.030), (0.062, 0.062, 0.030)), 0.05)  # foot
+    body.add(ellipsoid((0, 0, 0.0388), (0.062, 0.062, 0.030)), 0.05)  # foot
     for x, y, z, size, outward in suckers():
         body.add(ellipsoid((x, y, z), (0.45 * size, size, size), outward, (0, 0, 1)), 0.004)
     return body
@@ -94,10 +94,10 @@ def tentacle():
 def suckers():
     """Places of the suckers (m), their radii, and the directions they look in."""
     spans = tube_cubics(*TENTACLE)
-    along, side = 0.55, 1
+    along = 0.55  # in spans
     while along < 4.6:
         x, y, z, radius = (at(cubic, along % 1) for cubic in spans[int(along)])
         for side in (1, -1):
             outward = (0.85, 0.53 * side, 0)
             yield x + outward[0] * radius, y + outward[1] * radius, z, 0.36 * radius, outward
-        along += 0.9 * radius / 0.11
+        along += 8.2 * radius  # a span is about 0.11 m long: the pairs are 0.9 radii apart

@@ -49,4 +49,5 @@ if __name__ == "__main__":
     try:
         main()
     except (OSError, ValueError) as error:
-        sys.exit(f"make_broken.py: {error}")
+        print(f"make_broken.py: {error}", file=sys.stderr)
+        sys.exit(2)
