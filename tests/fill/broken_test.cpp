@@ -12,11 +12,18 @@
 namespace sinew {
 namespace {
 
+PolygonSoup triangles_of(const PolygonSoup& soup) {
+  const Triangles triangles = clean(soup).triangles;
+  PolygonSoup cut{triangles.points, {}};
+  for (const auto& face : triangles.faces) cut.polygons.emplace_back(face.begin(), face.end());
+  return cut;
+}
+
 /// The winding number of a hole's rim is wrong within a fraction of the hole's size: what is lost
 /// shrinks with the faces. So these have 100,000 of them.
 std::vector<PolygonSoup> bodies() {
   const std::string creature = SINEW_SOURCE_DIR "/data/meshes/creature.ply";
-  return {shapes::sphere(1, 7), shapes::torus(1, 0.4, 320, 160),
+  return {shapes::sphere(1, 7), triangles_of(shapes::torus(1, 0.4, 320, 160)),
           shapes::refined(read_polygons(creature), 100000)};
 }
 
