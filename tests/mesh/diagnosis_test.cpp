@@ -48,6 +48,9 @@ TEST(SelfIntersections, AreFoundInOpenAndCrowdedSurfacesToo) {
   const PolygonSoup cross{{{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}, {0, 0, -1}, {0, 0, 1}, {0, 1, 1}},
                           {{0, 1, 2}, {3, 4, 5}}};
   EXPECT_EQ(crossings(cross).pairs, 1u);
+  const PolygonSoup at_a_corner{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.6, 0.5, 1}},
+                                {{0, 1, 2}, {0, 3, 4}}};
+  EXPECT_EQ(crossings(at_a_corner).pairs, 1u);
   auto needle = sphere(1, 3);
   needle.points[0] = Vec3(-2, 0, 0);  // its tip pushed through to the other side
   EXPECT_GT(crossings(shapes::without(needle, 0.2)).pairs, 0u);

@@ -48,6 +48,14 @@ TEST(Orient, TurnsBackWhatIsFlipped) {
   }
 }
 
+TEST(Orient, FollowsMostOfTheAreaWhereThereIsNoInside) {
+  auto sheet = shapes::sheet(4);
+  for (const std::size_t face : {0, 1, 6})
+    std::reverse(sheet.polygons[face].begin(), sheet.polygons[face].end());
+  EXPECT_EQ(clean(sheet).cleaning.faces_turned, 6u);
+  EXPECT_EQ(clean(inverted(sheet)).cleaning.faces_turned, 6u);
+}
+
 TEST(Orient, TurnsWhatIsInsideOut) {
   const auto body = sphere(1, 3);
   const Surface surface = clean(inverted(flipped(body, 0.1)));
@@ -64,6 +72,16 @@ TEST(Orient, TellsTheOutsideOfOpenBodiesAndTheirIslands) {
       const Surface surface = clean(torn);
       EXPECT_EQ(inward_faces(surface), 0u) << missing << inside_out;
       EXPECT_EQ(surface.cleaning.faces_turned, inside_out ? torn.polygons.size() : 0);
+    }
+}
+
+TEST(Orient, DoesNotTakeAHollowPieceForAPieceInsideOut) {
+  for (const auto& body : {shapes::bumpy_ball(5), shapes::torus(1, 0.4)})
+    for (const double missing : {0.1, 0.2, 0.3, 0.4}) {
+      const auto torn = shapes::without(body, missing);
+      EXPECT_EQ(clean(torn).cleaning.faces_turned, 0u) << missing;
+      const Surface surface = clean(inverted(torn));
+      EXPECT_EQ(surface.cleaning.faces_turned, surface.triangles.faces.size()) << missing;
     }
 }
 
@@ -138,12 +156,15 @@ TEST(Orient, PutsABodyIntoACavity) {
   }
 }
 
-TEST(Orient, SeesACavityThatTouchesItsWall) {
-  const auto body = shapes::box(Vec3::Zero(), Vec3::Ones());
-  const auto touching = inverted(shapes::box(Vec3(0.2, 0.2, 0), Vec3(0.6, 0.7, 0.5)));
-  const Surface surface = clean(together(body, touching));
-  EXPECT_NEAR(winding(surface, {0.4, 0.4, 0.3}), 0, 1e-9);
-  EXPECT_NEAR(winding(surface, {0.4, 0.4, 0.8}), 1, 1e-9);
+TEST(Orient, SeesACavityThatTouchesItsWalls) {
+  const auto body = shapes::box(Vec3::Zero(), Vec3(1, 1.1, 1.3));
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 low(corner & 1 ? 0.5 : 0, corner & 2 ? 0.6 : 0, corner & 4 ? 0.7 : 0);
+    const Vec3 high = low + Vec3(0.5, 0.5, 0.6);
+    const Surface surface = clean(together(body, inverted(shapes::box(low, high))));
+    EXPECT_NEAR(winding(surface, low + Vec3(0.2, 0.3, 0.4)), 0, 1e-9);
+    EXPECT_NEAR(winding(surface, Vec3(0.51, 0.58, 0.64)), 1, 1e-9);
+  }
 }
 
 TEST(Orient, TellsThousandsOfCavities) {

@@ -71,6 +71,15 @@ inline PolygonSoup sphere(double radius, int levels, const Vec3& centre = Vec3::
   return soup;
 }
 
+/// A ball with bulges and hollows.
+inline PolygonSoup bumpy_ball(int levels) {
+  PolygonSoup soup = sphere(1, levels);
+  for (Vec3& p : soup.points)
+    p *= 1 + 0.35 * std::sin(5 * std::atan2(p.y(), p.x())) * (1 - p.z() * p.z()) +
+         0.2 * std::sin(7 * p.z());
+  return soup;
+}
+
 /// Both in one file, points of the second after those of the first.
 inline PolygonSoup together(PolygonSoup a, const PolygonSoup& b) {
   const int offset = static_cast<int>(a.points.size());

@@ -20,7 +20,8 @@ inline std::size_t border_with_caps(const Surface& surface) {
       for (int side = 0; side < 3; ++side) {
         const Vec3 &p = part->points[face[side]], &q = part->points[face[(side + 1) % 3]];
         const Place from(p.x(), p.y(), p.z()), to(q.x(), q.y(), q.z());
-        count[std::minmax(from, to)] += from < to ? 1 : -1;
+        if (from != to)  // a hole's middle may be one of its points
+          count[std::minmax(from, to)] += from < to ? 1 : -1;
       }
   std::size_t open = 0;
   for (const auto& [edge, net] : count) open += net != 0;
