@@ -214,6 +214,14 @@ class Meshes(unittest.TestCase):
         self.assertAlmostEqual(found["volume"], 0.016769744422619713, 12)
         self.assertAlmostEqual(found["thinnest_part"], 0.15556, 4)
 
+    def test_every_scene_of_ours_agrees_with_cgal(self):
+        scenes = sorted((SOURCE / "configs").glob("*.yaml"))
+        self.assertGreater(len(scenes), 3)
+        for scene in scenes:
+            found = self.run_sinew("fill", scene, "-o", self.folder / "body.vtu", "--verify")
+            self.assertEqual(found["mismatches"], 0, scene)
+            self.assertEqual(found["warnings"], [], scene)
+
     def test_gltf_is_read(self):
         points, faces = sphere(3)
         import base64
