@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/closest_packing.h"
 #include "core/number_text.h"
 #include "fill/fill_limits.h"
 #include "fill/volume_inside.h"
@@ -13,10 +14,6 @@
 
 namespace sinew {
 namespace {
-
-// A slab this many radii thick holds a site wherever it lies: no place of a closest packing is
-// farther than sqrt(2) r from one.
-const double radii_for_a_site = 2 * std::sqrt(2.0);
 
 nlohmann::ordered_json as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -53,7 +50,7 @@ void add_radii(double inside, const Diagnosis& diagnosis, Results& results) {
       results.add("thinnest_part_at_" + name, *diagnosis.thinnest / radius, "radii");
   }
   if (diagnosis.thinnest)
-    results.add("radius_for_thinnest_part", *diagnosis.thinnest / radii_for_a_site, "m");
+    results.add("radius_for_thinnest_part", *diagnosis.thinnest / surely_filled_thickness(1), "m");
 }
 
 /// One number for each face: the worst that is wrong with it.

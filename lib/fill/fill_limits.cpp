@@ -19,8 +19,8 @@ constexpr double rounding_of_volume = 1e-13;
 // Bytes while filling and writing: positions, velocities, counts and their copies on the way out.
 constexpr double bytes_per_particle = 150, bytes_per_row = 100;
 constexpr double most_ids = std::numeric_limits<std::int32_t>::max();
-constexpr double enough = 100;   // particles of a radius that is proposed
-constexpr double finest = 2000;  // radii along the box, when a radius that fits is looked for
+constexpr double enough = 100;  // particles of a radius that is proposed
+constexpr double finest = 400;  // radii along the box, when a radius that fits is looked for
 
 const char* const thicken = "give a thickness to fill a layer along the surface";
 
@@ -119,11 +119,15 @@ double wanted_radius(const BodySpace& space, const PackOptions& options) {
   return radius;
 }
 
-void refuse_empty(const BodySpace& space, const PackOptions& options, double radius) {
-  const char* what = options.keep == Keep::sphere ? "" : "centre ";
+void refuse_empty(const BodySpace& space, const PackOptions& options, const FilledSites& filled) {
+  const double radius = filled.lattice.radius;
+  if (const std::size_t inside = count_of(filled.inside.runs); inside > 0)
+    throw bad_input("all " + std::to_string(inside) + " places for particles lie within " +
+                        three_digits(clearance_of(options, radius)) + " m of the surface",
+                    "give a smaller clearance or radius");
   const double fits = radius_that_fits(space, options, radius);
   throw bad_input(
-      "no particle of radius " + three_digits(radius) + " m has its " + what + "inside",
+      "no particle of radius " + three_digits(radius) + " m has its centre inside",
       fits > 0 ? "a radius of " + three_digits(fits) + " m fits" : std::string(thicken));
 }
 

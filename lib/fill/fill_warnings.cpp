@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/number_text.h"
+#include "mesh/thickness.h"
 
 namespace sinew {
 namespace {
@@ -45,9 +46,13 @@ void warn_of_lost_volume(const FillReport& report, const Surface& surface, Warni
   const double lost = report.volume - report.packed.volume;
   if (lost < std::max(much_lost * report.volume, scatter(area(surface.triangles), report.radius)))
     return;
+  const auto thinnest = thinnest_part(surface.triangles);
+  const std::string cure =
+      thinnest
+          ? "a radius of " + three_digits(*thinnest / surely_filled_thickness(1)) + " m keeps them"
+          : "give a smaller radius";
   warnings.push_back("particles fill " + percent(report.packed.volume / report.volume) +
-                     " of the volume: parts thinner than about 3 radii are lost; give a smaller "
-                     "radius");
+                     " of the volume: parts thinner than particles are lost; " + cure);
 }
 
 void warn_of_lost_bodies(const FillReport& report, Warnings& warnings) {

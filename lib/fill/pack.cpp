@@ -118,7 +118,7 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   report.ambiguous = refuse_without_inside(space, options);
   const double wanted = wanted_radius(space, options);
   const FilledSites filled = fill_sites(space, options, wanted);
-  if (filled.runs.empty()) refuse_empty(space, options, wanted);
+  if (filled.runs.empty()) refuse_empty(space, options, filled);
   report.seconds_inside = watch.lap();
 
   Touching touching = touching_sites(filled.lattice, filled.runs);
