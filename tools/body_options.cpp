@@ -65,7 +65,8 @@ void BodyOptions::declare(CLI::App& app, Kind kind) {
     one.flag = row.kind == FieldKind::flag;
     const std::string help = help_of(row);
     CLI::Option* option =
-        one.flag ? app.add_flag_function(one.option, [](std::int64_t) {}, help)
+        one.flag ? app.add_flag_function(
+                       one.option, [](std::int64_t) {}, help)
                  : app.add_option(one.option, one.value, help)->type_name(type_name(row));
     option->group("Options for a mesh");
     one.parsed = option;

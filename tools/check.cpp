@@ -87,6 +87,7 @@ Exit check(const std::string& scene, const Common& common) {
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const double speed = bone_speed(setup, settings.output.interval);
   auto warnings = warnings_of(setup, speed);
+  warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double per_step = seconds_per_step(settings, setup, filling.particles, warnings);
 
   Results results;

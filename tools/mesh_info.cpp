@@ -76,15 +76,17 @@ DefectsFile drawing_of(const Surface& surface, const Defects& defects) {
   return file;
 }
 
-std::vector<std::string> warnings_of(const Surface& surface, double ambiguous, double inside) {
+std::vector<std::string> warnings_of(const Surface& surface, const BodySettings& body,
+                                     double ambiguous, double inside) {
   std::vector<std::string> warnings;
   const double size = bounds(surface.triangles.points).sizes().maxCoeff();
-  if (size > 100 || size < 1e-3)
+  const bool as_is = body.unit == LengthUnit::m && body.scale == 1;
+  if (as_is && (size > 100 || size < 1e-3))
     warnings.push_back("the mesh is " + three_digits(size) +
                        " m long: if it is in another unit than metres, give --unit");
   if (ambiguous > most_ambiguous)
     warnings.push_back("the surface has no inside (" + three_digits(100 * ambiguous) +
-                       " % of its box is ambiguous): fill it with a thickness");
+                       " % of its box is ambiguous): close its holes, or fill it with a thickness");
   else if (!(inside > 0))
     warnings.push_back("the surface encloses no volume: fill it with a thickness");
   return warnings;
@@ -113,7 +115,7 @@ std::vector<std::string> add_mesh_info(const BodySettings& body, const std::stri
     write_defects(drawing, drawing_of(surface, defects_of(surface, diagnosis)));
     results.add("drawing", drawing);
   }
-  return warnings_of(surface, ambiguous, inside);
+  return warnings_of(surface, body, ambiguous, inside);
 }
 
 }  // namespace sinew
