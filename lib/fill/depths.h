@@ -15,30 +15,45 @@ namespace sinew {
 class Depths {
  public:
   void cross(int component, int winding) {
-    const auto at = std::lower_bound(depths_.begin(), depths_.end(), std::array{component, -99});
-    if (at == depths_.end() || (*at)[0] != component)
+    const auto at = find(component);
+    if (at == depths_.end() || (*at)[0] != component) {
       depths_.insert(at, {component, winding});
-    else if (((*at)[1] += winding) == 0)
+      entered_.push_back(component);
+    } else if (((*at)[1] += winding) == 0) {
       depths_.erase(at);
+    }
   }
 
   /// Components and their winding numbers, where these are not 0.
   const std::vector<std::array<int, 2>>& around() const { return depths_; }
 
-  /// The first component around this place; others around it are noted as overlapping.
-  int body(std::vector<std::array<int, 2>>& overlaps) const {
-    int first = -1;
-    for (const auto& [component, depth] : depths_) {
-      if (depth <= 0) continue;
-      if (first < 0)
-        first = component;
-      else if (overlaps.empty() || overlaps.back() != std::array{first, component})
-        overlaps.push_back({first, component});
-    }
-    return std::max(first, 0);
+  /// The first component around this place. Those that have come since the last call and are around
+  /// it, too, are noted as overlapping with another one.
+  int body(std::vector<std::array<int, 2>>& overlaps) {
+    const auto positive = [](const std::array<int, 2>& depth) { return depth[1] > 0; };
+    const auto first = std::find_if(depths_.begin(), depths_.end(), positive);
+    if (first == depths_.end()) return 0;  // not where the sum of all is positive
+    const auto second = std::find_if(first + 1, depths_.end(), positive);
+    for (const int component : entered_)
+      if (second != depths_.end() && depth_of(component) > 0)
+        overlaps.push_back({(*first)[0], component == (*first)[0] ? (*second)[0] : component});
+    entered_.clear();
+    return (*first)[0];
   }
 
  private:
+  std::vector<std::array<int, 2>>::iterator find(int component) {
+    return std::lower_bound(
+        depths_.begin(), depths_.end(), component,
+        [](const std::array<int, 2>& depth, int wanted) { return depth[0] < wanted; });
+  }
+
+  int depth_of(int component) {
+    const auto at = find(component);
+    return at != depths_.end() && (*at)[0] == component ? (*at)[1] : 0;
+  }
+
+  std::vector<int> entered_;                ///< since body() was asked
   std::vector<std::array<int, 2>> depths_;  ///< component and winding number, not 0
 };
 

@@ -57,7 +57,8 @@ void refuse_too_many(const Box& box, double volume, double radius) {
   const double bytes = bytes_needed(box, volume, radius);
   if (particles <= most_ids && bytes <= memory) return;
   double fits = std::max(radius, radius_for_count(volume, most_ids));
-  while (bytes_needed(box, volume, fits) > memory) fits *= 1.02;
+  for (int round = 0; bytes_needed(box, volume, fits) > memory && round < 5000; ++round)
+    fits *= 1.02;
   throw bad_input("the radius " + three_digits(radius) + " m gives about " +
                       three_digits(particles) + " particles, which need " + gigabytes(bytes) +
                       " of memory where " + gigabytes(memory) +
@@ -79,7 +80,7 @@ double radius_that_fits(const BodySpace& space, const PackOptions& options, doub
   PackOptions tried = options;
   tried.count.reset();
   const double about = volume_inside(space.surface);
-  double fits = about > 0 ? std::min(radius / 2, radius_for_count(about, enough)) : radius / 2;
+  double fits = std::min(radius / 2, about > 0 ? radius_for_count(about, enough) : longest / 4);
   for (; longest / fits < finest; fits /= 2)
     if (!fill_sites(space, tried, rounded_down(fits)).runs.empty()) return rounded_down(fits);
   return 0;

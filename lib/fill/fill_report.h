@@ -41,7 +41,8 @@ struct FillReport {
   double smallest_distance = 0, mean_distance = 0;  ///< to the nearest, over 2r; 0: none touch
   std::vector<BodyReport> bodies;
   int cavities = 0;
-  int groups = 0;   ///< particles that hang together by touching
+  int groups = 0;  ///< particles that hang together by touching
+  int shallowest = 0;
   int deepest = 0;  ///< winding number; above 1 where parts of the mesh overlap
   bool closed = true;
   bool layer = false;    ///< along the surface, of a given thickness, instead of its inside

@@ -14,6 +14,7 @@ namespace {
 constexpr double coarse_sites = 50000;
 constexpr double well_met = 0.02;  // a count, relative
 constexpr int most_rounds = 6;
+constexpr double most_shrink = 3;  // more would be many times the sites that were asked for
 
 FilledSites fill_at(const BodySpace& space, const PackOptions& options, double radius) {
   FilledSites filled{lattice_in(space.box, options.packing, radius, space.lattice_origin), {}, {}};
@@ -53,7 +54,7 @@ FilledSites fill_sites(const BodySpace& space, const PackOptions& options, doubl
   const auto miss = [&](const FilledSites& filled) { return std::abs(std::log(share(filled))); };
   double next = best.lattice.radius * std::cbrt(share(best));
   for (int round = 0; round < most_rounds && miss(best) > well_met; ++round) {
-    FilledSites found = fill_at(space, options, next);
+    FilledSites found = fill_at(space, options, std::max(next, radius / most_shrink));
     if (found.runs.empty()) break;
     next = found.lattice.radius * std::cbrt(share(found));
     if (miss(found) < miss(best)) best = std::move(found);

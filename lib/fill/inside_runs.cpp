@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/parallel.h"
+#include "core/union_find.h"
 #include "fill/depths.h"
 #include "fill/open_winding.h"
 
@@ -19,8 +19,16 @@ constexpr int samples = 4000;
 struct Found {
   std::vector<Run> runs;
   std::vector<std::array<int, 2>> overlaps;  ///< components that share a site
-  int deepest = 0;
+  int deepest = 0, shallowest = 0;
 };
+
+/// Many parts that overlap in many rows do so in the same pairs.
+void drop_repeated(std::vector<std::array<int, 2>>& overlaps) {
+  constexpr std::size_t many = 4096;
+  if (overlaps.size() < many) return;
+  std::sort(overlaps.begin(), overlaps.end());
+  overlaps.erase(std::unique(overlaps.begin(), overlaps.end()), overlaps.end());
+}
 
 /// Collects runs of one row and leaves out the sites on the surface.
 class RowRuns {
@@ -78,6 +86,7 @@ class Sweep {
       if (!owner_.empty()) depths.cross(owner_[surface_.component[one.face]], one.winding);
     }
     take(runs, from, lattice_.rows[row].sites, sum, depths, found);
+    drop_repeated(found.overlaps);
   }
 
   void open_row(std::size_t row, Found& found) const {
@@ -85,7 +94,6 @@ class Sweep {
     int sum = 0, from = 0;
     for (const Crossing& one : crossings_.of(row)) {
       smooth(row, from, one.site, sum, runs);
-      found.deepest = std::max(found.deepest, sum);
       from = one.site;
       sum += one.winding;
     }
@@ -100,11 +108,11 @@ class Sweep {
   }
 
  private:
-  static void take(RowRuns& runs, int first, int last, int sum, const Depths& depths,
-                   Found& found) {
-    if (first >= last || sum <= 0) return;
+  static void take(RowRuns& runs, int first, int last, int sum, Depths& depths, Found& found) {
+    if (first >= last) return;
     found.deepest = std::max(found.deepest, sum);
-    runs.add(first, last, depths.body(found.overlaps));
+    found.shallowest = std::min(found.shallowest, sum);
+    if (sum > 0) runs.add(first, last, depths.body(found.overlaps));
   }
 
   /// Between two crossings the winding number changes smoothly, faster near the surface: looked at
@@ -166,25 +174,20 @@ class Sweep {
   std::vector<int> owner_;  ///< of each component, where there are several
 };
 
-int root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-/// Joins overlapping components and numbers what encloses a volume by its first component.
+/// Joins overlapping components and numbers what encloses a volume, or holds sites, by its first
+/// component.
 void number_bodies(const std::vector<Found>& found, const Surface& surface, InsideRuns& inside) {
-  std::vector<int> parent(surface.components);
-  std::iota(parent.begin(), parent.end(), 0);
+  UnionFind sets(surface.components);
   for (const Found& piece : found)
-    for (const auto& [a, b] : piece.overlaps) {
-      const auto [low, high] = std::minmax({root(parent, a), root(parent, b)});
-      parent[high] = low;
-    }
+    for (const auto& [a, b] : piece.overlaps) sets.join(a, b);
+  std::vector<bool> filled(surface.components);
   const std::vector<double> volumes = component_volumes(surface);
+  for (int i = 0; i < surface.components; ++i) filled[i] = volumes[i] > 0;
+  for (const Run& run : inside.runs) filled[run.body] = true;
   inside.body_of.assign(surface.components, -1);
   for (int i = 0; i < surface.components; ++i) {
-    if (volumes[i] <= 0) continue;
-    int& first = inside.body_of[root(parent, i)];
+    if (!filled[i]) continue;
+    int& first = inside.body_of[sets.first_of(i)];
     if (first < 0) first = inside.bodies++;
     inside.body_of[i] = first;
   }
@@ -212,6 +215,7 @@ InsideRuns inside_runs(const Lattice& lattice, const Surface& surface) {
   for (const Found& piece : found) {
     inside.runs.insert(inside.runs.end(), piece.runs.begin(), piece.runs.end());
     inside.deepest = std::max(inside.deepest, piece.deepest);
+    inside.shallowest = std::min(inside.shallowest, piece.shallowest);
   }
   inside.on_surface = sweep.take_on_surface();
   if (closed) number_bodies(found, surface, inside);

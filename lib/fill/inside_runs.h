@@ -15,6 +15,7 @@ namespace sinew {
 struct InsideRuns {
   std::vector<Run> runs;            ///< by row, then site; never touching with the same body
   std::vector<RowSite> on_surface;  ///< sites on the surface: not inside
+  int shallowest = 0;               ///< of closed surfaces: below 0 where one lies inside out
   int deepest = 0;                  ///< the largest winding number; above 1 where parts overlap
   /// Of closed surfaces: the body of each component, -1 for cavities. Components that share an
   /// inside site are one body. Empty for open ones, where all runs are of body 0.

@@ -13,6 +13,14 @@ constexpr int caps_in_a_leaf = 4;
 
 Vec3 area_of(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
+/// From the origin to the line a b between its ends.
+double distance(const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a;
+  const double square = way.squaredNorm();
+  const double at = square > 0 ? std::clamp(-a.dot(way) / square, 0.0, 1.0) : 0;
+  return (a + at * way).norm();
+}
+
 Vec3 middle_of(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
 
 }  // namespace
@@ -38,8 +46,23 @@ OpenWinding::OpenWinding(const Lattice& lattice, const Triangles& caps,
     for (int corner = 0; corner < 3; ++corner)
       sorted_[i].corners[corner] = frame_.turned(caps.points[caps.faces[i][corner]]);
   }
+  find_border();
   if (!sorted_.empty()) build(0, static_cast<int>(sorted_.size()));
   for (std::size_t i = 0; i < sorted_.size(); ++i) place_[sorted_[i].face] = static_cast<int>(i);
+}
+
+/// A side that no other cap goes along, in the other direction.
+void OpenWinding::find_border() {
+  std::vector<std::array<int, 2>> sides;
+  for (const auto& face : caps_.faces)
+    for (int i = 0; i < 3; ++i) sides.push_back({face[i], face[(i + 1) % 3]});
+  std::sort(sides.begin(), sides.end());
+  for (Cap& cap : sorted_)
+    for (int i = 0; i < 3; ++i) {
+      const auto& face = caps_.faces[cap.face];
+      const std::array<int, 2> back = {face[(i + 1) % 3], face[i]};
+      cap.border[i] = !std::binary_search(sides.begin(), sides.end(), back);
+    }
 }
 
 /// Halves by the middles' order along the longest side of their box; ties by the file's order.
@@ -90,7 +113,7 @@ OpenWinding::Share OpenWinding::share(std::size_t row, int site, const Enough& e
   for (double farness = 2; farness < 50; farness *= 2) {
     double doubt = 0;
     const Share found = sum(from, farness, doubt);
-    if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > doubt) return found;
+    if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > 8 * doubt) return found;
   }
   return share(row, site);
 }
@@ -176,7 +199,11 @@ OpenWinding::Share OpenWinding::strips(const View& view, const Cap& cap) const {
     const double ahead = a.rest * b.rest + (a.to.y() * b.to.y() + a.to.z() * b.to.z());
     sum += std::atan2(turn(view, cap, corner, a, b), ahead);
   }
-  return {-sum / (2 * pi), std::min({rays[0].length, rays[1].length, rays[2].length})};
+  double clearance = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 3; ++corner)
+    if (cap.border[corner])
+      clearance = std::min(clearance, distance(rays[corner].to, rays[(corner + 1) % 3].to));
+  return {-sum / (2 * pi), clearance};
 }
 
 /// a x b along the row, with a sign that holds even where rounding leaves none.

@@ -29,13 +29,14 @@ class OpenWinding {
 
   struct Share {
     double value;      ///< what the caps add to the winding number
-    double clearance;  ///< at most the distance to the nearest corner of a border, m
+    double clearance;  ///< at most the distance to the border, m
   };
 
   /// At a site, to the last bits.
   Share share(std::size_t row, int site) const;
 
-  /// How well a share has to be known: to within `doubt`, or on which side of `threshold` it is.
+  /// How well a share has to be known: to within `doubt`, or to an eighth of its distance from
+  /// `threshold`.
   struct Enough {
     double doubt;
     double threshold;
@@ -55,11 +56,13 @@ class OpenWinding {
   };
   struct Cap {
     std::array<Vec3, 3> corners;
+    std::array<bool, 3> border;  ///< which sides are the surface's border, not another cap's side
     int face;
   };
   struct View;  ///< one site with its row
   struct Ray;
 
+  void find_border();
   int build(int first, int last);
   Node summary(int first, int last) const;
   View view(std::size_t row, int site) const;

@@ -79,6 +79,7 @@ void report_sites(const FilledSites& filled, const BodySpace& space, FillReport&
   report.kept_out =
       count_of(filled.inside.runs) > 0 ? count_of(filled.inside.runs) - report.particles : 0;
   report.deepest = filled.inside.deepest;
+  report.shallowest = filled.inside.shallowest;
   report.layer = filled.inside.runs.empty();
   report.bodies.resize(filled.inside.bodies);
   const std::vector<double> volumes = component_volumes(space.surface);
@@ -108,8 +109,8 @@ void report_neighbours(const Touching& touching, const Lattice& lattice, FillRep
 /// The mass stands for the mesh's volume where particles fill just that, else for their own.
 void report_mass(Particles& particles, const PackOptions& options, FillReport& report) {
   report.packed = moments_of(particles, volume_per_particle(report.radius));
-  report.volume_of_mesh =
-      report.closed && report.deepest <= 1 && !options.thickness && report.kept_out == 0;
+  report.volume_of_mesh = report.closed && report.deepest <= 1 && report.shallowest >= 0 &&
+                          !options.thickness && report.kept_out == 0;
   report.volume = report.volume_of_mesh ? report.mesh.volume : report.packed.volume;
   report.mass = options.density * report.volume / static_cast<double>(report.particles);
   particles.mass = report.mass;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "core/union_find.h"
 
 namespace sinew {
 namespace {
@@ -51,12 +52,16 @@ class Counter {
   void meet(std::size_t index, std::int64_t row, int shift, std::int32_t* neighbours,
             std::vector<Pair>& pairs) const {
     const Run& run = runs_[index];
-    for (std::size_t other = first_run_[row]; other < first_run_[row + 1]; ++other) {
-      const int first = std::max(run.first, runs_[other].first - shift);
-      const int last = std::min(run.last, runs_[other].last - shift);
+    const auto end = runs_.begin() + static_cast<std::ptrdiff_t>(first_run_[row + 1]);
+    auto other =
+        std::partition_point(runs_.begin() + static_cast<std::ptrdiff_t>(first_run_[row]), end,
+                             [&](const Run& before) { return before.last - shift <= run.first; });
+    for (; other != end && other->first - shift < run.last; ++other) {
+      const int first = std::max(run.first, other->first - shift);
+      const int last = std::min(run.last, other->last - shift);
       for (int n = first; n < last; ++n) ++neighbours[n - run.first];
-      if (first < last && other < index)
-        pairs.push_back({static_cast<std::int32_t>(other), static_cast<std::int32_t>(index)});
+      if (const auto place = static_cast<std::size_t>(other - runs_.begin()); place < index)
+        pairs.push_back({static_cast<std::int32_t>(place), static_cast<std::int32_t>(index)});
     }
   }
 
@@ -66,23 +71,14 @@ class Counter {
   std::vector<std::size_t> site_;       ///< before each run
 };
 
-std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// Numbers the groups by their first run.
 void join(const std::vector<std::vector<Pair>>& pairs, std::size_t runs, Touching& result) {
-  std::vector<std::int32_t> parent(runs);
-  std::iota(parent.begin(), parent.end(), 0);
+  UnionFind sets(runs);
   for (const auto& piece : pairs)
-    for (const auto& [a, b] : piece) {
-      const auto [low, high] = std::minmax({root(parent, a), root(parent, b)});
-      parent[high] = low;
-    }
+    for (const auto& [a, b] : piece) sets.join(a, b);
   result.group.resize(runs);
   for (std::size_t i = 0; i < runs; ++i) {
-    const std::int32_t first = root(parent, static_cast<std::int32_t>(i));
+    const std::int32_t first = sets.first_of(static_cast<std::int32_t>(i));
     result.group[i] = first == static_cast<std::int32_t>(i) ? result.groups++ : result.group[first];
   }
 }

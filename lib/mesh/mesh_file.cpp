@@ -32,7 +32,7 @@ MeshFormat format_of(const std::string& path) {
     throw bad_input({path},
                     "a mesh cannot be a " + (extension.empty() ? "file without extension"
                                                                : "'." + extension + "' file"),
-                    "give an .obj, .off, .stl or .ply file");
+                    "give an .obj, .off, .stl, .ply, .gltf or .glb file");
   return static_cast<MeshFormat>(found - names.begin());
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/prepare.h"
 
+#include <algorithm>
+#include <map>
+
 #include "mesh/clean.h"
 #include "mesh/repair.h"
 
@@ -24,9 +27,22 @@ Surface cleaned_again(const Surface& before, const Triangles& repaired, FillRule
   return surface;
 }
 
+/// A loose face is closed by its own back: both go, they enclose nothing.
+void drop_closed_sheets(HoleClosing& closing) {
+  std::vector<std::array<int, 3>>& faces = closing.triangles.faces;
+  std::map<std::array<int, 3>, int> uses;
+  const auto corners = [](std::array<int, 3> face) {
+    std::sort(face.begin(), face.end());
+    return face;
+  };
+  for (const auto& face : faces) ++uses[corners(face)];
+  std::erase_if(faces, [&](const auto& face) { return uses[corners(face)] == 2; });
+}
+
 Surface without_holes(const Surface& surface, FillRule rule) {
   if (surface.closed()) return surface;
-  const HoleClosing closing = close_holes(surface.triangles);
+  HoleClosing closing = close_holes(surface.triangles);
+  drop_closed_sheets(closing);
   Surface closed = cleaned_again(surface, closing.triangles, rule);
   closed.cleaning.holes_closed = closing.holes_closed;
   closed.cleaning.faces_added = closing.faces_added;

@@ -156,6 +156,45 @@ TEST(InsideRuns, UniteOverlappingPartsIntoOneBody) {
   EXPECT_EQ(count_of(inside.runs), expected);
 }
 
+/// Two boxes whose facing sides have long slits: between them places are far from the slits'
+/// corners and close to their edges.
+TEST(InsideRuns, FollowTheWindingNumberBesideLongSlits) {
+  PolygonSoup slits;
+  const auto quad = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const int first = static_cast<int>(slits.points.size());
+    slits.points.insert(slits.points.end(), {a, b, c, d});
+    slits.polygons.push_back({first, first + 1, first + 2, first + 3});
+  };
+  for (const bool left : {true, false}) {
+    PolygonSoup box =
+        left ? shapes::box({-1, 0, 0}, {0, 1, 1}) : shapes::box({0.1, 0, 0}, {1.1, 1, 1});
+    box.polygons.erase(box.polygons.begin() + (left ? 5 : 4));
+    slits = shapes::together(slits, box);
+    const double x = left ? 0 : 0.1;
+    const auto face = [&](double y0, double y1, double z0, double z1) {
+      const Vec3 a(x, y0, z0), b(x, y1, z0), c(x, y1, z1), d(x, y0, z1);
+      left ? quad(a, b, c, d) : quad(a, d, c, b);
+    };
+    face(0, 0.48, 0, 1), face(0.52, 1, 0, 1), face(0.48, 0.52, 0, 0.05), face(0.48, 0.52, 0.95, 1);
+  }
+  const Surface surface = clean(slits);
+  ASSERT_FALSE(surface.closed());
+  EXPECT_EQ(wrong_sites(surface, lattice_about(surface, Packing::hcp, 0.014)), 0u);
+}
+
+/// A part that encloses nothing in sum still has an inside where it turns outward.
+TEST(InsideRuns, OfAPartWithoutVolumeBelongToABody) {
+  PolygonSoup twisted = shapes::box({3, 0, 0}, {5, 1, 1});
+  for (const int point : {1, 3, 5, 7})  // one end upside down: a bow tie
+    twisted.points[point].z() = 1 - twisted.points[point].z();
+  const Surface surface = clean(shapes::together(shapes::box({0, 0, 0}, {1, 1, 1}), twisted));
+  const InsideRuns inside = inside_runs(lattice_about(surface, Packing::fcc, 0.05), surface);
+  for (const auto& run : inside.runs) {
+    ASSERT_GE(run.body, 0);
+    ASSERT_LT(run.body, inside.bodies);
+  }
+}
+
 TEST(InsideRuns, AreTheSameForAnyNumberOfThreadsAndOrderOfFaces) {
   PolygonSoup body = shapes::without(shapes::torus(1, 0.4), 0.1);
   const Lattice lattice = lattice_about(clean(body), Packing::fcc, 0.03);

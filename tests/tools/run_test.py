@@ -257,7 +257,7 @@ class Commands(unittest.TestCase):
         words = ["fill", mesh, "--radius", "0.02", "-o"]
         self.assert_one_line(sinew(*words, mesh), 2, "mine.obj")
         self.assertEqual(mesh.read_bytes(), before)
-        pipe = self.folder / "pipe"
+        pipe = self.folder / "pipe.vtu"
         os.mkfifo(pipe)
         self.assert_one_line(sinew(*words, pipe), 4, "pipe")
         self.assertTrue(pipe.is_fifo())
