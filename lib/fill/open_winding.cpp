@@ -113,7 +113,7 @@ OpenWinding::Share OpenWinding::share(std::size_t row, int site, const Enough& e
   for (double farness = 2; farness < 50; farness *= 2) {
     double doubt = 0;
     const Share found = sum(from, farness, doubt);
-    if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > 8 * doubt) return found;
+    if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > 3 * doubt) return found;
   }
   return share(row, site);
 }

@@ -35,7 +35,7 @@ class OpenWinding {
   /// At a site, to the last bits.
   Share share(std::size_t row, int site) const;
 
-  /// How well a share has to be known: to within `doubt`, or to an eighth of its distance from
+  /// How well a share has to be known: to within `doubt`, or to a third of its distance from
   /// `threshold`.
   struct Enough {
     double doubt;
