@@ -18,13 +18,13 @@ FINGERS = [
 def arm():
     """A left arm stretched out along x, thumb up, its palm towards -y; the shoulder at x = 0."""
     body = Body("An arm with a hand")
-    body.add(tube((0.047, 0, 0, 0.047), (0.12, 0, 0, 0.040), (0.20, 0, 0, 0.035),
-                  (0.255, 0, -0.001, 0.034)), 0)
+    body.add(tube((0.047, 0, 0, 0.047), (0.12, 0, 0, 0.040), (0.20, 0, 0, 0.034),
+                  (0.255, 0, 0, 0.030)), 0)
     body.add(ellipsoid((0.140, 0, 0.014), (0.080, 0.033, 0.035)), 0.035)  # biceps
     body.add(ellipsoid((0.130, 0, -0.016), (0.090, 0.032, 0.030)), 0.03)  # triceps
-    body.add(tube((0.255, 0, -0.001, 0.034), (0.305, 0, 0.002, 0.0365), (0.37, 0, 0.001, 0.031),
-                  (0.43, 0, 0, 0.0255), (0.475, 0, 0, 0.0235)), 0.012)
-    body.add(ellipsoid((0.258, 0, -0.024), (0.018, 0.012, 0.0125)), 0.02)  # point of the elbow
+    body.add(tube((0.255, 0, 0, 0.030), (0.315, 0, 0.002, 0.0345), (0.37, 0, 0.001, 0.031),
+                  (0.43, 0, 0, 0.0255), (0.475, 0, 0, 0.0240)), 0.018)
+    body.add(ellipsoid((0.257, 0, -0.020), (0.016, 0.012, 0.012)), 0.02)  # point of the elbow
     palm(body)
     for x, z, (dx, dz), length, width in FINGERS:
         knots = [(x + s * length * dx, y, z + s * length * dz, r * width) for s, y, r in
@@ -73,11 +73,11 @@ def head(body):
         body.add(ellipsoid((0.201, 0.035 * side, 0.300), (0.0150, 0.0145, 0.0175)), 0.004)  # eyes
         base, middle, top = ((0.134, 0.040 * side, 0.320), (0.129, 0.052 * side, 0.362),
                              (0.124, 0.062 * side, 0.397))
-        ear = tube((*base, 0.038), (*middle, 0.0275), (*top, 0.0135))
+        ear = tube((*base, 0.038), (*middle, 0.0285), (*top, 0.0155))
         body.add(flattened(ear, base, (1, 0.35 * side, 0.08), 0.62), 0.015)
 
 
-TENTACLE = [(0, 0, 0.045, 0.046), (0.012, 0, 0.15, 0.042), (0.008, 0, 0.27, 0.035),
+TENTACLE = [(0, 0, 0.054, 0.046), (0.012, 0, 0.15, 0.042), (0.008, 0, 0.27, 0.035),
             (-0.014, 0, 0.39, 0.027), (-0.010, 0, 0.50, 0.019), (0.035, 0, 0.584, 0.0115)]
 
 
@@ -85,7 +85,7 @@ def tentacle():
     """An arm of an octopus that rises from z = 0; two rows of suckers look along x."""
     body = Body("An arm of an octopus")
     body.add(tube(*TENTACLE), 0)
-    body.add(ellipsoid((0, 0, 0.030), (0.062, 0.062, 0.030)), 0.05)  # foot
+    body.add(ellipsoid((0, 0, 0.0388), (0.062, 0.062, 0.030)), 0.05)  # foot
     for x, y, z, size, outward in suckers():
         body.add(ellipsoid((x, y, z), (0.45 * size, size, size), outward, (0, 0, 1)), 0.004)
     return body
@@ -94,10 +94,10 @@ def tentacle():
 def suckers():
     """Places of the suckers (m), their radii, and the directions they look in."""
     spans = tube_cubics(*TENTACLE)
-    along, side = 0.55, 1
+    along = 0.55  # in spans
     while along < 4.6:
         x, y, z, radius = (at(cubic, along % 1) for cubic in spans[int(along)])
         for side in (1, -1):
             outward = (0.85, 0.53 * side, 0)
             yield x + outward[0] * radius, y + outward[1] * radius, z, 0.36 * radius, outward
-        along += 0.9 * radius / 0.11
+        along += 8.2 * radius  # a span is about 0.11 m long: the pairs are 0.9 radii apart

@@ -112,7 +112,7 @@ def middle_of(grid, corners, values, crossings):
 
 
 def around(low, axis):
-    """The four cells around the grid edge from `low` along `axis`, counter-clockwise from its end."""
+    """The four cells around the edge from `low` along `axis`, turning left as seen from its end."""
     u, v = (axis + 1) % 3, (axis + 2) % 3
     cells = []
     for du, dv in ((0, 0), (-1, 0), (-1, -1), (0, -1)):

@@ -63,10 +63,13 @@ void BodyOptions::declare(CLI::App& app, Kind kind) {
     one.path = std::string(row.section) + '.' + std::string(row.name);
     one.option = option_name(row);
     one.flag = row.kind == FieldKind::flag;
-    one.parsed =
-        one.flag ? app.add_flag(one.option, help_of(row))
-                 : app.add_option(one.option, one.value, help_of(row))->type_name(type_name(row));
-    const_cast<CLI::Option*>(one.parsed)->group("Options for a mesh");
+    const std::string help = help_of(row);
+    CLI::Option* option =
+        one.flag ? app.add_flag_function(
+                       one.option, [](std::int64_t) {}, help)
+                 : app.add_option(one.option, one.value, help)->type_name(type_name(row));
+    option->group("Options for a mesh");
+    one.parsed = option;
   }
 }
 

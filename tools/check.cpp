@@ -44,7 +44,7 @@ void add_sizes(const Filling& filling, const Surface& surface, Results& results)
   results.add("radius", particles.radius, "m");
   results.add("surface_points", surface.triangles.points.size());
   results.add("surface_triangles", surface.triangles.faces.size());
-  results.add("volume", filling.report.mesh_volume, "m^3");
+  results.add("volume", filling.report.volume, "m^3");
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
 }
 
@@ -87,6 +87,7 @@ Exit check(const std::string& scene, const Common& common) {
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const double speed = bone_speed(setup, settings.output.interval);
   auto warnings = warnings_of(setup, speed);
+  warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double per_step = seconds_per_step(settings, setup, filling.particles, warnings);
 
   Results results;

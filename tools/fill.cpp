@@ -35,10 +35,12 @@ void declare(CLI::App& app, Options& options) {
 Settings settings_for_mesh(const Options& options, const Common& common) {
   std::vector<Override> overrides = common.overrides;
   for (const Override& one : options.body.overrides()) overrides.push_back(one);
-  const bool sized = std::any_of(overrides.begin(), overrides.end(), [](const Override& one) {
+  const auto sizes = std::count_if(overrides.begin(), overrides.end(), [](const Override& one) {
     return one.path == "body.radius" || one.path == "body.count";
   });
-  if (!sized)
+  if (sizes > 1)
+    throw bad_input("the size of the particles is given twice", "keep one of --radius and --count");
+  if (sizes == 0)
     throw bad_input("a mesh needs --radius or --count",
                     "say how large the particles are, or how many; see sinew fill --help");
   return settings_of_mesh(options.input, overrides);
@@ -64,7 +66,7 @@ void print(const FillReport& report, const Options& options, const Common& commo
 Exit fill(const Options& options, const Common& common) {
   const Settings settings = is_scene(options.input) ? settings_for_scene(options, common)
                                                     : settings_for_mesh(options, common);
-  refuse_to_overwrite(options.output, {options.input, settings.body.mesh});
+  refuse_output(options.output, {options.input, settings.body.mesh});
   Filling filling = fill_body(settings, read_mesh(settings), options.verify);
   const FillReport report = filling.report;
   write_body(options.output, body_file(std::move(filling), origin_of(settings)));

@@ -55,7 +55,7 @@ Exit info(const Options& options, const Common& common) {
   } else {
     body = body_of_mesh(options, common);
   }
-  refuse_to_overwrite(options.drawing, {options.path, body.mesh});
+  if (!options.drawing.empty()) refuse_output(options.drawing, {options.path, body.mesh});
   const auto warnings = add_mesh_info(body, options.drawing, results);
   results.add("warnings", warnings);
   results.print(common.json);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/closest_packing.h"
 #include "core/number_text.h"
 #include "fill/fill_limits.h"
 #include "fill/volume_inside.h"
@@ -13,10 +14,6 @@
 
 namespace sinew {
 namespace {
-
-// A slab this many radii thick holds a site wherever it lies: no place of a closest packing is
-// farther than sqrt(2) r from one.
-const double radii_for_a_site = 2 * std::sqrt(2.0);
 
 nlohmann::ordered_json as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -53,7 +50,7 @@ void add_radii(double inside, const Diagnosis& diagnosis, Results& results) {
       results.add("thinnest_part_at_" + name, *diagnosis.thinnest / radius, "radii");
   }
   if (diagnosis.thinnest)
-    results.add("radius_for_thinnest_part", *diagnosis.thinnest / radii_for_a_site, "m");
+    results.add("radius_for_thinnest_part", *diagnosis.thinnest / surely_filled_thickness(1), "m");
 }
 
 /// One number for each face: the worst that is wrong with it.
@@ -79,15 +76,17 @@ DefectsFile drawing_of(const Surface& surface, const Defects& defects) {
   return file;
 }
 
-std::vector<std::string> warnings_of(const Surface& surface, double ambiguous, double inside) {
+std::vector<std::string> warnings_of(const Surface& surface, const BodySettings& body,
+                                     double ambiguous, double inside) {
   std::vector<std::string> warnings;
   const double size = bounds(surface.triangles.points).sizes().maxCoeff();
-  if (size > 100 || size < 1e-3)
+  const bool as_is = body.unit == LengthUnit::m && body.scale == 1;
+  if (as_is && (size > 100 || size < 1e-3))
     warnings.push_back("the mesh is " + three_digits(size) +
                        " m long: if it is in another unit than metres, give --unit");
   if (ambiguous > most_ambiguous)
     warnings.push_back("the surface has no inside (" + three_digits(100 * ambiguous) +
-                       " % of its box is ambiguous): fill it with a thickness");
+                       " % of its box is ambiguous): close its holes, or fill it with a thickness");
   else if (!(inside > 0))
     warnings.push_back("the surface encloses no volume: fill it with a thickness");
   return warnings;
@@ -116,7 +115,7 @@ std::vector<std::string> add_mesh_info(const BodySettings& body, const std::stri
     write_defects(drawing, drawing_of(surface, defects_of(surface, diagnosis)));
     results.add("drawing", drawing);
   }
-  return warnings_of(surface, ambiguous, inside);
+  return warnings_of(surface, body, ambiguous, inside);
 }
 
 }  // namespace sinew

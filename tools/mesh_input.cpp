@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/stopwatch.h"
-#include "io/gltf.h"
+#include "io/gltf/read_gltf.h"
 #include "mesh/mesh_text.h"
 #include "mesh/prepare.h"
 #include "mesh/read_surface.h"

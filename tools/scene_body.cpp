@@ -22,7 +22,9 @@ auto told_at(const Settings& settings, const char* key, Job&& job) {
   try {
     return job();
   } catch (const Error& error) {
-    throw error.within(settings.place(key));
+    const Place place = settings.place(key);
+    if (place.file == settings.body.mesh) throw;  // a mesh without a scene: it names itself
+    throw error.within(place);
   }
 }
 
@@ -41,7 +43,9 @@ bool is_scene(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
-void refuse_to_overwrite(const std::string& output, std::initializer_list<std::string> inputs) {
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs) {
+  if (std::filesystem::path(output).extension() != ".vtu")
+    throw bad_input("'" + output + "' is no name for a VTU file", "give a name that ends in .vtu");
   std::error_code missing;
   for (const std::string& input : inputs)
     if (std::filesystem::equivalent(output, input, missing))

@@ -14,8 +14,8 @@ namespace sinew {
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
 
-/// Throws Error (bad input) where an output is one of the inputs.
-void refuse_to_overwrite(const std::string& output, std::initializer_list<std::string> inputs);
+/// Throws Error (bad input) where an output is no .vtu, or one of the inputs.
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);
 
 /// Reads the mesh that a scene names. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);

@@ -19,8 +19,9 @@ constexpr double rounding_of_volume = 1e-13;
 // Bytes while filling and writing: positions, velocities, counts and their copies on the way out.
 constexpr double bytes_per_particle = 150, bytes_per_row = 100;
 constexpr double most_ids = std::numeric_limits<std::int32_t>::max();
-constexpr double enough = 100;   // particles of a radius that is proposed
-constexpr double finest = 2000;  // radii along the box, when a radius that fits is looked for
+constexpr double farthest_origin = 1e4;  // lengths of the body
+constexpr double enough = 100;           // particles of a radius that is proposed
+constexpr double finest = 400;  // radii along the box, when a radius that fits is looked for
 
 const char* const thicken = "give a thickness to fill a layer along the surface";
 
@@ -84,6 +85,23 @@ double radius_that_fits(const BodySpace& space, const PackOptions& options, doub
   return 0;
 }
 
+/// A layer much thicker than the body, or a lattice so far away that its sites have no digits left.
+void refuse_out_of_place(const BodySpace& space, const PackOptions& options) {
+  const Box box = bounds(space.surface.triangles.points);
+  const double longest = box.sizes().maxCoeff();
+  if (options.thickness && *options.thickness > 2 * longest)
+    throw bad_input("a layer of " + three_digits(*options.thickness) +
+                        " m is thicker than twice the body, which is " + three_digits(longest) +
+                        " m long",
+                    "give a smaller thickness");
+  if (!space.lattice_origin) return;
+  const double away = (*space.lattice_origin - box.center()).norm();
+  if (!(away <= farthest_origin * longest))
+    throw bad_input("the lattice's origin lies " + three_digits(away) + " m from a body of " +
+                        three_digits(longest) + " m",
+                    "give an origin near the body");
+}
+
 /// About the volume that will be filled, m^3.
 double volume_to_fill(const BodySpace& space, const PackOptions& options) {
   if (options.thickness) return area(space.surface.triangles) * *options.thickness;
@@ -104,27 +122,43 @@ double refuse_without_inside(const BodySpace& space, const PackOptions& options)
                         " % of the places in its box lie neither clearly inside nor outside (the "
                         "most is " +
                         three_digits(100 * most_ambiguous) + " %)",
-                    thicken);
+                    "close its holes, or give a thickness to fill a layer along it");
   return share;
 }
 
 double wanted_radius(const BodySpace& space, const PackOptions& options) {
+  refuse_out_of_place(space, options);
   const double about = volume_to_fill(space, options);
   const double radius = options.radius ? *options.radius : radius_for_count(about, *options.count);
   if (!(radius > 0))
     throw bad_input("no volume was found inside the surface, so that a count gives no radius",
-                    "give a radius");
+                    "give a thickness, or a radius");
   if (space.surface.closed() && !options.thickness) refuse_too_large(about, radius);
   refuse_too_many(space.box, about, radius);
   return radius;
 }
 
-void refuse_empty(const BodySpace& space, const PackOptions& options, double radius) {
-  const char* what = options.keep == Keep::sphere ? "" : "centre ";
+void refuse_empty(const BodySpace& space, const PackOptions& options, const FilledSites& filled) {
+  const double radius = filled.lattice.radius;
+  if (const std::size_t inside = count_of(filled.inside.runs); inside > 0)
+    throw bad_input("all " + std::to_string(inside) + " places for particles lie within " +
+                        three_digits(clearance_of(options, radius)) + " m of the surface",
+                    "give a smaller clearance or radius");
   const double fits = radius_that_fits(space, options, radius);
   throw bad_input(
-      "no particle of radius " + three_digits(radius) + " m has its " + what + "inside",
+      "no particle of radius " + three_digits(radius) + " m has its centre inside",
       fits > 0 ? "a radius of " + three_digits(fits) + " m fits" : std::string(thicken));
+}
+
+void refuse_found(const FilledSites& filled) {
+  const auto count = static_cast<double>(count_of(filled.runs));
+  const double memory = available_memory();
+  if (count <= most_ids && count * bytes_per_particle <= memory) return;
+  throw bad_input("the radius " + three_digits(filled.lattice.radius) + " m gives " +
+                      three_digits(count) + " particles, which need " +
+                      gigabytes(count * bytes_per_particle) + " of memory where " +
+                      gigabytes(memory) + " are free",
+                  "give a larger radius");
 }
 
 }  // namespace sinew

@@ -19,7 +19,12 @@ double refuse_without_inside(const BodySpace& space, const PackOptions& options)
 /// 32-bit ids hold, and one of which less than one particle fits.
 double wanted_radius(const BodySpace& space, const PackOptions& options);
 
-/// When no site became a particle: names a radius at which some do.
-[[noreturn]] void refuse_empty(const BodySpace& space, const PackOptions& options, double radius);
+/// When no site became a particle: names a radius at which some do, or says that all are too close
+/// to the surface.
+[[noreturn]] void refuse_empty(const BodySpace& space, const PackOptions& options,
+                               const FilledSites& filled);
+
+/// The same as for a wanted radius, once it is known how many particles there will be.
+void refuse_found(const FilledSites& filled);
 
 }  // namespace sinew

@@ -9,8 +9,11 @@
 namespace sinew {
 namespace {
 
+/// JSON has no word for numbers that are not finite.
+std::string json_number(double value) { return std::isfinite(value) ? number_text(value) : "null"; }
+
 std::string text(const Vec3& v) {
-  return '[' + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ']';
+  return '[' + json_number(v.x()) + ", " + json_number(v.y()) + ", " + json_number(v.z()) + ']';
 }
 
 std::string text(const std::array<std::size_t, 13>& counts) {
@@ -44,9 +47,9 @@ void add_defects(std::vector<ReportRow>& rows, const FillReport& report) {
   add("holes", report.border.holes);
   add("open_edges", report.border.edges);
   if (report.border.length > 0)
-    rows.push_back({"border_length", number_text(report.border.length), "m"});
+    rows.push_back({"border_length", json_number(report.border.length), "m"});
   add("crowded_edges", report.border.crowded_edges);
-  if (report.ambiguous > 0) rows.push_back({"ambiguous_share", number_text(report.ambiguous), ""});
+  if (report.ambiguous > 0) rows.push_back({"ambiguous_share", json_number(report.ambiguous), ""});
   if (report.deepest > 1)
     rows.push_back({"deepest_overlap", std::to_string(report.deepest), "parts at one place"});
 }
@@ -57,7 +60,7 @@ void add_bodies(std::vector<ReportRow>& rows, const FillReport& report) {
   if (report.bodies.size() < 2 || report.bodies.size() > most) return;
   std::string volumes, counts;
   for (const BodyReport& body : report.bodies) {
-    volumes.append(volumes.empty() ? "[" : ", ").append(number_text(body.volume));
+    volumes.append(volumes.empty() ? "[" : ", ").append(json_number(body.volume));
     counts.append(counts.empty() ? "[" : ", ").append(std::to_string(body.particles));
   }
   rows.push_back({"body_volumes", volumes + ']', "m^3"});
@@ -73,7 +76,7 @@ void add_verification(std::vector<ReportRow>& rows, const FillReport& report) {
 
 void add_seconds(std::vector<ReportRow>& rows, const FillReport& report) {
   const auto add = [&](const char* key, double seconds) {
-    rows.push_back({key, number_text(std::round(seconds * 1e6) / 1e6), "s"});
+    rows.push_back({key, json_number(std::round(seconds * 1e6) / 1e6), "s"});
   };
   add("seconds_reading", report.seconds_reading);
   add("seconds_cleaning", report.seconds_cleaning);
@@ -96,7 +99,7 @@ void add_shape(std::vector<ReportRow>& rows, const FillReport& report) {
   rows.push_back({"mesh_centre_of_mass", text(report.mesh.centre), "m"});
   rows.push_back({"mesh_inertia", inertia(report.mesh, mass), "kg m^2"});
   rows.push_back(
-      {"centre_offset", number_text((report.packed.centre - report.mesh.centre).norm()), "m"});
+      {"centre_offset", json_number((report.packed.centre - report.mesh.centre).norm()), "m"});
 }
 
 }  // namespace
@@ -104,20 +107,21 @@ void add_shape(std::vector<ReportRow>& rows, const FillReport& report) {
 std::vector<ReportRow> rows_of(const FillReport& report) {
   const auto count = [](std::size_t n) { return std::to_string(n); };
   std::vector<ReportRow> rows = {{"particles", count(report.particles), ""},
-                                 {"radius", number_text(report.radius), "m"},
-                                 {"spacing", number_text(nearest_distance(report.radius)), "m"}};
-  if (report.closed) rows.push_back({"mesh_volume", number_text(report.mesh.volume), "m^3"});
-  rows.push_back({"packed_volume", number_text(report.packed.volume), "m^3"});
-  if (report.closed)
-    rows.push_back({"volume_ratio", number_text(report.packed.volume / report.mesh.volume), ""});
+                                 {"radius", json_number(report.radius), "m"},
+                                 {"spacing", json_number(nearest_distance(report.radius)), "m"}};
+  if (report.closed && !report.layer)
+    rows.push_back({"mesh_volume", json_number(report.mesh.volume), "m^3"});
+  rows.push_back({"packed_volume", json_number(report.packed.volume), "m^3"});
+  if (report.volume_of_mesh)
+    rows.push_back({"volume_ratio", json_number(report.packed.volume / report.mesh.volume), ""});
   rows.push_back({"mass_from", report.volume_of_mesh ? "\"mesh\"" : "\"particles\"", ""});
-  rows.push_back({"particle_mass", number_text(report.mass), "kg"});
+  rows.push_back({"particle_mass", json_number(report.mass), "kg"});
   rows.push_back(
-      {"total_mass", number_text(report.mass * static_cast<double>(report.particles)), "kg"});
+      {"total_mass", json_number(report.mass * static_cast<double>(report.particles)), "kg"});
   add_shape(rows, report);
   rows.push_back({"neighbours", text(report.neighbours), "particles with 0, 1, .. 12"});
-  rows.push_back({"smallest_distance", number_text(report.smallest_distance), "2r"});
-  rows.push_back({"mean_distance", number_text(report.mean_distance), "2r"});
+  rows.push_back({"smallest_distance", json_number(report.smallest_distance), "2r"});
+  rows.push_back({"mean_distance", json_number(report.mean_distance), "2r"});
   rows.push_back({"sites_tested", count(report.sites), ""});
   rows.push_back({"sites_on_surface", count(report.ties), ""});
   if (report.kept_out > 0) rows.push_back({"sites_too_close", count(report.kept_out), ""});

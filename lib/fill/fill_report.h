@@ -44,6 +44,7 @@ struct FillReport {
   int groups = 0;   ///< particles that hang together by touching
   int deepest = 0;  ///< winding number; above 1 where parts of the mesh overlap
   bool closed = true;
+  bool layer = false;    ///< along the surface, of a given thickness, instead of its inside
   double ambiguous = 0;  ///< share of places whose winding number is far from a whole number
   Border border;
   int components = 0;

@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/number_text.h"
+#include "mesh/thickness.h"
 
 namespace sinew {
 namespace {
@@ -14,6 +15,10 @@ using Warnings = std::vector<std::string>;
 
 constexpr double much_lost = 0.01;           // of the volume
 constexpr double huge = 100, minute = 1e-3;  // m: outside of these a unit may have been mistaken
+
+std::string counted(std::size_t count, const std::string& what, const std::string& many) {
+  return std::to_string(count) + ' ' + (count == 1 ? what : many);
+}
 
 std::string percent(double share) { return three_digits(100 * share) + " %"; }
 
@@ -25,13 +30,13 @@ void warn_of_size(const FillReport& report, Warnings& warnings) {
 }
 
 void warn_of_holes(const FillReport& report, Warnings& warnings) {
-  if (report.closed) return;
-  warnings.push_back("the surface is open: " + std::to_string(report.border.holes) +
-                     " holes with a border of " + three_digits(report.border.length) +
-                     " m; inside is where the winding number is above 0.5, and " +
-                     percent(report.ambiguous) +
-                     " of the places in the box are ambiguous; close the holes if the body bulges "
-                     "in or out there");
+  if (report.closed || report.layer) return;
+  warnings.push_back(
+      "the surface is open: " + counted(report.border.holes, "hole", "holes") +
+      " with a border of " + three_digits(report.border.length) +
+      " m; inside is where the winding number is above 0.5, and " + percent(report.ambiguous) +
+      " of the places in the box are ambiguous; weld points that almost meet, or close the "
+      "holes, if the body bulges in or out there");
 }
 
 /// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is no
@@ -45,21 +50,44 @@ void warn_of_lost_volume(const FillReport& report, const Surface& surface, Warni
   const double lost = report.volume - report.packed.volume;
   if (lost < std::max(much_lost * report.volume, scatter(area(surface.triangles), report.radius)))
     return;
-  warnings.push_back("particles fill " + percent(report.packed.volume / report.volume) +
-                     " of the volume: parts thinner than about 3 radii are lost; give a smaller "
+  const auto thinnest = thinnest_part(surface.triangles);
+  const bool thin = thinnest && *thinnest < surely_filled_thickness(report.radius);
+  warnings.push_back(
+      "particles fill " + percent(report.packed.volume / report.volume) + " of the volume: " +
+      (thin ? "parts thinner than particles are lost; a radius of " +
+                  three_digits(*thinnest / surely_filled_thickness(1)) + " m keeps them"
+            : std::string("their outermost layers lie within the surface; a smaller radius fills "
+                          "more")));
+}
+
+/// A body thinner than its particles still holds a layer of them.
+void warn_of_gained_volume(const FillReport& report, const Surface& surface, Warnings& warnings) {
+  if (!report.volume_of_mesh) return;
+  const double gained = report.packed.volume - report.volume;
+  if (gained < std::max(much_lost * report.volume, scatter(area(surface.triangles), report.radius)))
+    return;
+  warnings.push_back("particles take " + three_digits(report.packed.volume / report.volume) +
+                     " times the volume of the mesh: it is thinner than they are; give a smaller "
                      "radius");
+}
+
+void warn_of_overlaps(const FillReport& report, Warnings& warnings) {
+  if (!report.verification || report.verification->mismatches == 0 || report.deepest < 2) return;
+  warnings.push_back(counted(report.verification->mismatches, "place", "places") +
+                     " differ from CGAL, which takes out what two parts of the mesh both cover");
 }
 
 void warn_of_lost_bodies(const FillReport& report, Warnings& warnings) {
   const auto empty = std::count_if(report.bodies.begin(), report.bodies.end(),
                                    [](const BodyReport& body) { return body.particles == 0; });
   if (empty > 0)
-    warnings.push_back(std::to_string(empty) + " of " + std::to_string(report.bodies.size()) +
-                       " separate bodies are too small for a particle; give a smaller radius");
+    warnings.push_back(std::to_string(empty) + " of " +
+                       counted(report.bodies.size(), "body", "separate bodies") +
+                       " too small for a particle; give a smaller radius");
 }
 
 void warn_of_groups(const FillReport& report, Warnings& warnings) {
-  if (!report.closed) return;
+  if (!report.closed || report.layer) return;
   const auto filled = std::count_if(report.bodies.begin(), report.bodies.end(),
                                     [](const BodyReport& body) { return body.particles > 0; });
   if (report.groups < filled)
@@ -68,8 +96,9 @@ void warn_of_groups(const FillReport& report, Warnings& warnings) {
                        ": they will stick together; give a smaller radius, or a clearance");
   if (report.groups > filled)
     warnings.push_back("the particles fall into " + std::to_string(report.groups) +
-                       " groups that do not touch, where the mesh has " + std::to_string(filled) +
-                       " bodies: parts are too thin; give a smaller radius");
+                       " groups that do not touch, where the mesh has " +
+                       counted(filled, "body", "bodies") +
+                       ": parts are too thin; give a smaller radius");
 }
 
 }  // namespace
@@ -79,8 +108,10 @@ Warnings warnings_of(const FillReport& report, const Surface& surface) {
   warn_of_size(report, warnings);
   warn_of_holes(report, warnings);
   warn_of_lost_volume(report, surface, warnings);
+  warn_of_gained_volume(report, surface, warnings);
   warn_of_lost_bodies(report, warnings);
   warn_of_groups(report, warnings);
+  warn_of_overlaps(report, warnings);
   return warnings;
 }
 

@@ -12,6 +12,8 @@ namespace sinew {
 namespace {
 
 constexpr double coarse_sites = 50000;
+constexpr double well_met = 0.02;  // a count, relative
+constexpr int most_rounds = 6;
 
 FilledSites fill_at(const BodySpace& space, const PackOptions& options, double radius) {
   FilledSites filled{lattice_in(space.box, options.packing, radius, space.lattice_origin), {}, {}};
@@ -22,7 +24,9 @@ FilledSites fill_at(const BodySpace& space, const PackOptions& options, double r
   filled.inside = inside_runs(filled.lattice, space.surface);
   filled.runs = filled.inside.runs;
   const double within = clearance_of(options, radius);
-  if (within > 0)
+  if (within >= space.box.sizes().minCoeff() / 2)
+    filled.runs.clear();  // no place is so deep
+  else if (within > 0)
     filled.runs =
         runs_without(filled.runs, runs_near(filled.lattice, space.surface.triangles, within));
   return filled;
@@ -41,14 +45,20 @@ BodySpace::BodySpace(const Surface& given, const PackOptions& options)
 }
 
 FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius) {
-  FilledSites filled = fill_at(space, options, radius);
-  const bool known = space.surface.closed() && !options.thickness && filled.inside.deepest <= 1 &&
-                     clearance_of(options, radius) == 0;
-  for (int round = 0; !known && options.count && round < 3 && !filled.runs.empty(); ++round) {
-    const auto found = static_cast<double>(count_of(filled.runs));
-    filled = fill_at(space, options, filled.lattice.radius * std::cbrt(found / *options.count));
+  FilledSites best = fill_at(space, options, radius);
+  if (!options.count || best.runs.empty()) return best;
+  const auto share = [&](const FilledSites& filled) {  // of the wanted count
+    return static_cast<double>(count_of(filled.runs)) / *options.count;
+  };
+  const auto miss = [&](const FilledSites& filled) { return std::abs(std::log(share(filled))); };
+  double next = best.lattice.radius * std::cbrt(share(best));
+  for (int round = 0; round < most_rounds && miss(best) > well_met; ++round) {
+    FilledSites found = fill_at(space, options, next);
+    if (found.runs.empty()) break;
+    next = found.lattice.radius * std::cbrt(share(found));
+    if (miss(found) < miss(best)) best = std::move(found);
   }
-  return filled;
+  return best;
 }
 
 std::size_t count_of(const std::vector<Run>& runs) {

@@ -25,8 +25,7 @@ struct FilledSites {
   std::vector<Run> runs;  ///< of those inside the ones that are kept, or the layer
 };
 
-/// Sites at about `radius` (m): exactly, but where a count is wanted of a volume that is not known
-/// beforehand.
+/// Sites at `radius` (m); where a count is wanted, at the radius near it that meets the count best.
 FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius);
 
 std::size_t count_of(const std::vector<Run>& runs);

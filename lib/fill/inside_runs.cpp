@@ -96,7 +96,7 @@ class Sweep {
     int sum = 0;
     for (const Crossing& one : crossings_.of(row))
       if (one.site <= site) sum += one.winding;
-    return sum + (winding_.none() ? 0 : winding_.share(row, site, {0.02, 1e9}));
+    return sum + (winding_.none() ? 0 : winding_.share(row, site, {0.02, 1e9}).value);
   }
 
  private:
@@ -118,14 +118,15 @@ class Sweep {
     }
     std::sort(sites.begin(), sites.end());
     sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
-    const auto margin = [&](int site) {  // above the threshold
-      return sum - 0.5 + winding_.share(row, site, {0.001, 0.5 - sum});
+    const auto look = [&](int site) {
+      const auto [value, clearance] = winding_.share(row, site, {0.001, 0.5 - sum});
+      return Place{site, sum - 0.5 + value, clearance / (2 * lattice_.radius)};
     };
-    Place before{sites[0], margin(sites[0])};
+    Place before = look(sites[0]);
     if (before.margin > 0) runs.add(before.site, before.site + 1, 0);
     for (std::size_t i = 1; i < sites.size(); ++i) {
-      const Place next{sites[i], margin(sites[i])};
-      between(before, next, margin, runs);
+      const Place next = look(sites[i]);
+      between(before, next, look, runs);
       if (next.margin > 0) runs.add(next.site, next.site + 1, 0);
       before = next;
     }
@@ -133,22 +134,29 @@ class Sweep {
 
   struct Place {
     int site;
-    double margin;
+    double margin;     ///< of the winding number above one half
+    double clearance;  ///< from the border, in sites
   };
 
+  /// Away from the border the winding number is smooth: where two places are no farther from each
+  /// other than from the border, and their margins differ by little, those between have their sign.
+  static bool smooth_between(const Place& a, const Place& b) {
+    const double least = std::min(std::abs(a.margin), std::abs(b.margin));
+    return std::abs(a.margin - b.margin) < least / 4 && b.site - a.site < a.clearance + b.clearance;
+  }
+
   /// The sites between two, of which neither is the first or the last.
-  template <class Margin>
-  static void between(const Place& a, const Place& b, const Margin& margin, RowRuns& runs) {
+  template <class Look>
+  static void between(const Place& a, const Place& b, const Look& look, RowRuns& runs) {
     if (b.site - a.site < 2) return;
-    const int site = a.site + (b.site - a.site) / 2;
-    const Place middle{site, margin(site)};
-    const auto [least, most] = std::minmax({a.margin, b.margin, middle.margin});
-    const double doubt = most - least;
-    if (least > doubt) return runs.add(a.site + 1, b.site, 0);
-    if (most < -doubt) return;
-    between(a, middle, margin, runs);
-    if (middle.margin > 0) runs.add(site, site + 1, 0);
-    between(middle, b, margin, runs);
+    if (smooth_between(a, b)) {
+      if (a.margin > 0) runs.add(a.site + 1, b.site, 0);
+      return;
+    }
+    const Place middle = look(a.site + (b.site - a.site) / 2);
+    between(a, middle, look, runs);
+    if (middle.margin > 0) runs.add(middle.site, middle.site + 1, 0);
+    between(middle, b, look, runs);
   }
 
   const Lattice& lattice_;

@@ -24,7 +24,8 @@ struct OpenWinding::View {
   Vec3 eye;  ///< the same in the frame of the rows, m
 };
 
-OpenWinding::OpenWinding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings)
+OpenWinding::OpenWinding(const Lattice& lattice, const Triangles& caps,
+                         const RowCrossings& crossings)
     : lattice_(lattice),
       caps_(caps),
       crossings_(crossings),
@@ -79,17 +80,17 @@ OpenWinding::Node OpenWinding::summary(int first, int last) const {
   return node;
 }
 
-double OpenWinding::share(std::size_t row, int site) const {
+OpenWinding::Share OpenWinding::share(std::size_t row, int site) const {
   double doubt = 0;
   return sum(view(row, site), std::numeric_limits<double>::infinity(), doubt);
 }
 
-double OpenWinding::share(std::size_t row, int site, const Enough& enough) const {
+OpenWinding::Share OpenWinding::share(std::size_t row, int site, const Enough& enough) const {
   const View from = view(row, site);
   for (double farness = 2; farness < 50; farness *= 2) {
     double doubt = 0;
-    const double found = sum(from, farness, doubt);
-    if (doubt < enough.doubt || std::abs(found - enough.threshold) > doubt) return found;
+    const Share found = sum(from, farness, doubt);
+    if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > doubt) return found;
   }
   return share(row, site);
 }
@@ -99,27 +100,31 @@ OpenWinding::View OpenWinding::view(std::size_t row, int site) const {
   return {row, site, at, frame_.turned(at)};
 }
 
-double OpenWinding::sum(const View& view, double farness, double& doubt) const {
+OpenWinding::Share OpenWinding::sum(const View& view, double farness, double& doubt) const {
   std::array<int, 64> waiting;  // halving keeps the tree below that depth
   int count = 0;
-  double sum = 0;
+  Share all{0, std::numeric_limits<double>::infinity()};
   waiting[count++] = 0;
   while (count > 0) {
     const Node& node = nodes_[waiting[--count]];
     const Vec3 to = node.centre - view.eye;
     const double distance = to.norm();
     if (distance > farness * node.reach && distance > 0) {
-      sum += before(view, node.first, node.last) - from_afar(node, to, distance);
-      const double nearest = distance - node.reach;
-      doubt += 3 * node.reach * node.reach * node.size / (4 * pi * std::pow(nearest, 4));
+      all.value += before(view, node.first, node.last) - from_afar(node, to, distance);
+      const double nearest = distance - node.reach, square = nearest * nearest;
+      all.clearance = std::min(all.clearance, nearest);
+      doubt += 3 * node.reach * node.reach * node.size / (4 * pi * square * square);
     } else if (node.left < 0) {
-      for (int i = node.first; i < node.last; ++i) sum += strips(view, sorted_[i]);
+      for (int i = node.first; i < node.last; ++i) {
+        const Share one = strips(view, sorted_[i]);
+        all = {all.value + one.value, std::min(all.clearance, one.clearance)};
+      }
     } else {
       waiting[count++] = node.right;
       waiting[count++] = node.left;
     }
   }
-  return sum;
+  return all;
 }
 
 /// The caps' own winding number, from the moments of their areas.
@@ -161,7 +166,7 @@ OpenWinding::Ray OpenWinding::ray(const View& view, const Vec3& corner) const {
   return ray;
 }
 
-double OpenWinding::strips(const View& view, const Cap& cap) const {
+OpenWinding::Share OpenWinding::strips(const View& view, const Cap& cap) const {
   const auto& face = caps_.faces[cap.face];
   std::array<Ray, 3> rays;
   for (int corner = 0; corner < 3; ++corner) rays[corner] = ray(view, caps_.points[face[corner]]);
@@ -171,12 +176,12 @@ double OpenWinding::strips(const View& view, const Cap& cap) const {
     const double ahead = a.rest * b.rest + (a.to.y() * b.to.y() + a.to.z() * b.to.z());
     sum += std::atan2(turn(view, cap, corner, a, b), ahead);
   }
-  return -sum / (2 * pi);
+  return {-sum / (2 * pi), std::min({rays[0].length, rays[1].length, rays[2].length})};
 }
 
 /// a x b along the row, with a sign that holds even where rounding leaves none.
 double OpenWinding::turn(const View& view, const Cap& cap, int corner, const Ray& a,
-                     const Ray& b) const {
+                         const Ray& b) const {
   const double one = a.to.y() * b.to.z(), other = a.to.z() * b.to.y();
   const double found = one - other;
   if (a.on_row || b.on_row || std::abs(found) > 16 * rounding * (std::abs(one) + std::abs(other)))

@@ -27,15 +27,20 @@ class OpenWinding {
 
   bool none() const { return nodes_.empty(); }
 
-  /// What the caps add to the winding number at a site.
-  double share(std::size_t row, int site) const;
+  struct Share {
+    double value;      ///< what the caps add to the winding number
+    double clearance;  ///< at most the distance to the nearest corner of a border, m
+  };
+
+  /// At a site, to the last bits.
+  Share share(std::size_t row, int site) const;
 
   /// How well a share has to be known: to within `doubt`, or on which side of `threshold` it is.
   struct Enough {
     double doubt;
     double threshold;
   };
-  double share(std::size_t row, int site, const Enough& enough) const;
+  Share share(std::size_t row, int site, const Enough& enough) const;
 
  private:
   /// Caps first .. last - 1 together, as seen from afar. Lengths in the frame of the rows.
@@ -58,10 +63,10 @@ class OpenWinding {
   int build(int first, int last);
   Node summary(int first, int last) const;
   View view(std::size_t row, int site) const;
-  double sum(const View& view, double farness, double& doubt) const;
+  Share sum(const View& view, double farness, double& doubt) const;
   static double from_afar(const Node& node, const Vec3& to, double distance);
   int before(const View& view, int first, int last) const;
-  double strips(const View& view, const Cap& cap) const;
+  Share strips(const View& view, const Cap& cap) const;
   Ray ray(const View& view, const Vec3& corner) const;
   double turn(const View& view, const Cap& cap, int corner, const Ray& a, const Ray& b) const;
 

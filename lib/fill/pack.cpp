@@ -31,6 +31,13 @@ void check(const PackOptions& options) {
   if (options.count) positive("count", *options.count);
   if (options.thickness) positive("thickness", *options.thickness);
   positive("density", options.density);
+  if (!options.thickness) return;
+  if (options.keep != Keep::centre || options.clearance > 0)
+    throw bad_input("a layer along the surface has no clearance from it",
+                    "give either a thickness, or keep and clearance");
+  if (options.verify)
+    throw bad_input("only what is inside can be verified, not a layer along the surface",
+                    "leave the thickness or the verification out");
 }
 
 /// Particles at the sites of the runs, in their order.
@@ -72,6 +79,7 @@ void report_sites(const FilledSites& filled, const BodySpace& space, FillReport&
   report.kept_out =
       count_of(filled.inside.runs) > 0 ? count_of(filled.inside.runs) - report.particles : 0;
   report.deepest = filled.inside.deepest;
+  report.layer = filled.inside.runs.empty();
   report.bodies.resize(filled.inside.bodies);
   const std::vector<double> volumes = component_volumes(space.surface);
   for (std::size_t i = 0; i < filled.inside.body_of.size(); ++i) {
@@ -118,7 +126,8 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   report.ambiguous = refuse_without_inside(space, options);
   const double wanted = wanted_radius(space, options);
   const FilledSites filled = fill_sites(space, options, wanted);
-  if (filled.runs.empty()) refuse_empty(space, options, wanted);
+  if (filled.runs.empty()) refuse_empty(space, options, filled);
+  refuse_found(filled);
   report.seconds_inside = watch.lap();
 
   Touching touching = touching_sites(filled.lattice, filled.runs);

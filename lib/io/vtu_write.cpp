@@ -161,6 +161,22 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Dataset& data, const VtuForma
   return grid;
 }
 
+/// VTK's writer frees two pointers that it has not set when the disk is full from the start.
+class GridWriter : public vtkXMLUnstructuredGridWriter {
+ public:
+  static GridWriter* New() {
+    auto* writer = new GridWriter;
+    writer->InitializeObjectBase();
+    return writer;
+  }
+
+ protected:
+  GridWriter() {
+    NumberOfPointsPositions = nullptr;
+    NumberOfCellsPositions = nullptr;
+  }
+};
+
 void set_encoding(Encoding encoding, vtkXMLWriter& writer) {
   // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which Debian 12
   // has by its updates: only data within the elements is safe.
@@ -190,7 +206,7 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   const auto grid = grid_of(data, format);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     const VtkMessages messages;
-    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    vtkNew<GridWriter> writer;
     set_encoding(format.encoding, *writer);
     writer->SetInputData(grid);
     writer->SetFileName(temporary.c_str());

@@ -56,12 +56,12 @@ Surface clean(const PolygonSoup& soup, const CleaningOptions& options) {
   std::vector<EdgeUse> uses = edge_uses(surface.triangles);
   const Patches patches = patches_of(surface.triangles, uses);
   surface.cleaning.edges_twisted = patches.twisted_edges;
-  surface.turned = faces_to_turn(surface.triangles, uses, patches, options.rule);
-  turn(surface, uses);
-  close_holes(surface, uses);
   Components components = components_of(patches, uses);
+  surface.turned = faces_to_turn(surface.triangles, uses, patches, components, options.rule);
   surface.component = std::move(components.of_face);
   surface.components = components.count;
+  turn(surface, uses);
+  close_holes(surface, uses);
   const std::vector<bool> flat = flat_faces(surface.triangles);
   surface.cleaning.faces_flat = std::count(flat.begin(), flat.end(), true);
   return surface;

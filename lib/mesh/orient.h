@@ -8,10 +8,11 @@
 namespace sinew {
 
 /// The faces to reverse for bodies to point outward and cavities into themselves, as clean() says.
-/// In this order: the sign of what each patch encloses with its caps; for those within others, the
-/// rule; patches whose volume says nothing turn or stay as most of the area of the others does;
-/// last, patches that meet at crowded edges turn where that leaves less border.
+/// Patches whose volume says nothing turn or stay as most of the area of the others of their
+/// component does, without such as most of all others, without any by the sign of the volume of all
+/// faces about the middle of their box.
 std::vector<bool> faces_to_turn(const Triangles& surface, std::span<const EdgeUse> uses,
-                                const Patches& patches, FillRule rule);
+                                const Patches& patches, const Components& components,
+                                FillRule rule);
 
 }  // namespace sinew

@@ -83,10 +83,12 @@ class Chance {
 
   /// What the settings ask of each other.
   void keep_the_peace(Settings& drawn) {
+    drawn.body.radius.reset();
+    drawn.body.count.reset();
     if (below(2) == 0)
-      drawn.body = {drawn.body.mesh, 0.01, {}, drawn.body.packing};
+      drawn.body.radius = 0.01;
     else
-      drawn.body = {drawn.body.mesh, {}, 1000, drawn.body.packing};
+      drawn.body.count = 1000;
     if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
     drawn.material.a = 2;

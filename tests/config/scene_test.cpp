@@ -208,6 +208,37 @@ TEST(ShippedScenes, BendTipsTheUpperBoneAndBringsItBack) {
   EXPECT_TRUE(axis(settings.solver.duration).isApprox(Vec3::UnitZ()));
 }
 
+TEST(ShippedScenes, ArmAndCreatureBeginAndEndAtRest) {
+  for (const char* name : {"arm_bend", "creature_walk"}) {
+    const Settings settings =
+        read_scene(std::string(SINEW_SOURCE_DIR "/configs/") + name + ".yaml");
+    const Skeleton skeleton = make_skeleton(settings);
+    const Motion motion = make_motion(settings, skeleton);
+    const Pose rest = pose_at(skeleton, {}, 0);
+    for (const double time : {0.0, settings.solver.duration}) {
+      const Pose pose = pose_at(skeleton, motion, time);
+      for (std::size_t b = 0; b < skeleton.size(); ++b) {
+        EXPECT_TRUE(pose[b].turn.isIdentity(1e-12)) << name << ' ' << skeleton.bones[b].name;
+        EXPECT_LT((pose[b].frame.origin - rest[b].frame.origin).norm(), 1e-12) << name;
+      }
+    }
+  }
+}
+
+TEST(ShippedScenes, ArmMakesAFist) {
+  const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/arm_bend.yaml");
+  const Skeleton skeleton = make_skeleton(settings);
+  const Pose fist = pose_at(skeleton, make_motion(settings, skeleton), 1.6);
+  const auto points = [&](const std::string& name) {
+    for (std::size_t b = 0; b < skeleton.size(); ++b)
+      if (skeleton.bones[b].name == name) return fist[b].axis();
+    return Vec3(Vec3::Zero());
+  };
+  EXPECT_TRUE(points("forearm").isApprox(Vec3::UnitZ(), 1e-9));
+  for (const char* finger : {"index_tip", "middle_tip", "ring_tip", "little_tip"})
+    EXPECT_LT(points(finger).z(), -0.5) << finger;
+}
+
 TEST(ShippedScenes, TwistTurnsTheUpperBoneAboutItself) {
   const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_twist.yaml");
   const Skeleton skeleton = make_skeleton(settings);

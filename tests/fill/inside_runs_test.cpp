@@ -59,32 +59,9 @@ PolygonSoup rotated(PolygonSoup soup, double angle) {
   return soup;
 }
 
-/// Each face by itself with this probability.
-PolygonSoup without(PolygonSoup soup, double share) {
-  std::mt19937 random(1);
-  std::erase_if(soup.polygons, [&](const auto&) { return random() < share * 4294967296.0; });
-  return soup;
-}
-
-/// Every polygon with points of its own, moved by up to `jitter`.
-PolygonSoup torn(const PolygonSoup& soup, double jitter) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> shift(-jitter, jitter);
-  PolygonSoup pieces;
-  for (auto polygon : soup.polygons) {
-    for (int& corner : polygon) {
-      pieces.points.push_back(
-          soup.points[corner] +
-          (jitter > 0 ? Vec3(shift(random), shift(random), shift(random)) : Vec3(Vec3::Zero())));
-      corner = static_cast<int>(pieces.points.size()) - 1;
-    }
-    pieces.polygons.push_back(polygon);
-  }
-  return pieces;
-}
-
 class InsideRunsOfPacking : public testing::TestWithParam<Packing> {};
-INSTANTIATE_TEST_SUITE_P(InsideRuns, InsideRunsOfPacking, testing::Values(Packing::fcc, Packing::hcp));
+INSTANTIATE_TEST_SUITE_P(InsideRuns, InsideRunsOfPacking,
+                         testing::Values(Packing::fcc, Packing::hcp));
 
 TEST_P(InsideRunsOfPacking, AgreesWithCgalOnClosedBodies) {
   const auto ball = shapes::sphere(1, 3, Vec3(0.1, 0.2, 0.3)), ring = shapes::torus(1, 0.4);
@@ -130,8 +107,9 @@ TEST_P(InsideRunsOfPacking, AgreesWithCgalOnAHollowBody) {
 TEST_P(InsideRunsOfPacking, FollowsTheWindingNumberOfOpenSurfaces) {
   const auto ball = shapes::sphere(1, 3);
   for (const auto& body :
-       {without(ball, 0.05), without(ball, 0.3), without(shapes::torus(1, 0.4), 0.1),
-        without(shapes::box({0, 0, 0}, {1, 1, 1}), 0.2), torn(ball, 0.01)}) {
+       {shapes::without(ball, 0.05), shapes::without(ball, 0.3),
+        shapes::without(shapes::torus(1, 0.4), 0.1),
+        shapes::without(shapes::box({0, 0, 0}, {1, 1, 1}), 0.2), shapes::torn(ball, 0.01)}) {
     const Surface surface = clean(body);
     ASSERT_FALSE(surface.closed());
     EXPECT_EQ(wrong_sites(surface, lattice_about(surface, GetParam(), 0.07)), 0u);
@@ -151,15 +129,13 @@ TEST_P(InsideRunsOfPacking, FollowsTheWindingNumberWhereSitesAreOnTheBorder) {
 
 TEST(InsideRuns, AreThoseOfTheWholeBodyForDefectsThatDoNotOpenIt) {
   const auto ring = shapes::torus(1, 0.4);
-  PolygonSoup flipped = ring;
-  for (std::size_t i = 0; i < flipped.polygons.size(); i += 10)
-    std::reverse(flipped.polygons[i].begin(), flipped.polygons[i].end());
   const Surface whole = clean(ring);
   const Lattice lattice = lattice_about(whole, Packing::fcc, 0.04);
   const auto expected = inside_runs(lattice, whole).runs;
   EXPECT_GT(expected.size(), 100u);
-  for (const auto& body : {shapes::together(ring, ring), shapes::inverted(ring), torn(ring, 0),
-                           shapes::together(ring, shapes::inverted(ring)), flipped})
+  for (const auto& body :
+       {shapes::together(ring, ring), shapes::inverted(ring), shapes::torn(ring, 0),
+        shapes::together(ring, shapes::inverted(ring)), shapes::flipped(ring, 0.1)})
     EXPECT_EQ(inside_runs(lattice, clean(body)).runs, expected);
 }
 
@@ -181,7 +157,7 @@ TEST(InsideRuns, UniteOverlappingPartsIntoOneBody) {
 }
 
 TEST(InsideRuns, AreTheSameForAnyNumberOfThreadsAndOrderOfFaces) {
-  PolygonSoup body = without(shapes::torus(1, 0.4), 0.1);
+  PolygonSoup body = shapes::without(shapes::torus(1, 0.4), 0.1);
   const Lattice lattice = lattice_about(clean(body), Packing::fcc, 0.03);
   const auto expected = inside_runs(lattice, clean(body)).runs;
   for (const int threads : {1, 2, 3, 8})
@@ -214,7 +190,7 @@ TEST(AmbiguousShare, TellsWhatHasNoInside) {
   };
   EXPECT_GT(share(scattered), 0.7);
   EXPECT_EQ(share(shapes::sphere(1, 3)), 0);
-  EXPECT_LT(share(without(shapes::sphere(1, 3), 0.05)), 0.2);
+  EXPECT_LT(share(shapes::without(shapes::sphere(1, 3), 0.05)), 0.2);
 }
 
 }  // namespace

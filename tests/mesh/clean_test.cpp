@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What cleaning drops, merges and counts. Directions: orient_test.cpp; holes: border_test.cpp.
 #include "mesh/clean.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "expect_error.h"
 #include "mesh/shapes.h"
-#include "mesh/triangulate.h"
 
 namespace sinew {
 namespace {
-
-std::string refusal(const PolygonSoup& soup) {
-  try {
-    clean(soup);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit(), Exit::bad_input);
-    EXPECT_NE(std::string(error.what()).find("; "), std::string::npos);
-    return error.what();
-  }
-  return "none";
-}
 
 PolygonSoup unit_box() { return shapes::box(Vec3::Zero(), Vec3::Ones()); }
 
@@ -32,6 +21,20 @@ TEST(Clean, KeepsTheOrderOfPointsAndFaces) {
                            surface.triangles.faces[i].begin()));
 }
 
+TEST(Clean, CountsNothingOnAMeshWithoutDefects) {
+  const Surface surface = clean(shapes::sphere(1, 2));
+  const CleaningCounts& counts = surface.cleaning;
+  EXPECT_EQ(counts.points_read, 66u);
+  EXPECT_EQ(counts.polygons_read, 128u);
+  EXPECT_EQ(counts.polygons_cut + counts.points_merged + counts.points_unused +
+                counts.faces_collapsed + counts.faces_doubled + counts.faces_flat +
+                counts.faces_turned + counts.edges_twisted,
+            0u);
+  EXPECT_TRUE(surface.closed());
+  EXPECT_EQ(surface.components, 1);
+  EXPECT_EQ(surface.border.holes + surface.border.edges + surface.border.crowded_edges, 0u);
+}
+
 TEST(Clean, CutsQuadsIntoTriangles) {
   const Surface surface = clean(unit_box());
   EXPECT_EQ(surface.triangles.faces.size(), 12u);
@@ -41,15 +44,10 @@ TEST(Clean, CutsQuadsIntoTriangles) {
 
 TEST(Clean, MergesEqualPointsOfATriangleSoup) {
   const auto body = shapes::sphere(1, 2);
-  PolygonSoup soup;
-  for (const auto& f : body.polygons) {
-    const int first = static_cast<int>(soup.points.size());
-    for (const int corner : f) soup.points.push_back(body.points[corner]);
-    soup.polygons.push_back({first, first + 1, first + 2});
-  }
-  const Surface surface = clean(soup);
+  const Surface surface = clean(shapes::burst(body));
   EXPECT_EQ(surface.triangles.points.size(), body.points.size());
-  EXPECT_EQ(surface.cleaning.points_merged, soup.points.size() - body.points.size());
+  EXPECT_EQ(surface.cleaning.points_merged, 3 * body.polygons.size() - body.points.size());
+  EXPECT_TRUE(surface.closed());
   EXPECT_DOUBLE_EQ(volume(surface.triangles), volume(clean(body).triangles));
 }
 
@@ -64,26 +62,24 @@ TEST(Clean, DropsCollapsedAndDoubledFacesAndUnusedPoints) {
   auto soup = shapes::tetrahedron();
   soup.points.emplace_back(9, 9, 9);
   soup.polygons.push_back({0, 1, 1});
-  soup.polygons.push_back({1, 2, 0});
-  soup.polygons.push_back({0, 1, 2});
+  soup.polygons.push_back({1, 2, 0});  // one of the faces, in its direction
+  soup.polygons.push_back({0, 1, 2});  // and against it
   const Surface surface = clean(soup);
   EXPECT_EQ(surface.triangles.faces.size(), 4u);
   EXPECT_EQ(surface.cleaning.faces_collapsed, 1u);
   EXPECT_EQ(surface.cleaning.faces_doubled, 2u);
   EXPECT_EQ(surface.cleaning.points_unused, 1u);
+  EXPECT_TRUE(surface.closed());
 }
 
-TEST(Clean, TurnsAnyMixtureOfDirectionsOutward) {
+TEST(Clean, OfDoubledFacesKeepsTheFirst) {
   const auto body = shapes::sphere(1, 2);
-  for (const int every : {1, 2, 3, 7}) {
-    auto mixed = body;
-    std::size_t turned = 0;
-    for (std::size_t i = 0; i < mixed.polygons.size(); i += every, ++turned)
-      std::swap(mixed.polygons[i][0], mixed.polygons[i][1]);
-    const Surface surface = clean(mixed);
-    EXPECT_DOUBLE_EQ(volume(surface.triangles), volume(clean(body).triangles));
-    EXPECT_EQ(surface.cleaning.faces_turned, turned);
-  }
+  auto doubled = body;
+  for (const auto& polygon : shapes::inverted(body).polygons) doubled.polygons.push_back(polygon);
+  const Surface surface = clean(doubled);
+  EXPECT_EQ(surface.cleaning.faces_doubled, body.polygons.size());
+  EXPECT_EQ(surface.cleaning.faces_turned, 0u);
+  EXPECT_EQ(surface.triangles.faces, clean(body).triangles.faces);
 }
 
 TEST(Clean, KeepsAFaceWithoutAreaThatClosesTheSurface) {
@@ -94,103 +90,91 @@ TEST(Clean, KeepsAFaceWithoutAreaThatClosesTheSurface) {
   soup.polygons.push_back({0, 1, 4});
   const Surface surface = clean(soup);
   EXPECT_EQ(surface.cleaning.faces_flat, 1u);
+  EXPECT_TRUE(surface.closed());
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
 }
 
-TEST(Clean, RefusesAnOpenBoxWithItsNumberOfEdges) {
-  auto soup = unit_box();
-  soup.polygons.pop_back();
-  EXPECT_NE(refusal(soup).find("4 edges of 17"), std::string::npos) << refusal(soup);
+TEST(Clean, CountsFlatFacesExactly) {
+  PolygonSoup soup{{{0, 0, 0}, {1, 3, 7}, {3, 9, 21}, {1.0 / 3, 1, 7.0 / 3 + 1e-15}},
+                   {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}}};
+  EXPECT_EQ(clean(soup).cleaning.faces_flat, 1u);
 }
 
-TEST(Clean, RefusesEdgesOfThreeFaces) {
-  auto soup = shapes::tetrahedron();
-  soup.points.emplace_back(1, 1, 1);
-  soup.polygons.push_back({0, 1, 4});
-  EXPECT_NE(refusal(soup).find("1 edge of 8 join more than two"), std::string::npos)
-      << refusal(soup);
+TEST(Weld, ClosesTheGapsOfATornMesh) {
+  const auto body = shapes::sphere(1, 3);
+  auto torn = shapes::burst(body);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> shift(-1e-6, 1e-6);
+  for (Vec3& point : torn.points) point += Vec3(shift(random), shift(random), shift(random));
+  EXPECT_EQ(clean(torn).border.holes, body.polygons.size());
+  const Surface surface = clean(torn, {.weld = 1e-5});
+  EXPECT_TRUE(surface.closed());
+  EXPECT_EQ(surface.triangles.points.size(), body.points.size());
+  EXPECT_EQ(surface.cleaning.points_merged, torn.points.size() - body.points.size());
+  EXPECT_NEAR(volume(surface.triangles), volume(clean(body).triangles), 1e-5);
 }
 
-TEST(Clean, RefusesAKleinBottle) {
-  const int n = 24, m = 12;
-  PolygonSoup soup = shapes::wrapped_grid(n, m, [&](int i, int j) {
-    const double a = 2 * pi * i / n, b = 2 * pi * j / m;
-    const double rho = 2 + std::cos(a / 2) * std::sin(b) - std::sin(a / 2) * std::sin(2 * b);
-    return Vec3(rho * std::cos(a), rho * std::sin(a),
-                std::sin(a / 2) * std::sin(b) + std::cos(a / 2) * std::sin(2 * b));
-  });
-  for (int j = 0; j < m; ++j)  // where i closes, j runs the other way
-    soup.polygons[(n - 1) * m + j] = {(n - 1) * m + j, (m - j) % m, (2 * m - j - 1) % m,
-                                      (n - 1) * m + (j + 1) % m};
-  EXPECT_NE(refusal(soup).find("one side only"), std::string::npos) << refusal(soup);
-}
-
-TEST(Clean, RefusesPartsThatCutEachOther) {
-  const auto other = shapes::moved(shapes::tetrahedron(), Vec3(0.1, 0.1, 0.1));
-  const std::string message = refusal(shapes::together(shapes::tetrahedron(), other));
-  EXPECT_NE(message.find("pairs of faces cut or touch"), std::string::npos) << message;
-}
-
-TEST(Clean, RefusesABodyThatCutsItself) {
-  auto soup = shapes::sphere(1, 3);
-  soup.points[0] = Vec3(-2, 0, 0);  // its tip pushed through to the other side
-  EXPECT_NE(refusal(soup).find("pairs of faces cut"), std::string::npos) << refusal(soup);
-}
-
-TEST(Clean, RefusesAFaceFoldedOntoItsNeighbour) {
-  PolygonSoup soup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, 0}},
-                   shapes::tetrahedron().polygons};
-  EXPECT_NE(refusal(soup).find("pairs of faces"), std::string::npos) << refusal(soup);
-}
-
-TEST(Clean, AcceptsBodiesThatShareACorner) {
-  auto other = shapes::tetrahedron(-1);
-  const Surface surface = clean(shapes::together(shapes::tetrahedron(), other));
-  EXPECT_EQ(surface.bodies, 2);
-  EXPECT_EQ(surface.triangles.points.size(), 7u);
-  EXPECT_DOUBLE_EQ(volume(surface.triangles), 2.0 / 6);
-}
-
-TEST(Clean, RefusesABodyTooSmallOrLargeForNumbers) {
-  EXPECT_NE(refusal(shapes::tetrahedron(1e-200)), "none");
-  EXPECT_NE(refusal(shapes::tetrahedron(1e200)), "none");
-}
-
-double area_of(const std::vector<std::array<int, 3>>& triangles, const Points& points) {
-  double sum = 0;
-  for (const auto& [a, b, c] : triangles)
-    sum += (points[b] - points[a]).cross(points[c] - points[a]).z() / 2;
-  return sum;
-}
-
-TEST(Triangulate, CutsAnLWithoutLeavingIt) {
-  const Points points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
-  for (int first = 0; first < 6; ++first) {
-    std::vector<int> polygon;
-    for (int i = 0; i < 6; ++i) polygon.push_back((first + i) % 6);
-    const auto triangles = triangulate(polygon, points);
-    EXPECT_EQ(triangles.size(), 4u);
-    EXPECT_DOUBLE_EQ(area_of(triangles, points), 3);
-    for (const auto& triangle : triangles) EXPECT_GE(area_of({triangle}, points), 0);
+TEST(Weld, KeepsPointsApartThatAreFartherAndTheFirstOfEach) {
+  const auto body = shapes::burst(shapes::sphere(1, 4));
+  for (const double weld : {0.03, 0.1, 0.4}) {
+    const Points points = clean(body, {.weld = weld}).triangles.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NE(std::find(body.points.begin(), body.points.end(), points[i]), body.points.end());
+      for (std::size_t j = 0; j < i; ++j) ASSERT_GE((points[i] - points[j]).norm(), weld);
+    }
   }
 }
 
-TEST(Triangulate, MakesNoTriangleWithoutAreaOfACornerOnASide) {
-  const Points points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
-  for (const auto& triangle : triangulate({0, 1, 2, 3, 4}, points))
-    EXPECT_GT(area_of({triangle}, points), 0.1);
+TEST(Weld, DoesNotPullAChainOfPointsTogether) {
+  PolygonSoup fan{{{0, 1, 0}}, {}};
+  for (int i = 0; i <= 100; ++i) fan.points.emplace_back(0.01 * i, 0, 0);
+  for (int i = 1; i <= 100; ++i) fan.polygons.push_back({0, i, i + 1});
+  const Surface surface = clean(fan, {.weld = 0.015});
+  EXPECT_EQ(surface.cleaning.points_merged, 50u);
+  EXPECT_EQ(surface.cleaning.faces_collapsed, 50u);
+  EXPECT_DOUBLE_EQ(area(surface.triangles), 0.5);
 }
 
-TEST(Triangulate, TakesConvexPolygonsOfAnySizeAndRefusesHugeOthers) {
-  Points points;
-  std::vector<int> polygon;
-  for (int i = 0; i < 3000; ++i) {
-    points.emplace_back(std::cos(2 * pi * i / 3000), std::sin(2 * pi * i / 3000), 0);
-    polygon.push_back(i);
-  }
-  EXPECT_NEAR(area_of(triangulate(polygon, points), points), pi, 1e-5);
-  points[7] *= 0.5;
-  EXPECT_THROW(triangulate(polygon, points), Error);
+TEST(Weld, WorksAtAnySizeAndWithFarOutliers) {
+  auto soup = shapes::burst(shapes::sphere(1e-6, 3));
+  const std::size_t points = shapes::sphere(1, 3).points.size();
+  EXPECT_EQ(clean(soup, {.weld = 1e-12}).triangles.points.size(), points);
+  soup = shapes::together(soup, shapes::tetrahedron(1e15));
+  EXPECT_EQ(clean(soup, {.weld = 1e-12}).triangles.points.size(), points + 4);
+  EXPECT_EQ(clean(soup, {.weld = 1e-320}).triangles.points.size(), points + 4);
+}
+
+TEST(Clean, CountsComponentsByAnySharedEdge) {
+  const auto body = shapes::sphere(1, 1);
+  auto soup = shapes::together(body, shapes::moved(body, Vec3(5, 0, 0)));
+  EXPECT_EQ(clean(soup).components, 2);
+  const int size = static_cast<int>(body.points.size());
+  soup.polygons.push_back({0, 1, size});  // a point alone does not join
+  EXPECT_EQ(clean(soup).components, 3);
+  soup.polygons.back() = {body.polygons[0][0], body.polygons[0][1], size};
+  const Surface surface = clean(soup);
+  EXPECT_EQ(surface.components, 2);
+  EXPECT_EQ(surface.component.front(), 0);
+  EXPECT_EQ(surface.component.back(), 0);
+  EXPECT_EQ(surface.component[body.polygons.size()], 1);
+}
+
+TEST(Clean, RefusesWhatHoldsNoFaceAndWhatIsTooLarge) {
+  const PolygonSoup point{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{0, 1, 2}}};
+  test::expect_bad_input([&] { clean(point); }, {"all 1 faces are collapsed", "; "});
+  test::expect_bad_input([] { clean(shapes::tetrahedron(), {.weld = 9}); },
+                         {"all 4 faces are collapsed", "smaller weld distance"});
+  test::expect_bad_input([] { clean(shapes::tetrahedron(1e100)); },
+                         {"a coordinate is 1e+100 m from 0", "1e+90 m"});
+  EXPECT_DOUBLE_EQ(volume(clean(shapes::tetrahedron(1e60)).triangles), 1e180 / 6);
+}
+
+TEST(Clean, TakesAFlatSheet) {
+  const Surface surface = clean(shapes::sheet(4));
+  EXPECT_EQ(surface.border.holes, 1u);
+  EXPECT_EQ(surface.border.edges, 16u);
+  EXPECT_DOUBLE_EQ(surface.border.length, 4);
+  EXPECT_EQ(surface.cleaning.faces_turned, 0u);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/settings_table.h"
+#include "core/number_text.h"
 #include "core/polygon_soup.h"
 
 namespace sinew::mesh_files {

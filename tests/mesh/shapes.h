@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
-#include "core/vector.h"
 #include "core/polygon_soup.h"
+#include "core/vector.h"
 
 namespace sinew::shapes {
 
@@ -70,6 +71,15 @@ inline PolygonSoup sphere(double radius, int levels, const Vec3& centre = Vec3::
   return soup;
 }
 
+/// A ball with bulges and hollows.
+inline PolygonSoup bumpy_ball(int levels) {
+  PolygonSoup soup = sphere(1, levels);
+  for (Vec3& p : soup.points)
+    p *= 1 + 0.35 * std::sin(5 * std::atan2(p.y(), p.x())) * (1 - p.z() * p.z()) +
+         0.2 * std::sin(7 * p.z());
+  return soup;
+}
+
 /// Both in one file, points of the second after those of the first.
 inline PolygonSoup together(PolygonSoup a, const PolygonSoup& b) {
   const int offset = static_cast<int>(a.points.size());
@@ -88,6 +98,102 @@ inline PolygonSoup inverted(PolygonSoup soup) {
 
 inline PolygonSoup moved(PolygonSoup soup, const Vec3& by) {
   for (Vec3& point : soup.points) point += by;
+  return soup;
+}
+
+/// A share of the faces, chosen at random, turned.
+inline PolygonSoup flipped(PolygonSoup soup, double share, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  for (auto& polygon : soup.polygons)
+    if (random() < share * 4294967296.0) std::reverse(polygon.begin(), polygon.end());
+  return soup;
+}
+
+/// A share of the faces, chosen at random, left out.
+inline PolygonSoup without(PolygonSoup soup, double share, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::erase_if(soup.polygons, [&](const auto&) { return random() < share * 4294967296.0; });
+  return soup;
+}
+
+/// Triangles cut in four until there are `faces` of them: the same surface.
+inline PolygonSoup refined(PolygonSoup soup, std::size_t faces) {
+  while (soup.polygons.size() < faces) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [at, added] = middles.try_emplace(std::minmax(a, b), soup.points.size());
+      if (added) soup.points.push_back((soup.points[a] + soup.points[b]) / 2);
+      return at->second;
+    };
+    std::vector<std::vector<int>> finer;
+    for (const auto& f : soup.polygons) {
+      const int ab = middle(f[0], f[1]), bc = middle(f[1], f[2]), ca = middle(f[2], f[0]);
+      finer.insert(finer.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
+    }
+    soup.polygons = finer;
+  }
+  return soup;
+}
+
+/// Every face with points of its own, moved by up to `jitter` along each axis.
+inline PolygonSoup torn(const PolygonSoup& soup, double jitter) {
+  std::mt19937 random(1);
+  const auto shift = [&] { return jitter * (random() / 2147483648.0 - 1); };
+  PolygonSoup pieces;
+  for (auto polygon : soup.polygons) {
+    for (int& corner : polygon) {
+      const Vec3 by(shift(), shift(), shift());
+      pieces.points.push_back(soup.points[corner] + by);
+      corner = static_cast<int>(pieces.points.size()) - 1;
+    }
+    pieces.polygons.push_back(polygon);
+  }
+  return pieces;
+}
+
+/// Each face with points of its own, shrunk towards its middle: a soup of single triangles.
+inline PolygonSoup burst(const PolygonSoup& soup, double size = 1) {
+  PolygonSoup parts;
+  for (const auto& f : soup.polygons) {
+    Vec3 middle = Vec3::Zero();
+    for (const int corner : f) middle += soup.points[corner] / static_cast<double>(f.size());
+    parts.polygons.emplace_back();
+    for (const int corner : f) {
+      parts.polygons.back().push_back(static_cast<int>(parts.points.size()));
+      const Vec3& place = soup.points[corner];
+      parts.points.push_back(size == 1 ? place : middle + size * (place - middle));
+    }
+  }
+  return parts;
+}
+
+/// `n` quads around a ring, two rows of them, with half a turn.
+inline PolygonSoup moebius_strip(int n) {
+  PolygonSoup soup;
+  for (int i = 0; i < n; ++i)
+    for (int j = -1; j <= 1; ++j) {
+      const double a = 2 * pi * i / n, rho = 1 + 0.3 * j * std::cos(a / 2);
+      soup.points.emplace_back(rho * std::cos(a), rho * std::sin(a), 0.3 * j * std::sin(a / 2));
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const bool last = i + 1 == n;
+      const int next = last ? 2 - j : 3 * (i + 1) + j, step = last ? -1 : 1;
+      soup.polygons.push_back({3 * i + j, next, next + step, 3 * i + j + 1});
+    }
+  return soup;
+}
+
+/// n x n quads in the plane z = 0, x and y from 0 to 1.
+inline PolygonSoup sheet(int n) {
+  PolygonSoup soup;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) soup.points.emplace_back(i / double(n), j / double(n), 0);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int at = i * (n + 1) + j;
+      soup.polygons.push_back({at, at + n + 1, at + n + 2, at + 1});
+    }
   return soup;
 }
 

@@ -20,6 +20,7 @@ END
 cat > "$work/outside.cpp" <<'END'
 #include "core/closest_packing.h"
 #include "fill/pack.h"
+#include "fill/volume_inside.h"
 #include "io/arrays.h"
 #include "metrics/table.h"
 #include "physics/pair_force.h"

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "core/words.h"
-#include "io/gltf_checks.h"
-#include "io/gltf_field.h"
-#include "io/gltf_json.h"
+#include "io/gltf/checks.h"
+#include "io/gltf/field.h"
+#include "io/gltf/json.h"
 
 namespace sinew {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_loader.h"
+#include "io/gltf/loader.h"
 
 #include <stdlib.h>
 #include <vtkGLTFDocumentLoader.h>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "io/gltf_json.h"
+#include "io/gltf/json.h"
 #include "io/vtk_messages.h"
 
 namespace sinew {

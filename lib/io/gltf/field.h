@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/gltf_container.h"
+#include "io/gltf/container.h"
 
 namespace sinew {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_guard.h"
+#include "io/gltf/guard.h"
 
 #include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "io/gltf_buffers.h"
-#include "io/gltf_checks.h"
-#include "io/gltf_container.h"
-#include "io/gltf_json.h"
+#include "io/gltf/buffers.h"
+#include "io/gltf/checks.h"
+#include "io/gltf/container.h"
+#include "io/gltf/json.h"
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_checks.h"
+#include "io/gltf/checks.h"
 
 namespace sinew {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/gltf_guard.h"
+#include "io/gltf/guard.h"
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf.h"
+#include "io/gltf/read_gltf.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -15,8 +15,8 @@
 #include "core/available_memory.h"
 #include "core/error.h"
 #include "core/words.h"
-#include "io/gltf_guard.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/guard.h"
+#include "io/gltf/loader.h"
 
 namespace sinew {
 namespace {

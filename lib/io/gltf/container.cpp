@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_container.h"
+#include "io/gltf/container.h"
 
 #include <cctype>
 #include <string_view>

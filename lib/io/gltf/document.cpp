@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_document.h"
+#include "io/gltf/document.h"
 
 #include <algorithm>
 #include <array>

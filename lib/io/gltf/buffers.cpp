@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_buffers.h"
+#include "io/gltf/buffers.h"
 
 #include <vtkBase64Utilities.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/words.h"
-#include "io/gltf_container.h"
+#include "io/gltf/container.h"
 
 namespace sinew {
 namespace {

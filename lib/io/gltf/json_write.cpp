@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include "io/gltf_json.h"
+#include "io/gltf/json.h"
 
 namespace sinew {
 namespace {

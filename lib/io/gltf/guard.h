@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/gltf_document.h"
+#include "io/gltf/document.h"
 
 namespace sinew {
 

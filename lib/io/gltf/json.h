@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/gltf_document.h"
+#include "io/gltf/document.h"
 
 namespace sinew {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf_document.h"
+#include "io/gltf/document.h"
 
 namespace sinew {
 

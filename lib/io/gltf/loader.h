@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "io/gltf_guard.h"
+#include "io/gltf/guard.h"
 
 class vtkGLTFDocumentLoader;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf_field.h"
+#include "io/gltf/field.h"
 
 #include <cfloat>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/words.h"
-#include "io/gltf_checks.h"
+#include "io/gltf/checks.h"
 
 namespace sinew {
 namespace {

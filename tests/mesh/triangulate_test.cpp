@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace sinew {
+namespace {
+
+double area_of(const std::vector<std::array<int, 3>>& triangles, const Points& points) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangles)
+    sum += (points[b] - points[a]).cross(points[c] - points[a]).z() / 2;
+  return sum;
+}
+
+TEST(Triangulate, CutsAnLWithoutLeavingIt) {
+  const Points points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  for (int first = 0; first < 6; ++first) {
+    std::vector<int> polygon;
+    for (int i = 0; i < 6; ++i) polygon.push_back((first + i) % 6);
+    const auto triangles = triangulate(polygon, points);
+    EXPECT_EQ(triangles.size(), 4u);
+    EXPECT_DOUBLE_EQ(area_of(triangles, points), 3);
+    for (const auto& triangle : triangles) EXPECT_GE(area_of({triangle}, points), 0);
+  }
+}
+
+TEST(Triangulate, MakesNoTriangleWithoutAreaOfACornerOnASide) {
+  const Points points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  for (const auto& triangle : triangulate({0, 1, 2, 3, 4}, points))
+    EXPECT_GT(area_of({triangle}, points), 0.1);
+}
+
+TEST(Triangulate, TakesConvexPolygonsOfAnySizeAndRefusesHugeOthers) {
+  Points points;
+  std::vector<int> polygon;
+  for (int i = 0; i < 3000; ++i) {
+    points.emplace_back(std::cos(2 * pi * i / 3000), std::sin(2 * pi * i / 3000), 0);
+    polygon.push_back(i);
+  }
+  EXPECT_NEAR(area_of(triangulate(polygon, points), points), pi, 1e-5);
+  points[7] *= 0.5;
+  EXPECT_THROW(triangulate(polygon, points), Error);
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,254 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""sinew fill and sinew info on meshes as people have them: open, turned, doubled, in millimetres.
+
+usage: fill_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import json
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+BIN, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+
+
+def sphere(levels=4, radius=1.0):
+    """Points and triangles, outward: an octahedron whose faces are cut in four again and again."""
+    points = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for _ in range(levels):
+        middles, finer = {}, []
+
+        def middle(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middles:
+                sums = [p + q for p, q in zip(points[a], points[b])]
+                length = math.sqrt(sum(x * x for x in sums))
+                middles[key] = len(points)
+                points.append(tuple(x / length for x in sums))
+            return middles[key]
+
+        for a, b, c in faces:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        faces = finer
+    return [tuple(radius * x for x in p) for p in points], faces
+
+
+def moved(mesh, by):
+    return [tuple(x + d for x, d in zip(p, by)) for p in mesh[0]], mesh[1]
+
+
+def together(a, b):
+    return a[0] + b[0], a[1] + [tuple(len(a[0]) + i for i in face) for face in b[1]]
+
+
+def turned(mesh):
+    return mesh[0], [tuple(reversed(face)) for face in mesh[1]]
+
+
+class Meshes(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = Path(self.temporary.name)
+
+    def write(self, mesh, name="mesh.obj"):
+        points, faces = mesh
+        path = self.folder / name
+        path.write_text("".join("v %r %r %r\n" % p for p in points) +
+                        "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in faces))
+        return path
+
+    def run_sinew(self, *words, check=0):
+        done = subprocess.run([BIN / "sinew", *map(str, words), "--json"], capture_output=True,
+                              text=True, timeout=120)
+        self.assertEqual(done.returncode, check, f"{words}\n{done.stdout}\n{done.stderr}")
+        if check == 0:
+            return json.loads(done.stdout)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertRegex(done.stderr, r"^sinew: .+; .+\n$")
+        return done.stderr
+
+    def fill(self, mesh, *words, check=0):
+        path = mesh if isinstance(mesh, Path) else self.write(mesh)
+        return self.run_sinew("fill", path, "-o", self.folder / "body.vtu", *words, check=check)
+
+    def test_a_closed_mesh_agrees_with_cgal_at_every_site(self):
+        for packing in ["fcc", "hcp"]:
+            found = self.fill(sphere(), "--radius", 0.05, "--packing", packing, "--verify")
+            self.assertEqual(found["mismatches"], 0)
+            self.assertGreater(found["verified_sites"], found["particles"])
+            self.assertTrue(found["closed"])
+            self.assertAlmostEqual(found["total_mass"] / (1000 * found["mesh_volume"]), 1, 12)
+            self.assertEqual(found["warnings"], [])
+
+    def test_the_report_lies_in_the_body_too(self):
+        import meshio
+        found = self.fill(sphere(), "--radius", 0.05)
+        body = meshio.read(self.folder / "body.vtu")
+        meta = json.loads(bytes(body.field_data["sinew_meta"]).decode())
+        self.assertEqual(meta["fill"]["particles"], found["particles"])
+        self.assertEqual(meta["fill"]["neighbours"], found["neighbours"])
+        self.assertEqual(len(body.points), found["particles"])
+
+    def test_turned_and_doubled_meshes_are_filled_the_same(self):
+        ball = sphere()
+        expected = self.fill(ball, "--radius", 0.05)["particles"]
+        for mesh in [turned(ball), together(ball, ball), together(ball, turned(ball))]:
+            self.assertEqual(self.fill(mesh, "--radius", 0.05)["particles"], expected)
+        self.assertEqual(self.fill(together(ball, ball), "--radius", 0.05)["faces_doubled"], 2048)
+
+    def test_an_open_mesh_is_filled_and_told(self):
+        points, faces = sphere()
+        found = self.fill((points, faces[:-40]), "--radius", 0.05)
+        self.assertFalse(found["closed"])
+        self.assertGreater(found["holes"], 0)
+        self.assertEqual(found["mass_from"], "particles")
+        self.assertIn("open", found["warnings"][0])
+        whole = self.fill((points, faces), "--radius", 0.05)["particles"]
+        self.assertAlmostEqual(found["particles"] / whole, 1, 2)
+        closed = self.fill((points, faces[:-40]), "--radius", 0.05, "--close-holes")
+        self.assertTrue(closed["closed"])
+        self.assertEqual(closed["holes_closed"], found["holes"])
+        self.assertIn("closed", self.fill((points, faces[:-40]), "--radius", 0.05, "--verify",
+                                          check=2))
+
+    def test_units_scale_lengths(self):
+        ball = sphere(3)
+        metres = self.fill(ball, "--radius", 0.1)
+        large = ([tuple(1000 * x for x in p) for p in ball[0]], ball[1])
+        found = self.fill(large, "--radius", 0.1, "--unit", "mm")
+        self.assertEqual(found["particles"], metres["particles"])
+        self.assertAlmostEqual(found["box_size"][0], 2, 12)
+        found = self.fill(large, "--radius", 0.1, "--scale", 0.001)
+        self.assertEqual(found["particles"], metres["particles"])
+        self.assertIn("unit", " ".join(self.fill(large, "--radius", 100)["warnings"]))
+
+    def test_a_count_is_met(self):
+        for words in [[], ["--keep", "sphere"], ["--thickness", 0.2]]:
+            found = self.fill(sphere(), "--count", 20000, *words)
+            self.assertAlmostEqual(found["particles"] / 20000, 1, 1, words)
+
+    def test_keeping_whole_spheres_leaves_a_skin_free(self):
+        import meshio
+        for words, within in [(["--keep", "sphere"], 0.05), (["--clearance", 0.2], 0.2),
+                              (["--keep", "sphere", "--clearance", 0.1], 0.15)]:
+            self.fill(sphere(5), "--radius", 0.05, *words)
+            points = meshio.read(self.folder / "body.vtu").points
+            farthest = max(math.dist(p, (0, 0, 0)) for p in points)
+            self.assertLess(farthest, 1 - within)
+            self.assertGreater(farthest, 1 - within - 0.06)
+
+    def test_a_sheet_is_refused_and_filled_with_a_thickness(self):
+        sheet = ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+        self.assertIn("thickness", self.fill(sheet, "--radius", 0.02, check=2))
+        found = self.fill(sheet, "--radius", 0.02, "--thickness", 0.2)
+        volume = found["packed_volume"]  # the sheet, half cylinders and quarter balls around it
+        self.assertAlmostEqual(volume / (0.2 + 4 * math.pi * 0.01 / 2 + 4 / 3 * math.pi * 0.001),
+                               1, 1)
+
+    def test_bodies_are_kept_apart(self):
+        import meshio
+        ball = sphere(3)
+        pair = together(ball, moved(ball, (3, 0, 0)))
+        found = self.fill(pair, "--radius", 0.1)
+        self.assertEqual(found["bodies"], 2)
+        self.assertEqual(found["touching_groups"], 2)
+        body = meshio.read(self.folder / "body.vtu")
+        for point, component in zip(body.points, body.point_data["component"]):
+            self.assertEqual(component, int(point[0] > 1.5))
+        fused = self.fill(together(ball, moved(ball, (2.05, 0, 0))), "--radius", 0.1)
+        self.assertEqual(fused["bodies"], 2)
+
+    def test_nested_shells_follow_the_rule(self):
+        ball = sphere(3)
+        nested = together(ball, sphere(3, 0.5))
+        full = self.fill(ball, "--radius", 0.05)["particles"]
+        self.assertEqual(self.fill(nested, "--radius", 0.05)["particles"], full)
+        hollow = self.fill(nested, "--radius", 0.05, "--rule", "hollow")
+        self.assertAlmostEqual(hollow["particles"] / full, 7 / 8, 1)
+        self.assertEqual(hollow["cavities"], 1)
+        self.assertEqual(self.fill(together(ball, turned(sphere(3, 0.5))),
+                                   "--radius", 0.05)["particles"], hollow["particles"])
+
+    def test_the_lattice_may_be_moved_and_turned(self):
+        plain = self.fill(sphere(), "--radius", 0.05)
+        shifted = self.fill(sphere(), "--radius", 0.05, "--lattice-origin", "0.03,0.02,0.01")
+        turned_by = self.fill(sphere(), "--radius", 0.05, "--lattice-rotation", "10,20,30")
+        for found in [shifted, turned_by]:
+            self.assertNotEqual(found["centre_of_mass"], plain["centre_of_mass"])
+            self.assertAlmostEqual(found["particles"] / plain["particles"], 1, 1)
+            self.assertAlmostEqual(found["smallest_distance"], 1, 9)
+
+    def test_what_cannot_be_filled_is_refused_with_a_cure(self):
+        self.assertIn("fits", self.fill(sphere(), "--radius", 1e-7, check=2))
+        self.assertIn("fits", self.fill(sphere(), "--radius", 5, check=2))
+        self.assertIn("--radius", self.fill(sphere(), check=2))
+        self.assertIn("--radius -1", self.fill(sphere(), "--radius", -1, check=2))
+        self.assertIn("--unit mile", self.fill(sphere(), "--radius", 1, "--unit", "mile", check=2))
+
+    def test_info_says_what_is_wrong_and_draws_it(self):
+        import meshio
+        points, faces = sphere()
+        broken = self.write((points, faces[:-3] + [tuple(reversed(faces[0]))]))
+        drawing = self.folder / "defects.vtu"
+        found = self.run_sinew("info", broken, "-o", drawing)
+        self.assertFalse(found["closed"])
+        self.assertEqual(found["holes"], 1)
+        self.assertEqual(found["open_edges"], 5)
+        self.assertEqual(found["faces_doubled"], 1)
+        self.assertEqual(found["self_intersections"], 0)
+        self.assertGreater(found["radius_for_1e3"], found["radius_for_1e6"])
+        self.assertGreater(found["thinnest_part"], 1)
+        cells = {block.type: block.data for block in meshio.read(drawing).cells}
+        self.assertEqual(len(cells["line"]), 5)
+        self.assertEqual(len(cells["triangle"]), len(faces) - 3)
+
+    def test_info_of_a_closed_mesh(self):
+        found = self.run_sinew("info", SOURCE / "data/meshes/box.obj")
+        self.assertTrue(found["closed"])
+        self.assertAlmostEqual(found["volume"], 0.016769744422619713, 12)
+        self.assertAlmostEqual(found["thinnest_part"], 0.15556, 4)
+
+    def test_every_scene_of_ours_agrees_with_cgal(self):
+        scenes = sorted((SOURCE / "configs").glob("*.yaml"))
+        self.assertGreater(len(scenes), 3)
+        for scene in scenes:
+            found = self.run_sinew("fill", scene, "-o", self.folder / "body.vtu", "--verify")
+            self.assertEqual(found["mismatches"], 0, scene)
+            self.assertEqual(found["warnings"], [], scene)
+
+    def test_gltf_is_read(self):
+        points, faces = sphere(3)
+        import base64
+        import struct
+        data = b"".join(struct.pack("<3f", *p) for p in points)
+        data += b"".join(struct.pack("<3H", *f) for f in faces)
+        low = [min(p[i] for p in points) for i in range(3)]
+        high = [max(p[i] for p in points) for i in range(3)]
+        document = {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0, "scale": [2, 2, 2]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "accessors": [
+                {"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3",
+                 "min": low, "max": high},
+                {"bufferView": 1, "componentType": 5123, "count": 3 * len(faces), "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 12 * len(points)},
+                            {"buffer": 0, "byteOffset": 12 * len(points),
+                             "byteLength": 6 * len(faces)}],
+            "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," +
+                         base64.b64encode(data).decode()}]}
+        path = self.folder / "ball.gltf"
+        path.write_text(json.dumps(document))
+        found = self.fill(path, "--radius", 0.1, "--verify")
+        self.assertAlmostEqual(found["box_size"][0], 4, 6)
+        self.assertEqual(found["mismatches"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
