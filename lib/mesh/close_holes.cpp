@@ -57,6 +57,9 @@ class Closer {
       if (edge.opposite >= 0) opposite.push_back(point(edge.opposite));
     }
     if (opposite.size() < points.size()) opposite.clear();
+    // Said to be optional, but where the first point equals the last CGAL takes that for it.
+    points.push_back(points.front());
+    if (!opposite.empty()) opposite.push_back(opposite.front());
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         points, opposite, std::back_inserter(faces),
         CGAL::parameters::use_delaunay_triangulation(true).do_not_use_cubic_algorithm(
