@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install_packages.sh build|test ...: installs with apt-get what is missing of the Debian packages that
-# building, or testing, asks for.
+# install_packages.sh build|test|bench ...: installs with apt-get what is missing of the Debian packages that
+# building, testing or the benchmarks ask for.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
   libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev libx11-dev xvfb ffmpeg)
 test=(libgtest-dev python3 python3-meshio python3-numpy xauth lammps paraview procps)
+bench=(libbenchmark-dev)
 
 wanted=()
 for list in "$@"; do
   case $list in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
-    *) echo "install_packages.sh: '$list' is neither build nor test" >&2; exit 2 ;;
+    bench) wanted+=("${bench[@]}") ;;
+    *) echo "install_packages.sh: '$list' is none of build, test, bench" >&2; exit 2 ;;
   esac
 done
 
