@@ -66,9 +66,11 @@ void warn_of_gained_volume(const FillReport& report, const Surface& surface, War
   const double gained = report.packed.volume - report.volume;
   if (gained < std::max(much_lost * report.volume, scatter(area(surface.triangles), report.radius)))
     return;
-  warnings.push_back("particles take " + three_digits(report.packed.volume / report.volume) +
-                     " times the volume of the mesh: it is thinner than they are; give a smaller "
-                     "radius");
+  const double times = report.packed.volume / report.volume;
+  warnings.push_back("particles take " + three_digits(times) + " times the volume of the mesh: " +
+                     (times > 2 ? "it is thinner than they are; give a smaller radius"
+                                : "their outermost layers reach the surface; a smaller radius fits "
+                                  "better"));
 }
 
 void warn_of_overlaps(const FillReport& report, Warnings& warnings) {

@@ -286,7 +286,8 @@ class Commands(unittest.TestCase):
 
     def test_check_warns_with_number_and_cure(self):
         done = sinew("check", self.scene, "--set", "material.b=2.83", "--json", check=0)
-        self.assertEqual(json.loads(done.stdout)["warnings"], 1)
+        self.assertEqual(json.loads(done.stdout)["warnings"], 2)
+        self.assertIn("times the volume", done.stderr)  # the scene's particles are coarse
         self.assertIn("2.83", done.stderr)
         self.assertIn("material.b", done.stderr)
         text = self.scene.read_text()
