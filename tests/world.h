@@ -134,7 +134,7 @@ inline Simulation make_simulation(const Settings& settings, const Points& rest) 
   const double step = choose_step(settings.solver, limit, settings.output.interval).step;
   return Simulation(body, make_motion(settings, body.skeleton),
                     particles_at(rest, body.material.pair.r, body.material.mass),
-                    {settings.solver.integrator, step, settings.solver.gravity});
+                    stepping_of(settings.solver, step));
 }
 
 /// The scene without bone forces: the body is free.
@@ -155,7 +155,7 @@ inline Simulation simulation_from(const Settings& settings, const Points& rest,
                                   const Particles& particles, double step) {
   const Body body = make_body(settings, rest);
   return Simulation(body, make_motion(settings, body.skeleton), particles,
-                    {settings.solver.integrator, step, settings.solver.gravity});
+                    stepping_of(settings.solver, step));
 }
 
 /// Largest speed, m/s.

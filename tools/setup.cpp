@@ -57,7 +57,7 @@ Setup set_up(const Settings& settings, const Particles& particles) {
 
 Simulation start(const Settings& settings, const Setup& setup, const Particles& particles) {
   return Simulation(setup.body, setup.motion, particles,
-                    {settings.solver.integrator, setup.steps.step, settings.solver.gravity});
+                    stepping_of(settings.solver, setup.steps.step));
 }
 
 double bone_speed(const Setup& setup, double interval) {

@@ -91,6 +91,8 @@ struct BindingSettings {
 };
 
 enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
+enum class Precision { binary64, binary32 };
+enum class NeighbourSearch { lists, cells };
 
 struct SolverSettings {
   Integrator integrator = Integrator::symplectic_euler;
@@ -98,6 +100,8 @@ struct SolverSettings {
   double time_step_factor = 0.5;
   double duration = 1;
   Vec3 gravity = Vec3::Zero();
+  Precision precision = Precision::binary64;
+  NeighbourSearch neighbour_search = NeighbourSearch::lists;
 };
 
 enum class Encoding { zlib, lz4, raw, none };

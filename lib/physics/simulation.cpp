@@ -18,6 +18,10 @@ constexpr double most_radii_per_step = 0.25;
 
 }  // namespace
 
+Stepping stepping_of(const SolverSettings& solver, double step) {
+  return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbour_search};
+}
+
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping)
     : body_(std::move(body)),
       motion_(std::move(motion)),

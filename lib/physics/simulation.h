@@ -20,7 +20,12 @@ struct Stepping {
   Integrator integrator = Integrator::symplectic_euler;
   double step = 0;              ///< s
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  Precision precision = Precision::binary64;
+  NeighbourSearch neighbour_search = NeighbourSearch::lists;
 };
+
+/// What a scene's solver section says of stepping, with the step chosen for it, s.
+Stepping stepping_of(const SolverSettings& solver, double step);
 
 class Simulation {
  public:
