@@ -28,6 +28,12 @@ PackOptions with_radius(double radius, Packing packing = Packing::fcc) {
   return options;
 }
 
+PackOptions with_count(int count) {
+  PackOptions options;
+  options.count = count;
+  return options;
+}
+
 std::string message_of(const std::function<void()>& job) {
   try {
     job();
@@ -212,12 +218,47 @@ TEST(Pack, KeepsItsSitesWhenTheBodyIsMovedByExactAmounts) {
 
 TEST(Pack, FindsTheRadiusForACount) {
   const Surface surface = clean(shapes::sphere(1, 4));
-  PackOptions options;
-  options.count = 20000;
-  const Filling filling = pack(surface, options);
+  const Filling filling = pack(surface, with_count(20000));
   EXPECT_NEAR(static_cast<double>(filling.particles.size()), 20000, 200);
   EXPECT_NEAR(volume_per_particle(filling.particles.radius) * 20000 / volume(surface.triangles), 1,
               1e-12);
+}
+
+/// The warning that names the count, or "".
+std::string miss_told(const Filling& filling, int wanted) {
+  for (const std::string& warning : filling.report.warnings)
+    if (warning.find("the " + std::to_string(wanted) + " asked for") != std::string::npos)
+      return warning;
+  return {};
+}
+
+TEST(Pack, TellsWhatKeptItFarFromACount) {
+  const Surface cube = clean(shapes::box(Vec3::Zero(), Vec3::Ones()));
+  PackOptions deep = with_count(100000);
+  deep.clearance = 0.497;
+  const std::string kept_out = miss_told(pack(cube, deep), 100000);
+  EXPECT_NE(kept_out.find("1 particle "), std::string::npos) << kept_out;
+  EXPECT_NE(kept_out.find("clearance"), std::string::npos) << kept_out;
+
+  const Filling layered = pack(cube, with_count(2000));
+  ASSERT_GT(std::abs(layered.particles.size() / 2000.0 - 1), 0.05);
+  const std::string at_once = miss_told(layered, 2000);
+  EXPECT_EQ(at_once.rfind(std::to_string(layered.particles.size()), 0), 0u) << at_once;
+  EXPECT_NE(at_once.find("lattice_rotation"), std::string::npos) << at_once;
+}
+
+TEST(Pack, SaysNothingOfACountThatIsMet) {
+  const Filling filling = pack(clean(shapes::sphere(1, 4)), with_count(20000));
+  EXPECT_EQ(miss_told(filling, 20000), "");
+}
+
+TEST(Pack, RefusesToVerifyAnOpenSurfaceBeforeItLooksAtIt) {
+  auto open = shapes::sphere(1, 3);
+  open.polygons.resize(open.polygons.size() - 10);
+  PackOptions options = with_radius(1e-9);  // more particles than memory holds: told later
+  options.verify = true;
+  const std::string message = message_of([&] { pack(clean(open), options); });
+  EXPECT_NE(message.find("only closed surfaces"), std::string::npos) << message;
 }
 
 TEST(Pack, TellsBodiesApart) {
@@ -314,9 +355,7 @@ TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
 }
 
 TEST(Pack, FillsASingleParticleWhenAskedForOne) {
-  PackOptions options;
-  options.count = 1;
-  EXPECT_EQ(pack(clean(shapes::sphere(1, 3)), options).particles.size(), 1u);
+  EXPECT_EQ(pack(clean(shapes::sphere(1, 3)), with_count(1)).particles.size(), 1u);
 }
 
 TEST(Pack, WantsEitherARadiusOrACount) {
