@@ -13,6 +13,7 @@
 #include "fill/lattice.h"
 #include "fill/side_of.h"
 #include "mesh/clean.h"
+#include "mesh/mesh_files.h"
 #include "mesh/read_surface.h"
 #include "mesh/shapes.h"
 
@@ -20,6 +21,8 @@ namespace sinew {
 namespace {
 
 const std::string paper_box = SINEW_SOURCE_DIR "/data/meshes/box.obj";
+
+Surface paper_box_surface() { return read_surface(mesh_files::body_at(paper_box)); }
 
 PackOptions with_radius(double radius, Packing packing = Packing::fcc) {
   PackOptions options;
@@ -47,7 +50,7 @@ std::string message_of(const std::function<void()>& job) {
 
 TEST(PaperBox, Has1062PointsInFileOrderAnd2120Triangles) {
   const PolygonSoup soup = read_polygons(paper_box);
-  const Surface surface = read_surface(paper_box);
+  const Surface surface = paper_box_surface();
   EXPECT_EQ(surface.triangles.points.size(), 1062u);
   EXPECT_EQ(surface.triangles.faces.size(), 2120u);
   EXPECT_EQ(surface.triangles.points, soup.points);
@@ -55,20 +58,20 @@ TEST(PaperBox, Has1062PointsInFileOrderAnd2120Triangles) {
 }
 
 TEST(PaperBox, Is11By11By49HalfPlanes) {
-  const Vec3 size = bounds(read_surface(paper_box).triangles.points).sizes();
+  const Vec3 size = bounds(paper_box_surface().triangles.points).sizes();
   const double plane = half_plane_spacing(0.010);
   EXPECT_LT((size - plane * Vec3(11, 11, 49)).norm(), 1e-15);
 }
 
 TEST(PaperBox, HoldsThePapers2965Particles) {
-  const Filling filling = pack(read_surface(paper_box), with_radius(0.010));
+  const Filling filling = pack(paper_box_surface(), with_radius(0.010));
   EXPECT_EQ(filling.particles.size(), 2965u);
   EXPECT_EQ(filling.report.ties, 0u);
   EXPECT_EQ(filling.report.neighbours[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
 }
 
 TEST(Pack, GivesTheMeshsMassInAll) {
-  const Surface surface = read_surface(paper_box);
+  const Surface surface = paper_box_surface();
   PackOptions options = with_radius(0.010);
   options.density = 1234;
   const Particles particles = pack(surface, options).particles;
@@ -333,7 +336,7 @@ double radius_named_in(const std::string& message) {
 }
 
 TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
-  const Surface surface = read_surface(paper_box);
+  const Surface surface = paper_box_surface();
   const std::string message = message_of([&] { pack(surface, with_radius(1e-7)); });
   const double named = radius_named_in(message);
   EXPECT_GT(named, 1e-7) << message;
@@ -343,7 +346,7 @@ TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
 /// The torus has no site in its hole's middle; in the box one lies at the centre whatever the
 /// radius.
 TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
-  const Surface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
+  const Surface torus = clean(shapes::torus(1, 0.4)), box = paper_box_surface();
   for (const auto& [surface, radius] : {std::pair(&torus, 0.75), std::pair(&torus, 3.0),
                                         std::pair(&box, 1.0), std::pair(&box, 1e300)}) {
     const std::string message = message_of([&] { pack(*surface, with_radius(radius)); });
