@@ -23,13 +23,6 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 
 std::string percent(double share) { return three_digits(100 * share) + " %"; }
 
-void warn_of_size(const FillReport& report, Warnings& warnings) {
-  const double size = report.box_size.maxCoeff();
-  if (size <= huge && size >= minute) return;
-  warnings.push_back("the body is " + three_digits(size) +
-                     " m long: if its file is in another unit than metres, set the unit");
-}
-
 void warn_of_holes(const FillReport& report, Warnings& warnings) {
   if (report.closed || report.layer) return;
   warnings.push_back(
@@ -124,9 +117,15 @@ void warn_of_groups(const FillReport& report, Warnings& warnings) {
 
 }  // namespace
 
+std::optional<std::string> size_warning(double longest) {
+  if (longest <= huge && longest >= minute) return std::nullopt;
+  return "the body is " + three_digits(longest) +
+         " m long: if its lengths are given in another unit, set the unit";
+}
+
 Warnings warnings_of(const FillReport& report, const Surface& surface) {
   Warnings warnings;
-  warn_of_size(report, warnings);
+  if (const auto odd = size_warning(report.box_size.maxCoeff())) warnings.push_back(*odd);
   warn_of_missed_count(report, warnings);
   warn_of_holes(report, warnings);
   warn_of_lost_volume(report, surface, warnings);

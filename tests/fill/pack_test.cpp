@@ -325,6 +325,30 @@ TEST(Report, GivesTheSpheresCentreAndVolume) {
   EXPECT_EQ(rows_of(report)[0].value, std::to_string(report.particles));
 }
 
+std::string row_of(const FillReport& report, const std::string& key) {
+  for (const ReportRow& row : rows_of(report))
+    if (row.key == key) return row.value + ' ' + row.unit;
+  return {};
+}
+
+TEST(Report, SaysZeroForACentreThatIsButRounding) {
+  FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
+  report.mesh.centre = {-3.2e-19, 1e-14, 1e-9};
+  report.packed.centre = {0, 0, 1e-9};
+  EXPECT_EQ(row_of(report, "mesh_centre_of_mass"), "[0, 0, 1e-09] m");
+  EXPECT_EQ(row_of(report, "centre_of_mass"), "[0, 0, 1e-09] m");
+  EXPECT_EQ(row_of(report, "centre_offset"), "0 m");
+  EXPECT_EQ(row_of(report, "smallest_distance").find("2r"), std::string::npos);
+}
+
+TEST(Report, TellsRepairsOnlyWhereSomeWereDone) {
+  FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
+  EXPECT_EQ(row_of(report, "faces_read"), "512 ");
+  EXPECT_EQ(row_of(report, "holes_closed"), "");
+  report.cleaning.holes_closed = 3;
+  EXPECT_EQ(row_of(report, "holes_closed"), "3 ");
+}
+
 TEST(Report, HasTheTetrahedronsCentre) {
   const Surface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
   EXPECT_LT((moments_of(surface.triangles).centre - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);

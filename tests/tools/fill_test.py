@@ -228,7 +228,7 @@ class Meshes(unittest.TestCase):
         shifted = self.fill(sphere(), "--radius", 0.05, "--lattice-origin", "0.03,0.02,0.01")
         turned_by = self.fill(sphere(), "--radius", 0.05, "--lattice-rotation", "10,20,30")
         for found in [shifted, turned_by]:
-            self.assertNotEqual(found["centre_of_mass"], plain["centre_of_mass"])
+            self.assertNotEqual(found["inertia"], plain["inertia"])
             self.assertAlmostEqual(found["particles"] / plain["particles"], 1, 1)
             self.assertAlmostEqual(found["smallest_distance"], 1, 9)
 
@@ -255,6 +255,23 @@ class Meshes(unittest.TestCase):
         cells = {block.type: block.data for block in meshio.read(drawing).cells}
         self.assertEqual(len(cells["line"]), 5)
         self.assertEqual(len(cells["triangle"]), len(faces) - 3)
+
+    def test_info_tells_what_a_repair_did(self):
+        points, faces = sphere()
+        open_ball = self.write((points, faces[:-40]))
+        self.assertNotIn("holes_closed", self.run_sinew("info", open_ball))
+        found = self.run_sinew("info", open_ball, "--close-holes")
+        self.assertEqual(found["holes"], 0)
+        self.assertGreater(found["holes_closed"], 0)
+        self.assertEqual(found["triangles"], len(faces) - 40 + found["faces_added"])
+        wrapped = self.run_sinew("info", open_ball, "--wrap", 0.5)
+        self.assertEqual(wrapped["faces_wrapped"], wrapped["triangles"])
+
+    def test_info_and_fill_say_the_same_of_a_size(self):
+        tiny = self.write(([tuple(1e-5 * x for x in p) for p in sphere(2)[0]], sphere(2)[1]))
+        told = self.run_sinew("info", tiny)["warnings"]
+        self.assertIn("unit", told[0])
+        self.assertEqual(self.fill(tiny, "--radius", 1e-6)["warnings"][0], told[0])
 
     def test_info_of_a_closed_mesh(self):
         found = self.run_sinew("info", SOURCE / "data/meshes/box.obj")
