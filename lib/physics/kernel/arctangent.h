@@ -10,22 +10,25 @@ namespace sinew::kernel {
 // below 6e-18 (double) and 3e-9 (float).
 template <class L>
 SINEW_INLINE typename L::V short_arctangent(typename L::V t) {
-  const typename L::V s = t * t;
-  if constexpr (sizeof(typename L::Real) == 4) {
-    constexpr float q[] = {-0.33333331761161F, 0.19999540481962F, -0.14263955539545F,
-                           0.10743730859150F, -0.06451926114690F};
-    typename L::V sum = L::all(q[4]);
-    for (int k = 3; k >= 0; --k) sum = sum * s + L::all(q[k]);
-    return t + t * s * sum;
+  using V = typename L::V;
+  using Real = typename L::Real;
+  const auto all = [](double c) { return L::all(static_cast<Real>(c)); };
+  const V s = t * t, s2 = s * s;
+  // In pairs of terms, which do not wait for each other.
+  const auto two = [&](double c0, double c1) { return L::fused(all(c1), s, all(c0)); };
+  if constexpr (sizeof(Real) == 4) {
+    const V low = two(-0.33333331761161, 0.19999540481962);
+    const V high = L::fused(all(-0.06451926114690), s2, two(-0.14263955539545, 0.10743730859150));
+    return L::fused(t * s, L::fused(s2, high, low), t);
   } else {
-    constexpr double q[] = {
-        -0.3333333333333333016,   0.19999999999995520637,   -0.14285714284666534304,
-        0.11111111015255668508,   -0.090909045780957349208, 0.076921831901717284121,
-        -0.066645114381646448357, 0.058581488327312729465,  -0.050854493189300349167,
-        0.039231646190551487845,  -0.019176872294336066637};
-    typename L::V sum = L::all(q[10]);
-    for (int k = 9; k >= 0; --k) sum = sum * s + L::all(q[k]);
-    return t + t * s * sum;
+    const V s4 = s2 * s2;
+    const V low = L::fused(s2, two(-0.14285714284666534304, 0.11111111015255668508),
+                           two(-0.3333333333333333016, 0.19999999999995520637));
+    const V middle = L::fused(s2, two(-0.066645114381646448357, 0.058581488327312729465),
+                              two(-0.090909045780957349208, 0.076921831901717284121));
+    const V high = L::fused(s2, all(-0.019176872294336066637),
+                            two(-0.050854493189300349167, 0.039231646190551487845));
+    return L::fused(t * s, L::fused(s4, L::fused(s4, high, middle), low), t);
   }
 }
 

@@ -52,35 +52,35 @@ SINEW_INLINE Pull<L> radial_pull(typename L::V k, const Triple<L>& at, const Hel
   return pull;
 }
 
-/// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, in the lanes that are so near;
-/// `drive` becomes k rho0^2 alpha s and `inward` the pull along rho that the taper's slope adds.
+/// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, where lanes are so near: `share`
+/// is s, and `inward` the pull along rho, by rho^2, that the slope of s adds.
 template <class L>
-SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V alpha,
-                        typename L::V& drive, typename L::V& inward, typename L::V& share) {
+SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V drive_alpha,
+                        typename L::V& share, typename L::V& inward) {
   const auto tight = L::less(L::all(4) * rho2, rho02);
   if (!L::any(tight)) return;
-  const typename L::V s = L::root(L::all(4) * rho2 / rho02);
-  share = L::pick(tight, s, L::all(1));
-  drive = drive * share;
-  // alpha (2 / rho0) (rho / |rho|) = alpha s rho / rho^2
-  inward = L::keep(tight, drive * alpha * share);
+  const typename L::V s2 = L::all(4) * rho2 / rho02;
+  share = L::pick(tight, L::root(s2), L::all(1));
+  inward = L::keep(tight, drive_alpha * s2 / rho2);
 }
 
 /// Turns with the bone: U = k rho0^2 alpha^2 s^2 / 2.
 template <class L, bool energy>
 SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held<L>& held) {
   using V = typename L::V;
-  const V rho2 = at.y * at.y + at.z * at.z;
-  const V rho02 = held.across_1 * held.across_1 + held.across_2 * held.across_2;
-  const V alpha = arctangent<L>(held.across_1 * at.z - held.across_2 * at.y,
-                                held.across_1 * at.y + held.across_2 * at.z);
-  V drive = k * rho02 * alpha, inward = L::all(0), share = L::all(1);
-  taper<L>(rho2, rho02, alpha, drive, inward, share);
+  const V rho2 = L::fused(at.y, at.y, at.z * at.z);
+  const V rho02 = L::fused(held.across_1, held.across_1, held.across_2 * held.across_2);
+  const V alpha = arctangent<L>(L::less_fused(held.across_2, at.y, held.across_1 * at.z),
+                                L::fused(held.across_1, at.y, held.across_2 * at.z));
+  const V drive = k * rho02 * alpha;
+  V inward = L::all(0), share = L::all(1);
+  taper<L>(rho2, rho02, drive * alpha, share, inward);
   const auto turns = L::both(L::less(L::all(0), rho2), L::less(L::all(0), rho02));
-  const V around = L::keep(turns, drive / rho2), in = L::keep(turns, inward / rho2);
-  Pull<L> pull{{L::all(0), around * at.z - in * at.y, L::all(0) - around * at.y - in * at.z},
+  const V around = L::keep(turns, share * drive / rho2), in = L::keep(turns, inward);
+  Pull<L> pull{{L::all(0), L::less_fused(in, at.y, around * at.z),
+                L::less_fused(in, at.z, (L::all(0) - around) * at.y)},
                L::all(0)};
-  if constexpr (energy) pull.energy = L::keep(turns, k * rho02 * (alpha * alpha) * (share * share));
+  if constexpr (energy) pull.energy = L::keep(turns, drive * alpha * (share * share));
   return pull;
 }
 
@@ -113,7 +113,7 @@ SINEW_INLINE void add_bone(const BoneNow<typename L::Real>& bone, const Held<L>&
   sums.damping = sums.damping + damping;
   sums.power = sums.power + dot<L>(spring + damping, carried);
   sums.damping_power = sums.damping_power + dot<L>(damping, carried);
-  sums.carried = sums.carried + shares.lead * carried;
+  sums.carried = fused<L>(shares.lead, carried, sums.carried);
   if constexpr (energy)
     sums.energy = sums.energy + shares.weight * (radial.energy + twist.energy + axial.energy) *
                                     L::all(static_cast<typename L::Real>(0.5));
@@ -127,7 +127,7 @@ SINEW_INLINE BoneSums<L> bone_sums(const Step<typename L::Real>& step, std::size
   for (std::uint32_t s = holds.first[block]; s != holds.first[block + 1]; ++s) {
     const Slot slot = holds.slots[s];
     const auto& bone = holds.bones[slot.bone];
-    const Triple<L> arm = from_centre<L>(bone, here, L::all(step.unit));
+    const Triple<L> arm = from_centre<L>(bone, here);
     add_bone<L, energy>(bone, held_by<L>(holds, s, lane), shares_of<L>(holds, slot, lane), arm,
                         velocity, sums);
   }

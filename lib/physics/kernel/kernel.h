@@ -34,7 +34,8 @@ struct Traits<float> {
 /// Blocks whose sums are kept together, and that one thread takes.
 inline constexpr std::size_t blocks_per_piece = 32;
 
-/// Positions and velocities, to be read one block beyond both ends.
+/// Positions and velocities, to be read one block beyond both ends. One unit of coordinates is the
+/// kernel's length.
 template <class Real>
 struct State {
   using Coord = typename Traits<Real>::Coord;
@@ -48,10 +49,12 @@ struct Lists {
   const std::int32_t* value;
 };
 
-/// Eq. 1 and eq. 2.
+/// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, by the distance.
 template <class Real>
 struct Law {
-  Real two_r, four_r2, a, b, b2, k1, k2, damping;
+  Real r, a, b, b2;  ///< lengths; b squared
+  Real k1, k2;       ///< per r: forces of eq. 1 for lengths in radii
+  Real damping;
 };
 
 /// A bone, its springs, and where it is: in the bone's frame a particle has the coordinates
@@ -59,7 +62,7 @@ struct Law {
 template <class Real>
 struct BoneNow {
   typename Traits<Real>::Coord centre[3];
-  Real rest_of_centre[3];  ///< what a whole number of units leaves of the centre
+  Real rest_of_centre[3];  ///< what whole numbers leave of it
   Real axes[9];
   Real velocity[3], spin[3];  ///< of the centre; angular
   Real radial, twist, axial, damping;
@@ -131,7 +134,6 @@ struct Ride {
   State<Real> state;
   Holds<Real> holds;
   const BoneNow<Real>* world;  ///< the frame of particles that no bone holds
-  Real unit;
   float* reference[3];
 };
 
@@ -139,7 +141,6 @@ struct Ride {
 template <class Real>
 struct Sieve {
   State<Real> state;
-  Real unit;
   Real range2;  ///< squared distance
 };
 

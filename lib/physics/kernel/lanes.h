@@ -7,11 +7,12 @@
 //
 //     V, M, C                 numbers, truth values, coordinates; one per lane
 //     all, load, store, _coord  one value in all lanes; from and to memory, unaligned
-//     root, larger, smaller, size  square root; of two; absolute value
+//     root, larger, size      square root; the larger of two; absolute value
+//     fused, less_fused       c + a b and c - a b, rounded once
 //     less, at_most, both     comparisons, false where a lane is not a number
 //     any, every              over the lanes
 //     keep, pick, add_where   where the mask is set, else zero, `no`, or `sum` itself
-//     difference, moved       a - b as a length; c displaced by so many units
+//     difference, moved       a - b as a number; c displaced by one
 #pragma once
 
 #if defined(__AVX512F__)

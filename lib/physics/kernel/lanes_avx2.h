@@ -20,8 +20,9 @@ struct Doubles {
   static V load(const double* p) { return _mm256_loadu_pd(p); }
   static void store(double* p, V v) { _mm256_storeu_pd(p, v); }
   static V root(V v) { return _mm256_sqrt_pd(v); }
+  static V fused(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
+  static V less_fused(V a, V b, V c) { return _mm256_fnmadd_pd(a, b, c); }
   static V larger(V a, V b) { return _mm256_max_pd(a, b); }
-  static V smaller(V a, V b) { return _mm256_min_pd(a, b); }
   static V size(V v) { return _mm256_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
@@ -35,7 +36,7 @@ struct Doubles {
   static C load_coord(const double* p) { return load(p); }
   static void store_coord(double* p, C c) { store(p, c); }
   static C all_coord(double value) { return all(value); }
-  static V difference(C a, C b, V) { return a - b; }
+  static V difference(C a, C b) { return a - b; }
   static C moved(C c, V by) { return c + by; }
 };
 
@@ -51,8 +52,9 @@ struct Floats {
   static V load(const float* p) { return _mm256_loadu_ps(p); }
   static void store(float* p, V v) { _mm256_storeu_ps(p, v); }
   static V root(V v) { return _mm256_sqrt_ps(v); }
+  static V fused(V a, V b, V c) { return _mm256_fmadd_ps(a, b, c); }
+  static V less_fused(V a, V b, V c) { return _mm256_fnmadd_ps(a, b, c); }
   static V larger(V a, V b) { return _mm256_max_ps(a, b); }
-  static V smaller(V a, V b) { return _mm256_min_ps(a, b); }
   static V size(V v) { return _mm256_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
@@ -70,9 +72,7 @@ struct Floats {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), c);
   }
   static C all_coord(std::int32_t value) { return _mm256_set1_epi32(value); }
-  static V difference(C a, C b, V unit) {
-    return _mm256_cvtepi32_ps(_mm256_sub_epi32(a, b)) * unit;
-  }
+  static V difference(C a, C b) { return _mm256_cvtepi32_ps(_mm256_sub_epi32(a, b)); }
   static C moved(C c, V by) { return _mm256_add_epi32(c, _mm256_cvtps_epi32(by)); }
 };
 

@@ -18,8 +18,9 @@ struct One {
   static V load(const R* p) { return *p; }
   static void store(R* p, V v) { *p = v; }
   static V root(V v) { return std::sqrt(v); }
+  static V fused(V a, V b, V c) { return std::fma(a, b, c); }
+  static V less_fused(V a, V b, V c) { return std::fma(-a, b, c); }
   static V larger(V a, V b) { return a > b ? a : b; }
-  static V smaller(V a, V b) { return a < b ? a : b; }
   static V size(V v) { return std::fabs(v); }
   static M less(V a, V b) { return a < b; }
   static M at_most(V a, V b) { return a <= b; }
@@ -37,7 +38,7 @@ struct Doubles : One<double> {
   static C load_coord(const double* p) { return *p; }
   static void store_coord(double* p, C c) { *p = c; }
   static C all_coord(double value) { return value; }
-  static V difference(C a, C b, V) { return a - b; }
+  static V difference(C a, C b) { return a - b; }
   static C moved(C c, V by) { return c + by; }
 };
 
@@ -47,9 +48,7 @@ struct Floats : One<float> {
   static C load_coord(const std::int32_t* p) { return static_cast<C>(*p); }
   static void store_coord(std::int32_t* p, C c) { *p = static_cast<Coord>(c); }
   static C all_coord(std::int32_t value) { return static_cast<C>(value); }
-  static V difference(C a, C b, V unit) {
-    return static_cast<float>(static_cast<Coord>(a - b)) * unit;
-  }
+  static V difference(C a, C b) { return static_cast<float>(static_cast<Coord>(a - b)); }
   static C moved(C c, V by) { return c + static_cast<C>(static_cast<Coord>(std::nearbyint(by))); }
 };
 

@@ -4,6 +4,7 @@
 
 #include <emmintrin.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace sinew::kernel::sse2 {
@@ -20,8 +21,14 @@ struct Doubles {
   static V load(const double* p) { return _mm_loadu_pd(p); }
   static void store(double* p, V v) { _mm_storeu_pd(p, v); }
   static V root(V v) { return _mm_sqrt_pd(v); }
+  static V fused(V a, V b, V c) {
+    double x[width], y[width], z[width];
+    store(x, a), store(y, b), store(z, c);
+    for (int k = 0; k < width; ++k) z[k] = std::fma(x[k], y[k], z[k]);
+    return load(z);
+  }
+  static V less_fused(V a, V b, V c) { return fused(all(0) - a, b, c); }
   static V larger(V a, V b) { return _mm_max_pd(a, b); }
-  static V smaller(V a, V b) { return _mm_min_pd(a, b); }
   static V size(V v) { return _mm_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm_cmplt_pd(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_pd(a, b); }
@@ -35,7 +42,7 @@ struct Doubles {
   static C load_coord(const double* p) { return load(p); }
   static void store_coord(double* p, C c) { store(p, c); }
   static C all_coord(double value) { return all(value); }
-  static V difference(C a, C b, V) { return a - b; }
+  static V difference(C a, C b) { return a - b; }
   static C moved(C c, V by) { return c + by; }
 };
 
@@ -51,8 +58,14 @@ struct Floats {
   static V load(const float* p) { return _mm_loadu_ps(p); }
   static void store(float* p, V v) { _mm_storeu_ps(p, v); }
   static V root(V v) { return _mm_sqrt_ps(v); }
+  static V fused(V a, V b, V c) {
+    float x[width], y[width], z[width];
+    store(x, a), store(y, b), store(z, c);
+    for (int k = 0; k < width; ++k) z[k] = std::fma(x[k], y[k], z[k]);
+    return load(z);
+  }
+  static V less_fused(V a, V b, V c) { return fused(all(0) - a, b, c); }
   static V larger(V a, V b) { return _mm_max_ps(a, b); }
-  static V smaller(V a, V b) { return _mm_min_ps(a, b); }
   static V size(V v) { return _mm_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm_cmplt_ps(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_ps(a, b); }
@@ -70,7 +83,7 @@ struct Floats {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), c);
   }
   static C all_coord(std::int32_t value) { return _mm_set1_epi32(value); }
-  static V difference(C a, C b, V unit) { return _mm_cvtepi32_ps(_mm_sub_epi32(a, b)) * unit; }
+  static V difference(C a, C b) { return _mm_cvtepi32_ps(_mm_sub_epi32(a, b)); }
   static C moved(C c, V by) { return _mm_add_epi32(c, _mm_cvtps_epi32(by)); }
 };
 

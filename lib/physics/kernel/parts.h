@@ -29,9 +29,21 @@ SINEW_INLINE Triple<L> operator*(typename L::V s, const Triple<L>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 
+/// c + s a.
+template <class L>
+SINEW_INLINE Triple<L> fused(typename L::V s, const Triple<L>& a, const Triple<L>& c) {
+  return {L::fused(s, a.x, c.x), L::fused(s, a.y, c.y), L::fused(s, a.z, c.z)};
+}
+
 template <class L>
 SINEW_INLINE typename L::V dot(const Triple<L>& a, const Triple<L>& b) {
-  return a.x * b.x + (a.y * b.y + a.z * b.z);
+  return L::fused(a.x, b.x, L::fused(a.y, b.y, a.z * b.z));
+}
+
+/// Rounded as everywhere outside of the kernel: what decides about a pair is the same there.
+template <class L>
+SINEW_INLINE typename L::V squared_distance(const Triple<L>& a) {
+  return a.x * a.x + (a.y * a.y + a.z * a.z);
 }
 
 template <class L>
@@ -68,18 +80,16 @@ SINEW_INLINE Place<L> load_place(typename L::Coord* const p[3], std::ptrdiff_t i
 }
 
 template <class L>
-SINEW_INLINE Triple<L> offset(const Place<L>& a, const Place<L>& b, typename L::V unit) {
-  return {L::difference(a.x, b.x, unit), L::difference(a.y, b.y, unit),
-          L::difference(a.z, b.z, unit)};
+SINEW_INLINE Triple<L> offset(const Place<L>& a, const Place<L>& b) {
+  return {L::difference(a.x, b.x), L::difference(a.y, b.y), L::difference(a.z, b.z)};
 }
 
 /// From a bone's centre to the particles, in the directions of the scene.
 template <class L>
-SINEW_INLINE Triple<L> from_centre(const BoneNow<typename L::Real>& bone, const Place<L>& at,
-                                   typename L::V unit) {
+SINEW_INLINE Triple<L> from_centre(const BoneNow<typename L::Real>& bone, const Place<L>& at) {
   const Place<L> centre{L::all_coord(bone.centre[0]), L::all_coord(bone.centre[1]),
                         L::all_coord(bone.centre[2])};
-  return offset<L>(at, centre, unit) - all<L>(bone.rest_of_centre);
+  return offset<L>(at, centre) - all<L>(bone.rest_of_centre);
 }
 
 /// The coordinates in the bone's frame of a vector in the scene.
@@ -92,12 +102,14 @@ SINEW_INLINE Triple<L> into_frame(const BoneNow<typename L::Real>& bone, const T
 /// And back.
 template <class L>
 SINEW_INLINE Triple<L> from_frame(const BoneNow<typename L::Real>& bone, const Triple<L>& a) {
-  return a.x * all<L>(bone.axes) + (a.y * all<L>(bone.axes + 3) + a.z * all<L>(bone.axes + 6));
+  return fused<L>(a.x, all<L>(bone.axes),
+                  fused<L>(a.y, all<L>(bone.axes + 3), a.z * all<L>(bone.axes + 6)));
 }
 
 template <class L>
 SINEW_INLINE Triple<L> cross(const Triple<L>& a, const Triple<L>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {L::less_fused(a.z, b.y, a.y * b.z), L::less_fused(a.x, b.z, a.z * b.x),
+          L::less_fused(a.y, b.x, a.x * b.y)};
 }
 
 /// Weights and leads of a slot's lanes; a bone alone on its block has all of both.

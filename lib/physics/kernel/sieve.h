@@ -13,8 +13,8 @@ SINEW_INLINE bool meets(const Sieve<typename L::Real>& sieve, const Place<L>* he
   bool found = false;
   for (int k = 0; k < vectors; ++k) {
     const Place<L> there = load_place<L>(sieve.state.x, i + difference + k * L::width);
-    const Triple<L> apart = offset<L>(here[k], there, L::all(sieve.unit));
-    found |= L::any(L::less(dot<L>(apart, apart), L::all(sieve.range2)));
+    const Triple<L> apart = offset<L>(here[k], there);
+    found |= L::any(L::less(squared_distance<L>(apart), L::all(sieve.range2)));
   }
   return found;
 }

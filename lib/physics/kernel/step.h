@@ -32,7 +32,7 @@ struct Forces {
 };
 
 template <class L, bool energy>
-SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawLanes<L>& law,
+SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullLaw<L>& law,
                                  std::size_t block, int lane, const Place<L>& here,
                                  const Triple<L>& velocity) {
   const std::ptrdiff_t i =
@@ -51,7 +51,7 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawLa
 template <class L>
 SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
                           const Triple<L>& velocity, int lane, Sums<L>& sums) {
-  const Triple<L> middle = velocity + L::all(step.middle) * forces.acceleration;
+  const Triple<L> middle = fused<L>(L::all(step.middle), forces.acceleration, velocity);
   const typename L::V lost = forces.bones.damping_power - dot<L>(forces.bones.damping, middle) -
                              dot<L>(forces.damping, middle);
   add_to<L>(sums.power + lane, forces.bones.power);
@@ -71,14 +71,14 @@ SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& dri
 }
 
 template <class L>
-SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawLanes<L>& law,
+SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& law,
                           std::size_t block, int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
   const Forces<L> forces = forces_on<L, false>(step, law, block, lane, here, velocity);
-  const Triple<L> kicked = velocity + L::all(step.kick) * forces.acceleration;
+  const Triple<L> kicked = fused<L>(L::all(step.kick), forces.acceleration, velocity);
   const Triple<L> drifting = step.drift_first ? velocity : kicked;
   const Triple<L> by = L::all(step.drift) * drifting;
   store<L>(step.after.v, i, kicked);
@@ -90,8 +90,8 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawLanes<L>&
 }
 
 template <class L>
-SINEW_INLINE void tell(const Step<typename L::Real>& step, const LawLanes<L>& law,
-                       std::size_t block, int lane, Sums<L>& sums) {
+SINEW_INLINE void tell(const Step<typename L::Real>& step, const PullLaw<L>& law, std::size_t block,
+                       int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
@@ -140,7 +140,7 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
 
 template <class L>
 void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  const LawLanes<L> law(step.law);
+  const PullLaw<L> law(step.law);
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
@@ -150,7 +150,7 @@ void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
 
 template <class L>
 void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  const LawLanes<L> law(step.law);
+  const PullLaw<L> law(step.law);
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {

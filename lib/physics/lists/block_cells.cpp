@@ -46,23 +46,23 @@ auto axes_of(BlockState<Real>& state) {
 }  // namespace
 
 template <class Real>
-BlockCells::BlockCells(BlockState<Real>& state, double unit, double range)
+BlockCells::BlockCells(BlockState<Real>& state, double range)
     : block_size_(BlockState<Real>::block), blocks_(state.blocks()) {
-  size_cells(state, unit, range);
-  assign(state, unit);
+  size_cells(state, range);
+  assign(state);
   sort();
 }
 
-template BlockCells::BlockCells(BlockState<double>&, double, double);
-template BlockCells::BlockCells(BlockState<float>&, double, double);
+template BlockCells::BlockCells(BlockState<double>&, double);
+template BlockCells::BlockCells(BlockState<float>&, double);
 
 template <class Real>
-void BlockCells::size_cells(BlockState<Real>& state, double unit, double range) {
+void BlockCells::size_cells(BlockState<Real>& state, double range) {
   edge_ = range * slack;
   if (state.size() == 0) return;
   const Extent extent = extent_of(axes_of(state), state.size());
-  low_ = unit * Vec3(extent[0], extent[1], extent[2]);
-  const Vec3 size = unit * Vec3(-extent[3], -extent[4], -extent[5]) - low_;
+  low_ = Vec3(extent[0], extent[1], extent[2]);
+  const Vec3 size = Vec3(-extent[3], -extent[4], -extent[5]) - low_;
   const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
   // A stray particle must not blow the table up: wider cells stay correct, only slower.
   const double most = 4.0 * static_cast<double>(state.size()) + 4096;
@@ -71,13 +71,13 @@ void BlockCells::size_cells(BlockState<Real>& state, double unit, double range) 
 }
 
 template <class Real>
-void BlockCells::assign(BlockState<Real>& state, double unit) {
+void BlockCells::assign(BlockState<Real>& state) {
   cell_.resize(state.size());
   const auto x = axes_of(state);
   const double inverse = 1 / edge_;
   parallel_for(state.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     const auto along = [&](std::size_t k, int axis) {
-      const double at = (static_cast<double>(x[axis][k]) * unit - low_[axis]) * inverse;
+      const double at = (static_cast<double>(x[axis][k]) - low_[axis]) * inverse;
       return std::clamp<std::int64_t>(static_cast<std::int64_t>(at), 0, counts_[axis] - 1);
     };
     for (std::size_t k = begin; k < end; ++k)

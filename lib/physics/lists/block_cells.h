@@ -15,7 +15,7 @@ class BlockCells {
  public:
   /// Cells whose edge is `range` (in lengths of the kernel) or more.
   template <class Real>
-  BlockCells(BlockState<Real>& state, double unit, double range);
+  BlockCells(BlockState<Real>& state, double range);
 
   std::size_t cells() const {
     return static_cast<std::size_t>(counts_[0] * counts_[1] * counts_[2]);
@@ -45,9 +45,9 @@ class BlockCells {
 
  private:
   template <class Real>
-  void size_cells(BlockState<Real>& state, double unit, double range);
+  void size_cells(BlockState<Real>& state, double range);
   template <class Real>
-  void assign(BlockState<Real>& state, double unit);
+  void assign(BlockState<Real>& state);
   void sort();
   /// Calls visit(cell) for the distinct cells of a block's particles.
   template <class Visit>

@@ -5,25 +5,25 @@
 
 namespace sinew {
 
-// Coordinates are whole numbers of 32 bits that wrap round. A body may fill a quarter of their
-// range, so that pads half a range away are nobody's partners wherever the body has moved before
-// its lists are built again.
-constexpr double body_range = 1073741824;  // 2^30
-constexpr std::int32_t farthest = 2147483647;
+// Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
+// at first, and its lists are built anew, centred again, before it has moved by an eighth: the far
+// half of the range is left to the pads.
+constexpr double body_range = 1073741824;          // 2^30
+constexpr std::int32_t first_pad = 1342177280;     // 1.25 * 2^30
+constexpr std::uint32_t between_pads = 402653184;  // 0.375 * 2^30: four along each axis
 
 template <>
-Measure measure_for<double>(const Box&, double, double) {
+Measure measure_for<double>(const Box&, const PairForce&, double) {
   return {};
 }
 
 template <>
-Measure measure_for<float>(const Box& box, double radius, double step) {
-  const double extent = box.isEmpty() ? 0 : box.sizes().maxCoeff() / radius;
+Measure measure_for<float>(const Box& box, const PairForce& pair, double step) {
+  // So wide that pads are out of each other's range as well.
+  const double extent = (box.isEmpty() ? 0 : box.sizes().maxCoeff()) + 16 * pair.b;
   Measure measure;
-  measure.length = radius;
   measure.time = step;
-  // A power of two: coordinates turn into lengths without rounding.
-  measure.unit = std::exp2(std::ceil(std::log2((extent + 8) / body_range)));
+  measure.length = extent / body_range;
   measure.origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
   return measure;
 }
@@ -61,12 +61,12 @@ template <>
 Vec3 BlockState<float>::position(std::size_t k, const Measure& measure) const {
   const std::size_t slot = k + block;
   const Vec3 units(x_[0][slot], x_[1][slot], x_[2][slot]);
-  return measure.origin + measure.unit * measure.length * units;
+  return measure.origin + measure.length * units;
 }
 
 template <>
 void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Measure& measure) {
-  const Vec3 units = (p - measure.origin) / (measure.unit * measure.length);
+  const Vec3 units = (p - measure.origin) / measure.length;
   for (int axis = 0; axis < 3; ++axis)
     x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(units[axis]));
 }
@@ -92,7 +92,11 @@ void BlockState<double>::pad(std::size_t slot, int number) {
 
 template <>
 void BlockState<float>::pad(std::size_t slot, int number) {
-  for (auto& axis : x_) axis[slot] = farthest - number * (farthest / 256);
+  const std::uint32_t place[3] = {static_cast<std::uint32_t>(number % 4),
+                                  static_cast<std::uint32_t>(number / 4 % 4),
+                                  static_cast<std::uint32_t>(number / 16)};
+  for (int axis = 0; axis < 3; ++axis)
+    x_[axis][slot] = static_cast<std::int32_t>(first_pad + place[axis] * between_pads);
   for (auto& axis : v_) axis[slot] = 0;
 }
 

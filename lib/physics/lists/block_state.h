@@ -9,25 +9,24 @@
 
 #include "core/particles.h"
 #include "physics/kernel/kernel.h"
+#include "physics/pair_force.h"
 
 namespace sinew {
 
-/// How the kernel measures. Double precision keeps metres and seconds. Single precision counts
-/// lengths in radii and time in steps, so that no product leaves the range of a float, and holds
-/// positions as whole numbers of `unit` from `origin`.
+/// How the kernel measures. Double precision keeps metres and seconds. Single precision counts time
+/// in steps and positions as whole numbers of a small length from an origin.
 struct Measure {
   double length = 1;  ///< m
   double time = 1;    ///< s
-  double unit = 1;    ///< of coordinates, in lengths
   Vec3 origin = Vec3::Zero();
 
   double acceleration(double si) const { return si * time * time / length; }
   double velocity(double si) const { return si * time / length; }
 };
 
-/// The measure for particles of `radius` within `box` (m) that take steps of `step` (s).
+/// The measure for particles within `box` (m) that take steps of `step` (s).
 template <class Real>
-Measure measure_for(const Box& box, double radius, double step);
+Measure measure_for(const Box& box, const PairForce& pair, double step);
 
 template <class Real>
 class BlockState {

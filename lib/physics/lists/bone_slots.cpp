@@ -108,11 +108,11 @@ void put_centre(const Vec3& p, const Measure&, kernel::BoneNow<double>& bone) {
 }
 
 void put_centre(const Vec3& p, const Measure& measure, kernel::BoneNow<float>& bone) {
-  const Vec3 units = (p - measure.origin) / (measure.unit * measure.length);
+  const Vec3 units = (p - measure.origin) / measure.length;
   for (int axis = 0; axis < 3; ++axis) {
     const double whole = std::nearbyint(units[axis]);
     bone.centre[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(whole));
-    bone.rest_of_centre[axis] = static_cast<float>((units[axis] - whole) * measure.unit);
+    bone.rest_of_centre[axis] = static_cast<float>(units[axis] - whole);
   }
 }
 

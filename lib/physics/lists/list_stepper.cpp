@@ -11,7 +11,7 @@ namespace sinew {
 namespace {
 
 // In diameters, measured: longer lists cost every step, shorter ones are made more often.
-constexpr double wide_skin = 0.5, narrow_skin = 0.12;
+constexpr double wide_skin = 0.5, narrow_skin = 0.08;
 // A barrier costs more than the work below this many particles per thread.
 constexpr std::size_t particles_per_thread = 8192;
 // Share of the range of whole numbers that a body may travel before it is centred again.
@@ -55,7 +55,7 @@ void ListStepper<Real>::load(const Particles& particles) {
   const std::size_t n = particles.size();
   Box box;
   for (std::size_t i = 0; i < n; ++i) box.extend(particles.position(i));
-  measure_ = measure_for<Real>(box, particles.radius, stepping_.step);
+  measure_ = measure_for<Real>(box, body_->material.pair, stepping_.step);
   state_ = next_ = BlockState<Real>(n);
   id_.assign((state_.blocks() + 2) * block, 0);
   caller_.resize(n);
@@ -91,22 +91,19 @@ kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real
   step.id = id_.data() + block;
   step.lists = narrow_.arrays();
   step.holds = holds(bones);
-  const double r = pair.r / L, a = pair.a / L, b = pair.b / L;
-  const double per_mass = L * T * T / mass_;
-  step.law = {real(2 * r),
-              real(4 * r * r),
-              real(a),
-              real(b),
-              real(b * b),
+  const double per_mass = pair.r * T * T / mass_;
+  step.law = {real(pair.r / L),
+              real(pair.a / L),
+              real(pair.b / L),
+              real(pair.b / L * pair.b / L),
               real(pair.k1 * per_mass),
               real(pair.k2 * per_mass),
               real(material.damping * T / mass_)};
-  step.unit = real(measure_.unit);
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(measure_.acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
   step.kick = real(dt / T * (first_of_verlet ? 0.5 : 1));
-  step.drift = real(dt / T / measure_.unit);
+  step.drift = real(dt / T);
   step.middle = real(dt / T / 2);
   step.drift_first = stepping_.integrator == Integrator::explicit_euler;
   const double most = measure_.velocity(most_radii_per_step * pair.r / dt);
@@ -120,7 +117,6 @@ kernel::Ride<Real> ListStepper<Real>::ride(const std::vector<kernel::BoneNow<Rea
   return {state_.arrays(),
           holds(bones),
           &world_,
-          static_cast<Real>(measure_.unit),
           {reference_[0].data(), reference_[1].data(), reference_[2].data()}};
 }
 
@@ -129,7 +125,7 @@ template <class Real>
 void ListStepper<Real>::follow_last_step(const Pose& pose) {
   const double dt = stepping_.step;
   // Whole units of single precision add up to one unit to what the speed says.
-  const double rounding = sizeof(Real) == 4 && fastest_ > 0 ? measure_.unit * measure_.length : 0;
+  const double rounding = sizeof(Real) == 4 && fastest_ > 0 ? measure_.length : 0;
   const double moved =
       fastest_ * dt * (1 + 1e-5) + rounding +
       bone_excess(last_pose_, pose, dt, contacts_, listed_pose_, wide_drift_.skin());
@@ -168,7 +164,7 @@ void ListStepper<Real>::keep_lists_true(const Pose& pose,
     // A look that leaves little to go on with would be followed by another at once.
     if (!wide_drift_.holds(approach + wide_drift_.skin() / 8)) return rebuild(pose, bones);
   }
-  const double range = 4294967296.0 * measure_.unit * measure_.length;
+  const double range = 4294967296.0 * measure_.length;
   if (sizeof(Real) == 4 && contacts_.travel(motions) > free_travel * range)
     return rebuild(pose, bones);
   if (!narrow_drift_.holds(contacts_.approach_since(sifted_motions_, motions, moved_when_sifted_)))
@@ -180,8 +176,8 @@ void ListStepper<Real>::rebuild(const Pose& pose, const std::vector<kernel::Bone
   ++counts_.rebuilds;
   const double d0 = 2 * body_->material.pair.r / measure_.length;
   const double range = body_->material.pair.b / measure_.length + wide_skin * d0;
-  const BlockCells cells(state_, measure_.unit, range);
-  wide_ = find_offsets(kernel_, state_, measure_.unit, cells, range);
+  const BlockCells cells(state_, range);
+  wide_ = find_offsets(kernel_, state_, cells, range);
   contacts_ = BoneContacts(cells, slots_.lead, body_->skeleton.size() + 1, measure_.origin,
                            measure_.length, range * measure_.length);
   listed_pose_ = pose;
@@ -197,7 +193,7 @@ void ListStepper<Real>::sift(const Pose& pose) {
   ++counts_.sifts;
   const double d0 = 2 * body_->material.pair.r / measure_.length;
   const double range = body_->material.pair.b / measure_.length + narrow_skin * d0;
-  narrow_ = sift_offsets(kernel_, state_, measure_.unit, wide_, range);
+  narrow_ = sift_offsets(kernel_, state_, wide_, range);
   narrow_drift_ = Drift(narrow_skin * d0 * measure_.length);
   sifted_motions_ = motions_between(listed_pose_, pose);
   moved_when_sifted_ = wide_drift_.moved();

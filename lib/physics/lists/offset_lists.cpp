@@ -72,8 +72,8 @@ std::int32_t* room_for(OffsetLists& part, std::size_t used, std::int64_t count) 
 }
 
 template <class Real>
-kernel::Sieve<Real> sieve_of(BlockState<Real>& state, double unit, double range) {
-  return {state.arrays(), static_cast<Real>(unit), static_cast<Real>(range * range)};
+kernel::Sieve<Real> sieve_of(BlockState<Real>& state, double range) {
+  return {state.arrays(), static_cast<Real>(range * range)};
 }
 
 }  // namespace
@@ -86,9 +86,9 @@ double OffsetLists::mean() const {
 
 template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                         double unit, const BlockCells& cells, double range) {
+                         const BlockCells& cells, double range) {
   constexpr std::int64_t size = BlockState<Real>::block;
-  const auto sieve = sieve_of(state, unit, range);
+  const auto sieve = sieve_of(state, range);
   Finders finders(cells);
   return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
     auto finder = finders.take();
@@ -114,8 +114,8 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 
 template <class Real>
 OffsetLists sift_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                         double unit, const OffsetLists& wider, double range) {
-  const auto sieve = sieve_of(state, unit, range);
+                         const OffsetLists& wider, double range) {
+  const auto sieve = sieve_of(state, range);
   return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
     part.value.resize(wider.first[end] - wider.first[begin] + 1);
     std::int32_t* kept = part.value.data();
@@ -128,13 +128,13 @@ OffsetLists sift_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
   });
 }
 
-template OffsetLists find_offsets(const kernel::Functions<double>&, BlockState<double>&, double,
+template OffsetLists find_offsets(const kernel::Functions<double>&, BlockState<double>&,
                                   const BlockCells&, double);
-template OffsetLists find_offsets(const kernel::Functions<float>&, BlockState<float>&, double,
+template OffsetLists find_offsets(const kernel::Functions<float>&, BlockState<float>&,
                                   const BlockCells&, double);
-template OffsetLists sift_offsets(const kernel::Functions<double>&, BlockState<double>&, double,
+template OffsetLists sift_offsets(const kernel::Functions<double>&, BlockState<double>&,
                                   const OffsetLists&, double);
-template OffsetLists sift_offsets(const kernel::Functions<float>&, BlockState<float>&, double,
+template OffsetLists sift_offsets(const kernel::Functions<float>&, BlockState<float>&,
                                   const OffsetLists&, double);
 
 }  // namespace sinew

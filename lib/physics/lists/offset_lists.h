@@ -23,11 +23,11 @@ struct OffsetLists {
 /// All pairs closer than `range` (in lengths of the kernel; no longer than an edge of the cells).
 template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                         double unit, const BlockCells& cells, double range);
+                         const BlockCells& cells, double range);
 
 /// Those among `wider` that have a pair closer than `range`.
 template <class Real>
 OffsetLists sift_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                         double unit, const OffsetLists& wider, double range);
+                         const OffsetLists& wider, double range);
 
 }  // namespace sinew
