@@ -145,7 +145,7 @@ Particles settled(const Scene& scene, Shape shape) {
   if (shape != Shape::flowed) return after(100, scene, scene.start);
   Scene gentle = scene;  // overlapping particles burst apart
   gentle.step = scene.step / 10;
-  return after(100, scene, after(100, gentle, scene.start));
+  return after(300, scene, after(100, gentle, scene.start));  // then 0.0013 d0 per step, rms
 }
 
 Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,
