@@ -27,8 +27,8 @@ WITH_CELLS = 300_000  # particles; cells take as long per particle beyond
 WITH_ALL_PAIRS = 3_000
 
 # particles -> (states, rounds)
-FULL = {3_000: (STATES, 5), 30_000: (STATES, 5), 300_000: (STATES, 5), 3_000_000: (("rest", "bent", "flowed"), 3)}
-QUICK = {3_000: (("rest", "flowed"), 3), 30_000: (("rest", "flowed"), 2)}
+FULL = {3_000: (STATES, 5), 30_000: (STATES, 5), 300_000: (STATES, 4), 3_000_000: (LAMMPS_STATES, 3)}
+QUICK = {3_000: (LAMMPS_STATES, 3), 30_000: (LAMMPS_STATES, 2)}
 
 
 def kinds_for(count):

@@ -10,6 +10,7 @@ LEFT, RIGHT, TOP, BOTTOM = 70, 210, 30, 50
 KINDS = {"single": ("sinew, single", "#c0392b"), "double": ("sinew, double", "#1f5fa8"),
          "lammps": ("LAMMPS, eq. 1 alone", "#444444"), "cells": ("the paper's cells", "#2e8b57"),
          "all_pairs": ("all pairs", "#b8860b")}
+DASHED = 'stroke-dasharray="5 4"'
 
 
 class Axis:
@@ -49,7 +50,7 @@ def grid(across, up):
 def curve(points, across, up, colour, dashed):
     places = [(across.at(x), up.at(y)) for x, y in points]
     path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
-    dash = 'stroke-dasharray="5 4"' if dashed else ""
+    dash = DASHED if dashed else ""
     yield f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2" {dash}/>'
     for x, y in places:
         yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{colour}"/>'
@@ -66,14 +67,14 @@ def curves(results):
                 yield kind, state, points
 
 
-def legend(drawn):
+def legend(kinds):
     x = WIDTH - RIGHT + 14
-    for number, (kind, state) in enumerate(drawn):
-        name, colour = KINDS[kind]
+    entries = [(*KINDS[kind], "") for kind in kinds]
+    entries += [("at rest", "#888888", ""), ("flowed", "#888888", DASHED)]
+    for number, (name, colour, dash) in enumerate(entries):
         y = TOP + 12 + 20 * number
-        yield line(x, y - 4, x + 26, y - 4, colour,
-                   'stroke-width="2"' + (' stroke-dasharray="5 4"' if state == "flowed" else ""))
-        yield text(x + 32, y, name + (", flowed" if state == "flowed" else ""))
+        yield line(x, y - 4, x + 26, y - 4, colour, 'stroke-width="2" ' + dash)
+        yield text(x + 32, y, name)
 
 
 def limit_lines(results, across, up):
@@ -81,7 +82,7 @@ def limit_lines(results, across, up):
         allowed = min(limit for other, *_, limit in limits(results) if other == kind)
         colour = KINDS[kind][1]
         yield line(LEFT, up.at(allowed), WIDTH - RIGHT, up.at(allowed), colour, 'stroke-dasharray="1 4"')
-        yield text(WIDTH - RIGHT + 14, up.at(allowed) + 4, f"limit, {kind}", colour=colour, more='font-size="11"')
+        yield text(LEFT + 6, up.at(allowed) - 4, f"limit, {kind}", colour=colour, more='font-size="11"')
 
 
 def svg(results):
@@ -93,6 +94,6 @@ def svg(results):
     parts = [*grid(across, up), *limit_lines(results, across, up)]
     for kind, state, points in drawn:
         parts += curve(points, across, up, KINDS[kind][1], state == "flowed")
-    parts += legend([(kind, state) for kind, state, _ in drawn])
+    parts += legend(dict.fromkeys(kind for kind, *_ in drawn))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" '
             f'font-size="13">\n<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(parts) + "\n</svg>\n")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Million particle-steps per second (Mps) of whole steps: pair forces, damping, bones, integration,
-// guards and the book of energies. The label is the hash of the state after the first ten steps; it
-// must not depend on the number of threads. Beside them what this machine can do at most.
+// guards and the book of energies. The label is the hash of the state after the first five steps;
+// it must not depend on the number of threads. Beside them what this machine can do at most.
 //
 //   cmake --build build --target benches
 //   build/bench/step_bench --benchmark_filter=/rest/
@@ -32,7 +32,7 @@ enum class Kind { single, binary64, cells, all_pairs };
 constexpr std::array kinds{"single", "double", "cells", "all_pairs"};
 constexpr std::size_t counts[] = {3'000, 30'000, 300'000, 3'000'000};
 constexpr std::size_t most_for_all_pairs = 3'000;
-constexpr int first_steps = 10;  // build what is kept between steps; then the hash is taken
+constexpr int first_steps = 5;  // build what is kept between steps; then the hash is taken
 
 std::filesystem::path states_folder;  // empty: states are made here
 
@@ -71,16 +71,15 @@ const Prepared& prepared(Shape shape, std::size_t count) {
 /// Stepping of one kind from a prepared state on.
 class Stepper {
  public:
-  Stepper(const Prepared& from, Kind kind) : from_(from), kind_(kind) {
+  Stepper(const Prepared& from, Kind kind) : from_(from) {
     if (kind == Kind::all_pairs) {
       particles_ = from.particles;
       pose_ = pose_at(from.scene.body.skeleton, from.scene.motion, 0);
       return;
     }
-    simulation_ = std::make_unique<Simulation>(
-        simulation_of(from.scene, from.particles,
-                      kind == Kind::single ? Precision::binary32 : Precision::binary64,
-                      kind == Kind::cells ? NeighbourSearch::cells : NeighbourSearch::lists));
+    const auto precision = kind == Kind::single ? Precision::binary32 : Precision::binary64;
+    const auto search = kind == Kind::cells ? NeighbourSearch::cells : NeighbourSearch::lists;
+    simulation_.reset(new Simulation(simulation_of(from.scene, from.particles, precision, search)));
   }
 
   void advance(int steps) {
@@ -98,7 +97,6 @@ class Stepper {
 
  private:
   const Prepared& from_;
-  Kind kind_;
   std::unique_ptr<Simulation> simulation_;
   Particles particles_;  // of all pairs
   Pose pose_;
@@ -108,8 +106,7 @@ class Stepper {
 /// Steps timed in one go. Lists are built again every so many of them: enough to see the mean. The
 /// others do the same in every step.
 int steps_per_lap(const Case& what) {
-  if (what.kind == Kind::all_pairs) return 5;
-  if (what.kind == Kind::cells) return 10;
+  if (what.kind == Kind::all_pairs || what.kind == Kind::cells) return 5;
   return what.count > 1'000'000 ? 40 : 100;
 }
 
