@@ -20,6 +20,7 @@ import speed_tables
 from speed_runs import Runs
 
 SOURCE = Path(__file__).resolve().parents[2]
+README = SOURCE / "README.md"
 MARKED = re.compile(r"(<!-- speed -->\n).*?(<!-- /speed -->)", re.S)
 STATES = ("rest", "bent", "twisted", "crushed", "flowed")
 LAMMPS_STATES = ("rest", "flowed")  # nothing holds the others there: they would spring back
@@ -54,12 +55,15 @@ def measure(runs, plan):
     runs.memory()
 
 
-def update_readme(table, plot):
-    readme = SOURCE / "README.md"
-    text = readme.read_text(encoding="utf-8")
+def readme_text():
+    text = README.read_text(encoding="utf-8")
     if not MARKED.search(text):
         sys.exit("compare.py: README.md has no lines <!-- speed --> and <!-- /speed -->; add them")
-    readme.write_text(MARKED.sub(lambda match: match[1] + table + match[2], text), encoding="utf-8")
+    return text
+
+
+def update_readme(table, plot):
+    README.write_text(MARKED.sub(lambda match: match[1] + table + match[2], readme_text()), encoding="utf-8")
     (SOURCE / "data/pictures/speed.svg").write_text(plot, encoding="utf-8")
 
 
@@ -70,6 +74,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help="small bodies only, one minute")
     parser.add_argument("--update-readme", action="store_true")
     options = parser.parse_args()
+    if options.update_readme:
+        readme_text()  # better told before ten minutes than after
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=options.out) as scratch:
         runs = Runs(options.programs.resolve(), Path(scratch))

@@ -93,6 +93,11 @@ def remarks(results, figures):
     if figures.of("rest", count, "all_pairs"):
         yield (f"All pairs, {results['particles'][count]:,} particles: {figures.cell('rest', count, 'all_pairs')} Mps; "
                f"the paper's cells are {figures.ratio('rest', count, 'cells', 'all_pairs')} times as fast.")
+    late = [f"{lists['dangerous']:.0f} of {lists['builds']:.0f} times ({state}, {int(number):,})"
+            for (state, number), lists in ((key.split("/"), value) for key, value in results["lammps_lists"].items())
+            if lists["dangerous"] > 0]
+    if late:
+        yield f"LAMMPS looked too late at its lists, and missed pairs: {', '.join(late)}."
     if results["bytes_per_particle"]:
         sizes = ", ".join(f"{value:.0f} ({kind})" for kind, value in results["bytes_per_particle"].items())
         yield f"Bytes per particle at the peak, the body's description included: {sizes}."
@@ -108,6 +113,6 @@ def markdown(results):
              table(head("particles"), by_count),
              f"The states, {results['particles'][count]:,} particles:\n", table(head("state"), by_state),
              f"The limits, at {FLOP} floating-point operations and {BYTES['single']} bytes (double: {BYTES['double']}) "
-             "per particle-step:\n",
+             "per particle-step (memory: for bodies beyond the caches):\n",
              limit_table(results, figures), "\n".join(remarks(results, figures)) + "\n"]
     return "\n".join(parts)

@@ -17,6 +17,7 @@ RESULTS = {
     },
     "limits": {"peak/single GFLOP/s": [84, 80], "peak/double GFLOP/s": [42], "triad/threads:1 traffic": [36, 30]},
     "bytes_per_particle": {"single": 200.4},
+    "lammps_lists": {"rest/3000": {"builds": 0, "dangerous": 0}, "flowed/300000": {"builds": 10, "dangerous": 9}},
 }
 
 
@@ -37,6 +38,9 @@ class Tables(unittest.TestCase):
     def test_the_tighter_limit_is_named(self):
         self.assertIn("| 84 GFLOP/s | 200 | 48 % |", self.line("| single, arithmetic (the tighter)"))
         self.assertIn("| 36 GB/s | 500 | 19 % |", self.line("| single, memory |"))
+
+    def test_lists_that_lammps_kept_too_long_are_told(self):
+        self.assertTrue(self.line("LAMMPS looked too late").endswith("missed pairs: 9 of 10 times (flowed, 300,000)."))
 
     def test_plot_is_xml_with_a_curve_per_candidate_and_state(self):
         root = ElementTree.fromstring(speed_plot.svg(RESULTS))
