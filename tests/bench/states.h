@@ -37,7 +37,8 @@ struct Scene {
 /// About `count` particles of the default material, r = 10 mm.
 Scene scene_of(Shape shape, std::size_t count);
 
-/// The state after 100 steps (flowed: 400, rest: none) from the scene's start, in the written order.
+/// The state after 100 steps (flowed: 400, rest: none) from the scene's start, in the written
+/// order.
 Particles settled(const Scene& scene, Shape shape);
 
 /// A simulation of the scene's body that starts with `particles`.
