@@ -6,6 +6,7 @@
 #include "core/closest_packing.h"
 #include "core/number_text.h"
 #include "fill/fill_limits.h"
+#include "fill/fill_warnings.h"
 #include "fill/volume_inside.h"
 #include "io/defects.h"
 #include "mesh/defects.h"
@@ -29,16 +30,9 @@ void add_counts(const Surface& surface, Results& results) {
 }
 
 void add_cleaning(const CleaningCounts& counts, Results& results) {
-  results.add("points_read", counts.points_read);
-  results.add("faces_read", counts.polygons_read);
-  results.add("polygons_cut", counts.polygons_cut);
-  results.add("points_merged", counts.points_merged);
-  results.add("points_unused", counts.points_unused);
-  results.add("faces_collapsed", counts.faces_collapsed);
-  results.add("faces_doubled", counts.faces_doubled);
-  results.add("faces_flat", counts.faces_flat);
-  results.add("faces_turned", counts.faces_turned);
-  results.add("edges_twisted", counts.edges_twisted);
+  for (const NamedCount& one : cleaning_counts())
+    if (one.of != NamedCount::Of::repair || counts.*one.count > 0)
+      results.add(std::string(one.name), counts.*one.count);
 }
 
 void add_radii(double inside, const Diagnosis& diagnosis, Results& results) {
@@ -76,14 +70,10 @@ DefectsFile drawing_of(const Surface& surface, const Defects& defects) {
   return file;
 }
 
-std::vector<std::string> warnings_of(const Surface& surface, const BodySettings& body,
-                                     double ambiguous, double inside) {
+std::vector<std::string> warnings_of(const Surface& surface, double ambiguous, double inside) {
   std::vector<std::string> warnings;
   const double size = bounds(surface.triangles.points).sizes().maxCoeff();
-  const bool as_is = body.unit == LengthUnit::m && body.scale == 1;
-  if (as_is && (size > 100 || size < 1e-3))
-    warnings.push_back("the mesh is " + three_digits(size) +
-                       " m long: if it is in another unit than metres, give --unit");
+  if (const auto odd = size_warning(size)) warnings.push_back(*odd);
   if (ambiguous > most_ambiguous)
     warnings.push_back("the surface has no inside (" + three_digits(100 * ambiguous) +
                        " % of its box is ambiguous): close its holes, or fill it with a thickness");
@@ -115,7 +105,7 @@ std::vector<std::string> add_mesh_info(const BodySettings& body, const std::stri
     write_defects(drawing, drawing_of(surface, defects_of(surface, diagnosis)));
     results.add("drawing", drawing);
   }
-  return warnings_of(surface, body, ambiguous, inside);
+  return warnings_of(surface, ambiguous, inside);
 }
 
 }  // namespace sinew

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/stopwatch.h"
 #include "io/gltf/read_gltf.h"
 #include "mesh/mesh_text.h"
-#include "mesh/prepare.h"
 #include "mesh/read_surface.h"
 
 namespace sinew {
@@ -20,18 +18,6 @@ PolygonSoup read_any(const std::string& path) {
 
 }  // namespace
 
-Surface read_body_mesh(const BodySettings& body) {
-  Stopwatch watch;
-  PolygonSoup soup = read_any(body.mesh);
-  const double reading = watch.lap();
-  try {
-    Surface surface = prepare(std::move(soup), body);
-    surface.seconds_reading = reading;
-    surface.seconds_cleaning = watch.lap();
-    return surface;
-  } catch (const Error& error) {
-    throw error.within({body.mesh});
-  }
-}
+Surface read_body_mesh(const BodySettings& body) { return read_surface(body, read_any); }
 
 }  // namespace sinew

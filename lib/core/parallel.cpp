@@ -30,6 +30,20 @@ void parallel_for(std::size_t count, std::size_t grain,
   });
 }
 
+void parallel_split(std::size_t count, std::size_t least,
+                    const std::function<void(std::size_t, std::size_t)>& body) {
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::size_t parts = std::min(threads, count / std::max<std::size_t>(least, 1));
+  if (parts <= 1) {
+    if (count > 0) body(0, count);
+    return;
+  }
+  tbb::parallel_for(
+      std::size_t{0}, parts,
+      [&](std::size_t part) { body(part * count / parts, (part + 1) * count / parts); },
+      tbb::static_partitioner());
+}
+
 double parallel_sum(std::size_t count, std::size_t grain,
                     const std::function<double(std::size_t, std::size_t)>& piece) {
   std::vector<double> sums((count + grain - 1) / grain);

@@ -15,6 +15,11 @@ void with_threads(int threads, const std::function<void()>& job);
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 
+/// Calls body(begin, end) for as many equal parts of [0, count) as there are threads, none smaller
+/// than `least`: for work whose result does not depend on the split.
+void parallel_split(std::size_t count, std::size_t least,
+                    const std::function<void(std::size_t, std::size_t)>& body);
+
 /// The sum of piece(begin, end) over pieces of `grain` items, added in the order of the pieces.
 double parallel_sum(std::size_t count, std::size_t grain,
                     const std::function<double(std::size_t, std::size_t)>& piece);

@@ -3,6 +3,26 @@
 
 namespace sinew {
 
+double metres(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::m:
+      return 1;
+    case LengthUnit::dm:
+      return 0.1;
+    case LengthUnit::cm:
+      return 0.01;
+    case LengthUnit::mm:
+      return 0.001;
+    case LengthUnit::um:
+      return 1e-6;
+    case LengthUnit::inch:
+      return 0.0254;
+    case LengthUnit::foot:
+      return 0.3048;
+  }
+  return 1;
+}
+
 Place Settings::place(std::string path) const {
   while (true) {
     if (const auto found = places.find(path); found != places.end()) return found->second;

@@ -18,6 +18,9 @@ enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
 enum class FillRule { unite, hollow };
 enum class Keep { centre, sphere };
 
+/// One of the unit, m.
+double metres(LengthUnit unit);
+
 struct BodySettings {
   std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
   LengthUnit unit = LengthUnit::m;

@@ -118,29 +118,29 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
 #define SINEW_AT(Owner, member) \
   [](Owner & owner) -> auto& { return owner.member; }
 
-std::vector<Field<Settings>> make_settings() {
+std::vector<Field<Settings>> make_body() {
   using S = Settings;
   return {
       required(path(field<S>("body", "mesh", SINEW_AT(S, body.mesh), "",
                              "mesh (OBJ, OFF, STL, PLY, glTF, GLB), relative to the scene"))),
-      choice<S>("body", "unit", SINEW_AT(S, body.unit),
-                {"m", "dm", "cm", "mm", "um", "in", "ft"}, "what the mesh's lengths are given in"),
+      choice<S>("body", "unit", SINEW_AT(S, body.unit), {"m", "dm", "cm", "mm", "um", "in", "ft"},
+                "what the mesh's lengths are given in"),
       field<S>("body", "scale", SINEW_AT(S, body.scale), "",
                "factor on the mesh's lengths, beside the unit", positive),
       field<S>("body", "weld", SINEW_AT(S, body.weld), "m",
                "points of the mesh closer than this become one; 0 joins equal ones only",
                not_negative),
-      choice<S>("body", "rule", SINEW_AT(S, body.rule), {"union", "hollow"},
-                "inside is where the winding number is above 0.5 (union); hollow makes every second "
-                "closed shell within others a cavity"),
+      choice<S>(
+          "body", "rule", SINEW_AT(S, body.rule), {"union", "hollow"},
+          "inside is where the winding number is above 0.5 (union); hollow makes every second "
+          "closed shell within others a cavity"),
       field<S>("body", "close_holes", SINEW_AT(S, body.close_holes), "",
                "close the mesh's holes with new faces before anything else"),
       field<S>("body", "wrap", SINEW_AT(S, body.wrap), "m",
                "replace the mesh by a closed skin around it, blind to gaps narrower than this",
                positive, "none"),
       field<S>("body", "thickness", SINEW_AT(S, body.thickness), "m",
-               "fill a layer this thick along the surface instead of its inside", positive,
-               "none"),
+               "fill a layer this thick along the surface instead of its inside", positive, "none"),
       field<S>("body", "radius", SINEW_AT(S, body.radius), "m",
                "particle radius; give this or count", positive),
       field<S>("body", "count", SINEW_AT(S, body.count), "",
@@ -155,7 +155,12 @@ std::vector<Field<Settings>> make_settings() {
                 "what of a particle has to lie within the body"),
       field<S>("body", "clearance", SINEW_AT(S, body.clearance), "m",
                "how far within the body it has to lie", not_negative),
+  };
+}
 
+std::vector<Field<Settings>> make_material() {
+  using S = Settings;
+  return {
       choice<S>("material", "model", SINEW_AT(S, material.model), {"paper"},
                 "force law: paper is Komiya and Tokoi's, without fixed bonds"),
       field<S>("material", "density", SINEW_AT(S, material.density), "kg/m^3",
@@ -179,7 +184,12 @@ std::vector<Field<Settings>> make_settings() {
       choice<S>("material", "damping_form", SINEW_AT(S, material.damping_form),
                 {"paper", "symmetric", "central"},
                 "paper: eq. 2; symmetric keeps momentum; central keeps angular momentum too"),
+  };
+}
 
+std::vector<Field<Settings>> make_binding() {
+  using S = Settings;
+  return {
       choice<S>("binding", "force", SINEW_AT(S, binding.force), {"paper", "anchor"},
                 "paper: radial, twist and axial springs; anchor: a spring to the rigid pose"),
       choice<S>("binding", "twist_form", SINEW_AT(S, binding.twist_form), {"servo", "open_loop"},
@@ -195,7 +205,12 @@ std::vector<Field<Settings>> make_settings() {
       field<S>("binding", "joint_zone", SINEW_AT(S, binding.joint_zone), "sqrt(A)",
                "length over which weights pass from one bone to the next; 0: one bone each",
                not_negative),
+  };
+}
 
+std::vector<Field<Settings>> make_solver() {
+  using S = Settings;
+  return {
       choice<S>("solver", "integrator", SINEW_AT(S, solver.integrator),
                 {"symplectic_euler", "explicit_euler", "velocity_verlet"},
                 "how positions and velocities advance"),
@@ -208,14 +223,28 @@ std::vector<Field<Settings>> make_settings() {
                not_negative),
       field<S>("solver", "gravity", SINEW_AT(S, solver.gravity), "m/s^2",
                "acceleration of gravity"),
+  };
+}
 
+std::vector<Field<Settings>> make_output() {
+  using S = Settings;
+  return {
       field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
                "time of the scene between frames", positive),
       choice<S>("output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
-                "of the arrays in VTU files; none is plain base64; raw is for readers other than VTK before 9.3"),
+                "of the arrays in VTU files; none is plain base64; raw is for readers other than "
+                "VTK before 9.3"),
       field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
                "write Float64 instead of Float32"),
   };
+}
+
+std::vector<Field<Settings>> make_settings() {
+  std::vector<Field<Settings>> all;
+  for (const auto& section :
+       {make_body(), make_material(), make_binding(), make_solver(), make_output()})
+    all.insert(all.end(), section.begin(), section.end());
+  return all;
 }
 
 std::vector<Field<BoneSettings>> make_bones() {

@@ -16,6 +16,16 @@ std::string text(const Vec3& v) {
   return '[' + json_number(v.x()) + ", " + json_number(v.y()) + ", " + json_number(v.z()) + ']';
 }
 
+/// Lengths in a body of that size (m), 0 where they are but rounding.
+double without_rounding(double length, double size) {
+  constexpr double rounding = 1e-13;  // of sums over a million particles
+  return std::abs(length) <= rounding * size ? 0 : length;
+}
+
+Vec3 without_rounding(const Vec3& place, double size) {
+  return place.unaryExpr([=](double x) { return without_rounding(x, size); });
+}
+
 std::string text(const std::array<std::size_t, 13>& counts) {
   std::string list;
   for (const std::size_t count : counts)
@@ -24,20 +34,9 @@ std::string text(const std::array<std::size_t, 13>& counts) {
 }
 
 void add_cleaning(std::vector<ReportRow>& rows, const CleaningCounts& counts) {
-  const auto add = [&](const char* key, std::size_t count) {
-    if (count > 0) rows.push_back({key, std::to_string(count), ""});
-  };
-  add("polygons_cut", counts.polygons_cut);
-  add("points_merged", counts.points_merged);
-  add("points_unused", counts.points_unused);
-  add("faces_collapsed", counts.faces_collapsed);
-  add("faces_doubled", counts.faces_doubled);
-  add("faces_flat", counts.faces_flat);
-  add("faces_turned", counts.faces_turned);
-  add("edges_twisted", counts.edges_twisted);
-  add("holes_closed", counts.holes_closed);
-  add("faces_added", counts.faces_added);
-  add("faces_wrapped", counts.faces_wrapped);
+  for (const NamedCount& one : cleaning_counts())
+    if (one.of == NamedCount::Of::file || counts.*one.count > 0)
+      rows.push_back({std::string(one.name), std::to_string(counts.*one.count), ""});
 }
 
 void add_defects(std::vector<ReportRow>& rows, const FillReport& report) {
@@ -93,13 +92,17 @@ std::string inertia(const Moments& moments, double mass) {
 void add_shape(std::vector<ReportRow>& rows, const FillReport& report) {
   const double mass = report.mass * static_cast<double>(report.particles);
   rows.push_back({"box_size", text(report.box_size), "m"});
-  rows.push_back({"centre_of_mass", text(report.packed.centre), "m"});
+  const double size = report.box_size.maxCoeff();
+  const auto add_centre = [&](const char* key, const Vec3& centre) {
+    rows.push_back({key, text(without_rounding(centre, size)), "m"});
+  };
+  add_centre("centre_of_mass", report.packed.centre);
   rows.push_back({"inertia", inertia(report.packed, mass), "kg m^2"});
   if (!report.closed) return;
-  rows.push_back({"mesh_centre_of_mass", text(report.mesh.centre), "m"});
+  add_centre("mesh_centre_of_mass", report.mesh.centre);
   rows.push_back({"mesh_inertia", inertia(report.mesh, mass), "kg m^2"});
-  rows.push_back(
-      {"centre_offset", json_number((report.packed.centre - report.mesh.centre).norm()), "m"});
+  const double offset = (report.packed.centre - report.mesh.centre).norm();
+  rows.push_back({"centre_offset", json_number(without_rounding(offset, size)), "m"});
 }
 
 }  // namespace
@@ -120,8 +123,8 @@ std::vector<ReportRow> rows_of(const FillReport& report) {
       {"total_mass", json_number(report.mass * static_cast<double>(report.particles)), "kg"});
   add_shape(rows, report);
   rows.push_back({"neighbours", text(report.neighbours), "particles with 0, 1, .. 12"});
-  rows.push_back({"smallest_distance", json_number(report.smallest_distance), "2r"});
-  rows.push_back({"mean_distance", json_number(report.mean_distance), "2r"});
+  rows.push_back({"smallest_distance", json_number(report.smallest_distance), "diameters"});
+  rows.push_back({"mean_distance", json_number(report.mean_distance), "diameters"});
   rows.push_back({"sites_tested", count(report.sites), ""});
   rows.push_back({"sites_on_surface", count(report.ties), ""});
   if (report.kept_out > 0) rows.push_back({"sites_too_close", count(report.kept_out), ""});
@@ -132,8 +135,6 @@ std::vector<ReportRow> rows_of(const FillReport& report) {
   rows.push_back({"touching_groups", count(report.groups), ""});
   add_bodies(rows, report);
   add_defects(rows, report);
-  rows.push_back({"points_read", count(report.cleaning.points_read), ""});
-  rows.push_back({"faces_read", count(report.cleaning.polygons_read), ""});
   add_cleaning(rows, report.cleaning);
   add_verification(rows, report);
   add_seconds(rows, report);

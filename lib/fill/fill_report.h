@@ -28,12 +28,13 @@ struct Verification {
 
 struct FillReport {
   std::size_t particles = 0;
-  std::uint64_t sites = 0;   ///< of the lattice in the mesh's box
-  std::size_t ties = 0;      ///< sites on the surface: outside
-  std::size_t kept_out = 0;  ///< sites inside but too close to the surface
-  double radius = 0;         ///< m
-  double mass = 0;           ///< of one particle, kg
-  double volume = 0;         ///< that the mass stands for, m^3: the mesh's, else the particles'
+  std::optional<int> wanted;  ///< particles, where a count was asked for
+  std::uint64_t sites = 0;    ///< of the lattice in the mesh's box
+  std::size_t ties = 0;       ///< sites on the surface: outside
+  std::size_t kept_out = 0;   ///< sites inside but too close to the surface
+  double radius = 0;          ///< m
+  double mass = 0;            ///< of one particle, kg
+  double volume = 0;          ///< that the mass stands for, m^3: the mesh's, else the particles'
   bool volume_of_mesh = true;
   Moments mesh, packed;
   Vec3 box_size = Vec3::Zero();                     ///< of the mesh, m

@@ -14,6 +14,7 @@ namespace {
 using Warnings = std::vector<std::string>;
 
 constexpr double much_lost = 0.01;           // of the volume
+constexpr double much_missed = 0.05;         // of the count asked for
 constexpr double huge = 100, minute = 1e-3;  // m: outside of these a unit may have been mistaken
 
 std::string counted(std::size_t count, const std::string& what, const std::string& many) {
@@ -21,13 +22,6 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 }
 
 std::string percent(double share) { return three_digits(100 * share) + " %"; }
-
-void warn_of_size(const FillReport& report, Warnings& warnings) {
-  const double size = report.box_size.maxCoeff();
-  if (size <= huge && size >= minute) return;
-  warnings.push_back("the body is " + three_digits(size) +
-                     " m long: if its file is in another unit than metres, set the unit");
-}
 
 void warn_of_holes(const FillReport& report, Warnings& warnings) {
   if (report.closed || report.layer) return;
@@ -73,6 +67,24 @@ void warn_of_gained_volume(const FillReport& report, const Surface& surface, War
                                   "better"));
 }
 
+std::string why_missed(const FillReport& report) {
+  if (report.kept_out > 0)
+    return counted(report.kept_out, "place inside lies", "places inside lie") +
+           " too close to the surface; give a smaller clearance (or keep: centre), or a radius";
+  if (report.layer)
+    return "the layer's volume is not its thickness times the area of the faces; give a radius";
+  return "whole layers of the packing enter the body at once; turn the packing "
+         "(lattice_rotation), move it (lattice_origin), or give a radius";
+}
+
+void warn_of_missed_count(const FillReport& report, Warnings& warnings) {
+  if (!report.wanted) return;
+  const double wanted = *report.wanted;
+  if (std::abs(static_cast<double>(report.particles) - wanted) <= much_missed * wanted) return;
+  warnings.push_back(counted(report.particles, "particle", "particles").append(" instead of the ") +
+                     std::to_string(*report.wanted) + " asked for: " + why_missed(report));
+}
+
 void warn_of_overlaps(const FillReport& report, Warnings& warnings) {
   if (!report.verification || report.verification->mismatches == 0 || report.deepest < 2) return;
   warnings.push_back(counted(report.verification->mismatches, "place", "places") +
@@ -105,9 +117,16 @@ void warn_of_groups(const FillReport& report, Warnings& warnings) {
 
 }  // namespace
 
+std::optional<std::string> size_warning(double longest) {
+  if (longest <= huge && longest >= minute) return std::nullopt;
+  return "the body is " + three_digits(longest) +
+         " m long: if its lengths are given in another unit, set the unit";
+}
+
 Warnings warnings_of(const FillReport& report, const Surface& surface) {
   Warnings warnings;
-  warn_of_size(report, warnings);
+  if (const auto odd = size_warning(report.box_size.maxCoeff())) warnings.push_back(*odd);
+  warn_of_missed_count(report, warnings);
   warn_of_holes(report, warnings);
   warn_of_lost_volume(report, surface, warnings);
   warn_of_gained_volume(report, surface, warnings);

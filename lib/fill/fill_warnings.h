@@ -2,6 +2,7 @@
 // What in a filling deserves a look.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,8 @@ namespace sinew {
 /// One sentence each, with the number that decided and a cure. Looks at the surface only where
 /// something was lost.
 std::vector<std::string> warnings_of(const FillReport& report, const Surface& surface);
+
+/// Where a body of that length (m) is so large or so small that its unit may have been mistaken.
+std::optional<std::string> size_warning(double longest);
 
 }  // namespace sinew

@@ -2,114 +2,17 @@
 #include "fill/near_surface.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/parallel.h"
 #include "fill/dilated_triangle.h"
+#include "fill/row_ranges.h"
+#include "fill/site_ranges.h"
 
 namespace sinew {
 namespace {
 
 constexpr int tile_edge = 16;  // layers, and rows of each
 constexpr std::size_t faces_at_a_time = 1024, points_at_a_time = 8192;
-
-/// Whole numbers from first to last - 1.
-struct Range {
-  int first, last;
-};
-
-/// Those within the interval and 0 .. count - 1; a little more than rounding asks for.
-Range whole_numbers(const Interval& at, int count) {
-  return {static_cast<int>(std::ceil(std::clamp(at.low - 1e-6, 0.0, count + 0.0))),
-          static_cast<int>(std::floor(std::clamp(at.high + 1e-6, -1.0, count - 1.0))) + 1};
-}
-
-/// The lattice in axes (along, across, up) relative to its origin.
-class Rows {
- public:
-  explicit Rows(const Lattice& lattice)
-      : lattice_(lattice),
-        diagonal_(lattice.packing == Packing::fcc),
-        along_unit_(lattice.unit.x() * (diagonal_ ? half_root : 1)),
-        across_unit_(diagonal_ ? along_unit_ : lattice.unit.y()),
-        across_step_(diagonal_ ? 2 : 3),
-        layers_per_metre_(1 / lattice.unit.z()),
-        rows_per_metre_(1 / (across_unit_ * across_step_)),
-        sites_per_metre_(1 / (2 * along_unit_)) {}
-
-  Vec3 turned(const Vec3& p) const {
-    const Vec3 from = p - lattice_.origin;
-    if (!diagonal_) return from;
-    return {(from.x() + from.y()) * half_root, (from.x() - from.y()) * half_root, from.z()};
-  }
-
-  double across(const LatticeLayer& layer, int row) const {
-    return across_unit_ * (layer.across + across_step_ * row);
-  }
-  double up(int layer) const { return lattice_.unit.z() * (lattice_.low[2] + layer); }
-
-  Range layers(const Interval& up) const {
-    const auto at = [&](double z) { return z * layers_per_metre_ - lattice_.low[2]; };
-    return whole_numbers({at(up.low), at(up.high)}, static_cast<int>(lattice_.layers.size()));
-  }
-  Range rows(const LatticeLayer& layer, const Interval& across) const {
-    const double first = double(layer.across) / across_step_;
-    const auto at = [&](double y) { return y * rows_per_metre_ - first; };
-    return whole_numbers({at(across.low), at(across.high)}, layer.rows);
-  }
-  Range sites(const LatticeRow& row, const Interval& along) const {
-    const double first = 0.5 * (diagonal_ ? row.first[0] + row.first[1] : row.first[0]);
-    const auto at = [&](double x) { return x * sites_per_metre_ - first; };
-    const double low = std::clamp(at(along.low), 0.0, row.sites + 0.0),
-                 high = std::clamp(at(along.high), -1.0, row.sites - 1.0);
-    return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
-  }
-
- private:
-  static constexpr double half_root = std::numbers::sqrt2 / 2;
-
-  const Lattice& lattice_;
-  bool diagonal_;
-  double along_unit_, across_unit_;
-  int across_step_;
-  double layers_per_metre_, rows_per_metre_, sites_per_metre_;
-};
-
-/// The sites of one row that have been found.
-class Found {
- public:
-  bool has(Range sites) const {
-    return !ranges_.empty() && ranges_.back().first <= sites.first &&
-           sites.last <= ranges_.back().last;
-  }
-
-  void add(Range sites) {
-    if (sites.first >= sites.last) return;
-    if (!ranges_.empty() && touch(ranges_.back(), sites))
-      ranges_.back() = joined(ranges_.back(), sites);
-    else
-      ranges_.push_back(sites);
-  }
-
-  void append_to(std::vector<Run>& runs, std::size_t row) {
-    std::sort(ranges_.begin(), ranges_.end(),
-              [](const Range& a, const Range& b) { return a.first < b.first; });
-    for (std::size_t i = 0; i < ranges_.size();) {
-      Range all = ranges_[i++];
-      for (; i < ranges_.size() && touch(all, ranges_[i]); ++i) all = joined(all, ranges_[i]);
-      runs.push_back({static_cast<std::int32_t>(row), all.first, all.last, 0});
-    }
-  }
-
- private:
-  static bool touch(Range a, Range b) { return a.first <= b.last && b.first <= a.last; }
-  static Range joined(Range a, Range b) {
-    return {std::min(a.first, b.first), std::max(a.last, b.last)};
-  }
-
-  std::vector<Range> ranges_;
-};
 
 /// Parts the rows into tiles, so that what is kept at a time stays small and each row has one
 /// thread. All faces that a tile's rows may meet are put down to it first.
@@ -177,11 +80,11 @@ class Rasteriser {
 
   void put_down(int face, std::vector<Meeting>& meetings) const {
     const Corners at = corners(face);
-    const Range layers = rows_.layers(up_reach(at, distance_));
+    const IndexRange layers = rows_.layers(up_reach(at, distance_));
     for (int layer = layers.first; layer < layers.last;) {
       const int tile_up = layer / tile_edge, end = std::min((tile_up + 1) * tile_edge, layers.last);
       const Interval across = across_reach(at, distance_, rows_.up(layer), rows_.up(end - 1));
-      const Range rows = rows_.rows(lattice_.layers[layer], across);  // in the others one off
+      const IndexRange rows = rows_.rows(lattice_.layers[layer], across);  // in the others one off
       const int last = std::min(rows.last / tile_edge, tiles_across_ - 1);
       for (int tile = std::max(0, rows.first - 1) / tile_edge; tile <= last; ++tile)
         meetings.push_back({tile_up * tiles_across_ + tile, face});
@@ -194,7 +97,7 @@ class Rasteriser {
     if (first_[tile] == first_[tile + 1]) return runs;
     const int layer = static_cast<int>(tile) / tiles_across_ * tile_edge,
               row = static_cast<int>(tile) % tiles_across_ * tile_edge;
-    std::vector<Found> found(tile_edge * tile_edge);
+    std::vector<SiteRanges> found(tile_edge * tile_edge);
     for (std::size_t i = first_[tile]; i < first_[tile + 1]; ++i)
       rasterise(corners(faces_[i]), layer, row, found);
     for (int i = 0; i < tile_edge * tile_edge; ++i) {
@@ -206,14 +109,14 @@ class Rasteriser {
   }
 
   void rasterise(const Corners& at, int first_layer, int first_row,
-                 std::vector<Found>& found) const {
+                 std::vector<SiteRanges>& found) const {
     const DilatedTriangle body(at, distance_);
-    const Range layers = rows_.layers(up_reach(at, distance_));
+    const IndexRange layers = rows_.layers(up_reach(at, distance_));
     const int end = std::min(first_layer + tile_edge, layers.last);
     for (int layer = std::max(first_layer, layers.first); layer < end; ++layer) {
       const LatticeLayer& in = lattice_.layers[layer];
       const double up = rows_.up(layer);
-      const Range rows = rows_.rows(in, across_reach(at, distance_, up, up));
+      const IndexRange rows = rows_.rows(in, across_reach(at, distance_, up, up));
       const int last = std::min(first_row + tile_edge, rows.last);
       for (int row = std::max(first_row, rows.first); row < last; ++row)
         meet(body, lattice_.rows[in.first_row + row], rows_.across(in, row), up,
@@ -222,8 +125,8 @@ class Rasteriser {
   }
 
   void meet(const DilatedTriangle& body, const LatticeRow& row, double across, double up,
-            Found& found) const {
-    const Range most = rows_.sites(row, body.along_at_most(across, up));
+            SiteRanges& found) const {
+    const IndexRange most = rows_.sites(row, body.along_at_most(across, up));
     if (most.first >= most.last || found.has(most)) return;
     found.add(rows_.sites(row, body.along(across, up)));
   }
@@ -242,7 +145,7 @@ class Rasteriser {
 
   const Lattice& lattice_;
   const Triangles& surface_;
-  Rows rows_;
+  RowRanges rows_;
   double distance_;
   int tiles_up_, tiles_across_;
   Points points_;                   ///< of the surface, turned

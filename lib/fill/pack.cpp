@@ -17,7 +17,7 @@
 namespace sinew {
 namespace {
 
-void check(const PackOptions& options) {
+void check(const Surface& surface, const PackOptions& options) {
   if (options.radius.has_value() == options.count.has_value())
     throw bad_input(options.radius ? "both a radius and a count are given"
                                    : "neither a radius nor a count is given",
@@ -31,6 +31,7 @@ void check(const PackOptions& options) {
   if (options.count) positive("count", *options.count);
   if (options.thickness) positive("thickness", *options.thickness);
   positive("density", options.density);
+  if (options.verify && !options.thickness) refuse_unverifiable(surface);
   if (!options.thickness) return;
   if (options.keep != Keep::centre || options.clearance > 0)
     throw bad_input("a layer along the surface has no clearance from it",
@@ -119,11 +120,12 @@ void report_mass(Particles& particles, const PackOptions& options, FillReport& r
 }  // namespace
 
 Filling pack(const Surface& surface, const PackOptions& options) {
-  check(options);
+  check(surface, options);
   Stopwatch watch;
   const BodySpace space(surface, options);
   Filling filling;
   FillReport& report = filling.report;
+  report.wanted = options.count;
   report.ambiguous = refuse_without_inside(space, options);
   const double wanted = wanted_radius(space, options);
   const FilledSites filled = fill_sites(space, options, wanted);

@@ -23,9 +23,10 @@ struct Filling {
 };
 
 /// The same particles for every number of threads. Throws Error (bad input) before it fills when
-/// there would be too many particles for memory or for 32-bit ids, when the body holds less than
-/// one, when the surface has no inside (naming the share of ambiguous places), and when no site
-/// lies inside; all name a radius that fits, or the option that helps.
+/// an open surface is to be verified, when there would be too many particles for memory or for
+/// 32-bit ids, when the body holds less than one, when the surface has no inside (naming the share
+/// of ambiguous places), and when no site lies inside; all name a radius that fits, or the option
+/// that helps.
 Filling pack(const Surface& surface, const PackOptions& options);
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sets of lattice sites as runs of sites that follow each other in a row, and their algebra.
+// Sets of lattice sites as runs of sites that follow each other in a row, and their difference.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,9 @@ struct Run {
   bool operator==(const Run&) const = default;
 };
 
-// All take runs sorted by row and then site, no two of one vector with a site in common, and give
-// such runs; of those given, none touch with the same body. A site keeps the body it has in `runs`.
-
-/// The sites of `runs` that are not in `others`.
+/// The sites of `runs` that are not in `others`, with the body they have in `runs`. Both are sorted
+/// by row and then site, no two runs of one with a site in common; so is what is given, in which
+/// none touch with the same body.
 std::vector<Run> runs_without(const std::vector<Run>& runs, const std::vector<Run>& others);
-
-/// The sites of `runs` that are in `others`, too.
-std::vector<Run> runs_within(const std::vector<Run>& runs, const std::vector<Run>& others);
 
 }  // namespace sinew

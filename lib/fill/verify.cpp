@@ -37,11 +37,15 @@ void add(Verification& sum, const Verification& part) {
 
 }  // namespace
 
+void refuse_unverifiable(const Surface& surface) {
+  if (surface.closed()) return;
+  throw bad_input("only closed surfaces can be verified, and this one has " +
+                      std::to_string(surface.border.edges) + " open edges",
+                  "close its holes, or leave the verification out");
+}
+
 Verification verify(const Lattice& lattice, const Surface& surface, const InsideRuns& inside) {
-  if (!surface.closed())
-    throw bad_input("only closed surfaces can be verified, and this one has " +
-                        std::to_string(surface.border.edges) + " open edges",
-                    "close its holes, or leave the verification out");
+  refuse_unverifiable(surface);
   const SideOf cgal(surface.triangles);
   const std::size_t rows = lattice.rows.size();
   std::vector<Verification> pieces((rows + rows_at_a_time - 1) / rows_at_a_time);

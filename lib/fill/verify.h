@@ -7,9 +7,12 @@
 
 namespace sinew {
 
-/// Compares the sites inside with CGAL's Side_of_triangle_mesh. Throws Error (bad input) unless the
-/// surface is closed. Where parts of it overlap mismatches are to be expected: CGAL counts
-/// crossings modulo 2.
+/// Throws Error (bad input) unless the surface is closed.
+void refuse_unverifiable(const Surface& surface);
+
+/// Compares the sites inside with CGAL's Side_of_triangle_mesh. Throws as refuse_unverifiable()
+/// does. Where parts of the surface overlap mismatches are to be expected: CGAL counts crossings
+/// modulo 2.
 Verification verify(const Lattice& lattice, const Surface& surface, const InsideRuns& inside);
 
 }  // namespace sinew

@@ -2,13 +2,24 @@
 #include "mesh/prepare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "core/number_text.h"
+#include "mesh/check_soup.h"
 #include "mesh/clean.h"
 #include "mesh/repair.h"
 
 namespace sinew {
 namespace {
+
+void scale(PolygonSoup& soup, const BodySettings& body) {
+  const double by = metres(body.unit) * body.scale;
+  if (!(by > 0) || !std::isfinite(by))
+    throw bad_input("the scale is " + number_text(body.scale), "give a number above 0");
+  if (by == 1) return;
+  for (Vec3& point : soup.points) point *= by;
+}
 
 PolygonSoup soup_of(const Triangles& triangles) {
   PolygonSoup soup{triangles.points, {}};
@@ -43,6 +54,10 @@ Surface without_holes(const Surface& surface, FillRule rule) {
   if (surface.closed()) return surface;
   HoleClosing closing = close_holes(surface.triangles);
   drop_closed_sheets(closing);
+  if (closing.triangles.faces.empty())
+    throw bad_input("all " + std::to_string(surface.triangles.faces.size()) +
+                        " faces are loose, and closing their holes encloses nothing",
+                    "weld their corners if they almost meet, or give a thickness instead");
   Surface closed = cleaned_again(surface, closing.triangles, rule);
   closed.cleaning.holes_closed = closing.holes_closed;
   closed.cleaning.faces_added = closing.faces_added;
@@ -58,30 +73,9 @@ Surface wrapped(const Surface& surface, double alpha, FillRule rule) {
 
 }  // namespace
 
-double metres(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::m:
-      return 1;
-    case LengthUnit::dm:
-      return 0.1;
-    case LengthUnit::cm:
-      return 0.01;
-    case LengthUnit::mm:
-      return 0.001;
-    case LengthUnit::um:
-      return 1e-6;
-    case LengthUnit::inch:
-      return 0.0254;
-    case LengthUnit::foot:
-      return 0.3048;
-  }
-  return 1;
-}
-
 Surface prepare(PolygonSoup soup, const BodySettings& body) {
-  const double scale = metres(body.unit) * body.scale;
-  if (scale != 1)
-    for (Vec3& point : soup.points) point *= scale;
+  check_soup(soup);
+  scale(soup, body);
   Surface surface = clean(std::move(soup), {body.weld, body.rule});
   if (body.close_holes) surface = without_holes(surface, body.rule);
   if (body.wrap) surface = wrapped(surface, *body.wrap, body.rule);

@@ -8,11 +8,11 @@
 
 namespace sinew {
 
-/// In metres, by unit and scale; welded and cleaned; its holes closed, and replaced by a skin around
-/// it, where the settings ask for that. Throws Error (bad input) as clean() and repair.h do.
+/// In metres, by unit and scale; welded and cleaned; its holes closed, and replaced by a skin
+/// around it, where the settings ask for that. Throws Error (bad input) where the soup has no
+/// faces, faces of fewer than 3 corners, corners that are no points or coordinates that are not
+/// finite, where the scale is not above 0, where closing holes leaves no face, and as clean() and
+/// repair.h do.
 Surface prepare(PolygonSoup soup, const BodySettings& body);
-
-/// One of a mesh's units, m.
-double metres(LengthUnit unit);
 
 }  // namespace sinew

@@ -13,6 +13,7 @@
 #include "fill/lattice.h"
 #include "fill/side_of.h"
 #include "mesh/clean.h"
+#include "mesh/mesh_files.h"
 #include "mesh/read_surface.h"
 #include "mesh/shapes.h"
 
@@ -21,10 +22,18 @@ namespace {
 
 const std::string paper_box = SINEW_SOURCE_DIR "/data/meshes/box.obj";
 
+Surface paper_box_surface() { return read_surface(mesh_files::body_at(paper_box)); }
+
 PackOptions with_radius(double radius, Packing packing = Packing::fcc) {
   PackOptions options;
   options.packing = packing;
   options.radius = radius;
+  return options;
+}
+
+PackOptions with_count(int count) {
+  PackOptions options;
+  options.count = count;
   return options;
 }
 
@@ -41,7 +50,7 @@ std::string message_of(const std::function<void()>& job) {
 
 TEST(PaperBox, Has1062PointsInFileOrderAnd2120Triangles) {
   const PolygonSoup soup = read_polygons(paper_box);
-  const Surface surface = read_surface(paper_box);
+  const Surface surface = paper_box_surface();
   EXPECT_EQ(surface.triangles.points.size(), 1062u);
   EXPECT_EQ(surface.triangles.faces.size(), 2120u);
   EXPECT_EQ(surface.triangles.points, soup.points);
@@ -49,20 +58,20 @@ TEST(PaperBox, Has1062PointsInFileOrderAnd2120Triangles) {
 }
 
 TEST(PaperBox, Is11By11By49HalfPlanes) {
-  const Vec3 size = bounds(read_surface(paper_box).triangles.points).sizes();
+  const Vec3 size = bounds(paper_box_surface().triangles.points).sizes();
   const double plane = half_plane_spacing(0.010);
   EXPECT_LT((size - plane * Vec3(11, 11, 49)).norm(), 1e-15);
 }
 
 TEST(PaperBox, HoldsThePapers2965Particles) {
-  const Filling filling = pack(read_surface(paper_box), with_radius(0.010));
+  const Filling filling = pack(paper_box_surface(), with_radius(0.010));
   EXPECT_EQ(filling.particles.size(), 2965u);
   EXPECT_EQ(filling.report.ties, 0u);
   EXPECT_EQ(filling.report.neighbours[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
 }
 
 TEST(Pack, GivesTheMeshsMassInAll) {
-  const Surface surface = read_surface(paper_box);
+  const Surface surface = paper_box_surface();
   PackOptions options = with_radius(0.010);
   options.density = 1234;
   const Particles particles = pack(surface, options).particles;
@@ -212,12 +221,47 @@ TEST(Pack, KeepsItsSitesWhenTheBodyIsMovedByExactAmounts) {
 
 TEST(Pack, FindsTheRadiusForACount) {
   const Surface surface = clean(shapes::sphere(1, 4));
-  PackOptions options;
-  options.count = 20000;
-  const Filling filling = pack(surface, options);
+  const Filling filling = pack(surface, with_count(20000));
   EXPECT_NEAR(static_cast<double>(filling.particles.size()), 20000, 200);
   EXPECT_NEAR(volume_per_particle(filling.particles.radius) * 20000 / volume(surface.triangles), 1,
               1e-12);
+}
+
+/// The warning that names the count, or "".
+std::string miss_told(const Filling& filling, int wanted) {
+  for (const std::string& warning : filling.report.warnings)
+    if (warning.find("the " + std::to_string(wanted) + " asked for") != std::string::npos)
+      return warning;
+  return {};
+}
+
+TEST(Pack, TellsWhatKeptItFarFromACount) {
+  const Surface cube = clean(shapes::box(Vec3::Zero(), Vec3::Ones()));
+  PackOptions deep = with_count(100000);
+  deep.clearance = 0.497;
+  const std::string kept_out = miss_told(pack(cube, deep), 100000);
+  EXPECT_NE(kept_out.find("1 particle "), std::string::npos) << kept_out;
+  EXPECT_NE(kept_out.find("clearance"), std::string::npos) << kept_out;
+
+  const Filling layered = pack(cube, with_count(2000));
+  ASSERT_GT(std::abs(layered.particles.size() / 2000.0 - 1), 0.05);
+  const std::string at_once = miss_told(layered, 2000);
+  EXPECT_EQ(at_once.rfind(std::to_string(layered.particles.size()), 0), 0u) << at_once;
+  EXPECT_NE(at_once.find("lattice_rotation"), std::string::npos) << at_once;
+}
+
+TEST(Pack, SaysNothingOfACountThatIsMet) {
+  const Filling filling = pack(clean(shapes::sphere(1, 4)), with_count(20000));
+  EXPECT_EQ(miss_told(filling, 20000), "");
+}
+
+TEST(Pack, RefusesToVerifyAnOpenSurfaceBeforeItLooksAtIt) {
+  auto open = shapes::sphere(1, 3);
+  open.polygons.resize(open.polygons.size() - 10);
+  PackOptions options = with_radius(1e-9);  // more particles than memory holds: told later
+  options.verify = true;
+  const std::string message = message_of([&] { pack(clean(open), options); });
+  EXPECT_NE(message.find("only closed surfaces"), std::string::npos) << message;
 }
 
 TEST(Pack, TellsBodiesApart) {
@@ -281,6 +325,30 @@ TEST(Report, GivesTheSpheresCentreAndVolume) {
   EXPECT_EQ(rows_of(report)[0].value, std::to_string(report.particles));
 }
 
+std::string row_of(const FillReport& report, const std::string& key) {
+  for (const ReportRow& row : rows_of(report))
+    if (row.key == key) return row.value + ' ' + row.unit;
+  return {};
+}
+
+TEST(Report, SaysZeroForACentreThatIsButRounding) {
+  FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
+  report.mesh.centre = {-3.2e-19, 1e-14, 1e-9};
+  report.packed.centre = {0, 0, 1e-9};
+  EXPECT_EQ(row_of(report, "mesh_centre_of_mass"), "[0, 0, 1e-09] m");
+  EXPECT_EQ(row_of(report, "centre_of_mass"), "[0, 0, 1e-09] m");
+  EXPECT_EQ(row_of(report, "centre_offset"), "0 m");
+  EXPECT_EQ(row_of(report, "smallest_distance").find("2r"), std::string::npos);
+}
+
+TEST(Report, TellsRepairsOnlyWhereSomeWereDone) {
+  FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
+  EXPECT_EQ(row_of(report, "faces_read"), "512 ");
+  EXPECT_EQ(row_of(report, "holes_closed"), "");
+  report.cleaning.holes_closed = 3;
+  EXPECT_EQ(row_of(report, "holes_closed"), "3 ");
+}
+
 TEST(Report, HasTheTetrahedronsCentre) {
   const Surface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
   EXPECT_LT((moments_of(surface.triangles).centre - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
@@ -292,7 +360,7 @@ double radius_named_in(const std::string& message) {
 }
 
 TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
-  const Surface surface = read_surface(paper_box);
+  const Surface surface = paper_box_surface();
   const std::string message = message_of([&] { pack(surface, with_radius(1e-7)); });
   const double named = radius_named_in(message);
   EXPECT_GT(named, 1e-7) << message;
@@ -302,7 +370,7 @@ TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
 /// The torus has no site in its hole's middle; in the box one lies at the centre whatever the
 /// radius.
 TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
-  const Surface torus = clean(shapes::torus(1, 0.4)), box = read_surface(paper_box);
+  const Surface torus = clean(shapes::torus(1, 0.4)), box = paper_box_surface();
   for (const auto& [surface, radius] : {std::pair(&torus, 0.75), std::pair(&torus, 3.0),
                                         std::pair(&box, 1.0), std::pair(&box, 1e300)}) {
     const std::string message = message_of([&] { pack(*surface, with_radius(radius)); });
@@ -314,9 +382,7 @@ TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
 }
 
 TEST(Pack, FillsASingleParticleWhenAskedForOne) {
-  PackOptions options;
-  options.count = 1;
-  EXPECT_EQ(pack(clean(shapes::sphere(1, 3)), options).particles.size(), 1u);
+  EXPECT_EQ(pack(clean(shapes::sphere(1, 3)), with_count(1)).particles.size(), 1u);
 }
 
 TEST(Pack, WantsEitherARadiusOrACount) {

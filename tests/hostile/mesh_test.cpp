@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "expect_error.h"
 #include "mesh/mesh_files.h"
 #include "mesh/read_surface.h"
 #include "mesh/shapes.h"
@@ -22,7 +23,7 @@ using mesh_files::Folder;
 /// Whatever it says has the form of an error line.
 std::string answer(const std::string& path) {
   try {
-    const Surface surface = read_surface(path);
+    const Surface surface = read_surface(mesh_files::body_at(path));
     EXPECT_FALSE(surface.triangles.faces.empty());
     EXPECT_EQ(laws::border_with_caps(surface), 0u);
     return {};
@@ -329,7 +330,7 @@ TEST(Surface, ThatIsBrokenIsTakenAndCounted) {
   const PolygonSoup sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
   const Folder folder;
   const auto border = [&](const Format& file) {
-    return read_surface(folder.file(file.name, file.content)).border;
+    return read_surface(mesh_files::body_at(folder.file(file.name, file.content))).border;
   };
   for (const Format& file : formats(open)) EXPECT_EQ(border(file).edges, 4u) << file.name;
   for (const Format& file : formats(crowded)) EXPECT_GT(border(file).crowded_edges, 0u);
@@ -340,6 +341,17 @@ TEST(Surface, ThatIsBrokenIsTakenAndCounted) {
 TEST(Surface, WithoutAFaceIsRefused) {
   const PolygonSoup point{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{0, 1, 2}}};
   for (const auto& [name, content] : formats(point)) expect_refused(name, content, "collapsed");
+}
+
+TEST(Surface, OfLooseFacesOnlyHasNoHolesToClose) {
+  const PolygonSoup loose = shapes::burst(shapes::sphere(1, 2), 0.5);
+  const Folder folder;
+  for (const auto& [name, content] : formats(loose)) {
+    BodySettings body = mesh_files::body_at(folder.file(name, content));
+    body.close_holes = true;
+    test::expect_bad_input([&] { read_surface(body); },
+                           {body.mesh + ": all 128 faces are loose", "; ", "thickness"});
+  }
 }
 
 TEST(Surface, OfATangleIsTakenSoon) {
@@ -353,7 +365,9 @@ TEST(Surface, OfATangleIsTakenSoon) {
       tangle.polygons.push_back({4 * i + f[0], 4 * i + f[1], 4 * i + f[2]});
   }
   const Folder folder;
-  EXPECT_EQ(read_surface(folder.file("a.obj", mesh_files::obj(tangle))).components, 3000);
+  EXPECT_EQ(
+      read_surface(mesh_files::body_at(folder.file("a.obj", mesh_files::obj(tangle)))).components,
+      3000);
 }
 
 TEST(Surface, OfAllFacesAtOneEdgeIsTakenSoon) {
@@ -363,7 +377,8 @@ TEST(Surface, OfAllFacesAtOneEdgeIsTakenSoon) {
     book.polygons.push_back({0, 1, i + 2});
   }
   const Folder folder;
-  const Surface surface = read_surface(folder.file("a.obj", mesh_files::obj(book)));
+  const Surface surface =
+      read_surface(mesh_files::body_at(folder.file("a.obj", mesh_files::obj(book))));
   EXPECT_EQ(surface.border.crowded_edges, 1u);
   EXPECT_EQ(surface.triangles.faces.size(), 50000u);
 }

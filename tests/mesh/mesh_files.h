@@ -12,6 +12,7 @@
 
 #include "core/number_text.h"
 #include "core/polygon_soup.h"
+#include "core/settings.h"
 
 namespace sinew::mesh_files {
 
@@ -128,5 +129,12 @@ class Folder {
  private:
   std::filesystem::path path_;
 };
+
+/// The mesh at `path`, with all settings as they are by default.
+inline BodySettings body_at(const std::string& path) {
+  BodySettings body;
+  body.mesh = path;
+  return body;
+}
 
 }  // namespace sinew::mesh_files

@@ -8,6 +8,7 @@
 
 #include "expect_error.h"
 #include "mesh/mesh_files.h"
+#include "mesh/prepare.h"
 #include "mesh/shapes.h"
 
 namespace sinew {
@@ -40,10 +41,11 @@ TEST(Read, TakesEveryDigitFromObjOffAndPly) {
 TEST(Read, TakesTextAndBinaryStl) {
   const Folder folder;
   const auto soup = shapes::torus(1, 0.25, 8, 6);
-  const double expected =
-      volume(read_surface(folder.file("a.obj", mesh_files::obj(soup))).triangles);
-  const auto text = read_surface(folder.file("a.stl", mesh_files::stl(soup)));
-  const auto binary = read_surface(folder.file("b.stl", mesh_files::stl_binary(soup)));
+  const double expected = volume(
+      read_surface(mesh_files::body_at(folder.file("a.obj", mesh_files::obj(soup)))).triangles);
+  const auto text = read_surface(mesh_files::body_at(folder.file("a.stl", mesh_files::stl(soup))));
+  const auto binary =
+      read_surface(mesh_files::body_at(folder.file("b.stl", mesh_files::stl_binary(soup))));
   EXPECT_EQ(text.triangles.points.size(), soup.points.size());
   EXPECT_EQ(binary.triangles.points.size(), soup.points.size());
   EXPECT_NEAR(volume(text.triangles), expected, 0.1);  // quads are cut along the other diagonal
@@ -66,7 +68,7 @@ TEST(Read, TakesSeveralSolidsOfAnStl) {
   const auto far = shapes::moved(shapes::tetrahedron(), Vec3(5, 0, 0));
   const auto path =
       folder.file("a.stl", mesh_files::stl(shapes::tetrahedron()) + mesh_files::stl(far));
-  EXPECT_EQ(read_surface(path).components, 2);
+  EXPECT_EQ(read_surface(mesh_files::body_at(path)).components, 2);
 }
 
 TEST(Read, TakesObjAsProgramsWriteIt) {
@@ -77,7 +79,7 @@ TEST(Read, TakesObjAsProgramsWriteIt) {
       "vt 0 0\r\nvn 0 0 1\r\ncall x\r\nl 1 2\r\ng all\r\nf\t1/1/1\t3/1/1\t2/1/1\r\nf 1//1 2//1 "
       "4//1\r\n"
       "f -3 -2 -1\r\nf 3/1 \\\r\n1/1 4/1";
-  const Surface surface = read_surface(folder.file("a.obj", text));
+  const Surface surface = read_surface(mesh_files::body_at(folder.file("a.obj", text)));
   EXPECT_EQ(surface.triangles.points, shapes::tetrahedron().points);
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
 }
@@ -89,7 +91,10 @@ TEST(Read, TakesOffWithColoursAndCountsOnTheFirstLine) {
       "3 0 2 1 0.5 0.5 0.5\n3 0 1 3\n3 1 2 3 7\n3 2 0 3";
   for (const std::string head :
        {"COFF\n4 4 6\n", "OFF 4 4 6\n", "4 4 6\n", "\xEF\xBB\xBFOFF\n# x\n4 4 0\n"})
-    EXPECT_EQ(read_surface(folder.file("a.off", head + body)).triangles.faces.size(), 4u) << head;
+    EXPECT_EQ(
+        read_surface(mesh_files::body_at(folder.file("a.off", head + body))).triangles.faces.size(),
+        4u)
+        << head;
 }
 
 TEST(Read, TakesPlyWithOtherElementsAndProperties) {
@@ -103,7 +108,7 @@ TEST(Read, TakesPlyWithOtherElementsAndProperties) {
       "vertex_index\r\n"
       "property uchar flag\r\nend_header\r\n0.5\r\n1 0 0 0\r\n2 1 0 0\r\n3 0 1 0\r\n4 0 0 1\r\n"
       "0 3 0 2 1 1\r\n1 0.5 3 0 1 3 1\r\n0 3 1 2 3 1\r\n0 3 2 0 3 1\r\n";
-  EXPECT_EQ(read_surface(folder.file("a.ply", text)).triangles.points,
+  EXPECT_EQ(read_surface(mesh_files::body_at(folder.file("a.ply", text))).triangles.points,
             shapes::tetrahedron().points);
 }
 
@@ -126,27 +131,33 @@ TEST(Read, ScalesAndWelds) {
   auto torn = shapes::burst(shapes::tetrahedron(1000));
   torn.points[0].x() += 0.5;
   const std::string path = folder.file("a.obj", mesh_files::obj(torn));
-  EXPECT_FALSE(read_surface(path, {.scale = 1e-3}).closed());
-  const Surface surface = read_surface(path, {.scale = 1e-3, .weld = 1e-3});
+  BodySettings body = mesh_files::body_at(path);
+  body.scale = 1e-3;
+  EXPECT_FALSE(read_surface(body).closed());
+  body.weld = 1e-3;
+  const Surface surface = read_surface(body);
   EXPECT_TRUE(surface.closed());
   EXPECT_NEAR(volume(surface.triangles), 1.0 / 6, 1e-3);
-  for (const double scale : {0.0, -1.0, std::nan("")})
-    test::expect_bad_input([&] { read_surface(path, {.scale = scale}); },
-                           {path + ": the scale is", "above 0"});
+  for (const double scale : {0.0, -1.0, std::nan("")}) {
+    body.scale = scale;
+    test::expect_bad_input([&] { read_surface(body); }, {path + ": the scale is", "above 0"});
+  }
 }
 
 TEST(Read, PassesTheRuleOn) {
   const auto soup = shapes::together(shapes::sphere(1, 2), shapes::sphere(0.5, 2));
-  const double one = volume(surface_from(shapes::sphere(1, 2)).triangles);
-  EXPECT_NEAR(volume(surface_from(soup, {.rule = FillRule::hollow}).triangles), one * 7 / 8, 1e-12);
-  EXPECT_NEAR(volume(surface_from(soup).triangles), one * 9 / 8, 1e-12);
+  const double one = volume(prepare(shapes::sphere(1, 2), {}).triangles);
+  BodySettings hollow;
+  hollow.rule = FillRule::hollow;
+  EXPECT_NEAR(volume(prepare(soup, hollow).triangles), one * 7 / 8, 1e-12);
+  EXPECT_NEAR(volume(prepare(soup, {}).triangles), one * 9 / 8, 1e-12);
 }
 
 TEST(Soup, IsCheckedBeforeItIsUsed) {
   const auto good = shapes::tetrahedron();
-  check_soup(good);
+  EXPECT_EQ(prepare(good, {}).components, 1);
   const auto refused = [](const PolygonSoup& soup, const std::string& part) {
-    test::expect_bad_input([&] { surface_from(soup); }, {part, "; "});
+    test::expect_bad_input([&] { prepare(soup, {}); }, {part, "; "});
   };
   refused({good.points, {}}, "there are no faces");
   auto bad = good;
@@ -164,7 +175,8 @@ TEST(Soup, IsCheckedBeforeItIsUsed) {
 TEST(Read, NamesTheFileInWhatCleaningRefuses) {
   const Folder folder;
   const std::string path = folder.file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
-  test::expect_bad_input([&] { read_surface(path); }, {path + ": all 1 faces are collapsed"});
+  test::expect_bad_input([&] { read_surface(mesh_files::body_at(path)); },
+                         {path + ": all 1 faces are collapsed"});
 }
 
 }  // namespace

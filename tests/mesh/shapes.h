@@ -48,25 +48,31 @@ inline PolygonSoup torus(double ring, double tube, int n = 48, int m = 24) {
   });
 }
 
+/// Each triangle cut in four; `middle(a, b)` is the point between two.
+template <class Middle>
+PolygonSoup quartered(PolygonSoup soup, Middle middle) {
+  std::map<std::pair<int, int>, int> middles;
+  const auto between = [&](int a, int b) {
+    const auto [at, added] = middles.try_emplace(std::minmax(a, b), soup.points.size());
+    if (added) soup.points.push_back(middle(soup.points[a], soup.points[b]));
+    return at->second;
+  };
+  std::vector<std::vector<int>> finer;
+  for (const auto& f : soup.polygons) {
+    const int ab = between(f[0], f[1]), bc = between(f[1], f[2]), ca = between(f[2], f[0]);
+    finer.insert(finer.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
+  }
+  soup.polygons = finer;
+  return soup;
+}
+
 /// An octahedron with each triangle cut in four `levels` times, points on the sphere.
 inline PolygonSoup sphere(double radius, int levels, const Vec3& centre = Vec3::Zero()) {
   PolygonSoup soup{
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
-  for (int level = 0; level < levels; ++level) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [at, added] = middles.try_emplace(std::minmax(a, b), soup.points.size());
-      if (added) soup.points.push_back((soup.points[a] + soup.points[b]).normalized());
-      return at->second;
-    };
-    std::vector<std::vector<int>> finer;
-    for (const auto& f : soup.polygons) {
-      const int ab = middle(f[0], f[1]), bc = middle(f[1], f[2]), ca = middle(f[2], f[0]);
-      finer.insert(finer.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
-    }
-    soup.polygons = finer;
-  }
+  const auto on_sphere = [](const Vec3& a, const Vec3& b) -> Vec3 { return (a + b).normalized(); };
+  for (int level = 0; level < levels; ++level) soup = quartered(std::move(soup), on_sphere);
   for (Vec3& point : soup.points) point = centre + radius * point;
   return soup;
 }
@@ -118,20 +124,8 @@ inline PolygonSoup without(PolygonSoup soup, double share, unsigned seed = 1) {
 
 /// Triangles cut in four until there are `faces` of them: the same surface.
 inline PolygonSoup refined(PolygonSoup soup, std::size_t faces) {
-  while (soup.polygons.size() < faces) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [at, added] = middles.try_emplace(std::minmax(a, b), soup.points.size());
-      if (added) soup.points.push_back((soup.points[a] + soup.points[b]) / 2);
-      return at->second;
-    };
-    std::vector<std::vector<int>> finer;
-    for (const auto& f : soup.polygons) {
-      const int ab = middle(f[0], f[1]), bc = middle(f[1], f[2]), ca = middle(f[2], f[0]);
-      finer.insert(finer.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
-    }
-    soup.polygons = finer;
-  }
+  const auto halfway = [](const Vec3& a, const Vec3& b) -> Vec3 { return (a + b) / 2; };
+  while (soup.polygons.size() < faces) soup = quartered(std::move(soup), halfway);
   return soup;
 }
 

@@ -38,6 +38,21 @@ def sphere(levels=4, radius=1.0):
     return [tuple(radius * x for x in p) for p in points], faces
 
 
+def cube():
+    """Points and triangles of the cube from 0 to 1, outward."""
+    points = [(float(i & 1), float(i >> 1 & 1), float(i >> 2)) for i in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return points, [f for a, b, c, d in quads for f in [(a, b, c), (a, c, d)]]
+
+
+def torn(mesh, by):
+    """Each face with corners of its own, off their place by up to `by` along each axis."""
+    points, faces = mesh
+    corners = [tuple(x + by * math.sin(7 * n + 3 * axis) for axis, x in enumerate(points[i]))
+               for n, i in enumerate(i for face in faces for i in face)]
+    return corners, [(n, n + 1, n + 2) for n in range(0, len(corners), 3)]
+
+
 def moved(mesh, by):
     return [tuple(x + d for x, d in zip(p, by)) for p in mesh[0]], mesh[1]
 
@@ -117,6 +132,30 @@ class Meshes(unittest.TestCase):
         self.assertIn("closed", self.fill((points, faces[:-40]), "--radius", 0.05, "--verify",
                                           check=2))
 
+    def test_welding_joins_points_that_almost_meet(self):
+        ball = sphere()
+        whole = self.fill(ball, "--radius", 0.05)
+        loose = self.fill(torn(ball, 1e-5), "--radius", 0.05)
+        self.assertFalse(loose["closed"])
+        found = self.fill(torn(ball, 1e-5), "--radius", 0.05, "--weld", 0.001)
+        self.assertTrue(found["closed"])
+        self.assertEqual(found["points_merged"], 3 * len(ball[1]) - len(ball[0]))
+        self.assertAlmostEqual(found["mesh_volume"] / whole["mesh_volume"], 1, 4)
+        self.assertEqual(found["warnings"], [])
+
+    def test_a_skin_replaces_an_open_mesh(self):
+        points, faces = sphere()
+        alpha = 0.5
+        found = self.fill((points, faces[:-40]), "--radius", 0.05, "--wrap", alpha)
+        self.assertTrue(found["closed"])
+        self.assertGreater(found["faces_wrapped"], 100)
+        self.assertEqual(found["faces_read"], len(faces) - 40)
+        for size in found["box_size"]:  # alpha / 30 outside of the mesh
+            self.assertAlmostEqual(size, 2 + 2 * alpha / 30, 1)
+            self.assertGreater(size, 2)
+        self.assertEqual(found["warnings"], [])
+        self.assertIn("--wrap 0", self.fill((points, faces), "--radius", 0.05, "--wrap", 0, check=2))
+
     def test_units_scale_lengths(self):
         ball = sphere(3)
         metres = self.fill(ball, "--radius", 0.1)
@@ -161,8 +200,17 @@ class Meshes(unittest.TestCase):
         body = meshio.read(self.folder / "body.vtu")
         for point, component in zip(body.points, body.point_data["component"]):
             self.assertEqual(component, int(point[0] > 1.5))
-        fused = self.fill(together(ball, moved(ball, (2.05, 0, 0))), "--radius", 0.1)
-        self.assertEqual(fused["bodies"], 2)
+
+    def test_bodies_that_fuse_are_told(self):
+        near = together(cube(), moved(cube(), (1.05, 0, 0)))
+        between_layers = f"{1.025 + 0.05 / math.sqrt(2)},0.5,0.5"  # one on either side of the gap
+        found = self.fill(near, "--radius", 0.05, "--lattice-origin", between_layers)
+        self.assertEqual(found["bodies"], 2)
+        self.assertEqual(found["touching_groups"], 1)
+        self.assertIn("2 separate bodies touch", " ".join(found["warnings"]))
+        far = self.fill(together(cube(), moved(cube(), (1.3, 0, 0))), "--radius", 0.05)
+        self.assertEqual(far["touching_groups"], 2)
+        self.assertNotIn("touch", " ".join(far["warnings"]))
 
     def test_nested_shells_follow_the_rule(self):
         ball = sphere(3)
@@ -180,7 +228,7 @@ class Meshes(unittest.TestCase):
         shifted = self.fill(sphere(), "--radius", 0.05, "--lattice-origin", "0.03,0.02,0.01")
         turned_by = self.fill(sphere(), "--radius", 0.05, "--lattice-rotation", "10,20,30")
         for found in [shifted, turned_by]:
-            self.assertNotEqual(found["centre_of_mass"], plain["centre_of_mass"])
+            self.assertNotEqual(found["inertia"], plain["inertia"])
             self.assertAlmostEqual(found["particles"] / plain["particles"], 1, 1)
             self.assertAlmostEqual(found["smallest_distance"], 1, 9)
 
@@ -207,6 +255,23 @@ class Meshes(unittest.TestCase):
         cells = {block.type: block.data for block in meshio.read(drawing).cells}
         self.assertEqual(len(cells["line"]), 5)
         self.assertEqual(len(cells["triangle"]), len(faces) - 3)
+
+    def test_info_tells_what_a_repair_did(self):
+        points, faces = sphere()
+        open_ball = self.write((points, faces[:-40]))
+        self.assertNotIn("holes_closed", self.run_sinew("info", open_ball))
+        found = self.run_sinew("info", open_ball, "--close-holes")
+        self.assertEqual(found["holes"], 0)
+        self.assertGreater(found["holes_closed"], 0)
+        self.assertEqual(found["triangles"], len(faces) - 40 + found["faces_added"])
+        wrapped = self.run_sinew("info", open_ball, "--wrap", 0.5)
+        self.assertEqual(wrapped["faces_wrapped"], wrapped["triangles"])
+
+    def test_info_and_fill_say_the_same_of_a_size(self):
+        tiny = self.write(([tuple(1e-5 * x for x in p) for p in sphere(2)[0]], sphere(2)[1]))
+        told = self.run_sinew("info", tiny)["warnings"]
+        self.assertIn("unit", told[0])
+        self.assertEqual(self.fill(tiny, "--radius", 1e-6)["warnings"][0], told[0])
 
     def test_info_of_a_closed_mesh(self):
         found = self.run_sinew("info", SOURCE / "data/meshes/box.obj")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a glTF 2.0 file says about shapes and where they stand, as plain values. Names and defaults
-// are those of its specification (registry.khronos.org/glTF/specs/2.0); -1 is no index.
+// are those of the glTF 2.0 Specification (Khronos Group); -1 is no index.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps as the paper describes them, with its cells sorted anew in every step: the readable
+// reference, and the way for what the kernel does not know.
+#pragma once
+
+#include <memory>
+
+#include "physics/stepper.h"
+#include "rig/pose.h"
+
+namespace sinew {
+
+class CellStepper {
+ public:
+  CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles particles);
+
+  StepSums step(const Pose& pose);
+  Moment evaluate(const Pose& pose, Forces& forces);
+  void read(const Pose& pose, Particles& particles);
+
+ private:
+  Vec3 acceleration(std::size_t i) const;
+  StepSums sums() const;
+  void advance(std::size_t i, double kick);
+  bool sound(std::size_t i, const Vec3& before, const Pose& pose) const;
+
+  std::shared_ptr<const Body> body_;
+  Stepping stepping_;
+  Particles particles_;
+  Forces forces_;
+  bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
+};
+
+}  // namespace sinew

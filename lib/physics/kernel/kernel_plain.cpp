@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define SINEW_PLAIN_LANES
+#include "physics/kernel/tables.h"
+
+#include "physics/kernel/functions.h"
+
+namespace sinew::kernel {
+
+const Functions<double> doubles_plain = functions<lanes::Doubles>();
+const Functions<float> floats_plain = functions<lanes::Floats>();
+
+}  // namespace sinew::kernel

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The widest vectors that the flags of this source file allow, in one manner for all: the kernel is
+// written once over them, and every lane gets the same bits whatever the width.
+//
+// Doubles keeps coordinates as they are. Floats keeps them as whole numbers of a small unit, so
+// that differences are exact and as fine at the far end of a body as in its middle.
+//
+//     V, M, C                 numbers, truth values, coordinates; one per lane
+//     all, load, store, _coord  one value in all lanes; from and to memory, unaligned
+//     root, larger, smaller, size  square root; of two; absolute value
+//     less, at_most, both     comparisons, false where a lane is not a number
+//     any, every              over the lanes
+//     keep, pick, add_where   where the mask is set, else zero, `no`, or `sum` itself
+//     difference, moved       a - b as a length; c displaced by so many units
+#pragma once
+
+#if defined(__AVX512F__)
+#include "physics/kernel/lanes_avx512.h"
+namespace sinew::kernel {
+namespace lanes = avx512;
+}
+#elif defined(__AVX2__)
+#include "physics/kernel/lanes_avx2.h"
+namespace sinew::kernel {
+namespace lanes = avx2;
+}
+#elif defined(__SSE2__) && !defined(SINEW_PLAIN_LANES)
+#include "physics/kernel/lanes_sse2.h"
+namespace sinew::kernel {
+namespace lanes = sse2;
+}
+#else
+#include "physics/kernel/lanes_plain.h"
+namespace sinew::kernel {
+namespace lanes = plain;
+}
+#endif

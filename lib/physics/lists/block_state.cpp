@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/lists/block_state.h"
+
+#include <cmath>
+
+namespace sinew {
+
+// Coordinates are whole numbers of 32 bits that wrap round. A body may fill a quarter of their
+// range, so that pads half a range away are nobody's partners wherever the body has moved before
+// its lists are built again.
+constexpr double body_range = 1073741824;  // 2^30
+constexpr std::int32_t farthest = 2147483647;
+
+template <>
+Measure measure_for<double>(const Box&, double, double) {
+  return {};
+}
+
+template <>
+Measure measure_for<float>(const Box& box, double radius, double step) {
+  const double extent = box.isEmpty() ? 0 : box.sizes().maxCoeff() / radius;
+  Measure measure;
+  measure.length = radius;
+  measure.time = step;
+  // A power of two: coordinates turn into lengths without rounding.
+  measure.unit = std::exp2(std::ceil(std::log2((extent + 8) / body_range)));
+  measure.origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
+  return measure;
+}
+
+template <class Real>
+BlockState<Real>::BlockState(std::size_t particles) : size_(particles) {
+  const std::size_t slots = (blocks() + 2) * block;
+  for (auto& axis : x_) axis.resize(slots);
+  for (auto& axis : v_) axis.resize(slots);
+  pad();
+}
+
+template <class Real>
+kernel::State<Real> BlockState<Real>::arrays() {
+  kernel::State<Real> state{};
+  for (int axis = 0; axis < 3; ++axis) {
+    state.x[axis] = x_[axis].data() + block;
+    state.v[axis] = v_[axis].data() + block;
+  }
+  return state;
+}
+
+template <>
+Vec3 BlockState<double>::position(std::size_t k, const Measure&) const {
+  const std::size_t slot = k + block;
+  return {x_[0][slot], x_[1][slot], x_[2][slot]};
+}
+
+template <>
+void BlockState<double>::set_position(std::size_t k, const Vec3& p, const Measure&) {
+  for (int axis = 0; axis < 3; ++axis) x_[axis][k + block] = p[axis];
+}
+
+template <>
+Vec3 BlockState<float>::position(std::size_t k, const Measure& measure) const {
+  const std::size_t slot = k + block;
+  const Vec3 units(x_[0][slot], x_[1][slot], x_[2][slot]);
+  return measure.origin + measure.unit * measure.length * units;
+}
+
+template <>
+void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Measure& measure) {
+  const Vec3 units = (p - measure.origin) / (measure.unit * measure.length);
+  for (int axis = 0; axis < 3; ++axis)
+    x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(units[axis]));
+}
+
+template <class Real>
+Vec3 BlockState<Real>::velocity(std::size_t k, const Measure& measure) const {
+  const std::size_t slot = k + block;
+  const double scale = measure.length / measure.time;
+  return scale * Vec3(v_[0][slot], v_[1][slot], v_[2][slot]);
+}
+
+template <class Real>
+void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Measure& measure) {
+  for (int axis = 0; axis < 3; ++axis)
+    v_[axis][k + block] = static_cast<Real>(measure.velocity(v[axis]));
+}
+
+template <>
+void BlockState<double>::pad(std::size_t slot, int number) {
+  for (auto& axis : x_) axis[slot] = 1e60 * (1 + number);
+  for (auto& axis : v_) axis[slot] = 0;
+}
+
+template <>
+void BlockState<float>::pad(std::size_t slot, int number) {
+  for (auto& axis : x_) axis[slot] = farthest - number * (farthest / 256);
+  for (auto& axis : v_) axis[slot] = 0;
+}
+
+template <class Real>
+void BlockState<Real>::pad() {
+  int number = 0;
+  for (std::size_t slot = 0; slot < block; ++slot) pad(slot, number++);
+  for (std::size_t slot = block + size_; slot < x_[0].size(); ++slot) pad(slot, number++);
+}
+
+template <class Real>
+void BlockState<Real>::pad_last_block() {
+  for (std::size_t k = size_; k < blocks() * block; ++k)
+    pad(k + block, static_cast<int>(block + k - size_));
+}
+
+template class BlockState<double>;
+template class BlockState<float>;
+
+}  // namespace sinew

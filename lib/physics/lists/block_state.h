@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Positions and velocities in the kernel's form: whole blocks in an order of their own, with a pad
+// of nobody's particles at each end.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/particles.h"
+#include "physics/kernel/kernel.h"
+
+namespace sinew {
+
+/// How the kernel measures. Double precision keeps metres and seconds. Single precision counts
+/// lengths in radii and time in steps, so that no product leaves the range of a float, and holds
+/// positions as whole numbers of `unit` from `origin`.
+struct Measure {
+  double length = 1;  ///< m
+  double time = 1;    ///< s
+  double unit = 1;    ///< of coordinates, in lengths
+  Vec3 origin = Vec3::Zero();
+
+  double acceleration(double si) const { return si * time * time / length; }
+  double velocity(double si) const { return si * time / length; }
+};
+
+/// The measure for particles of `radius` within `box` (m) that take steps of `step` (s).
+template <class Real>
+Measure measure_for(const Box& box, double radius, double step);
+
+template <class Real>
+class BlockState {
+ public:
+  using Coord = typename kernel::Traits<Real>::Coord;
+  static constexpr int block = kernel::Traits<Real>::block;
+
+  BlockState() = default;
+  explicit BlockState(std::size_t particles);
+
+  std::size_t size() const { return size_; }
+  std::size_t blocks() const { return (size_ + block - 1) / block; }
+  /// Pointers to the first particle; one block before it and one after the last may be read.
+  kernel::State<Real> arrays();
+
+  Vec3 position(std::size_t k, const Measure& measure) const;
+  void set_position(std::size_t k, const Vec3& p, const Measure& measure);
+  Vec3 velocity(std::size_t k, const Measure& measure) const;
+  void set_velocity(std::size_t k, const Vec3& v, const Measure& measure);
+
+  /// Puts nobody's particles, far from everything and each other, before the first and after the
+  /// last.
+  void pad();
+  /// The same for the rest of the last block alone, which a step writes.
+  void pad_last_block();
+
+ private:
+  void pad(std::size_t slot, int number);
+
+  std::size_t size_ = 0;
+  std::array<std::vector<Coord>, 3> x_;
+  std::array<std::vector<Real>, 3> v_;
+};
+
+}  // namespace sinew

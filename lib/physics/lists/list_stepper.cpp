@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/lists/list_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace sinew {
+namespace {
+
+// In diameters, measured: longer lists cost every step, shorter ones are made more often.
+constexpr double wide_skin = 0.5, narrow_skin = 0.12;
+// A barrier costs more than the work below this many particles per thread.
+constexpr std::size_t particles_per_thread = 8192;
+// Share of the range of whole numbers that a body may travel before it is centred again.
+constexpr double free_travel = 0.125;
+
+template <class Real>
+constexpr std::size_t pieces_per_thread = particles_per_thread /
+                                          (kernel::blocks_per_piece * BlockState<Real>::block);
+
+double bone_excess(const Pose& before, const Pose& now, double step, const BoneContacts& contacts,
+                   const Pose& listed, double beyond) {
+  double most = 0;
+  for (std::size_t b = 0; b < now.size(); ++b)
+    most = std::max(most, excess_of_step(before[b], now[b], step,
+                                         contacts.reach_from(listed[b].frame.origin, b) + beyond));
+  return most;
+}
+
+}  // namespace
+
+template <class Real>
+bool ListStepper<Real>::serves(const Body& body) {
+  return body.material.damping_form == DampingForm::paper &&
+         std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
+           return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
+         });
+}
+
+template <class Real>
+ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
+                               const Particles& particles, kernel::InstructionSet instructions)
+    : body_(std::move(body)),
+      stepping_(stepping),
+      mass_(particles.mass),
+      kernel_(kernel::functions_of<Real>(instructions)) {
+  load(particles);
+}
+
+template <class Real>
+void ListStepper<Real>::load(const Particles& particles) {
+  const std::size_t n = particles.size();
+  Box box;
+  for (std::size_t i = 0; i < n; ++i) box.extend(particles.position(i));
+  measure_ = measure_for<Real>(box, particles.radius, stepping_.step);
+  state_ = next_ = BlockState<Real>(n);
+  id_.assign((state_.blocks() + 2) * block, 0);
+  caller_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    caller_[k] = static_cast<std::uint32_t>(k);
+    id_[k + block] = particles.id[k];
+    state_.set_position(k, particles.position(k), measure_);
+    state_.set_velocity(k, particles.velocity(k), measure_);
+  }
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
+  world_ = world_frame<Real>(measure_);
+  for (auto& axis : reference_) axis.resize(state_.blocks() * block);
+  totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
+}
+
+template <class Real>
+kernel::Holds<Real> ListStepper<Real>::holds(
+    const std::vector<kernel::BoneNow<Real>>& bones) const {
+  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
+          bones.data()};
+}
+
+template <class Real>
+kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real>>& bones) {
+  const Material& material = body_->material;
+  const PairForce& pair = material.pair;
+  const double L = measure_.length, T = measure_.time, dt = stepping_.step;
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  kernel::Step<Real> step{};
+  step.before = state_.arrays();
+  step.after = next_.arrays();
+  step.blocks = state_.blocks();
+  step.id = id_.data() + block;
+  step.lists = narrow_.arrays();
+  step.holds = holds(bones);
+  const double r = pair.r / L, a = pair.a / L, b = pair.b / L;
+  const double per_mass = L * T * T / mass_;
+  step.law = {real(2 * r),
+              real(4 * r * r),
+              real(a),
+              real(b),
+              real(b * b),
+              real(pair.k1 * per_mass),
+              real(pair.k2 * per_mass),
+              real(material.damping * T / mass_)};
+  step.unit = real(measure_.unit);
+  for (int axis = 0; axis < 3; ++axis)
+    step.gravity[axis] = real(measure_.acceleration(stepping_.gravity[axis]));
+  const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
+  step.kick = real(dt / T * (first_of_verlet ? 0.5 : 1));
+  step.drift = real(dt / T / measure_.unit);
+  step.middle = real(dt / T / 2);
+  step.drift_first = stepping_.integrator == Integrator::explicit_euler;
+  const double most = measure_.velocity(most_radii_per_step * pair.r / dt);
+  step.most = real(most * most);
+  step.totals = totals_.data();
+  return step;
+}
+
+template <class Real>
+kernel::Ride<Real> ListStepper<Real>::ride(const std::vector<kernel::BoneNow<Real>>& bones) {
+  return {state_.arrays(),
+          holds(bones),
+          &world_,
+          static_cast<Real>(measure_.unit),
+          {reference_[0].data(), reference_[1].data(), reference_[2].data()}};
+}
+
+/// How far the particles may have moved in their bones' frames in the step that led here.
+template <class Real>
+void ListStepper<Real>::follow_last_step(const Pose& pose) {
+  const double dt = stepping_.step;
+  // Whole units of single precision add up to one unit to what the speed says.
+  const double rounding = sizeof(Real) == 4 && fastest_ > 0 ? measure_.unit * measure_.length : 0;
+  const double moved =
+      fastest_ * dt * (1 + 1e-5) + rounding +
+      bone_excess(last_pose_, pose, dt, contacts_, listed_pose_, wide_drift_.skin());
+  wide_drift_.add(moved);
+  narrow_drift_.add(moved);
+}
+
+template <class Real>
+void ListStepper<Real>::look(const std::vector<kernel::BoneNow<Real>>& bones) {
+  ++counts_.looks;
+  const auto job = ride(bones);
+  std::vector<double> most(totals_.size(), 0.0);
+  const std::size_t blocks = state_.blocks();
+  parallel_split(totals_.size(), pieces_per_thread<Real>, [&](std::size_t begin, std::size_t end) {
+    most[begin] = static_cast<double>(kernel_.displacement(
+        job, begin * kernel::blocks_per_piece, std::min(blocks, end * kernel::blocks_per_piece)));
+  });
+  double squared = 0;
+  for (const double part : most) squared = std::max(squared, part);
+  // The reference is kept in floats: to their rounding.
+  double reach = 0;
+  for (std::size_t b = 0; b < listed_pose_.size(); ++b)
+    reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
+  wide_drift_.found(std::sqrt(squared) * measure_.length + 2.5e-7 * reach);
+}
+
+template <class Real>
+void ListStepper<Real>::keep_lists_true(const Pose& pose,
+                                        const std::vector<kernel::BoneNow<Real>>& bones) {
+  if (!listed_) return rebuild(pose, bones);
+  follow_last_step(pose);
+  const auto motions = motions_between(listed_pose_, pose);
+  const double approach = contacts_.approach(motions);
+  if (!wide_drift_.holds(approach)) {
+    look(bones);
+    // A look that leaves little to go on with would be followed by another at once.
+    if (!wide_drift_.holds(approach + wide_drift_.skin() / 8)) return rebuild(pose, bones);
+  }
+  const double range = 4294967296.0 * measure_.unit * measure_.length;
+  if (sizeof(Real) == 4 && contacts_.travel(motions) > free_travel * range)
+    return rebuild(pose, bones);
+  if (!narrow_drift_.holds(contacts_.approach_since(sifted_motions_, motions, moved_when_sifted_)))
+    sift(pose);
+}
+
+template <class Real>
+void ListStepper<Real>::rebuild(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones) {
+  ++counts_.rebuilds;
+  const double d0 = 2 * body_->material.pair.r / measure_.length;
+  const double range = body_->material.pair.b / measure_.length + wide_skin * d0;
+  const BlockCells cells(state_, measure_.unit, range);
+  wide_ = find_offsets(kernel_, state_, measure_.unit, cells, range);
+  contacts_ = BoneContacts(cells, slots_.lead, body_->skeleton.size() + 1, measure_.origin,
+                           measure_.length, range * measure_.length);
+  listed_pose_ = pose;
+  kernel_.remember(ride(bones), 0, state_.blocks());
+  wide_drift_ = Drift(wide_skin * d0 * measure_.length);
+  counts_.wide = wide_.mean();
+  listed_ = true;
+  sift(pose);
+}
+
+template <class Real>
+void ListStepper<Real>::sift(const Pose& pose) {
+  ++counts_.sifts;
+  const double d0 = 2 * body_->material.pair.r / measure_.length;
+  const double range = body_->material.pair.b / measure_.length + narrow_skin * d0;
+  narrow_ = sift_offsets(kernel_, state_, measure_.unit, wide_, range);
+  narrow_drift_ = Drift(narrow_skin * d0 * measure_.length);
+  sifted_motions_ = motions_between(listed_pose_, pose);
+  moved_when_sifted_ = wide_drift_.moved();
+  counts_.narrow = narrow_.mean();
+}
+
+template <class Real>
+StepSums ListStepper<Real>::sums_of_totals() const {
+  // Per unit of mass and in the kernel's measure: to watts.
+  const double watts =
+      mass_ * measure_.length * measure_.length / (measure_.time * measure_.time * measure_.time);
+  StepSums sums;
+  for (const kernel::Totals& piece : totals_)  // in the order of the pieces, whoever made them
+    sums.power += piece.power, sums.lost += piece.lost;
+  sums.power *= watts;
+  sums.lost *= watts;
+  return sums;
+}
+
+template <class Real>
+StepSums ListStepper<Real>::step(const Pose& pose) {
+  const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
+  keep_lists_true(pose, bones);
+  const auto now = job(bones);
+  parallel_split(totals_.size(), pieces_per_thread<Real>,
+                 [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
+  StepSums sums = sums_of_totals();
+  double fastest = 0;
+  bool sound = true;
+  for (const kernel::Totals& piece : totals_)
+    fastest = std::max(fastest, piece.fastest), sound = sound && piece.sound;
+  if (!sound) {
+    sums.failure = culprit(pose);
+    return sums;
+  }
+  fastest_ = std::sqrt(fastest) * measure_.length / measure_.time;
+  std::swap(state_, next_);
+  state_.pad_last_block();
+  last_pose_ = pose;
+  kicked_ = true;
+  return sums;
+}
+
+/// The first particle in the caller's order whose step was not sound.
+template <class Real>
+Failure ListStepper<Real>::culprit(const Pose& pose) {
+  Failure failure{caller_.size(), true};
+  const double most = most_radii_per_step * body_->material.pair.r;
+  for (std::size_t k = 0; k < caller_.size(); ++k) {
+    const Vec3 velocity = next_.velocity(k, measure_);
+    const Vec3 before = state_.position(k, measure_);
+    const Vec3 drifting = stepping_.integrator == Integrator::explicit_euler
+                              ? state_.velocity(k, measure_)
+                              : velocity;
+    const std::size_t bone = slots_.lead[k];
+    const Vec3 carried = bone < pose.size() ? pose[bone].velocity_at(before) : Vec3(Vec3::Zero());
+    const double moved = stepping_.step * (drifting - carried).norm();
+    if (moved <= most * (1 - 1e-5) && velocity.allFinite()) continue;
+    if (caller_[k] < failure.particle) failure = {caller_[k], velocity.allFinite()};
+  }
+  return failure;
+}
+
+template <class Real>
+Moment ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
+  const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
+  keep_lists_true(pose, bones);
+  fastest_ = 0;  // the step that led here has been followed
+  last_pose_ = pose;
+  const std::size_t n = caller_.size(), slots = state_.blocks() * block;
+  std::array<std::vector<Real>, 9> told;
+  for (auto& axis : told) axis.resize(slots);
+  std::vector<std::int32_t> partners(slots);
+  auto now = job(bones);
+  for (int axis = 0; axis < 3; ++axis) {
+    now.probed.pair[axis] = told[axis].data();
+    now.probed.damping[axis] = told[3 + axis].data();
+    now.probed.bone[axis] = told[6 + axis].data();
+  }
+  now.probed.partners = partners.data();
+  parallel_split(totals_.size(), pieces_per_thread<Real>,
+                 [&](std::size_t begin, std::size_t end) { kernel_.probe(now, begin, end); });
+  const double newtons = mass_ * measure_.length / (measure_.time * measure_.time);
+  forces.pair.resize(n);
+  forces.damping.resize(n);
+  forces.bone.resize(n);
+  forces.neighbours.resize(n);
+  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = caller_[k];
+      forces.pair[i] = newtons * Vec3(told[0][k], told[1][k], told[2][k]);
+      forces.damping[i] = newtons * Vec3(told[3][k], told[4][k], told[5][k]);
+      forces.bone[i] = newtons * Vec3(told[6][k], told[7][k], told[8][k]);
+      forces.neighbours[i] = partners[k];
+    }
+  });
+  const StepSums sums = sums_of_totals();
+  Moment moment{sums.power, sums.lost, 0, 0};
+  const double joules = newtons * measure_.length;
+  for (const kernel::Totals& piece : totals_)
+    moment.pair_energy += joules * piece.pair_energy,
+        moment.bone_energy += joules * piece.bone_energy;
+  return moment;
+}
+
+template <class Real>
+void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
+  const std::size_t n = caller_.size();
+  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      particles.set_position(caller_[k], state_.position(k, measure_));
+      particles.set_velocity(caller_[k], state_.velocity(k, measure_));
+    }
+  });
+  if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
+  Forces forces;
+  evaluate(pose, forces);
+  for (std::size_t i = 0; i < n; ++i)
+    particles.set_velocity(
+        i, particles.velocity(i) +
+               stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
+}
+
+template class ListStepper<double>;
+template class ListStepper<float>;
+
+}  // namespace sinew

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps with the kernel: the fast way, for the paper's pair force, damping and bones.
+//
+// Two kinds of lists: a wide one, found with the cells, that lasts long, and a narrow one sifted
+// from it, which the kernel works through in every step.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "physics/kernel/kernel.h"
+#include "physics/lists/block_state.h"
+#include "physics/lists/bone_contacts.h"
+#include "physics/lists/bone_slots.h"
+#include "physics/lists/drift.h"
+#include "physics/lists/offset_lists.h"
+#include "physics/stepper.h"
+
+namespace sinew {
+
+template <class Real>
+class ListStepper {
+ public:
+  /// Whether this way knows all that the body is subject to.
+  static bool serves(const Body& body);
+
+  ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
+              const Particles& particles, kernel::InstructionSet instructions);
+
+  StepSums step(const Pose& pose);
+  Moment evaluate(const Pose& pose, Forces& forces);
+  void read(const Pose& pose, Particles& particles);
+  const ListCounts& counts() const { return counts_; }
+
+ private:
+  static constexpr int block = BlockState<Real>::block;
+
+  void load(const Particles& particles);
+  kernel::Holds<Real> holds(const std::vector<kernel::BoneNow<Real>>& bones) const;
+  kernel::Step<Real> job(const std::vector<kernel::BoneNow<Real>>& bones);
+  kernel::Ride<Real> ride(const std::vector<kernel::BoneNow<Real>>& bones);
+
+  void keep_lists_true(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones);
+  void follow_last_step(const Pose& pose);
+  void look(const std::vector<kernel::BoneNow<Real>>& bones);
+  void rebuild(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones);
+  void sift(const Pose& pose);
+  StepSums sums_of_totals() const;
+  Failure culprit(const Pose& pose);
+
+  std::shared_ptr<const Body> body_;
+  Stepping stepping_;
+  double mass_;  ///< of a particle, kg
+  kernel::Functions<Real> kernel_;
+  Measure measure_;
+  BlockState<Real> state_, next_;
+  std::vector<std::int32_t> id_;       ///< with pads, as the states have
+  std::vector<std::uint32_t> caller_;  ///< place in the caller's order
+  BoneSlots<Real> slots_;
+  kernel::BoneNow<Real> world_{};
+  bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
+
+  bool listed_ = false;
+  OffsetLists wide_, narrow_;
+  Drift wide_drift_, narrow_drift_;
+  BoneContacts contacts_;
+  std::array<std::vector<float>, 3> reference_;
+  Pose listed_pose_, last_pose_;
+  std::vector<RigidMotion> sifted_motions_;
+  double moved_when_sifted_ = 0;
+  double fastest_ = 0;  ///< in the last step, relative to the leading bone, m/s
+
+  std::vector<kernel::Totals> totals_;
+  ListCounts counts_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/lists/offset_lists.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include "core/parallel.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t blocks_per_piece = 1024;
+
+/// Makes lists piece by piece: fill(begin, end, lists) appends those of the blocks [begin, end).
+template <class Fill>
+OffsetLists in_pieces(std::size_t blocks, Fill&& fill) {
+  const std::size_t pieces = (blocks + blocks_per_piece - 1) / blocks_per_piece;
+  std::vector<OffsetLists> parts(pieces);
+  parallel_for(blocks, blocks_per_piece, [&](std::size_t begin, std::size_t end) {
+    fill(begin, end, parts[begin / blocks_per_piece]);
+  });
+  if (pieces == 1) {
+    parts[0].first.insert(parts[0].first.begin(), 0);
+    return std::move(parts[0]);
+  }
+  std::vector<std::uint32_t> start(pieces + 1, 0);
+  for (std::size_t p = 0; p < pieces; ++p)
+    start[p + 1] = start[p] + static_cast<std::uint32_t>(parts[p].value.size());
+  OffsetLists lists;
+  lists.first.resize(blocks + 1, 0);
+  lists.value.resize(start[pieces]);
+  parallel_for(pieces, 1, [&](std::size_t p, std::size_t) {
+    const OffsetLists& part = parts[p];
+    std::copy(part.value.begin(), part.value.end(), lists.value.begin() + start[p]);
+    for (std::size_t k = 0; k < part.first.size(); ++k)
+      lists.first[p * blocks_per_piece + k + 1] = start[p] + part.first[k];
+    parts[p] = {};
+  });
+  return lists;
+}
+
+/// Finders, as many as threads ask at once: each remembers as much as there are blocks.
+class Finders {
+ public:
+  explicit Finders(const BlockCells& cells) : cells_(cells) {}
+
+  std::unique_ptr<BlockCells::Finder> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<BlockCells::Finder>(cells_);
+    auto finder = std::move(idle_.back());
+    idle_.pop_back();
+    return finder;
+  }
+
+  void give_back(std::unique_ptr<BlockCells::Finder> finder) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(finder));
+  }
+
+ private:
+  const BlockCells& cells_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<BlockCells::Finder>> idle_;
+};
+
+/// Room for `count` more values at the end.
+std::int32_t* room_for(OffsetLists& part, std::size_t used, std::int64_t count) {
+  const std::size_t needed = used + static_cast<std::size_t>(count) + 1;
+  if (part.value.size() < needed) part.value.resize(std::max(needed, part.value.size() * 3 / 2));
+  return part.value.data() + used;
+}
+
+template <class Real>
+kernel::Sieve<Real> sieve_of(BlockState<Real>& state, double unit, double range) {
+  return {state.arrays(), static_cast<Real>(unit), static_cast<Real>(range * range)};
+}
+
+}  // namespace
+
+double OffsetLists::mean() const {
+  return first.size() < 2
+             ? 0
+             : static_cast<double>(value.size()) / static_cast<double>(first.size() - 1);
+}
+
+template <class Real>
+OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
+                         double unit, const BlockCells& cells, double range) {
+  constexpr std::int64_t size = BlockState<Real>::block;
+  const auto sieve = sieve_of(state, unit, range);
+  Finders finders(cells);
+  return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
+    auto finder = finders.take();
+    std::size_t used = 0;
+    for (std::size_t block = begin; block < end; ++block) {
+      const auto& found = finder->around(block);
+      for (auto from = found.begin(); from != found.end();) {
+        auto to = from + 1;  // blocks that follow each other give one range of differences
+        while (to != found.end() && *to == *(to - 1) + 1) ++to;
+        const auto here = static_cast<std::int64_t>(block);
+        const std::int64_t low = (*from - here) * size - (size - 1);
+        const std::int64_t high = (*(to - 1) + 1 - here) * size;
+        std::int32_t* kept = room_for(part, used, high - low);
+        used = kernel.sift_range(sieve, block, low, high, kept) - part.value.data();
+        from = to;
+      }
+      part.first.push_back(static_cast<std::uint32_t>(used));
+    }
+    part.value.resize(used);
+    finders.give_back(std::move(finder));
+  });
+}
+
+template <class Real>
+OffsetLists sift_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
+                         double unit, const OffsetLists& wider, double range) {
+  const auto sieve = sieve_of(state, unit, range);
+  return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
+    part.value.resize(wider.first[end] - wider.first[begin] + 1);
+    std::int32_t* kept = part.value.data();
+    for (std::size_t block = begin; block < end; ++block) {
+      kept = kernel.sift(sieve, block, wider.value.data() + wider.first[block],
+                         wider.value.data() + wider.first[block + 1], kept);
+      part.first.push_back(static_cast<std::uint32_t>(kept - part.value.data()));
+    }
+    part.value.resize(static_cast<std::size_t>(kept - part.value.data()));
+  });
+}
+
+template OffsetLists find_offsets(const kernel::Functions<double>&, BlockState<double>&, double,
+                                  const BlockCells&, double);
+template OffsetLists find_offsets(const kernel::Functions<float>&, BlockState<float>&, double,
+                                  const BlockCells&, double);
+template OffsetLists sift_offsets(const kernel::Functions<double>&, BlockState<double>&, double,
+                                  const OffsetLists&, double);
+template OffsetLists sift_offsets(const kernel::Functions<float>&, BlockState<float>&, double,
+                                  const OffsetLists&, double);
+
+}  // namespace sinew

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every way of stepping offers the simulation: see list_stepper.h and cell_stepper.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/particles.h"
+#include "core/settings.h"
+#include "physics/forces.h"
+
+namespace sinew {
+
+struct Stepping {
+  Integrator integrator = Integrator::symplectic_euler;
+  double step = 0;              ///< s
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  Precision precision = Precision::binary64;
+  NeighbourSearch neighbour_search = NeighbourSearch::lists;
+};
+
+// A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
+// only a run that has left the range of every limit is faster than several bonds at once.
+inline constexpr double most_radii_per_step = 0.25;
+
+/// A particle that left what is sane, by its place in the caller's order.
+struct Failure {
+  std::size_t particle = 0;
+  bool finite = true;
+};
+
+/// What a step adds to the book, at the moment of the positions it began with.
+struct StepSums {
+  double power = 0;  ///< of the bones, W
+  double lost = 0;   ///< to both dampings, W
+  std::optional<Failure> failure;
+};
+
+/// The book at one moment.
+struct Moment {
+  double power = 0, lost = 0;               ///< W
+  double pair_energy = 0, bone_energy = 0;  ///< J
+};
+
+/// How often lists were made, and how long they are.
+struct ListCounts {
+  std::int64_t rebuilds = 0, sifts = 0, looks = 0, sorts = 0;
+  double wide = 0, narrow = 0;  ///< differences per block
+};
+
+}  // namespace sinew
