@@ -91,6 +91,8 @@ class Stepper {
     }
   }
 
+  ListCounts list_counts() const { return simulation_ ? simulation_->list_counts() : ListCounts{}; }
+
   std::uint64_t hash() const {
     return state_hash(simulation_ ? simulation_->particles() : particles_);
   }
@@ -110,11 +112,20 @@ int steps_per_lap(const Case& what) {
   return what.count > 1'000'000 ? 40 : 100;
 }
 
+/// Lists made in a lap, its first steps included.
+void count_lists(benchmark::State& state, const ListCounts& lists) {
+  state.counters["rebuilds"] = static_cast<double>(lists.rebuilds);
+  state.counters["sifts"] = static_cast<double>(lists.sifts);
+  state.counters["sorts"] = static_cast<double>(lists.sorts);
+  state.counters["offsets"] = lists.narrow;
+}
+
 /// Every lap begins with the same state, which else would settle during the measurement.
 void step(benchmark::State& state, Case what) {
   const Prepared& from = prepared(what.shape, what.count);
   const int steps = steps_per_lap(what);
   std::uint64_t hash = 0;
+  ListCounts lists;
   with_threads(what.threads, [&] {
     for (auto _ : state) {
       Stepper stepper(from, what.kind);
@@ -123,6 +134,7 @@ void step(benchmark::State& state, Case what) {
       Stopwatch stopwatch;
       stepper.advance(steps);
       state.SetIterationTime(stopwatch.lap());
+      lists = stepper.list_counts();
     }
   });
   const double taken = static_cast<double>(from.particles.size()) * steps;
@@ -130,6 +142,7 @@ void step(benchmark::State& state, Case what) {
                                              benchmark::Counter::kIsRate);
   state.counters["particles"] = static_cast<double>(from.particles.size());
   state.SetLabel(hash_text(hash));
+  if (what.kind == Kind::single || what.kind == Kind::binary64) count_lists(state, lists);
 }
 
 /// Memory at the peak of a simulation's making and first steps, the body's description included.
