@@ -14,7 +14,7 @@ constexpr double r = 0.010;             // m
 constexpr double turn = 90;             // degrees
 constexpr double bend_zone = 3;         // widths; the faces stretch and shrink by 26 %
 constexpr double crushed_width = 0.75;  // near the body-centred packing: 14 partners, not 12
-constexpr double crushed_grip = 64;     // springs as stiff as bonds in the paper's box
+constexpr double strong_grip = 64;      // springs as stiff as bonds in the paper's box
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
 constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed"};
 
@@ -23,9 +23,7 @@ struct Bar {
 
   double width() const { return across * half_plane_spacing(r); }
   double length() const { return along * half_plane_spacing(r); }
-  double zone(Shape shape) const {
-    return shape == Shape::twisted ? length() : bend_zone * width();
-  }
+  double zone() const { return bend_zone * width(); }
 };
 
 int odd(double value) { return 2 * static_cast<int>(value / 2) + 1; }
@@ -39,7 +37,7 @@ Bar bar_of(std::size_t count) {
 
 /// The middle line follows an arc towards x over the zone; the ends stay straight.
 Vec3 bent(const Vec3& rest, const Bar& bar) {
-  const double zone = bar.zone(Shape::bent), begin = (bar.length() - zone) / 2;
+  const double zone = bar.zone(), begin = (bar.length() - zone) / 2;
   const double radius = zone / radians(turn);
   const double s = std::clamp(rest.z() - begin, 0.0, zone), angle = s / radius;
   const Vec3 along(std::sin(angle), 0, std::cos(angle)),
@@ -55,39 +53,54 @@ Vec3 twisted(const Vec3& rest, const Bar& bar) {
 
 Vec3 crushed(const Vec3& rest) { return {crushed_width * rest.x(), rest.y(), rest.z()}; }
 
-/// The upper bone's key whose rigid pose is what the map makes of the body beyond the zone.
-KeySettings key_of(Shape shape, const Bar& bar) {
-  if (shape == Shape::twisted) return test::twist_key(0, turn);
-  if (shape != Shape::bent) return test::twist_key(0, 0);
-  KeySettings key = test::bend_key(0, turn);
-  // The arc ends its radius from where the straight ends would meet, the zone half its length.
-  const double zone = bar.zone(shape), shift = zone / radians(turn) - zone / 2;
-  key.translation = Vec3(shift, 0, shift);
-  return key;
+/// Two bones along the middle line; those of a bent body meet where its straight ends would.
+std::vector<BoneSettings> bones_of(Shape shape, const Bar& bar) {
+  const double straight = (bar.length() - bar.zone()) / 2;
+  const double half = straight + bar.zone() / radians(turn);
+  if (shape != Shape::bent) return test::box_scene(bar.along).bones;
+  return {{"lower", "", Vec3::Zero(), Vec3(0, 0, half)},
+          {"upper", "lower", {}, Vec3(half, 0, half)}};
+}
+
+/// Springs as stiff as bonds, whatever the body's cross-section.
+void grip(BindingSettings& binding, const Bar& bar) {
+  const double widths = bar.across / static_cast<double>(paper_across);
+  binding.stiffness = binding.twist_stiffness = binding.axial_stiffness =
+      strong_grip * widths * widths;
 }
 
 Settings settings_of(Shape shape, const Bar& bar) {
   Settings settings = test::box_scene(bar.along);
-  settings.tracks = {test::track("upper", {key_of(shape, bar)})};
-  BindingSettings& binding = settings.binding;
-  if (shape == Shape::bent || shape == Shape::twisted)
-    binding.joint_zone = bar.zone(shape) / bar.width();
-  // Twist springs would pull at particles that the curve has brought across a bone's line.
-  if (shape == Shape::bent) binding.twist_stiffness = 0;
-  if (shape == Shape::crushed) {  // springs weaken with the cross-section
-    const double widths = bar.across / static_cast<double>(paper_across);
-    binding.stiffness = binding.axial_stiffness = crushed_grip * widths * widths;
-    binding.twist_stiffness = crushed_grip * widths * widths;
+  settings.bones = bones_of(shape, bar);
+  if (shape == Shape::bent || shape == Shape::crushed) grip(settings.binding, bar);
+  if (shape == Shape::twisted) {
+    settings.tracks = {test::track("upper", {test::twist_key(0, turn)})};
+    settings.binding.joint_zone = bar.length() / bar.width();
   }
   return settings;
 }
 
-Points mapped(Shape shape, const Bar& bar, Points points) {
-  for (Vec3& point : points) {
-    if (shape == Shape::bent) point = bent(point, bar);
-    if (shape == Shape::twisted) point = twisted(point, bar);
-  }
+template <class Map>
+Points mapped(Points points, Map&& map) {
+  for (Vec3& point : points) point = map(point);
   return points;
+}
+
+/// Where the body is bound: nothing but strong bones, bound to it as it is, would hold it bent or
+/// crushed.
+Points rest_of(Shape shape, const Bar& bar) {
+  const Points box = test::fcc_box(bar.across, bar.across, bar.along, r);
+  if (shape == Shape::bent) return mapped(box, [&](const Vec3& x) { return bent(x, bar); });
+  if (shape == Shape::crushed) return mapped(box, crushed);
+  return box;
+}
+
+/// Where it begins: twisted by its bones, which keep an even twist, or shaken out of its lattice.
+Particles start_of(Shape shape, const Bar& bar, const Body& body) {
+  if (shape == Shape::flowed) return test::shaken(body.rest, body.material, r, 0);
+  if (shape != Shape::twisted) return particles_at(body.rest, r, body.material.mass);
+  const auto twist = [&](const Vec3& x) { return twisted(x, bar); };
+  return particles_at(mapped(body.rest, twist), r, body.material.mass);
 }
 
 /// The written order, whatever order the stepping has left.
@@ -100,13 +113,6 @@ Particles in_written_order(const Particles& particles) {
     written.id[id] = id;
   }
   return written;
-}
-
-/// Where the body is bound: crushing binds it in its crushed state.
-Points rest_of(Shape shape, const Bar& bar) {
-  Points rest = test::fcc_box(bar.across, bar.across, bar.along, r);
-  if (shape == Shape::crushed) std::transform(rest.begin(), rest.end(), rest.begin(), crushed);
-  return rest;
 }
 
 Particles after(int steps, const Scene& scene, const Particles& start) {
@@ -132,8 +138,7 @@ Scene scene_of(Shape shape, std::size_t count) {
   Scene scene;
   scene.body = test::make_body(settings, rest_of(shape, bar));
   scene.motion = make_motion(settings, scene.body.skeleton);
-  const Points start = mapped(shape, bar, scene.body.rest);
-  scene.start = test::shaken(start, scene.body.material, shape == Shape::flowed ? r : 0, 0);
+  scene.start = start_of(shape, bar, scene.body);
   const double limit =
       step_limit(settings.solver.integrator, scene.body.material, scene.body.springs);
   scene.step = choose_step(settings.solver, limit, settings.output.interval).step;

@@ -13,8 +13,8 @@ namespace sinew::bench {
 
 enum class Shape {
   rest,
-  bent,     ///< by 90 degrees, an even curve of three widths between straight ends
-  twisted,  ///< by 90 degrees, evenly over the whole length
+  bent,     ///< by 90 degrees, an even curve of three widths, held there by strong bones
+  twisted,  ///< by 90 degrees, evenly over the whole length, by its bones
   crushed,  ///< to 0.75 of its width along x, and held there by strong bones
   flowed,   ///< wholly disordered
 };
