@@ -148,9 +148,13 @@ Scene scene_of(Shape shape, std::size_t count) {
 Particles settled(const Scene& scene, Shape shape) {
   if (shape == Shape::rest) return scene.start;
   if (shape != Shape::flowed) return after(100, scene, scene.start);
-  Scene gentle = scene;  // overlapping particles burst apart
-  gentle.step = scene.step / 10;
-  return after(300, scene, after(100, gentle, scene.start));  // then 0.0013 d0 per step, rms
+  Particles particles = scene.start;  // overlapping, they would burst apart in full steps
+  for (const double share : {0.1, 0.4, 1.0, 1.0}) {
+    Scene slower = scene;
+    slower.step = share * scene.step;
+    particles = after(100, slower, particles);
+  }
+  return particles;
 }
 
 Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,

@@ -12,7 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cstdio>
 #include <memory>
 
 #include "bench/all_pairs.h"
@@ -232,10 +232,13 @@ int without_own_options(int count, char** words) {
 
 }  // namespace
 
-int main(int count, char** words) {
+int main(int count, char** words) try {
   count = without_own_options(count, words);
   register_all();
   benchmark::Initialize(&count, words);
   if (benchmark::ReportUnrecognizedArguments(count, words)) return 2;
   benchmark::RunSpecifiedBenchmarks();
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "step_bench: %s\n", error.what());
+  return 2;
 }
