@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stepping without any search for partners: every pair is looked at, O(n^2). What the paper's cells
+// are measured against.
+#pragma once
+
+#include "physics/simulation.h"
+
+namespace sinew::bench {
+
+/// Pair forces and damping (the paper's form) of all pairs. Fills pair, damping and neighbours.
+void all_pair_forces(const Particles& particles, const Material& material, Forces& forces);
+
+/// One step of symplectic Euler, s.
+void step_all_pairs(Particles& particles, const Body& body, const Pose& pose, double step,
+                    Forces& forces);
+
+}  // namespace sinew::bench

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/state_file.h"
+
+#include <gtest/gtest.h>
+
+#include "scratch.h"
+
+namespace sinew::bench {
+namespace {
+
+using StateFile = Scratch;
+
+TEST_F(StateFile, GivesEveryBitBack) {
+  const Scene scene = scene_of(Shape::twisted, 3000);
+  const Particles particles = settled(scene, Shape::twisted);
+  const auto path = state_path(folder, Shape::twisted, 3000);
+  write_state(path, particles);
+  EXPECT_EQ(state_hash(read_state(path, scene)), state_hash(particles));
+}
+
+TEST_F(StateFile, OfAnotherBodyOrCutShortIsRefused) {
+  const Scene scene = scene_of(Shape::rest, 3000);
+  const auto path = state_path(folder, Shape::rest, 3000);
+  write_state(path, scene.start);
+  EXPECT_THROW(read_state(path, scene_of(Shape::rest, 4000)), Error);
+  resize_file(path, file_size(path) - 1);
+  EXPECT_THROW(read_state(path, scene), Error);
+}
+
+}  // namespace
+}  // namespace sinew::bench

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "world.h"
+
+namespace sinew::bench {
+namespace {
+
+constexpr double r = 0.010;             // m
+constexpr double turn = 90;             // degrees
+constexpr double bend_zone = 3;         // widths; the faces stretch and shrink by 26 %
+constexpr double crushed_width = 0.75;  // near the body-centred packing: 14 partners, not 12
+constexpr double strong_grip = 64;      // springs as stiff as bonds in the paper's box
+constexpr int paper_across = 11, paper_along = 49;  // half-planes
+constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed"};
+
+struct Bar {
+  int across = 0, along = 0;  // half-planes, odd: a site lies in the middle
+
+  double width() const { return across * half_plane_spacing(r); }
+  double length() const { return along * half_plane_spacing(r); }
+  double zone() const { return bend_zone * width(); }
+};
+
+int odd(double value) { return 2 * static_cast<int>(value / 2) + 1; }
+
+Bar bar_of(std::size_t count) {
+  const double sites = 2.0 * static_cast<double>(count);
+  const double cube = paper_along / static_cast<double>(paper_across);
+  const int across = odd(std::cbrt(sites / cube));
+  return {across, odd(sites / across / across)};
+}
+
+/// The middle line follows an arc towards x over the zone; the ends stay straight.
+Vec3 bent(const Vec3& rest, const Bar& bar) {
+  const double zone = bar.zone(), begin = (bar.length() - zone) / 2;
+  const double radius = zone / radians(turn);
+  const double s = std::clamp(rest.z() - begin, 0.0, zone), angle = s / radius;
+  const Vec3 along(std::sin(angle), 0, std::cos(angle)),
+      across(std::cos(angle), 0, -std::sin(angle));
+  const Vec3 centre(radius, 0, begin);
+  return centre + (rest.x() - radius) * across + rest.y() * Vec3::UnitY() +
+         (rest.z() - begin - s) * along;
+}
+
+Vec3 twisted(const Vec3& rest, const Bar& bar) {
+  return test::turned(Vec3::UnitZ(), turn * rest.z() / bar.length()) * rest;
+}
+
+Vec3 crushed(const Vec3& rest) { return {crushed_width * rest.x(), rest.y(), rest.z()}; }
+
+/// Two bones along the middle line; those of a bent body meet where its straight ends would.
+std::vector<BoneSettings> bones_of(Shape shape, const Bar& bar) {
+  const double straight = (bar.length() - bar.zone()) / 2;
+  const double half = straight + bar.zone() / radians(turn);
+  if (shape != Shape::bent) return test::box_scene(bar.along).bones;
+  return {{"lower", "", Vec3::Zero(), Vec3(0, 0, half)},
+          {"upper", "lower", {}, Vec3(half, 0, half)}};
+}
+
+/// Springs as stiff as bonds, whatever the body's cross-section.
+void grip(BindingSettings& binding, const Bar& bar) {
+  const double widths = bar.across / static_cast<double>(paper_across);
+  binding.stiffness = binding.twist_stiffness = binding.axial_stiffness =
+      strong_grip * widths * widths;
+}
+
+Settings settings_of(Shape shape, const Bar& bar) {
+  Settings settings = test::box_scene(bar.along);
+  settings.bones = bones_of(shape, bar);
+  if (shape == Shape::bent || shape == Shape::crushed) grip(settings.binding, bar);
+  if (shape == Shape::twisted) {
+    settings.tracks = {test::track("upper", {test::twist_key(0, turn)})};
+    settings.binding.joint_zone = bar.length() / bar.width();
+  }
+  return settings;
+}
+
+template <class Map>
+Points mapped(Points points, Map&& map) {
+  for (Vec3& point : points) point = map(point);
+  return points;
+}
+
+/// Where the body is bound: nothing but strong bones, bound to it as it is, would hold it bent or
+/// crushed.
+Points rest_of(Shape shape, const Bar& bar) {
+  const Points box = test::fcc_box(bar.across, bar.across, bar.along, r);
+  if (shape == Shape::bent) return mapped(box, [&](const Vec3& x) { return bent(x, bar); });
+  if (shape == Shape::crushed) return mapped(box, crushed);
+  return box;
+}
+
+/// Where it begins: twisted by its bones, which keep an even twist, or shaken out of its lattice.
+Particles start_of(Shape shape, const Bar& bar, const Body& body) {
+  if (shape == Shape::flowed) return test::shaken(body.rest, body.material, r, 0);
+  if (shape != Shape::twisted) return particles_at(body.rest, r, body.material.mass);
+  const auto twist = [&](const Vec3& x) { return twisted(x, bar); };
+  return particles_at(mapped(body.rest, twist), r, body.material.mass);
+}
+
+/// The written order, whatever order the stepping has left.
+Particles in_written_order(const Particles& particles) {
+  Particles written = particles;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const std::int32_t id = particles.id[i];
+    written.set_position(id, particles.position(i));
+    written.set_velocity(id, particles.velocity(i));
+    written.id[id] = id;
+  }
+  return written;
+}
+
+Particles after(int steps, const Scene& scene, const Particles& start) {
+  Simulation simulation = simulation_of(scene, start, Precision::binary64, NeighbourSearch::lists);
+  for (int step = 0; step < steps; ++step) simulation.step();
+  return in_written_order(simulation.particles());
+}
+
+}  // namespace
+
+std::string_view name_of(Shape shape) { return names[static_cast<std::size_t>(shape)]; }
+
+Shape shape_named(std::string_view name) {
+  for (const Shape shape : shapes)
+    if (name == name_of(shape)) return shape;
+  throw bad_input("no state '" + std::string(name) + "'",
+                  "use rest, bent, twisted, crushed or flowed");
+}
+
+Scene scene_of(Shape shape, std::size_t count) {
+  const Bar bar = bar_of(count);
+  const Settings settings = settings_of(shape, bar);
+  Scene scene;
+  scene.body = test::make_body(settings, rest_of(shape, bar));
+  scene.motion = make_motion(settings, scene.body.skeleton);
+  scene.start = start_of(shape, bar, scene.body);
+  const double limit =
+      step_limit(settings.solver.integrator, scene.body.material, scene.body.springs);
+  scene.step = choose_step(settings.solver, limit, settings.output.interval).step;
+  return scene;
+}
+
+Particles settled(const Scene& scene, Shape shape) {
+  if (shape == Shape::rest) return scene.start;
+  if (shape != Shape::flowed) return after(100, scene, scene.start);
+  Particles particles = scene.start;  // overlapping, they would burst apart in full steps
+  for (const double share : {0.1, 0.4, 1.0, 1.0}) {
+    Scene slower = scene;
+    slower.step = share * scene.step;
+    particles = after(100, slower, particles);
+  }
+  return particles;
+}
+
+Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,
+                         NeighbourSearch search) {
+  Stepping stepping;
+  stepping.step = scene.step;
+  stepping.precision = precision;
+  stepping.neighbour_search = search;
+  return Simulation(scene.body, scene.motion, particles, stepping);
+}
+
+}  // namespace sinew::bench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Boxes of the paper's proportions in five states, held on two bones end to end: what stepping is
+// timed on. A state is an analytic map of the rest positions that follows the bones, left to
+// settle.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "physics/simulation.h"
+
+namespace sinew::bench {
+
+enum class Shape {
+  rest,
+  bent,     ///< by 90 degrees, an even curve of three widths, held there by strong bones
+  twisted,  ///< by 90 degrees, evenly over the whole length, by its bones
+  crushed,  ///< to 0.75 of its width along x, and held there by strong bones
+  flowed,   ///< wholly disordered
+};
+
+inline constexpr std::array shapes{Shape::rest, Shape::bent, Shape::twisted, Shape::crushed,
+                                   Shape::flowed};
+
+std::string_view name_of(Shape shape);
+/// Throws bad input for another name.
+Shape shape_named(std::string_view name);
+
+/// A body, its held pose, and the map's positions, from which it is to settle.
+struct Scene {
+  Body body;
+  Motion motion;
+  Particles start;  ///< without velocity
+  double step = 0;  ///< half of the stability limit, s
+};
+
+/// About `count` particles of the default material, r = 10 mm.
+Scene scene_of(Shape shape, std::size_t count);
+
+/// The state after 100 steps (flowed: 400, rest: none) from the scene's start, in the written
+/// order.
+Particles settled(const Scene& scene, Shape shape);
+
+/// A simulation of the scene's body that starts with `particles`.
+Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,
+                         NeighbourSearch search);
+
+}  // namespace sinew::bench
