@@ -86,7 +86,7 @@ StepSums CellStepper::step(const Pose& pose) {
   return sums;
 }
 
-Moment CellStepper::evaluate(const Pose& pose, Forces& forces) {
+Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   pair_forces(particles_, body_->material, forces_);
   bone_forces(particles_, *body_, pose, forces_);
   const StepSums now = sums();

@@ -15,7 +15,7 @@ class CellStepper {
   CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles particles);
 
   StepSums step(const Pose& pose);
-  Moment evaluate(const Pose& pose, Forces& forces);
+  Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
 
  private:

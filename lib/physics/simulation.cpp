@@ -72,7 +72,7 @@ const Particles& Simulation::particles() const {
 void Simulation::evaluate() {
   if (evaluated_) return;
   const Pose now = pose();
-  moment_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
+  balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
   evaluated_ = true;
 }
 
@@ -105,10 +105,10 @@ Energies Simulation::energies() {
           sum -= now.mass * stepping_.gravity.dot(now.position(i));
         return sum;
       });
-  energies.pair = moment_.pair_energy;
-  energies.bone = moment_.bone_energy;
-  energies.work_of_bones = book_.work_until(moment_.power);
-  energies.dissipation = book_.dissipation_until(moment_.lost);
+  energies.pair = balance_.pair_energy;
+  energies.bone = balance_.bone_energy;
+  energies.work_of_bones = book_.work_until(balance_.power);
+  energies.dissipation = book_.dissipation_until(balance_.lost);
   return energies;
 }
 

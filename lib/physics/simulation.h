@@ -70,7 +70,7 @@ class Simulation {
   mutable Particles particles_;  ///< as read last
   mutable bool read_ = true;     ///< whether they are those of the present moment
   Forces forces_;
-  Moment moment_;
+  Balance balance_;
   bool evaluated_ = false;
 };
 

@@ -38,7 +38,7 @@ struct StepSums {
 };
 
 /// The book at one moment.
-struct Moment {
+struct Balance {
   double power = 0, lost = 0;               ///< W
   double pair_energy = 0, bone_energy = 0;  ///< J
 };

@@ -88,7 +88,7 @@ void BlockCells::assign(BlockState<Real>& state) {
 
 template <class Visit>
 void BlockCells::for_each_cell(std::size_t block, Visit&& visit) const {
-  std::array<std::uint32_t, 16> distinct;
+  std::array<std::uint32_t, 16> distinct;  // no block is larger
   std::size_t count = 0;
   const std::size_t end = std::min((block + 1) * block_size_, cell_.size());
   for (std::size_t k = block * block_size_; k < end; ++k) {
@@ -123,9 +123,22 @@ void BlockCells::sort() {
   });
 }
 
-BlockCells::Finder::Finder(const BlockCells& cells) : cells_(cells), seen_(cells.blocks_, 0) {}
+BlockCells::Finder::Finder(const BlockCells& cells)
+    : cells_(cells), last_(cells.cells(), 0), found_(cells.blocks_ / 64 + 1, 0) {}
 
-void BlockCells::Finder::add_around(std::uint32_t cell) {
+void BlockCells::Finder::mark_row(std::int64_t from, std::int64_t to) {
+  for (std::int64_t cell = from; cell <= to; ++cell) {
+    if (last_[cell] == now_) continue;
+    last_[cell] = now_;
+    for (std::uint32_t p = cells_.first_[cell]; p < cells_.first_[cell + 1]; ++p) {
+      const std::uint32_t block = cells_.inside_[p], word = block / 64;
+      if (found_[word] == 0) words_.push_back(word);
+      found_[word] |= std::uint64_t{1} << block % 64;
+    }
+  }
+}
+
+void BlockCells::Finder::mark_around(std::uint32_t cell) {
   const auto& counts = cells_.counts_;
   const std::int64_t i = cell % counts[0], j = cell / counts[0] % counts[1],
                      k = cell / (counts[0] * counts[1]);
@@ -135,21 +148,15 @@ void BlockCells::Finder::add_around(std::uint32_t cell) {
     for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, counts[1] - 1);
          ++jj) {
       const std::int64_t row = (kk * counts[1] + jj) * counts[0];
-      for (std::uint32_t p = cells_.first_[row + from]; p < cells_.first_[row + to + 1]; ++p) {
-        const std::uint32_t block = cells_.inside_[p];
-        if (seen_[block] == now_) continue;
-        seen_[block] = now_;
-        found_.push_back(block);
-      }
+      mark_row(row + from, row + to);
     }
 }
 
-const std::vector<std::uint32_t>& BlockCells::Finder::around(std::size_t block) {
-  found_.clear();
+void BlockCells::Finder::mark(std::size_t block) {
+  words_.clear();
   now_ = static_cast<std::uint32_t>(block) + 1;
-  cells_.for_each_cell(block, [&](std::uint32_t cell) { add_around(cell); });
-  std::sort(found_.begin(), found_.end());
-  return found_;
+  cells_.for_each_cell(block, [&](std::uint32_t cell) { mark_around(cell); });
+  std::sort(words_.begin(), words_.end());
 }
 
 }  // namespace sinew

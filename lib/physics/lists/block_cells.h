@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,16 +32,27 @@ class BlockCells {
   class Finder {
    public:
     explicit Finder(const BlockCells& cells);
-    /// Ascending; itself among them.
-    const std::vector<std::uint32_t>& around(std::size_t block);
+    /// Calls visit(other) for each of them in ascending order, itself among them.
+    template <class Visit>
+    void for_each_around(std::size_t block, Visit&& visit) {
+      mark(block);
+      for (const std::uint32_t word : words_) {
+        for (std::uint64_t bits = found_[word]; bits != 0; bits &= bits - 1)
+          visit(64 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        found_[word] = 0;
+      }
+    }
 
    private:
-    void add_around(std::uint32_t cell);
+    void mark(std::size_t block);
+    void mark_around(std::uint32_t cell);
+    void mark_row(std::int64_t from, std::int64_t to);
 
     const BlockCells& cells_;
-    std::vector<std::uint32_t> seen_;  ///< by block: the last one that found it, counted from 1
-    std::vector<std::uint32_t> found_;
+    std::vector<std::uint32_t> last_;  ///< by cell: the block it was last looked at for, from 1
     std::uint32_t now_ = 0;
+    std::vector<std::uint64_t> found_;  ///< a bit for each block
+    std::vector<std::uint32_t> words_;  ///< of found_ that are not zero, ascending when marked
   };
 
  private:

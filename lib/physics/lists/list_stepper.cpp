@@ -258,7 +258,7 @@ Failure ListStepper<Real>::culprit(const Pose& pose) {
 }
 
 template <class Real>
-Moment ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
+Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
   keep_lists_true(pose, bones);
   fastest_ = 0;  // the step that led here has been followed
@@ -291,12 +291,12 @@ Moment ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
     }
   });
   const StepSums sums = sums_of_totals();
-  Moment moment{sums.power, sums.lost, 0, 0};
+  Balance balance{sums.power, sums.lost, 0, 0};
   const double joules = newtons * measure_.length;
   for (const kernel::Totals& piece : totals_)
-    moment.pair_energy += joules * piece.pair_energy,
-        moment.bone_energy += joules * piece.bone_energy;
-  return moment;
+    balance.pair_energy += joules * piece.pair_energy,
+        balance.bone_energy += joules * piece.bone_energy;
+  return balance;
 }
 
 template <class Real>

@@ -29,7 +29,7 @@ class ListStepper {
               const Particles& particles, kernel::InstructionSet instructions);
 
   StepSums step(const Pose& pose);
-  Moment evaluate(const Pose& pose, Forces& forces);
+  Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
   const ListCounts& counts() const { return counts_; }
 

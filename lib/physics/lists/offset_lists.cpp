@@ -2,6 +2,8 @@
 #include "physics/lists/offset_lists.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <mutex>
 
@@ -76,6 +78,57 @@ kernel::Sieve<Real> sieve_of(BlockState<Real>& state, double range) {
   return {state.arrays(), static_cast<Real>(range * range)};
 }
 
+/// Bounds of each block's particles.
+template <class Real>
+std::vector<std::array<float, 6>> boxes_of(BlockState<Real>& state) {
+  constexpr std::size_t size = BlockState<Real>::block;
+  std::vector<std::array<float, 6>> boxes(state.blocks());
+  const auto arrays = state.arrays();
+  parallel_for(boxes.size(), blocks_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto* first = arrays.x[axis] + block * size;
+        const auto* last = arrays.x[axis] + std::min((block + 1) * size, state.size());
+        const auto [low, high] = std::minmax_element(first, last);
+        boxes[block][axis] = static_cast<float>(*low);
+        boxes[block][3 + axis] = static_cast<float>(*high);
+      }
+  });
+  return boxes;
+}
+
+bool within(const std::array<float, 6>& a, const std::array<float, 6>& b, float range) {
+  for (int axis = 0; axis < 3; ++axis) {
+    // Bounds were rounded to floats.
+    const float slack = 4e-7F * (std::abs(a[axis]) + std::abs(b[3 + axis])) + range;
+    if (a[axis] - b[3 + axis] > slack || b[axis] - a[3 + axis] > slack) return false;
+  }
+  return true;
+}
+
+/// Gathers ascending blocks into runs that follow each other without a gap: one range of
+/// differences.
+class Runs {
+ public:
+  template <class Sift>
+  void add(std::uint32_t block, Sift&& sift) {
+    if (end_ == block && begin_ != end_) {
+      ++end_;
+      return;
+    }
+    flush(sift);
+    begin_ = block, end_ = block + 1;
+  }
+  template <class Sift>
+  void flush(Sift&& sift) {
+    if (begin_ != end_) sift(begin_, end_);
+    begin_ = end_ = 0;
+  }
+
+ private:
+  std::uint32_t begin_ = 0, end_ = 0;
+};
+
 }  // namespace
 
 double OffsetLists::mean() const {
@@ -89,22 +142,25 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
                          const BlockCells& cells, double range) {
   constexpr std::int64_t size = BlockState<Real>::block;
   const auto sieve = sieve_of(state, range);
+  const auto boxes = boxes_of(state);
+  const auto reach = static_cast<float>(range * (1 + 1e-6));
   Finders finders(cells);
   return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
     auto finder = finders.take();
     std::size_t used = 0;
     for (std::size_t block = begin; block < end; ++block) {
-      const auto& found = finder->around(block);
-      for (auto from = found.begin(); from != found.end();) {
-        auto to = from + 1;  // blocks that follow each other give one range of differences
-        while (to != found.end() && *to == *(to - 1) + 1) ++to;
+      const auto sift = [&](std::uint32_t from, std::uint32_t to) {
         const auto here = static_cast<std::int64_t>(block);
-        const std::int64_t low = (*from - here) * size - (size - 1);
-        const std::int64_t high = (*(to - 1) + 1 - here) * size;
+        const std::int64_t low = (from - here) * size - (size - 1);
+        const std::int64_t high = (to - here) * size;
         std::int32_t* kept = room_for(part, used, high - low);
         used = kernel.sift_range(sieve, block, low, high, kept) - part.value.data();
-        from = to;
-      }
+      };
+      Runs runs;
+      finder->for_each_around(block, [&](std::uint32_t other) {
+        if (within(boxes[block], boxes[other], reach)) runs.add(other, sift);
+      });
+      runs.flush(sift);
       part.first.push_back(static_cast<std::uint32_t>(used));
     }
     part.value.resize(used);
