@@ -81,13 +81,20 @@ Exit step_through(Simulation& simulation, const Setup& setup, double interval, R
   for (int frame = 0;; ++frame) {
     recorder.add(simulation, frame * interval);
     journal.frame(frame, frame * interval);
-    journal.spend("writing", watch.lap());
+    journal.spend("writing", watch.lap());  // what the stepping waited for it
     progress.frame(frame, frame * interval, simulation.steps());
     if (frame == setup.frames) return Exit::done;
     if (stop_asked()) return Exit::interrupted;
     for (int step = 0; step < setup.steps.per_frame; ++step) simulation.step();
     journal.spend("stepping", watch.lap());
   }
+}
+
+/// Waits for the frames that are still being written.
+void close(Recorder& recorder, Journal& journal) {
+  Stopwatch watch;
+  recorder.close();
+  journal.spend("writing", watch.lap());
 }
 
 /// Steps through and closes the series; the good frames of an unstable run too.
@@ -99,11 +106,14 @@ Exit record_run(Simulation& simulation, const Settings& settings, const Prepared
     Progress progress(made.setup.frames, progress_style(quiet));
     exit =
         step_through(simulation, made.setup, settings.output.interval, recorder, journal, progress);
+    close(recorder, journal);
   } catch (const Error& error) {
-    if (error.exit() == Exit::unstable) recorder.close();
+    journal.frames(recorder.written());
+    if (error.exit() != Exit::unstable) throw;
+    close(recorder, journal);
+    journal.frames(recorder.written());
     throw;
   }
-  recorder.close();
   return exit;
 }
 
