@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/closest_packing.h"
 #include "core/parallel.h"
 
 namespace sinew {
@@ -22,7 +21,7 @@ std::vector<std::int32_t> bones_of_vertices(const Skin& skin,
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     const auto begin = skin.weight.begin() + skin.first[i];
     const auto most = std::max_element(begin, skin.weight.begin() + skin.first[i + 1]);
-    bones.push_back(particle_bone[skin.particle[most - skin.weight.begin()]]);
+    bones.push_back(particle_bone[skin.near[skin.particle[most - skin.weight.begin()]]]);
   }
   return bones;
 }
@@ -66,8 +65,8 @@ std::vector<std::int32_t> bones_of_particles(const Body& body) {
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
                    const Body& body, const Triangles& surface)
     : skeleton_(body.skeleton),
-      shape_(rest_shape(body.rest, rest_neighbour_range(body.material.pair.r))),
-      skin_(make_skin(surface.points, shape_, body.material.pair.r)),
+      rest_(body.rest),
+      skin_(make_skin(surface.points, rest_, body.material.pair.r)),
       surface_(surface),
       particle_bone_(bones_of_particles(body)),
       surface_bone_(bones_of_vertices(skin_, particle_bone_)),
@@ -101,23 +100,16 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
 }
 
 void Recorder::write(const Moved& frame) {
-  particles_.add(particles_dataset(
-      {frame.particles, shape_.points, particle_bone_, frame.force_pair, frame.force_damping,
+  const Dataset particles = particles_dataset(
+      {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
        frame.force_bone, frame.neighbours, frame.energies},
-      frame.moment));
-  surface_.points = surface_at(frame.particles);
+      frame.moment);
+  particles_.add(particles);
+  surface_.points = follow(skin_, particles.points);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
   bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
   frames_.add(frames_of_bones(skeleton_, frame.pose, frame.reactions, frame.moment));
   ++written_;
-}
-
-Points Recorder::surface_at(const Particles& particles) const {
-  Points now(particles.size());
-  parallel_for(now.size(), values_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) now[particles.id[i]] = particles.position(i);
-  });
-  return follow(skin_, shape_, now);
 }
 
 void Recorder::close() {

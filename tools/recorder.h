@@ -46,10 +46,9 @@ class Recorder {
 
   static void take(Simulation& simulation, double time, Moved& frame);
   void write(const Moved& frame);
-  Points surface_at(const Particles& particles) const;
 
   Skeleton skeleton_;
-  RestShape shape_;
+  Points rest_;  ///< of the particles, in the written order
   Skin skin_;
   Triangles surface_;  ///< its points as they are in the frame being written
   std::vector<std::int32_t> particle_bone_, surface_bone_;
