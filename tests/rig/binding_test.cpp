@@ -148,8 +148,7 @@ TEST(Binding, BonesThatDoNotTouchShareNoParticle) {
 }
 
 TEST(Binding, HasTheSameBitsForEveryThreadCount) {
-  const Points rest = box();
-  ASSERT_GT(rest.size(), 3 * 4096u / 2);  // several pieces
+  const Points rest = test::fcc_box(21, 21, 49, r);  // several pieces
   const Binding expected = bind_to_bones(rest, two_bones(), V0, 1);
   for (const int threads : {1, 2, 3, 8})
     with_threads(threads, [&] {
