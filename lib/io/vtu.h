@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 
 #include "core/dataset.h"
@@ -27,5 +28,9 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
 /// Integers beyond Int32 become doubles; a field array becomes one row. Throws bad input, naming
 /// the file, for anything else: never a crash, nothing on the console.
 Dataset read_vtu(const std::filesystem::path& path);
+
+/// The same with only those arrays of the points that are named and there: much sooner.
+Dataset read_vtu(const std::filesystem::path& path,
+                 std::initializer_list<const char*> point_arrays);
 
 }  // namespace sinew
