@@ -11,6 +11,8 @@
 namespace sinew {
 namespace {
 
+constexpr std::size_t read_at_once = 2;  // frames: each is large, and more would not come sooner
+
 std::vector<PvdRow> rows_of(const RunFolder& folder, const char* series) {
   return read_pvd(folder.path / (std::string(series) + ".pvd"));
 }
@@ -131,18 +133,21 @@ RunFrame read_frame(const RunFiles& run, std::size_t index) {
   return frame;
 }
 
-FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) { begin(); }
+FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {
+  for (std::size_t i = 0; i < (ahead_ ? read_at_once : 1); ++i) begin();
+}
 
 RunFrame FramesInOrder::next() {
-  RunFrame frame = coming_.get();
+  RunFrame frame = coming_.front().get();
+  coming_.pop_front();
   begin();
   return frame;
 }
 
 void FramesInOrder::begin() {
   if (index_ == run_.frames()) return;
-  coming_ = std::async(ahead_ ? std::launch::async : std::launch::deferred,
-                       [&run = run_, index = index_++] { return read_frame(run, index); });
+  coming_.push_back(std::async(ahead_ ? std::launch::async : std::launch::deferred,
+                               [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
 }  // namespace sinew

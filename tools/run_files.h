@@ -2,6 +2,7 @@
 // The files of a run read back: what measuring and drawing begin with.
 #pragma once
 
+#include <deque>
 #include <future>
 #include <string>
 #include <vector>
@@ -44,8 +45,8 @@ struct RunFrame {
 /// Throws bad input, naming the file, when it is damaged or of another body.
 RunFrame read_frame(const RunFiles& run, std::size_t frame);
 
-/// The frames of a run one after the other; the one that comes is read while its caller works on
-/// the one before.
+/// The frames of a run one after the other; those that come are read while the caller works on the
+/// one before.
 class FramesInOrder {
  public:
   /// Not `ahead`: by the caller's thread, when it asks.
@@ -60,7 +61,7 @@ class FramesInOrder {
   const RunFiles& run_;
   bool ahead_;
   std::size_t index_ = 0;
-  std::future<RunFrame> coming_;
+  std::deque<std::future<RunFrame>> coming_;
 };
 
 }  // namespace sinew
