@@ -38,8 +38,8 @@ void copy(const std::vector<T>& from, std::vector<T>& to) {
 void copy(const Particles& from, Particles& to) {
   to.radius = from.radius;
   to.mass = from.mass;
-  for (const auto axis : {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v,
-                          &Particles::w})
+  for (const auto axis :
+       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
     copy(from.*axis, to.*axis);
   copy(from.id, to.id);
 }
@@ -100,10 +100,10 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
 }
 
 void Recorder::write(const Moved& frame) {
-  const Dataset particles = particles_dataset(
-      {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
-       frame.force_bone, frame.neighbours, frame.energies},
-      frame.moment);
+  const Dataset particles =
+      particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
+                         frame.force_damping, frame.force_bone, frame.neighbours, frame.energies},
+                        frame.moment);
   particles_.add(particles);
   surface_.points = follow(skin_, particles.points);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes what a simulation is at this moment as one frame of each series, while it goes on stepping:
-// a frame is copied and handed to a thread of its own.
+// Writes what a simulation is at this moment as one frame of each series, while it goes on
+// stepping: a frame is copied and handed to a thread of its own.
 #pragma once
 
 #include <array>

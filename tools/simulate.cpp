@@ -87,6 +87,8 @@ Exit step_through(Simulation& simulation, const Course& course, Recorder& record
   Stopwatch watch;
   for (int frame = 0;; ++frame) {
     const double time = frame * course.interval;
+    simulation.forces();  // the frame shows them, the next step takes them
+    journal.spend("stepping", watch.lap());
     recorder.add(simulation, time);
     journal.frame(frame, time);
     journal.spend("writing", watch.lap());  // what the stepping waited for it
@@ -94,7 +96,6 @@ Exit step_through(Simulation& simulation, const Course& course, Recorder& record
     if (frame == course.frames) return Exit::done;
     if (stop_asked()) return Exit::interrupted;
     for (int step = 0; step < course.steps_per_frame; ++step) simulation.step();
-    journal.spend("stepping", watch.lap());
   }
 }
 
@@ -129,8 +130,7 @@ Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder
     write_beginning(settings, made, folder);
     journal.spend("writing", watch.lap());
     const Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
-    Simulation simulation =
-        start(settings, std::move(made.setup), std::move(made.body.particles));
+    Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
     made.body = {};  // millions of numbers that nobody needs any more
     Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles);
     journal.spend("binding", watch.lap());

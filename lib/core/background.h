@@ -26,7 +26,8 @@ class Background {
   Background& operator=(const Background&) = delete;
 
   /// Waits for room and hands over what make() returns; make() is called here, with the room at
-  /// hand, so that what a job holds exists at most `most` times. Throws what a job before has thrown.
+  /// hand, so that what a job holds exists at most `most` times. Throws what a job before has
+  /// thrown.
   void hand(const std::function<Job()>& make);
   /// Waits until all is done. Throws what a job has thrown, each time it is called.
   void finish();

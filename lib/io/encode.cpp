@@ -35,9 +35,9 @@ class Compressor {
   /// Returns the bytes put at `to`, which has room for most(count).
   std::size_t compress(const unsigned char* from, std::size_t count, char* to) const {
     if (!lz4_) return libdeflate_zlib_compress(zlib_.get(), from, count, to, most(count));
-    return static_cast<std::size_t>(
-        LZ4_compress_fast(reinterpret_cast<const char*>(from), to, static_cast<int>(count),
-                          static_cast<int>(most(count)), fastest));
+    return static_cast<std::size_t>(LZ4_compress_fast(reinterpret_cast<const char*>(from), to,
+                                                      static_cast<int>(count),
+                                                      static_cast<int>(most(count)), fastest));
   }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values as a file stores them, made piece by piece from what is in memory: nothing is copied whole.
+// Values as a file stores them, made piece by piece from what is in memory: nothing is copied
+// whole.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +17,9 @@ struct FileArray {
   /// Puts values [begin, end) at `to`, in the file's type; called from several threads.
   using Put = std::function<void(std::size_t begin, std::size_t end, unsigned char* to)>;
 
-  std::string_view type;   ///< VTK's name: "Float32"
-  std::size_t size = 1;    ///< bytes of a value
-  std::size_t count = 0;   ///< of values
+  std::string_view type;  ///< VTK's name: "Float32"
+  std::size_t size = 1;   ///< bytes of a value
+  std::size_t count = 0;  ///< of values
   Put put;
 
   std::size_t bytes() const { return size * count; }

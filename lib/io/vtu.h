@@ -13,8 +13,9 @@
 namespace sinew {
 
 struct VtuFormat {
-  /// zlib (level 1), lz4 and none: base64 within the elements, which every reader takes; raw: appended
-  /// raw, which VTK 9.1 and 9.2 cannot read with a newer expat. UInt64 headers, Int32 cells.
+  /// zlib (level 1), lz4 and none: base64 within the elements, which every reader takes; raw:
+  /// appended raw, which VTK 9.1 and 9.2 cannot read with a newer expat. UInt64 headers, Int32
+  /// cells.
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;  ///< Float64 for every real number
   std::string series;             ///< whose rows of the table hold

@@ -21,9 +21,8 @@ bool beyond_float32(const Points& points, double radius) {
   if (!(radius > 0)) return false;
   const double reach = float32_reach * radius;
   return parallel_sum(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
-           return std::count_if(points.begin() + begin, points.begin() + end, [&](const Vec3& p) {
-             return p.cwiseAbs().maxCoeff() > reach;
-           });
+           return std::count_if(points.begin() + begin, points.begin() + end,
+                                [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() > reach; });
          }) > 0;
 }
 
@@ -59,7 +58,8 @@ std::vector<Element> elements_of(const std::vector<Column>& columns, ArrayPlace 
 
 std::vector<Element> field_elements(const Dataset& data, const VtuFormat& format) {
   const auto named = [&](const char* name, FileArray values) {
-    return Element{name, 1, find_written(format.series, ArrayPlace::field, name), std::move(values)};
+    return Element{name, 1, find_written(format.series, ArrayPlace::field, name),
+                   std::move(values)};
   };
   std::vector<Element> elements{
       named("TimeValue", float64_array(&data.time, 1)),
@@ -115,11 +115,20 @@ std::string attribute(const std::string& name, const std::string& value) {
   std::string text = ' ' + name;
   text += "=\"";
   for (const char c : value) switch (c) {
-      case '&': text += "&amp;"; break;
-      case '<': text += "&lt;"; break;
-      case '>': text += "&gt;"; break;
-      case '"': text += "&quot;"; break;
-      default: text += c;
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '>':
+        text += "&gt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      default:
+        text += c;
     }
   return text += '"';
 }
@@ -175,8 +184,8 @@ class VtuText {
     text += attribute("Name", element.name);
     if (components > 1) text += attribute("NumberOfComponents", std::to_string(components));
     for (std::size_t k = 0; element.row && k < element.row->components.size(); ++k)
-      text += attribute("ComponentName" + std::to_string(k),
-                        std::string(element.row->components[k]));
+      text +=
+          attribute("ComponentName" + std::to_string(k), std::string(element.row->components[k]));
     if (in_field)
       text += attribute("NumberOfTuples", std::to_string(element.values.count / components));
     if (const ValueRange range = range_of(element.values, element.components);
@@ -225,13 +234,13 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   const std::vector<Element> points{points_element(data, format)};
   const auto cells = cell_elements(data);
   NewFile file(path);
-  // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which Debian 12
-  // has by its updates: only data within the elements is safe.
+  // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which
+  // Debian 12 has by its updates: only data within the elements is safe.
   VtuText text(file, format.encoding);
   text.add(opening_tag(format.encoding));
   text.add_group("FieldData", "", field);
-  text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) +
-           "\" NumberOfCells=\"" + std::to_string(data.cells()) + "\">\n");
+  text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
+           std::to_string(data.cells()) + "\">\n");
   text.add_group("PointData", active_arrays(of_points), of_points);
   text.add_group("CellData", active_arrays(of_cells), of_cells);
   text.add_group("Points", "", points);

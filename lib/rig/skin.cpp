@@ -173,7 +173,8 @@ Points follow(const Skin& skin, const Points& now) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k) {
         const std::uint32_t j = skin.particle[k];
-        moved[i] += skin.weight[k] * (near[j] + carriers[j] * (skin.rest[i] - skin.shape.points[j]));
+        moved[i] +=
+            skin.weight[k] * (near[j] + carriers[j] * (skin.rest[i] - skin.shape.points[j]));
       }
   });
   return moved;

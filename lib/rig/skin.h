@@ -29,7 +29,8 @@ struct Skin {
 /// h = max(6 radius, 1.05 times the distance of the 20th particle). In parallel.
 Skin make_skin(const Points& vertices, const Points& points, double radius);
 
-/// The vertices when the particles are at `now` (m, in the order of the body's points). In parallel.
+/// The vertices when the particles are at `now` (m, in the order of the body's points). In
+/// parallel.
 Points follow(const Skin& skin, const Points& now);
 
 }  // namespace sinew

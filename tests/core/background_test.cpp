@@ -24,9 +24,7 @@ TEST(Background, DoesAllJobsInTheirOrder) {
   std::vector<int> done, expected;
   Background background(2);
   for (int i = 0; i < 100; ++i) {
-    background.hand([&, i] {
-      return [&, i] { done.push_back(i); };
-    });
+    background.hand([&, i] { return [&, i] { done.push_back(i); }; });
     expected.push_back(i);
   }
   background.finish();
@@ -36,9 +34,7 @@ TEST(Background, DoesAllJobsInTheirOrder) {
 TEST(Background, WorksBesideItsCaller) {
   std::thread::id worker;
   Background background(2);
-  background.hand([&] {
-    return [&] { worker = std::this_thread::get_id(); };
-  });
+  background.hand([&] { return [&] { worker = std::this_thread::get_id(); }; });
   background.finish();
   EXPECT_NE(worker, std::thread::id());
   EXPECT_NE(worker, std::this_thread::get_id());
@@ -84,10 +80,7 @@ TEST(Background, DropsWhatFollowsAJobThatThrew) {
         throw std::runtime_error("first");
       };
     });
-    for (int i = 0; i < 2; ++i)
-      background.hand([&] {
-        return [&] { followed = true; };
-      });
+    for (int i = 0; i < 2; ++i) background.hand([&] { return [&] { followed = true; }; });
     go = true;
     EXPECT_THROW(background.finish(), std::runtime_error);
   }
@@ -98,10 +91,7 @@ TEST(Background, FinishesWhatItHasWhenItIsOnlyDropped) {
   int done = 0;
   {
     Background background(2);
-    for (int i = 0; i < 5; ++i)
-      background.hand([&] {
-        return [&] { pause(), ++done; };
-      });
+    for (int i = 0; i < 5; ++i) background.hand([&] { return [&] { pause(), ++done; }; });
   }
   EXPECT_EQ(done, 5);
 }
@@ -116,9 +106,7 @@ TEST(Background, AFailedHandOverLeavesItUsable) {
   Background background(1);
   EXPECT_THROW(background.hand([]() -> Background::Job { throw std::bad_alloc(); }),
                std::bad_alloc);
-  background.hand([&] {
-    return [&] { ++done; };
-  });
+  background.hand([&] { return [&] { ++done; }; });
   background.finish();
   EXPECT_EQ(done, 1);
 }

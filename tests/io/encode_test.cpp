@@ -68,8 +68,8 @@ using EncodedVtu = Scratch;
 TEST_F(EncodedVtu, OfManyBlocksComesBackEqualWhereverTheLastOneEnds) {
   constexpr std::size_t ids_per_block = 8192;
   for (const Encoding encoding : {Encoding::zlib, Encoding::lz4, Encoding::raw, Encoding::none})
-    for (const std::size_t count :
-         {std::size_t{1}, ids_per_block - 1, ids_per_block, ids_per_block + 1, 40 * ids_per_block}) {
+    for (const std::size_t count : {std::size_t{1}, ids_per_block - 1, ids_per_block,
+                                    ids_per_block + 1, 40 * ids_per_block}) {
       const Dataset data = particles_of(count);
       write_vtu(folder / "f.vtu", data, {encoding, true, "particles", 0.01});
       const Dataset read = read_vtu(folder / "f.vtu");

@@ -35,8 +35,7 @@ TEST(ParticlesDataset, TakesTheDisplacementInDouble) {
   const Particles now = particles_at({{1000 + 1e-9, 0, 0}}, 0.5, 1);
   const Points force(1, Vec3::Zero());
   const std::vector<std::int32_t> zero(1, 0);
-  const Dataset data =
-      particles_dataset({now, rest, zero, force, force, force, zero, {}}, {});
+  const Dataset data = particles_dataset({now, rest, zero, force, force, force, zero, {}}, {});
   EXPECT_NEAR(vectors(data.point_columns, "displacement")[0].x(), 1e-9, 1e-12);
 }
 

@@ -122,8 +122,7 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbours[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies},
-                           moment);
+  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies}, moment);
 }
 
 Dataset SyntheticRun::surface(Moment moment) const {

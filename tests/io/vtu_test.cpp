@@ -64,9 +64,7 @@ INSTANTIATE_TEST_SUITE_P(All, VtuEncodings,
                          testing::Values(Encoding::zlib, Encoding::lz4, Encoding::raw,
                                          Encoding::none));
 
-std::string header(const std::filesystem::path& path) {
-  return text_of(path);
-}
+std::string header(const std::filesystem::path& path) { return text_of(path); }
 
 /// The opening tag of the array `name`, with its information keys.
 std::string tag(const std::string& header, const std::string& name) {

@@ -128,7 +128,8 @@ TEST(Skin, KeepsOnlyTheParticlesNearItAndFollowsAsWithAll) {
   const Skin skin = make_skin(vertices, points, r);
   EXPECT_LT(skin.near.size(), points.size() / 2);
   Points now;
-  for (const Vec3& p : points) now.push_back(p + 3 * Vec3(p.y() * p.z(), p.x() * p.x(), p.y() * p.x()));
+  for (const Vec3& p : points)
+    now.push_back(p + 3 * Vec3(p.y() * p.z(), p.x() * p.x(), p.y() * p.x()));
   const Points found = follow(skin, now);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     Vec3 expected = Vec3::Zero();
