@@ -87,8 +87,6 @@ Exit step_through(Simulation& simulation, const Course& course, Recorder& record
   Stopwatch watch;
   for (int frame = 0;; ++frame) {
     const double time = frame * course.interval;
-    simulation.forces();  // the frame shows them, the next step takes them
-    journal.spend("stepping", watch.lap());
     recorder.add(simulation, time);
     journal.frame(frame, time);
     journal.spend("writing", watch.lap());  // what the stepping waited for it
@@ -96,6 +94,7 @@ Exit step_through(Simulation& simulation, const Course& course, Recorder& record
     if (frame == course.frames) return Exit::done;
     if (stop_asked()) return Exit::interrupted;
     for (int step = 0; step < course.steps_per_frame; ++step) simulation.step();
+    journal.spend("stepping", watch.lap());
   }
 }
 
