@@ -22,7 +22,7 @@ using namespace sinew;
 double seconds_per_step(const Settings& settings, Setup setup, const Particles& particles,
                         std::vector<std::string>& warnings) {
   setup.motion = {};
-  Simulation simulation = start(settings, setup, particles);
+  Simulation simulation = start(settings, std::move(setup), particles);
   double spent = 0;
   int steps = 0;
   try {

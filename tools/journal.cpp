@@ -103,6 +103,8 @@ void Journal::frame(int frame, double time) {
   log("frame " + std::to_string(frame) + " at " + number_text(time) + " s");
 }
 
+void Journal::frames(int written) { record_["frames"] = written; }
+
 void Journal::end(const std::string& status, const Simulation& simulation) {
   const double stepping = record_["seconds"].value("stepping", 0.0);
   const auto steps = static_cast<double>(simulation.steps());

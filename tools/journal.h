@@ -29,6 +29,8 @@ class Journal {
   /// Adds to the seconds of a stage.
   void spend(const std::string& stage, double seconds);
   void frame(int frame, double time);
+  /// How many frames there are, where a failure has left fewer than were begun.
+  void frames(int written);
 
   /// Writes run.json as it stands now, and what `simulation` came to. Throws not written.
   void end(const std::string& status, const Simulation& simulation);

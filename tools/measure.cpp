@@ -53,13 +53,14 @@ FrameState state_of(RunFrame frame) {
           frame.energies};
 }
 
-Measured measure_run(const RunFiles& run, const std::vector<Limit>& limits) {
+Measured measure_run(const RunFiles& run, const std::vector<Limit>& limits, int threads) {
   const RestBody rest = rest_of(run);
   Measured measured;
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<double> times;
+  FramesInOrder frames(run, threads != 1);
   for (std::size_t i = 0; i < run.frames(); ++i) {
-    const FrameState state = state_of(read_frame(run, i));
+    const FrameState state = state_of(frames.next());
     measured.frames.push_back(measure(rest, state));
     poses.push_back(state.bones);
     times.push_back(state.time);
@@ -97,7 +98,7 @@ Exit measure_folder(const Options& options, const Common& common) {
   for (const std::string& text : options.limits) limits.push_back(parse_limit(text));
   Stopwatch watch;
   const RunFiles run = open_run({options.folder});
-  const Measured measured = measure_run(run, limits);
+  const Measured measured = measure_run(run, limits, common.threads);
   write_file(run.folder.path / "metrics.csv", metrics_csv(measured.frames));
   write_file(run.folder.path / "metrics.json",
              metrics_json(measured.frames, measured.summary, measured.checks));

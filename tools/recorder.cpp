@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
-#include "core/closest_packing.h"
-#include "io/frames.h"
+#include "core/parallel.h"
 
 namespace sinew {
 namespace {
+
+constexpr std::size_t values_per_piece = 1 << 14;
 
 VtuFormat format_of(const OutputSettings& output, const char* series, double radius) {
   return {output.encoding, output.double_precision, series, radius};
@@ -20,15 +21,33 @@ std::vector<std::int32_t> bones_of_vertices(const Skin& skin,
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     const auto begin = skin.weight.begin() + skin.first[i];
     const auto most = std::max_element(begin, skin.weight.begin() + skin.first[i + 1]);
-    bones.push_back(particle_bone[skin.particle[most - skin.weight.begin()]]);
+    bones.push_back(particle_bone[skin.near[skin.particle[most - skin.weight.begin()]]]);
   }
   return bones;
 }
 
-Dataset frames_of_bones(const Simulation& simulation, const Pose& pose, Moment moment) {
-  const Skeleton& skeleton = simulation.body().skeleton;
+/// Copies into room that is there already.
+template <class T>
+void copy(const std::vector<T>& from, std::vector<T>& to) {
+  to.resize(from.size());
+  parallel_for(from.size(), values_per_piece, [&](std::size_t begin, std::size_t end) {
+    std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
+  });
+}
+
+void copy(const Particles& from, Particles& to) {
+  to.radius = from.radius;
+  to.mass = from.mass;
+  for (const auto axis :
+       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
+    copy(from.*axis, to.*axis);
+  copy(from.id, to.id);
+}
+
+Dataset frames_of_bones(const Skeleton& skeleton, const Pose& pose,
+                        const std::vector<Reaction>& reactions, Moment moment) {
   Points force, moment_of_force;
-  for (const Reaction& on : reactions(simulation.particles(), simulation.body(), pose)) {
+  for (const Reaction& on : reactions) {
     force.push_back(on.force);
     moment_of_force.push_back(on.moment);
   }
@@ -45,40 +64,56 @@ std::vector<std::int32_t> bones_of_particles(const Body& body) {
 
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
                    const Body& body, const Triangles& surface)
-    : shape_(rest_shape(body.rest, rest_neighbour_range(body.material.pair.r))),
-      skin_(make_skin(surface.points, shape_, body.material.pair.r)),
+    : skeleton_(body.skeleton),
+      rest_(body.rest),
+      skin_(make_skin(surface.points, rest_, body.material.pair.r)),
       surface_(surface),
       particle_bone_(bones_of_particles(body)),
       surface_bone_(bones_of_vertices(skin_, particle_bone_)),
       particles_(folder, format_of(output, "particles", body.material.pair.r)),
       skins_(folder, format_of(output, "surface", body.material.pair.r)),
       bones_(folder, format_of(output, "bones", body.material.pair.r)),
-      frames_(folder, format_of(output, "frames", body.material.pair.r)) {}
-
-Points Recorder::surface_now(const Particles& particles) const {
-  Points now(particles.size());
-  for (std::size_t i = 0; i < now.size(); ++i) now[particles.id[i]] = particles.position(i);
-  return follow(skin_, shape_, now);
-}
+      frames_(folder, format_of(output, "frames", body.material.pair.r)),
+      writer_(moved_.size()) {}
 
 void Recorder::add(Simulation& simulation, double time) {
-  const Moment moment{time, static_cast<std::int32_t>(simulation.steps())};
-  const Particles& particles = simulation.particles();
+  writer_.hand([&] {
+    // There is room, so the frame that was here before is written.
+    Moved& frame = moved_[taken_ % moved_.size()];
+    take(simulation, time, frame);
+    ++taken_;
+    return [this, &frame] { write(frame); };
+  });
+}
+
+void Recorder::take(Simulation& simulation, double time, Moved& frame) {
   const Forces& forces = simulation.forces();
-  Points total(particles.size());
-  for (std::size_t i = 0; i < total.size(); ++i) total[i] = forces.total(i);
-  particles_.add(
-      particles_dataset({particles, shape_.points, particle_bone_, total, forces.pair,
-                         forces.damping, forces.bone, forces.neighbours, simulation.energies()},
-                        moment));
-  surface_.points = surface_now(particles);
-  skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, moment));
-  const Pose pose = simulation.pose();
-  bones_.add(bones_dataset(simulation.body().skeleton, pose, moment));
-  frames_.add(frames_of_bones(simulation, pose, moment));
+  frame.moment = {time, static_cast<std::int32_t>(simulation.steps())};
+  copy(simulation.particles(), frame.particles);
+  copy(forces.pair, frame.force_pair);
+  copy(forces.damping, frame.force_damping);
+  copy(forces.bone, frame.force_bone);
+  copy(forces.neighbours, frame.neighbours);
+  frame.energies = simulation.energies();
+  frame.pose = simulation.pose();
+  frame.reactions = reactions(simulation.particles(), simulation.body(), frame.pose);
+}
+
+void Recorder::write(const Moved& frame) {
+  const Dataset particles =
+      particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
+                         frame.force_damping, frame.force_bone, frame.neighbours, frame.energies},
+                        frame.moment);
+  particles_.add(particles);
+  surface_.points = follow(skin_, particles.points);
+  skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
+  bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
+  frames_.add(frames_of_bones(skeleton_, frame.pose, frame.reactions, frame.moment));
+  ++written_;
 }
 
 void Recorder::close() {
+  writer_.finish();
   for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
 }
 

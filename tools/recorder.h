@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes what a simulation is at this moment as one frame of each series.
+// Writes what a simulation is at this moment as one frame of each series, while it goes on
+// stepping: a frame is copied and handed to a thread of its own.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <filesystem>
 
+#include "core/background.h"
 #include "core/settings.h"
 #include "core/triangles.h"
+#include "io/frames.h"
 #include "io/series.h"
 #include "physics/simulation.h"
 #include "rig/skin.h"
@@ -18,20 +23,40 @@ class Recorder {
   Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
            const Triangles& surface);
 
-  /// Adds the frame at `time` (s). Throws not written.
+  /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
+  /// not written, of a frame before it too: then nothing more is written.
   void add(Simulation& simulation, double time);
+  /// Waits until all frames are written and named by the PVDs. Throws not written.
   void close();
 
-  const std::vector<PvdRow>& rows() const { return particles_.rows(); }
+  /// Frames that every series holds.
+  int written() const { return written_; }
 
  private:
-  Points surface_now(const Particles& particles) const;
+  /// What a frame is made of, in the order of the particles.
+  struct Moved {
+    Moment moment;
+    Particles particles;
+    Points force_pair, force_damping, force_bone;
+    std::vector<std::int32_t> neighbours;
+    Energies energies;
+    Pose pose;
+    std::vector<Reaction> reactions;
+  };
 
-  RestShape shape_;
+  static void take(Simulation& simulation, double time, Moved& frame);
+  void write(const Moved& frame);
+
+  Skeleton skeleton_;
+  Points rest_;  ///< of the particles, in the written order
   Skin skin_;
-  Triangles surface_;  ///< its points as they are now
+  Triangles surface_;  ///< its points as they are in the frame being written
   std::vector<std::int32_t> particle_bone_, surface_bone_;
   Series particles_, skins_, bones_, frames_;
+  std::array<Moved, 2> moved_;  ///< one being written, one waiting; their room is used again
+  std::size_t taken_ = 0;
+  std::atomic<int> written_ = 0;
+  Background writer_;  ///< the last member: it ends before what it works with
 };
 
 /// The bone that holds each particle most, in the written order.

@@ -67,10 +67,11 @@ Shot shot_of(const RunFiles& run, RunFrame frame, double angle) {
   return shot;
 }
 
-Story read_story(const RunFiles& run) {
+Story read_story(const RunFiles& run, int threads) {
   Story story;
+  FramesInOrder frames(run, threads != 1);
   for (std::size_t i = 0; i < run.frames(); ++i) {
-    RunFrame frame = read_frame(run, i);
+    RunFrame frame = frames.next();
     story.angle.push_back(largest_turn(run, frame));
     for (const double value : frame.displacement)
       story.scale.high = std::max(story.scale.high, value);
@@ -100,10 +101,10 @@ std::string numbered(std::size_t frame) {
 
 class Album {
  public:
-  Album(const RunFiles& run, const Options& options)
+  Album(const RunFiles& run, const Options& options, int threads)
       : run_(run),
         options_(options),
-        story_(read_story(run)),
+        story_(read_story(run, threads)),
         painter_(run.surface, story_.scale) {}
 
   /// The contact sheet, and each of its moments by itself. Returns how many pictures.
@@ -153,7 +154,7 @@ Exit render(const Options& options, const Common& common) {
   Stopwatch watch;
   const RunFiles run = open_run({options.folder});
   create({run.folder.pictures()});
-  Album album(run, options);
+  Album album(run, options, common.threads);
   Results results;
   results.add("pictures", album.pictures());
   if (!options.no_movie) {

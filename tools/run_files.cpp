@@ -11,6 +11,8 @@
 namespace sinew {
 namespace {
 
+constexpr std::size_t read_at_once = 2;  // frames: each is large, and more would not come sooner
+
 std::vector<PvdRow> rows_of(const RunFolder& folder, const char* series) {
   return read_pvd(folder.path / (std::string(series) + ".pvd"));
 }
@@ -58,13 +60,14 @@ Energies energies_of(const Dataset& data) {
 
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
-  const Dataset data = read_vtu(file);
+  const Dataset data = read_vtu(file, {"displacement", "velocity"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
-    const Points moved = vectors(data.point_columns, "displacement");
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      frame.positions.push_back(run.body.particles.position(i) + moved[i]);
-      frame.displacement.push_back(moved[i].norm());
+    frame.positions = vectors(data.point_columns, "displacement");
+    frame.displacement.resize(frame.positions.size());
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+      frame.displacement[i] = frame.positions[i].norm();
+      frame.positions[i] += run.body.particles.position(i);
     }
     frame.velocities = vectors(data.point_columns, "velocity");
     frame.energies = energies_of(data);
@@ -73,7 +76,7 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
 
 void read_surface_points(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.surface_rows[index].file;
-  Dataset data = read_vtu(file);
+  Dataset data = read_vtu(file, {});
   if (data.points.size() != run.surface.points.size()) throw of_another_body(file, "points");
   frame.surface_points = std::move(data.points);
 }
@@ -128,6 +131,23 @@ RunFrame read_frame(const RunFiles& run, std::size_t index) {
   read_surface_points(run, index, frame);
   read_bones(run, index, frame);
   return frame;
+}
+
+FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {
+  for (std::size_t i = 0; i < (ahead_ ? read_at_once : 1); ++i) begin();
+}
+
+RunFrame FramesInOrder::next() {
+  RunFrame frame = coming_.front().get();
+  coming_.pop_front();
+  begin();
+  return frame;
+}
+
+void FramesInOrder::begin() {
+  if (index_ == run_.frames()) return;
+  coming_.push_back(std::async(ahead_ ? std::launch::async : std::launch::deferred,
+                               [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
 }  // namespace sinew

@@ -2,6 +2,8 @@
 // The files of a run read back: what measuring and drawing begin with.
 #pragma once
 
+#include <deque>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -42,5 +44,24 @@ struct RunFrame {
 
 /// Throws bad input, naming the file, when it is damaged or of another body.
 RunFrame read_frame(const RunFiles& run, std::size_t frame);
+
+/// The frames of a run one after the other; those that come are read while the caller works on the
+/// one before.
+class FramesInOrder {
+ public:
+  /// Not `ahead`: by the caller's thread, when it asks.
+  FramesInOrder(const RunFiles& run, bool ahead);
+
+  /// As many times as there are frames. Throws what read_frame does.
+  RunFrame next();
+
+ private:
+  void begin();
+
+  const RunFiles& run_;
+  bool ahead_;
+  std::size_t index_ = 0;
+  std::deque<std::future<RunFrame>> coming_;
+};
 
 }  // namespace sinew

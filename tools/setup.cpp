@@ -55,8 +55,8 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   return setup;
 }
 
-Simulation start(const Settings& settings, const Setup& setup, const Particles& particles) {
-  return Simulation(setup.body, setup.motion, particles,
+Simulation start(const Settings& settings, Setup setup, Particles particles) {
+  return Simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
                     stepping_of(settings.solver, setup.steps.step));
 }
 

@@ -20,8 +20,8 @@ struct Setup {
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.
 Setup set_up(const Settings& settings, const Particles& particles);
 
-/// The simulation of a setup, at its start.
-Simulation start(const Settings& settings, const Setup& setup, const Particles& particles);
+/// The simulation of a setup, at its start. What is given away is not copied.
+Simulation start(const Settings& settings, Setup setup, Particles particles);
 
 /// A bound of how far the bones move any particle's place in one step, in radii.
 double bone_speed(const Setup& setup, double interval);

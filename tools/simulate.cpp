@@ -74,45 +74,66 @@ void write_beginning(const Settings& settings, const Prepared& made, const RunFo
   write_view_script(folder.path);
 }
 
+/// How the run goes on through time.
+struct Course {
+  int frames = 0;  ///< after the first
+  int steps_per_frame = 0;
+  double interval = 0;  ///< s between frames
+};
+
 /// Steps to the end, a frame at a time.
-Exit step_through(Simulation& simulation, const Setup& setup, double interval, Recorder& recorder,
+Exit step_through(Simulation& simulation, const Course& course, Recorder& recorder,
                   Journal& journal, Progress& progress) {
   Stopwatch watch;
   for (int frame = 0;; ++frame) {
-    recorder.add(simulation, frame * interval);
-    journal.frame(frame, frame * interval);
-    journal.spend("writing", watch.lap());
-    progress.frame(frame, frame * interval, simulation.steps());
-    if (frame == setup.frames) return Exit::done;
+    const double time = frame * course.interval;
+    recorder.add(simulation, time);
+    journal.frame(frame, time);
+    journal.spend("writing", watch.lap());  // what the stepping waited for it
+    progress.frame(frame, time, simulation.steps());
+    if (frame == course.frames) return Exit::done;
     if (stop_asked()) return Exit::interrupted;
-    for (int step = 0; step < setup.steps.per_frame; ++step) simulation.step();
+    for (int step = 0; step < course.steps_per_frame; ++step) simulation.step();
     journal.spend("stepping", watch.lap());
   }
 }
 
-/// Steps through and closes the series; the good frames of an unstable run too.
-Exit record_run(Simulation& simulation, const Settings& settings, const Prepared& made,
-                const RunFolder& folder, Journal& journal, bool quiet) {
-  Recorder recorder(folder.path, settings.output, made.setup.body, made.surface.triangles);
-  Exit exit = Exit::done;
-  try {
-    Progress progress(made.setup.frames, progress_style(quiet));
-    exit =
-        step_through(simulation, made.setup, settings.output.interval, recorder, journal, progress);
-  } catch (const Error& error) {
-    if (error.exit() == Exit::unstable) recorder.close();
-    throw;
-  }
+/// Waits for the frames that are still being written.
+void close(Recorder& recorder, Journal& journal) {
+  Stopwatch watch;
   recorder.close();
-  return exit;
+  journal.spend("writing", watch.lap());
 }
 
-Exit run_to_end(const Settings& settings, const Prepared& made, const RunFolder& folder,
-                Journal& journal, bool quiet) {
+/// Steps through and closes the series; the good frames of an unstable run too.
+Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder, Journal& journal,
+                bool quiet) {
   try {
+    Progress progress(course.frames, progress_style(quiet));
+    const Exit exit = step_through(simulation, course, recorder, journal, progress);
+    close(recorder, journal);
+    return exit;
+  } catch (const Error& error) {
+    journal.frames(recorder.written());
+    if (error.exit() != Exit::unstable) throw;
+    close(recorder, journal);
+    journal.frames(recorder.written());
+    throw;
+  }
+}
+
+Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder, Journal& journal,
+                bool quiet) {
+  try {
+    Stopwatch watch;
     write_beginning(settings, made, folder);
-    Simulation simulation = start(settings, made.setup, made.body.particles);
-    const Exit exit = record_run(simulation, settings, made, folder, journal, quiet);
+    journal.spend("writing", watch.lap());
+    const Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
+    Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
+    made.body = {};  // millions of numbers that nobody needs any more
+    Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles);
+    journal.spend("binding", watch.lap());
+    const Exit exit = record_run(simulation, course, recorder, journal, quiet);
     journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
     return exit;
   } catch (const Error& error) {
@@ -141,7 +162,7 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
   const FolderLock lock(folder);
   if (!may_begin(folder, options, common)) return Exit::done;
 
-  const Prepared made = prepare(settings, folder);
+  Prepared made = prepare(settings, folder);
   remove_old_run(folder);
   Journal journal(folder, argc, argv);
   journal.spend("filling", made.seconds_filling);
@@ -152,7 +173,7 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
                   three_digits(made.setup.steps.limit) + " s");
 
   catch_stop_signals();
-  const Exit exit = run_to_end(settings, made, folder, journal, common.quiet);
+  const Exit exit = run_to_end(settings, std::move(made), folder, journal, common.quiet);
   print_results(folder, journal, common.json);
   if (exit == Exit::interrupted)
     say(common, "sinew: stopped; go on with: sinew simulate " + options.scene + " -o " +

@@ -19,20 +19,25 @@ Mat3 inverse_or_zero(const Mat3& spread) {
   return spread.inverse();
 }
 
+Mat3 spread_of(const RestShape& rest, std::size_t i) {
+  Mat3 spread = Mat3::Zero();
+  for (const auto j : rest.neighbours.of(i)) {
+    const Vec3 offset = rest.points[j] - rest.points[i];
+    spread += offset * offset.transpose();
+  }
+  return spread;
+}
+
 }  // namespace
 
 RestShape rest_shape(Points points, double range) {
   RestShape rest;
   rest.neighbours = neighbours_within(points, range);
   rest.points = std::move(points);
-  for (std::size_t i = 0; i < rest.points.size(); ++i) {
-    Mat3 spread = Mat3::Zero();
-    for (const auto j : rest.neighbours.of(i)) {
-      const Vec3 offset = rest.points[j] - rest.points[i];
-      spread += offset * offset.transpose();
-    }
-    rest.inverse.push_back(inverse_or_zero(spread));
-  }
+  rest.inverse.resize(rest.points.size());
+  parallel_for(rest.points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) rest.inverse[i] = inverse_or_zero(spread_of(rest, i));
+  });
   return rest;
 }
 

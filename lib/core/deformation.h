@@ -18,7 +18,7 @@ struct RestShape {
   bool defined(std::size_t i) const { return !inverse[i].isZero(0); }
 };
 
-/// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbours.
+/// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbours. In parallel.
 RestShape rest_shape(Points points, double range);
 
 /// sum dx dX^T over the neighbours of point i (m^2): all that is known where F is undefined.

@@ -72,12 +72,6 @@ void NewFile::finish() {
   temporary_.clear();
 }
 
-void replace_file(const fs::path& path, const std::function<void(const fs::path&)>& fill) {
-  NewFile file(path);
-  fill(file.temporary());
-  file.finish();
-}
-
 void write_file(const fs::path& path, std::string_view text) {
   NewFile file(path);
   file.write(text.data(), text.size());

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -30,11 +29,6 @@ class NewFile {
   std::filesystem::path path_, temporary_;
   int file_ = -1;
 };
-
-/// Calls fill(temporary), which writes that file, then moves it to `path`. Throws not written, and
-/// what fill throws.
-void replace_file(const std::filesystem::path& path,
-                  const std::function<void(const std::filesystem::path&)>& fill);
 
 /// Writes `text` as the file `path`. Throws not written.
 void write_file(const std::filesystem::path& path, std::string_view text);

@@ -21,7 +21,7 @@ struct NeighbourLists {
   }
 };
 
-/// Every pair closer than `range` (m), from both sides. Same answer as brute force.
+/// Every pair closer than `range` (m), from both sides. Same answer as brute force. In parallel.
 NeighbourLists neighbours_within(const Points& points, double range);
 
 }  // namespace sinew

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/frames.h"
 
+#include <algorithm>
 #include <cassert>
+
+#include "core/parallel.h"
 
 namespace sinew {
 namespace {
 
 /// Length of an axis stub in lengths of its bone: well seen beside it, short enough not to tangle.
 constexpr double stub = 0.25;
+constexpr std::size_t particles_per_piece = 4096;
 
 Dataset dataset_at(Moment moment) {
   Dataset data;
@@ -16,26 +20,46 @@ Dataset dataset_at(Moment moment) {
   return data;
 }
 
-/// Values in the order of the particles, put into the written order.
-template <class T>
-std::vector<T> in_written_order(std::span<const T> values, const std::vector<std::int32_t>& id) {
-  assert(values.size() == id.size());
-  std::vector<T> written(id.size());
-  for (std::size_t i = 0; i < id.size(); ++i) written[id[i]] = values[i];
+/// value(i) of the particles in their order, put into the written order.
+template <class Value>
+Column written_column(const char* name, const Particles& particles, const Value& value) {
+  assert(particles.id.size() == particles.size());
+  std::vector<double> written(3 * particles.size());
+  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 vector = value(i);
+      std::copy_n(vector.data(), 3, &written[3 * static_cast<std::size_t>(particles.id[i])]);
+    }
+  });
+  return {name, 3, std::move(written)};
+}
+
+Points written_positions(const Particles& particles) {
+  Points written(particles.size());
+  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) written[particles.id[i]] = particles.position(i);
+  });
   return written;
 }
 
-Points differences(const Points& now, const Points& rest) {
-  assert(now.size() == rest.size());
-  Points ways(now.size());
-  for (std::size_t i = 0; i < now.size(); ++i) ways[i] = now[i] - rest[i];
-  return ways;
+std::vector<std::int32_t> in_written_order(std::span<const std::int32_t> values,
+                                           const std::vector<std::int32_t>& id) {
+  assert(values.size() == id.size());
+  std::vector<std::int32_t> written(id.size());
+  parallel_for(id.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) written[id[i]] = values[i];
+  });
+  return written;
 }
 
-Points velocities_of(const Particles& particles) {
-  Points velocities(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) velocities[i] = particles.velocity(i);
-  return velocities;
+Column displacement_column(const Points& now, const Points& rest) {
+  assert(now.size() == rest.size());
+  std::vector<double> ways(3 * now.size());
+  parallel_for(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis) ways[3 * i + axis] = now[i][axis] - rest[i][axis];
+  });
+  return {"displacement", 3, std::move(ways)};
 }
 
 std::vector<std::int32_t> copied(std::span<const std::int32_t> values, std::size_t count) {
@@ -85,22 +109,22 @@ Column per_bone(std::string name, const Pose& pose, Of&& of) {
 
 Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
   const Particles& now = frame.now;
-  const auto written = [&](const Points& values) {
-    return in_written_order(std::span<const Vec3>(values), now.id);
-  };
   const auto forces = [&](const char* name, std::span<const Vec3> values) {
-    return column(name, in_written_order(values, now.id));
+    return written_column(name, now, [values](std::size_t i) { return values[i]; });
+  };
+  const auto force = [&](std::size_t i) -> Vec3 {
+    return frame.force_pair[i] + frame.force_damping[i] + frame.force_bone[i];
   };
   Dataset data = dataset_at(moment);
-  data.points = written(positions_of(now));
+  data.points = written_positions(now);
   data.connectivity = vertex_cells(now.size());
   data.point_columns = {
       column("id", vertex_cells(now.size())),
       column("bone", copied(frame.bone, now.size())),
       column("radius", std::vector<double>(now.size(), now.radius)),
-      column("displacement", differences(data.points, frame.rest)),
-      column("velocity", written(velocities_of(now))),
-      forces("force", frame.force),
+      displacement_column(data.points, frame.rest),
+      written_column("velocity", now, [&](std::size_t i) { return now.velocity(i); }),
+      written_column("force", now, force),
       forces("force_pair", frame.force_pair),
       forces("force_damping", frame.force_damping),
       forces("force_bone", frame.force_bone),
@@ -118,7 +142,7 @@ Dataset surface_dataset(const Triangles& surface, const Points& rest,
   data.connectivity.reserve(3 * surface.faces.size());
   for (const auto& face : surface.faces)
     data.connectivity.insert(data.connectivity.end(), face.begin(), face.end());
-  data.point_columns = {column("displacement", differences(surface.points, rest)),
+  data.point_columns = {displacement_column(surface.points, rest),
                         column("normal", point_normals(surface)),
                         column("bone", copied(bone, surface.points.size()))};
   return data;

@@ -24,14 +24,14 @@ struct ParticleFrame {
   const Particles& now;                      ///< in any order
   const Points& rest;                        ///< m, in the written order
   std::span<const std::int32_t> bone;        ///< in the written order
-  std::span<const Vec3> force;               ///< sum of all terms, N; these in the order of `now`
-  std::span<const Vec3> force_pair;          ///< N
+  std::span<const Vec3> force_pair;          ///< N; these in the order of `now`
   std::span<const Vec3> force_damping;       ///< N
   std::span<const Vec3> force_bone;          ///< N
   std::span<const std::int32_t> neighbours;  ///< partners within b
   Energies energies;
 };
 
+/// In parallel. The force written is the sum of the three.
 Dataset particles_dataset(const ParticleFrame& frame, Moment moment);
 
 /// `rest` are the points of the input surface (n x 3, m); `bone` the one that moves each most.

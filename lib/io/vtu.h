@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 
 #include "core/dataset.h"
@@ -12,8 +13,9 @@
 namespace sinew {
 
 struct VtuFormat {
-  /// zlib (level 1), lz4 and none: base64 within the elements, which every reader takes; raw: appended
-  /// raw, which VTK 9.1 and 9.2 cannot read with a newer expat. UInt64 headers, Int32 cells.
+  /// zlib (level 1), lz4 and none: base64 within the elements, which every reader takes; raw:
+  /// appended raw, which VTK 9.1 and 9.2 cannot read with a newer expat. UInt64 headers, Int32
+  /// cells.
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;  ///< Float64 for every real number
   std::string series;             ///< whose rows of the table hold
@@ -27,5 +29,9 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
 /// Integers beyond Int32 become doubles; a field array becomes one row. Throws bad input, naming
 /// the file, for anything else: never a crash, nothing on the console.
 Dataset read_vtu(const std::filesystem::path& path);
+
+/// The same with only those arrays of the points that are named and there: much sooner.
+Dataset read_vtu(const std::filesystem::path& path,
+                 std::initializer_list<const char*> point_arrays);
 
 }  // namespace sinew

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.h"
 #include "io/vtu_blocks.h"
@@ -37,10 +38,18 @@ constexpr std::array<NumberType, 10> number_types = {{{"Int8", 1},
                                                       {"Float32", 4},
                                                       {"Float64", 8}}};
 
+/// Where data within an element has been left out of the bare XML.
+struct Cut {
+  std::size_t at;    ///< place in the bare XML
+  std::size_t gone;  ///< characters left out up to here
+};
+
 /// What the checks of the elements need to know of the file.
 struct Document {
   std::ifstream file;
   std::string xml;         ///< without the appended data, which may be binary
+  std::string bare;        ///< without the long data within elements: soon parsed
+  std::vector<Cut> cuts;   ///< ascending
   std::uint64_t data = 0;  ///< where the appended data begins; 0 when there is none
   bool data_base64 = true;
   BlockCoding coding;
@@ -107,6 +116,45 @@ void read_xml(Document& document) {
   }
 }
 
+constexpr std::size_t long_data = 256;  // characters
+
+/// Whether there is nothing but base64 and white space: no part of a tag, whatever surrounds it.
+bool is_base64(std::string_view text) {
+  static const auto plain = [] {
+    std::array<bool, 256> table{};
+    for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                         "0123456789+/= \t\r\n"))
+      table[static_cast<unsigned char>(c)] = true;
+    return table;
+  }();
+  bool all = true;
+  for (const char c : text) all &= plain[static_cast<unsigned char>(c)];
+  return all;
+}
+
+void leave_data_out(Document& document) {
+  const std::string_view xml = document.xml;
+  std::size_t kept = 0;  // up to here
+  for (auto tag = xml.find('<'); tag != xml.npos;) {
+    const auto begin = std::min(xml.find('>', tag), xml.size() - 1) + 1;
+    tag = xml.find('<', begin);
+    if (tag == xml.npos || tag - begin < long_data) continue;
+    if (!is_base64(xml.substr(begin, tag - begin))) continue;
+    document.bare += xml.substr(kept, begin - kept);
+    kept = tag;
+    document.cuts.push_back({document.bare.size(), kept - document.bare.size()});
+  }
+  document.bare += xml.substr(kept);
+}
+
+/// The place in the whole XML of a tag that begins at `at` in the bare one.
+std::size_t whole_place(const Document& document, std::size_t at) {
+  const auto after =
+      std::upper_bound(document.cuts.begin(), document.cuts.end(), at,
+                       [](std::size_t place, const Cut& cut) { return place < cut.at; });
+  return after == document.cuts.begin() ? at : at + std::prev(after)->gone;
+}
+
 /// Every attribute NumberOf...
 void check_counts(vtkXMLDataElement& element, std::uint64_t bytes) {
   for (int i = 0; i < element.GetNumberOfAttributes(); ++i) {
@@ -150,7 +198,8 @@ bool block_is_sound(vtkXMLDataElement& array, Document& document) {
   }
   if (attribute(array, "format") != "binary") return true;
   std::string_view text = document.xml;  // the element itself keeps no data
-  text.remove_prefix(std::min<std::size_t>(array.GetXMLByteIndex(), text.size()));
+  const auto place = whole_place(document, static_cast<std::size_t>(array.GetXMLByteIndex()));
+  text.remove_prefix(std::min(place, text.size()));
   text.remove_prefix(std::min(text.find('>'), text.size() - 1) + 1);
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   return block_is_sound([&](std::size_t count) { return std::string(text.substr(0, count)); },
@@ -168,7 +217,7 @@ void check_elements(vtkXMLDataElement& element, Document& document) {
 
 void check_xml(Document& document) {
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
-      vtkXMLUtilities::ReadElementFromString(document.xml.c_str()));
+      vtkXMLUtilities::ReadElementFromString(document.bare.c_str()));
   if (!root || std::string_view(root->GetName()) != "VTKFile")
     throw refused("it is not a VTK XML file");
   if (const auto type = attribute(*root, "type"); type != "UnstructuredGrid")
@@ -192,7 +241,8 @@ void check_vtu_header(const std::filesystem::path& path) {
   if (!document.file) throw bad_input("it cannot be opened", "check the path and the permissions");
   check_start_and_end(document);
   read_xml(document);
-  if (!nests_moderately(document.xml)) throw refused("its elements are nested too deeply");
+  leave_data_out(document);
+  if (!nests_moderately(document.bare)) throw refused("its elements are nested too deeply");
   check_xml(document);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -13,6 +15,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <type_traits>
 
 #include "core/error.h"
 #include "io/vtk_messages.h"
@@ -40,12 +44,22 @@ bool fits_int32(vtkDataArray& array) {
   return true;
 }
 
+template <class Value, class Array>
+std::vector<Value> converted_values(Array& array) {
+  const auto* first = array.GetPointer(0);
+  return {first, first + array.GetNumberOfValues()};
+}
+
 template <class Array>
 std::vector<typename Array::ValueType> values_of(vtkDataArray& array) {
+  using Value = typename Array::ValueType;
+  // What our own files hold, without a copy between.
+  if (auto* same = Array::FastDownCast(&array)) return converted_values<Value>(*same);
+  if (auto* reals = vtkFloatArray::FastDownCast(&array); reals && std::is_same_v<Value, double>)
+    return converted_values<Value>(*reals);
   vtkNew<Array> converted;
   converted->DeepCopy(&array);
-  const auto* first = converted->GetPointer(0);
-  return {first, first + converted->GetNumberOfValues()};
+  return converted_values<Value>(*converted);
 }
 
 Column column_of(vtkDataArray& array) {
@@ -74,8 +88,9 @@ std::vector<Column> columns_of(vtkFieldData& from, vtkIdType rows) {
 Points points_of(vtkUnstructuredGrid& grid) {
   if (!grid.GetPoints()) return {};
   const auto flat = values_of<vtkDoubleArray>(*grid.GetPoints()->GetData());
-  Points points(flat.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = Vec3(&flat[3 * i]);
+  Points points;
+  points.reserve(flat.size() / 3);
+  for (std::size_t i = 0; i + 2 < flat.size(); i += 3) points.emplace_back(&flat[i]);
   return points;
 }
 
@@ -141,11 +156,24 @@ Dataset dataset_of(vtkUnstructuredGrid& grid) {
   return data;
 }
 
-Dataset read_checked(const std::filesystem::path& path) {
+using Names = std::initializer_list<const char*>;
+
+/// Lets the reader pass over all arrays of the points but those named.
+void select(vtkXMLUnstructuredGridReader& reader, const Names& names) {
+  reader.UpdateInformation();
+  vtkDataArraySelection& selection = *reader.GetPointDataArraySelection();
+  selection.DisableAllArrays();
+  for (const char* name : names)
+    if (selection.ArrayExists(name)) selection.EnableArray(name);
+}
+
+/// All arrays of the points where `names` is none.
+Dataset read_checked(const std::filesystem::path& path, const std::optional<Names>& names) {
   const VtkMessages messages;
   check_vtu_header(path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
+  if (names) select(*reader, *names);
   reader->Update();
   if (messages.failed()) throw refused("it cannot be read: " + messages.first_error());
   if (reader->GetErrorCode() != 0 || !reader->GetOutput())
@@ -153,17 +181,24 @@ Dataset read_checked(const std::filesystem::path& path) {
   return dataset_of(*reader->GetOutput());
 }
 
-}  // namespace
-
-Dataset read_vtu(const std::filesystem::path& path) {
+Dataset read_told(const std::filesystem::path& path, const std::optional<Names>& names) {
   try {
-    return read_checked(path);
+    return read_checked(path, names);
   } catch (const Error& error) {
     throw error.within({path.string()});
   } catch (const std::exception&) {
     // What VTK throws when it believes a wrong count: out of memory, a vector too long.
     throw refused("its counts do not fit its size").within({path.string()});
   }
+}
+
+}  // namespace
+
+Dataset read_vtu(const std::filesystem::path& path) { return read_told(path, std::nullopt); }
+
+Dataset read_vtu(const std::filesystem::path& path,
+                 std::initializer_list<const char*> point_arrays) {
+  return read_told(path, point_arrays);
 }
 
 }  // namespace sinew

@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include "core/parallel.h"
 
 namespace sinew {
 namespace {
+
+constexpr std::size_t particles_per_piece = 4096;
 
 /// Where two bones meet, and the zone in which weights pass from parent to child.
 struct Joint {
@@ -34,10 +39,18 @@ std::vector<double> cross_sections(const Skeleton& skeleton, const std::vector<d
   return sections;
 }
 
-std::vector<double> sections_by_nearest(const Points& rest, const Skeleton& skeleton,
+std::vector<int> nearest_bones(const Points& rest, const Skeleton& skeleton) {
+  std::vector<int> nearest(rest.size());
+  parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) nearest[i] = nearest_bone(skeleton, rest[i]);
+  });
+  return nearest;
+}
+
+std::vector<double> sections_by_nearest(const std::vector<int>& nearest, const Skeleton& skeleton,
                                         double particle_volume) {
   std::vector<double> volumes(skeleton.size(), 0.0);
-  for (const Vec3& point : rest) volumes[nearest_bone(skeleton, point)] += particle_volume;
+  for (const int bone : nearest) volumes[bone] += particle_volume;
   return cross_sections(skeleton, volumes);
 }
 
@@ -92,6 +105,30 @@ Reach reach_of(const Skeleton& skeleton, const std::vector<Joint>& joints) {
   return reach;
 }
 
+/// What binds one particle, its feet and distances included.
+std::vector<Influence> influences_on(const Vec3& point, int nearest, const Skeleton& skeleton,
+                                     const std::vector<Joint>& joints, const Reach& reach) {
+  std::vector<Influence> held = shares(nearest, point, joints);
+  for (Influence& influence : held) {
+    const int b = influence.bone;
+    influence.foot = foot_on(skeleton.bones[b], point, reach.before[b], reach.beyond[b]);
+    influence.rest_distance = (point - influence.foot).norm();
+  }
+  return held;
+}
+
+/// Puts the influences of consecutive pieces of particles together; `first` counts them.
+std::vector<Influence> joined(std::vector<std::vector<Influence>> pieces,
+                              const std::vector<std::uint32_t>& first) {
+  std::vector<Influence> all(first.back());
+  parallel_for(first.size() - 1, particles_per_piece, [&](std::size_t begin, std::size_t) {
+    auto& piece = pieces[begin / particles_per_piece];
+    std::copy(piece.begin(), piece.end(), all.begin() + first[begin]);
+    piece = {};
+  });
+  return all;
+}
+
 }  // namespace
 
 int nearest_bone(const Skeleton& skeleton, const Vec3& point) {
@@ -106,22 +143,27 @@ int nearest_bone(const Skeleton& skeleton, const Vec3& point) {
 
 Binding bind_to_bones(const Points& rest, const Skeleton& skeleton, double particle_volume,
                       double joint_zone) {
-  const auto sections = sections_by_nearest(rest, skeleton, particle_volume);
+  const std::vector<int> nearest = nearest_bones(rest, skeleton);
+  const auto sections = sections_by_nearest(nearest, skeleton, particle_volume);
   const std::vector<Joint> joints = joints_of(skeleton, sections, joint_zone);
   const Reach reach = reach_of(skeleton, joints);
-  std::vector<double> volumes(skeleton.size(), 0.0);
   Binding binding;
-  binding.first.push_back(0);
-  for (const Vec3& point : rest) {
-    for (Influence influence : shares(nearest_bone(skeleton, point), point, joints)) {
-      const int b = influence.bone;
-      influence.foot = foot_on(skeleton.bones[b], point, reach.before[b], reach.beyond[b]);
-      influence.rest_distance = (point - influence.foot).norm();
-      volumes[b] += influence.weight * particle_volume;
-      binding.influences.push_back(influence);
+  binding.first.assign(rest.size() + 1, 0);
+  std::vector<std::vector<Influence>> pieces((rest.size() + particles_per_piece - 1) /
+                                             particles_per_piece);
+  parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto held = influences_on(rest[i], nearest[i], skeleton, joints, reach);
+      auto& piece = pieces[begin / particles_per_piece];
+      piece.insert(piece.end(), held.begin(), held.end());
+      binding.first[i + 1] = static_cast<std::uint32_t>(held.size());
     }
-    binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
-  }
+  });
+  std::partial_sum(binding.first.begin(), binding.first.end(), binding.first.begin());
+  binding.influences = joined(std::move(pieces), binding.first);
+  std::vector<double> volumes(skeleton.size(), 0.0);
+  for (const Influence& influence : binding.influences)  // in the order of the particles
+    volumes[influence.bone] += influence.weight * particle_volume;
   binding.cross_section = cross_sections(skeleton, volumes);
   return binding;
 }

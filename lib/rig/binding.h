@@ -36,7 +36,8 @@ struct Binding {
 };
 
 /// Binds particles at `rest` (n x 3, m), each of volume `particle_volume` (m^3), to the bones.
-/// `joint_zone` is the length of the zone in square roots of the bones' cross-section; 0: none.
+/// In parallel; `joint_zone` is the length of the zone in square roots of the bones' cross-section;
+/// 0: none.
 Binding bind_to_bones(const Points& rest, const Skeleton& skeleton, double particle_volume,
                       double joint_zone);
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <numeric>
+#include <optional>
 
 #include "core/cell_grid.h"
+#include "core/closest_packing.h"
 #include "core/parallel.h"
 
 namespace sinew {
@@ -14,7 +16,7 @@ namespace {
 constexpr double reach_in_radii = 6;
 constexpr std::size_t least_particles = 20;  // fewer would let single particles show in the skin
 constexpr double margin = 1.05;  // h beyond the last of them, which counts a little then
-constexpr std::size_t vertices_per_piece = 512;
+constexpr std::size_t vertices_per_piece = 512;  // and particles
 
 struct Near {
   double distance;
@@ -35,22 +37,98 @@ std::vector<Near> within(const CellGrid& grid, const Points& points, const Vec3&
   return near;
 }
 
-/// The particles around `vertex` and the distance h at which weights end. `grids` of doubled reach
-/// are made as vertices ask for them: few do.
-std::pair<std::vector<Near>, double> support(std::deque<CellGrid>& grids, const Points& points,
-                                             const Vec3& vertex, double range) {
-  if (points.empty()) return {{}, range};
+/// The particles around a vertex and the distance h at which their weights end.
+struct Support {
+  std::vector<Near> near;
+  double h = 0;
+};
+
+/// Empty where fewer than `wanted` particles lie within `wide`.
+std::optional<Support> support_within(const CellGrid& grid, const Points& points,
+                                      const Vec3& vertex, double range, double wide,
+                                      std::size_t wanted) {
+  std::vector<Near> near = within(grid, points, vertex, margin * wide);
+  if (near.size() < wanted || near[wanted - 1].distance >= wide) return std::nullopt;
+  const double h = std::max(range, margin * near[wanted - 1].distance);
+  std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
+  return Support{std::move(near), h};
+}
+
+/// Of each vertex; looked for twice as far for the few that have found too little.
+std::vector<Support> supports_of(const Points& vertices, const Points& points, double range) {
+  std::vector<Support> supports(vertices.size());
+  if (points.empty()) return supports;
   const std::size_t wanted = std::min(least_particles, points.size());
-  double wide = range;
-  for (std::size_t level = 0;; ++level, wide *= 2) {
-    const double furthest = margin * wide;
-    if (level == grids.size()) grids.emplace_back(points, furthest);
-    std::vector<Near> near = within(grids[level], points, vertex, furthest);
-    if (near.size() < wanted || near[wanted - 1].distance >= wide) continue;
-    const double h = std::max(range, margin * near[wanted - 1].distance);
-    std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
-    return {std::move(near), h};
+  std::vector<std::uint32_t> left(vertices.size());
+  std::iota(left.begin(), left.end(), 0);
+  for (double wide = range; !left.empty(); wide *= 2) {
+    const CellGrid grid(points, margin * wide);
+    std::vector<char> found(left.size());
+    parallel_for(left.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        if (auto support = support_within(grid, points, vertices[left[k]], range, wide, wanted))
+          supports[left[k]] = *std::move(support), found[k] = 1;
+    });
+    std::size_t k = 0;
+    std::erase_if(left, [&](std::uint32_t) { return found[k++] != 0; });
   }
+  return supports;
+}
+
+void add_weights(Skin& skin, const Support& support) {
+  double sum = 0;
+  for (const Near& one : support.near) {
+    const double rise = 1 - (one.distance / support.h) * (one.distance / support.h);
+    skin.particle.push_back(one.particle);
+    skin.weight.push_back(rise * rise * rise);
+    sum += skin.weight.back();
+  }
+  for (std::size_t k = skin.first.back(); k < skin.weight.size(); ++k) skin.weight[k] /= sum;
+  skin.first.push_back(static_cast<std::uint32_t>(skin.weight.size()));
+}
+
+std::vector<std::uint32_t> indices_of(const std::vector<char>& marked) {
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i]) indices.push_back(static_cast<std::uint32_t>(i));
+  return indices;
+}
+
+/// Marks the points closer than `range` to one that is marked.
+void mark_neighbours(const CellGrid& grid, const Points& points, double range,
+                     std::vector<char>& marked) {
+  const std::vector<std::uint32_t> from = indices_of(marked);
+  std::vector<std::vector<std::uint32_t>> found((from.size() + vertices_per_piece - 1) /
+                                                vertices_per_piece);
+  parallel_for(from.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      grid.for_each_near(points[from[k]], [&](std::uint32_t j) {
+        if (!marked[j] && (points[j] - points[from[k]]).squaredNorm() < range * range)
+          found[begin / vertices_per_piece].push_back(j);
+      });
+  });
+  for (const auto& some : found)
+    for (const std::uint32_t j : some) marked[j] = 1;
+}
+
+/// Keeps of the body what the skin needs.
+void add_body(Skin& skin, const Points& points, double radius) {
+  const double range = rest_neighbour_range(radius);
+  std::vector<char> marked(points.size());
+  for (const std::uint32_t j : skin.particle) marked[j] = 1;
+  const std::vector<char> carriers = marked;
+  const CellGrid grid(points, range);
+  for (int ring = 0; ring < 2; ++ring) mark_neighbours(grid, points, range, marked);
+  skin.near = indices_of(marked);
+  std::vector<std::uint32_t> place(points.size());
+  Points near;
+  for (const std::uint32_t j : skin.near) {
+    place[j] = static_cast<std::uint32_t>(near.size());
+    near.push_back(points[j]);
+    skin.carries.push_back(carriers[j]);
+  }
+  for (std::uint32_t& j : skin.particle) j = place[j];
+  skin.shape = rest_shape(std::move(near), range);
 }
 
 /// How particle j turns, seen with its neighbours' neighbours: alone it may be the end of a line.
@@ -72,38 +150,31 @@ Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
 
 }  // namespace
 
-Skin make_skin(const Points& vertices, const RestShape& body, double radius) {
-  const double range = reach_in_radii * radius;
-  std::deque<CellGrid> grids;
+Skin make_skin(const Points& vertices, const Points& points, double radius) {
   Skin skin;
   skin.rest = vertices;
   skin.first.push_back(0);
-  for (const Vec3& vertex : vertices) {
-    const auto [near, h] = support(grids, body.points, vertex, range);
-    double sum = 0;
-    for (const Near& one : near) {
-      const double rise = 1 - (one.distance / h) * (one.distance / h);
-      skin.particle.push_back(one.particle);
-      skin.weight.push_back(rise * rise * rise);
-      sum += skin.weight.back();
-    }
-    for (std::size_t k = skin.first.back(); k < skin.weight.size(); ++k) skin.weight[k] /= sum;
-    skin.first.push_back(static_cast<std::uint32_t>(skin.weight.size()));
-  }
+  for (const Support& support : supports_of(vertices, points, reach_in_radii * radius))
+    add_weights(skin, support);
+  add_body(skin, points, radius);
   return skin;
 }
 
-Points follow(const Skin& skin, const RestShape& body, const Points& now) {
-  std::vector<Mat3> carriers(now.size());
-  parallel_for(now.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) carriers[j] = carrier(body, now, j);
+Points follow(const Skin& skin, const Points& now) {
+  Points near(skin.near.size());
+  for (std::size_t j = 0; j < near.size(); ++j) near[j] = now[skin.near[j]];
+  std::vector<Mat3> carriers(near.size());
+  parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      if (skin.carries[j]) carriers[j] = carrier(skin.shape, near, j);
   });
   Points moved(skin.rest.size(), Vec3::Zero());
   parallel_for(moved.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k) {
         const std::uint32_t j = skin.particle[k];
-        moved[i] += skin.weight[k] * (now[j] + carriers[j] * (skin.rest[i] - body.points[j]));
+        moved[i] +=
+            skin.weight[k] * (near[j] + carriers[j] * (skin.rest[i] - skin.shape.points[j]));
       }
   });
   return moved;

@@ -15,15 +15,22 @@ namespace sinew {
 struct Skin {
   Points rest;                          ///< vertices at rest, n x 3, m
   std::vector<std::uint32_t> first;     ///< n + 1 long; vertex i has [first[i], first[i + 1])
-  std::vector<std::uint32_t> particle;  ///< indices into the body's rest points
+  std::vector<std::uint32_t> particle;  ///< places in `near`
   std::vector<double> weight;           ///< sums to 1 for each vertex
+
+  /// The particles that matter, ascending indices into the body's rest points: those that carry
+  /// vertices, and their neighbours and theirs, which tell how they deform.
+  std::vector<std::uint32_t> near;
+  std::vector<char> carries;  ///< whether each of them carries a vertex
+  RestShape shape;            ///< of these alone; whole for those that carry and their neighbours
 };
 
-/// Ties vertices (n x 3, m) to the particles of `body` (of radius `radius`, m) within
-/// h = max(6 radius, 1.05 times the distance of the 20th particle).
-Skin make_skin(const Points& vertices, const RestShape& body, double radius);
+/// Ties vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m) within
+/// h = max(6 radius, 1.05 times the distance of the 20th particle). In parallel.
+Skin make_skin(const Points& vertices, const Points& points, double radius);
 
-/// The vertices when the particles are at `now` (m, in the order of body.points). In parallel.
-Points follow(const Skin& skin, const RestShape& body, const Points& now);
+/// The vertices when the particles are at `now` (m, in the order of the body's points). In
+/// parallel.
+Points follow(const Skin& skin, const Points& now);
 
 }  // namespace sinew

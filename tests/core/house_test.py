@@ -19,6 +19,7 @@ HEAVY = {
     r"yaml-cpp/": ("config",),
     r"(tbb|oneapi)/": ("core/parallel.cpp",),
     r"nlohmann/": ("io", "metrics"),
+    r"(libdeflate|lz4)\.h": ("io",),
     r"X11/": ("render",),
     r"(spdlog|fmt|CLI)/": (),
 }
@@ -29,6 +30,7 @@ HEAVY_TARGETS = {
     r"yaml-cpp": ("config",),
     r"TBB::": ("core",),
     r"nlohmann_json::": ("io", "metrics"),
+    r"^(deflate|lz4)$": ("io",),
     r"X11::": ("render",),
     r"spdlog::|fmt::|CLI11::": (),
 }

@@ -108,7 +108,7 @@ Dataset SyntheticRun::particles(Moment moment) const {
   const Pose pose = pose_at(skeleton, motion, moment.time);
   const std::size_t n = count();
   Particles now = particles_at(rest, radius, 0.001);
-  Points force(n), pair(n), damping(n), pull(n);
+  Points pair(n), damping(n), pull(n);
   std::vector<std::int32_t> neighbours(n);
   // The physics may keep its particles in any order; here it is backwards.
   for (std::size_t i = 0; i < n; ++i) {
@@ -119,12 +119,10 @@ Dataset SyntheticRun::particles(Moment moment) const {
     pair[i] = 0.1 * (rest[w] - now.position(i));
     damping[i] = -0.01 * now.velocity(i);
     pull[i] = Vec3(0, 0, 1e-3 * bone[w]);
-    force[i] = pair[i] + damping[i] + pull[i];
     neighbours[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, force, pair, damping, pull, neighbours, energies},
-                           moment);
+  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies}, moment);
 }
 
 Dataset SyntheticRun::surface(Moment moment) const {

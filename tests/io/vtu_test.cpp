@@ -64,9 +64,7 @@ INSTANTIATE_TEST_SUITE_P(All, VtuEncodings,
                          testing::Values(Encoding::zlib, Encoding::lz4, Encoding::raw,
                                          Encoding::none));
 
-std::string header(const std::filesystem::path& path) {
-  return text_of(path);
-}
+std::string header(const std::filesystem::path& path) { return text_of(path); }
 
 /// The opening tag of the array `name`, with its information keys.
 std::string tag(const std::string& header, const std::string& name) {
@@ -132,6 +130,17 @@ TEST_F(Vtu, PointsBecomeFloat64WhereFloat32CannotPlaceThem) {
   EXPECT_TRUE(contains(type(99.9), "Float32"));
   EXPECT_TRUE(contains(type(100.1), "Float64"));
   EXPECT_TRUE(contains(type(-100.1), "Float64"));
+}
+
+TEST_F(Vtu, OnlyTheArraysAskedForAreRead) {
+  const Dataset data = SyntheticRun().particles({0.5, 3});
+  write_vtu(folder / "f.vtu", data, {Encoding::zlib, true, "particles", 0.01});
+  const Dataset read = read_vtu(folder / "f.vtu", {"velocity", "absent"});
+  ASSERT_EQ(read.point_columns.size(), 1u);
+  EXPECT_EQ(vectors(read.point_columns, "velocity"), vectors(data.point_columns, "velocity"));
+  EXPECT_EQ(read.points, data.points);
+  EXPECT_EQ(read.time, data.time);
+  EXPECT_EQ(read.field_columns.size(), data.field_columns.size());
 }
 
 TEST_F(Vtu, AnEmptyDatasetComesBackEmpty) {

@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "core/parallel.h"
 #include "world.h"
 
 namespace sinew {
@@ -144,6 +145,23 @@ TEST(Binding, BonesThatDoNotTouchShareNoParticle) {
     ASSERT_EQ(binding.of(i).size(), 1u);
     EXPECT_EQ(binding.bone(i), 4);
   }
+}
+
+TEST(Binding, HasTheSameBitsForEveryThreadCount) {
+  const Points rest = test::fcc_box(21, 21, 49, r);  // several pieces
+  const Binding expected = bind_to_bones(rest, two_bones(), V0, 1);
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] {
+      const Binding found = bind_to_bones(rest, two_bones(), V0, 1);
+      EXPECT_EQ(found.first, expected.first);
+      EXPECT_EQ(found.cross_section, expected.cross_section);
+      ASSERT_EQ(found.influences.size(), expected.influences.size());
+      for (std::size_t k = 0; k < found.influences.size(); ++k) {
+        ASSERT_EQ(found.influences[k].bone, expected.influences[k].bone);
+        ASSERT_EQ(found.influences[k].weight, expected.influences[k].weight);
+        ASSERT_EQ(found.influences[k].foot, expected.influences[k].foot);
+      }
+    });
 }
 
 TEST(Binding, OfNoParticlesHoldsNothing) {

@@ -17,8 +17,6 @@ using test::turned;
 
 constexpr double r = 0.01;
 
-RestShape shape(const Points& points) { return rest_shape(points, rest_neighbour_range(r)); }
-
 /// Vertices in and around the box of the points, up to `beyond` outside.
 Points vertices_around(const Points& points, double beyond, int count = 300) {
   std::mt19937 random(5);
@@ -33,10 +31,9 @@ Points vertices_around(const Points& points, double beyond, int count = 300) {
 
 /// The largest error when the body, vertices around it, and all, move by F and a shift.
 double error_under(const Points& points, const Mat3& F, const Vec3& shift) {
-  const RestShape body = shape(points);
   const Points vertices = vertices_around(points, 2 * r);
   const Points expected = affine(vertices, F, shift);
-  const Points found = follow(make_skin(vertices, body, r), body, affine(points, F, shift));
+  const Points found = follow(make_skin(vertices, points, r), affine(points, F, shift));
   double most = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
     most = std::max(most, (found[i] - expected[i]).norm());
@@ -52,8 +49,8 @@ TEST(Skin, FollowsAffineMotionExactly) {
 }
 
 TEST(Skin, WeightsArePositiveAndAPartitionOfUnity) {
-  const RestShape body = shape(test::fcc_box(5, 5, 9, r));
-  const Skin skin = make_skin(vertices_around(body.points, 30 * r), body, r);
+  const Points points = test::fcc_box(5, 5, 9, r);
+  const Skin skin = make_skin(vertices_around(points, 30 * r), points, r);
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     double sum = 0;
     for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k) {
@@ -82,12 +79,11 @@ std::vector<double> weights_by_definition(const Vec3& vertex, const Points& poin
 
 TEST(Skin, WeightsAreThoseOfTheDefinitionNearAndFar) {
   for (const Points& points : {test::fcc_box(5, 5, 9, r), test::fcc_box(3, 3, 1, r)}) {
-    const RestShape body = shape(points);
-    const Skin skin = make_skin(vertices_around(points, 12 * r, 2000), body, r);
+    const Skin skin = make_skin(vertices_around(points, 12 * r, 2000), points, r);
     for (std::size_t i = 0; i < skin.rest.size(); ++i) {
       std::vector<double> found(points.size(), 0.0);
       for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k)
-        found[skin.particle[k]] += skin.weight[k];
+        found[skin.near[skin.particle[k]]] += skin.weight[k];
       const auto expected = weights_by_definition(skin.rest[i], points);
       for (std::size_t j = 0; j < points.size(); ++j) ASSERT_NEAR(found[j], expected[j], 1e-12);
     }
@@ -112,26 +108,55 @@ TEST(Skin, OfLinesAndSinglePointsRestsAndMovesAlong) {
 }
 
 TEST(Skin, KeepsOnlyTheRotationWhereTheGradientIsUnreliable) {
-  const RestShape body = shape(test::fcc_box(5, 5, 5, r));
-  const Points vertices = {body.points[10] + Vec3(r, 0, 0)};
-  const Skin skin = make_skin(vertices, body, r);
+  const Points points = test::fcc_box(5, 5, 5, r);
+  const Points vertices = {points[10] + Vec3(r, 0, 0)};
+  const Skin skin = make_skin(vertices, points, r);
   // Ten times as large in all directions: J = 1000 is no gradient to extrapolate with.
-  const Points now = follow(skin, body, affine(body.points, 10 * Mat3::Identity()));
+  const Points now = follow(skin, affine(points, 10 * Mat3::Identity()));
   Vec3 expected = Vec3::Zero();
   for (auto k = skin.first[0]; k < skin.first[1]; ++k) {
-    const Vec3& at_rest = body.points[skin.particle[k]];
+    const Vec3& at_rest = points[skin.near[skin.particle[k]]];
     expected += skin.weight[k] * (10 * at_rest + (vertices[0] - at_rest));
   }
   EXPECT_LT((now[0] - expected).norm(), 1e-12);
 }
 
+TEST(Skin, KeepsOnlyTheParticlesNearItAndFollowsAsWithAll) {
+  const Points points = test::fcc_box(25, 25, 25, r);
+  const RestShape body = rest_shape(points, rest_neighbour_range(r));
+  const Points vertices = vertices_around(test::fcc_box(5, 5, 5, r), r);
+  const Skin skin = make_skin(vertices, points, r);
+  EXPECT_LT(skin.near.size(), points.size() / 2);
+  Points now;
+  for (const Vec3& p : points)
+    now.push_back(p + 3 * Vec3(p.y() * p.z(), p.x() * p.x(), p.y() * p.x()));
+  const Points found = follow(skin, now);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Vec3 expected = Vec3::Zero();
+    for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k) {
+      const std::uint32_t j = skin.near[skin.particle[k]];
+      const Mat3 F = deformation_gradient(body, now, j);
+      expected += skin.weight[k] * (now[j] + F * (vertices[i] - points[j]));
+    }
+    EXPECT_EQ(found[i], expected);
+  }
+}
+
 TEST(Skin, HasTheSameBitsForEveryThreadCount) {
-  const RestShape body = shape(test::fcc_box(11, 11, 25, r));
-  const Skin skin = make_skin(vertices_around(body.points, r, 3000), body, r);
-  const Points moved = affine(body.points, turned({1, 1, 0}, 20));
-  const Points expected = follow(skin, body, moved);
+  const Points points = test::fcc_box(11, 11, 25, r);
+  const Points vertices = vertices_around(points, 12 * r, 3000);
+  const Points moved = affine(points, turned({1, 1, 0}, 20));
+  const Skin skin = make_skin(vertices, points, r);
+  const Points expected = follow(skin, moved);
   for (const int threads : {1, 2, 3, 8})
-    with_threads(threads, [&] { EXPECT_EQ(follow(skin, body, moved), expected); });
+    with_threads(threads, [&] {
+      const Skin again = make_skin(vertices, points, r);
+      EXPECT_EQ(again.first, skin.first);
+      EXPECT_EQ(again.particle, skin.particle);
+      EXPECT_EQ(again.weight, skin.weight);
+      EXPECT_EQ(again.near, skin.near);
+      EXPECT_EQ(follow(again, moved), expected);
+    });
 }
 
 }  // namespace

@@ -8,6 +8,8 @@ import csv
 import json
 import os
 import pty
+import re
+import resource
 import signal
 import subprocess
 import sys
@@ -89,6 +91,18 @@ class Commands(unittest.TestCase):
         for part in parts:
             self.assertIn(part, errors[0])
 
+    def assert_series_are_whole(self, frames):
+        """Every series has these frames, in the order of their times, and nothing torn beside."""
+        for name in SERIES:
+            expected = [f"{name}/{name}_{i:06}.vtu" for i in range(frames)]
+            pvd = (self.out / f"{name}.pvd").read_text()
+            self.assertEqual(re.findall(r'file="([^"]*)"', pvd), expected)
+            times = [float(time) for time in re.findall(r'timestep="([^"]*)"', pvd)]
+            self.assertEqual(times, sorted(times))
+            for file in expected:
+                self.assertTrue((self.out / file).read_bytes().endswith(b"</VTKFile>\n"), file)
+            self.assertEqual(len(list((self.out / name).iterdir())), frames, name)
+
     def test_run_leaves_everything_behind(self):
         sinew("run", self.scene, "-o", self.out, "--no-movie", check=0)
         for name in ["scene.yaml", "run.json", "log.txt", "body.vtu", "metrics.csv", "metrics.json",
@@ -153,7 +167,23 @@ class Commands(unittest.TestCase):
         done = self.simulate("--set", "solver.time_step=0.0166", "--set", "solver.duration=2", check=3)
         self.assert_one_line(done, 3, "particle", "solver.time_step")
         self.assertEqual(self.record()["status"], "unstable")
-        self.assertEqual(self.record()["frames"], len(list((self.out / "particles").glob("*.vtu"))))
+        self.assertGreater(self.record()["frames"], 0)
+        self.assert_series_are_whole(self.record()["frames"])
+
+    def test_disk_that_fills_up_while_frames_are_written_ends_with_4(self):
+        words = ["--set", "body.radius=0.012", "--set", "solver.duration=0.4"]
+        self.simulate(*words)
+        frames = sorted((self.out / "particles").glob("*.vtu"))
+        limit = frames[1].stat().st_size  # stands for the full disk: larger files fail
+        bad = next(i for i, file in enumerate(frames) if file.stat().st_size > limit)
+        limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        done = sinew("simulate", self.scene, "-o", self.out, "--force", *words, preexec_fn=limited,
+                     restore_signals=False)
+        self.assert_one_line(done, 4, frames[bad].name, "cannot be written: File too large",
+                             "free some space")
+        self.assertEqual(self.record()["status"], "failed")
+        self.assertEqual(self.record()["frames"], bad)
+        self.assert_series_are_whole(bad)
 
     def test_limits_decide_the_exit_code_of_measure(self):
         self.simulate()
@@ -178,8 +208,7 @@ class Commands(unittest.TestCase):
                 self.assertEqual(child.wait(30), 130)
             self.assertIn("--resume", said)
             self.assertEqual(self.record()["status"], "stopped")
-            files = len(list((self.out / "frames").glob("*.vtu")))
-            self.assertEqual((self.out / "particles.pvd").read_text().count("<DataSet"), files)
+            self.assert_series_are_whole(self.record()["frames"])
             sinew("measure", self.out, check=0)
 
     def test_interrupt_from_a_terminal_stops_a_whole_run(self):

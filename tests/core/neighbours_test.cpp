@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/neighbours.h"
+
+#include <gtest/gtest.h>
+
+#include "core/deformation.h"
+#include "core/parallel.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+Points cloud(std::size_t count) {
+  std::mt19937 random(3);
+  Points points(count);
+  for (Vec3& point : points) point = test::random_vector(random);
+  return points;
+}
+
+TEST(NeighboursWithin, AreThoseOfBruteForceInSeveralPieces) {
+  const Points points = cloud(9000);
+  const double range = 0.06;
+  const NeighbourLists lists = neighbours_within(points, range);
+  ASSERT_EQ(lists.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); i += 7) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t j = 0; j < points.size(); ++j)
+      if (j != i && (points[j] - points[i]).squaredNorm() < range * range) expected.push_back(j);
+    const auto found = lists.of(i);
+    ASSERT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()), expected) << i;
+  }
+}
+
+TEST(NeighboursWithin, OfNothingAndOfOneAreEmpty) {
+  EXPECT_EQ(neighbours_within({}, 1).size(), 0u);
+  EXPECT_EQ(neighbours_within({Vec3(1, 2, 3)}, 1).of(0).size(), 0u);
+}
+
+TEST(RestShape, HasTheSameBitsForEveryThreadCount) {
+  const Points points = cloud(9000);
+  const RestShape expected = rest_shape(points, 0.06);
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] {
+      const RestShape found = rest_shape(points, 0.06);
+      EXPECT_EQ(found.neighbours.first, expected.neighbours.first);
+      EXPECT_EQ(found.neighbours.partner, expected.neighbours.partner);
+      EXPECT_EQ(found.inverse, expected.inverse);
+    });
+}
+
+}  // namespace
+}  // namespace sinew
