@@ -12,15 +12,18 @@
 #include "run_folder.h"
 #include "scene_body.h"
 #include "setup.h"
+#include "step_way.h"
 #include "warnings.h"
 
 namespace {
 
 using namespace sinew;
 
-/// Seconds one step takes, tried out on the spot with bones at rest.
-double seconds_per_step(const Settings& settings, Setup setup, const Particles& particles,
-                        std::vector<std::string>& warnings) {
+/// Particle-steps per second, tried out on the spot with bones at rest; what is usual where the
+/// body does not bear it.
+double speed_of(const Settings& settings, Setup setup, const Particles& particles,
+                std::vector<std::string>& warnings) {
+  const double usual = usual_speed(step_way(settings.solver, setup.body));
   setup.motion = {};
   Simulation simulation = start(settings, std::move(setup), particles);
   double spent = 0;
@@ -35,7 +38,7 @@ double seconds_per_step(const Settings& settings, Setup setup, const Particles& 
     if (error.exit() != Exit::unstable) throw;
     warnings.push_back(std::string("the body leaves its bones at once: ") + error.what());
   }
-  return steps > 0 ? spent / steps : 0;
+  return steps > 0 ? steps * static_cast<double>(particles.size()) / spent : usual;
 }
 
 void add_sizes(const Filling& filling, const Surface& surface, Results& results) {
@@ -78,6 +81,12 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("bone_speed", speed, "radii per step");
 }
 
+void add_way(const StepWay& way, Results& results) {
+  results.add("precision", name_of(way.precision));
+  results.add("neighbour_search", name_of(way.search));
+  results.add("instruction_set", kernel::name_of(way.instructions));
+}
+
 Exit check(const std::string& scene, const Common& common) {
   const Settings settings = read_scene(scene, common.overrides);
   const Surface surface = read_mesh(settings);
@@ -86,18 +95,22 @@ Exit check(const std::string& scene, const Common& common) {
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const double speed = bone_speed(setup, settings.output.interval);
-  auto warnings = warnings_of(setup, speed);
+  auto warnings = warnings_of(setup, settings.solver, speed);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
-  const double per_step = seconds_per_step(settings, setup, filling.particles, warnings);
+  const double rate = speed_of(settings, setup, filling.particles, warnings);
+  const double work = static_cast<double>(setup.frames) * setup.steps.per_frame *
+                      static_cast<double>(filling.particles.size());
 
   Results results;
   add_sizes(filling, surface, results);
   add_material(setup.body.material, results);
   add_steps(settings, setup, speed, results);
+  add_way(step_way(settings.solver, setup.body), results);
   results.add("disk", bytes_text(needs.disk));
   results.add("disk_free", bytes_text(free_space(run_folder(scene, "").path)));
   results.add("memory", bytes_text(needs.memory));
-  results.add("stepping_time", per_step * setup.frames * setup.steps.per_frame, "s");
+  results.add("particle_steps_per_second", rate);
+  results.add("stepping_time", work / rate, "s");
   results.add("warnings", warnings.size());
   results.print(common.json);
   for (const std::string& warning : warnings)

@@ -150,7 +150,8 @@ void print_results(const RunFolder& folder, const Journal& journal, bool as_json
   Results results;
   results.add("folder", folder.path.string());
   for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",
-                          "time_step_factor", "particle_steps_per_second", "state_hash"})
+                          "time_step_factor", "precision", "neighbour_search", "instruction_set",
+                          "particle_steps_per_second", "state_hash"})
     results.add(key, record[key]);
   results.print(as_json);
 }
