@@ -157,6 +157,18 @@ TEST_F(VtuLines, LeaveOtherFilesToVtk) {
     EXPECT_FALSE(serves(text.substr(0, size))) << size;
   write_vtu(folder / "f.vtu", SyntheticRun().surface({}), {Encoding::raw, false, "surface", 0.01});
   EXPECT_FALSE(read_vtu_lines(folder / "f.vtu", std::nullopt));
+  Dataset mixed = SyntheticRun().surface({});
+  mixed.lines = {0, 1};
+  for (Column& column : mixed.cell_columns)
+    column.values = std::vector<std::int32_t>(mixed.cells());
+  write_vtu(folder / "f.vtu", mixed, {Encoding::zlib, false, "", 0.01});
+  EXPECT_FALSE(read_vtu_lines(folder / "f.vtu", std::nullopt));
+  for (const std::int32_t far : {-1, 1 << 20}) {
+    Dataset beyond = SyntheticRun().surface({});
+    beyond.connectivity.back() = far;
+    write_vtu(folder / "f.vtu", beyond, {Encoding::lz4, false, "surface", 0.01});
+    EXPECT_FALSE(read_vtu_lines(folder / "f.vtu", std::nullopt));
+  }
   EXPECT_FALSE(read_vtu_lines(folder, std::nullopt));
   EXPECT_FALSE(read_vtu_lines(folder / "none.vtu", std::nullopt));
   for (const auto& [old, other] : std::map<std::string, std::string>{
