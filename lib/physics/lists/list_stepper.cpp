@@ -6,16 +6,20 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "physics/lists/order.h"
 
 namespace sinew {
 namespace {
 
 // In diameters, measured: longer lists cost every step, shorter ones are made more often.
 constexpr double wide_skin = 0.5, narrow_skin = 0.08;
+// Columns of sorted particles, in diameters; how much longer lists may become before a sort is
+// tried anew.
+constexpr double column_edge = 1.2, most_growth = 1.3;
 // A barrier costs more than the work below this many particles per thread.
 constexpr std::size_t particles_per_thread = 8192;
 // Share of the range of whole numbers that a body may travel before it is centred again.
-constexpr double free_travel = 0.125;
+constexpr double free_travel = 0.125, whole_range = 4294967296;
 
 template <class Real>
 constexpr std::size_t pieces_per_thread = particles_per_thread /
@@ -72,14 +76,18 @@ void ListStepper<Real>::load(const Particles& particles) {
 }
 
 template <class Real>
-kernel::Holds<Real> ListStepper<Real>::holds(
-    const std::vector<kernel::BoneNow<Real>>& bones) const {
-  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
-          bones.data()};
+void ListStepper<Real>::place_bones(const Pose& pose) {
+  bones_ = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
 }
 
 template <class Real>
-kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real>>& bones) {
+kernel::Holds<Real> ListStepper<Real>::holds() const {
+  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
+          bones_.data()};
+}
+
+template <class Real>
+kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
   const double L = measure_.length, T = measure_.time, dt = stepping_.step;
@@ -90,7 +98,7 @@ kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real
   step.blocks = state_.blocks();
   step.id = id_.data() + block;
   step.lists = narrow_.arrays();
-  step.holds = holds(bones);
+  step.holds = holds();
   const double per_mass = pair.r * T * T / mass_;
   step.law = {real(pair.r / L),
               real(pair.a / L),
@@ -113,9 +121,9 @@ kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real
 }
 
 template <class Real>
-kernel::Ride<Real> ListStepper<Real>::ride(const std::vector<kernel::BoneNow<Real>>& bones) {
+kernel::Ride<Real> ListStepper<Real>::ride() {
   return {state_.arrays(),
-          holds(bones),
+          holds(),
           &world_,
           {reference_[0].data(), reference_[1].data(), reference_[2].data()}};
 }
@@ -134,9 +142,9 @@ void ListStepper<Real>::follow_last_step(const Pose& pose) {
 }
 
 template <class Real>
-void ListStepper<Real>::look(const std::vector<kernel::BoneNow<Real>>& bones) {
+void ListStepper<Real>::look() {
   ++counts_.looks;
-  const auto job = ride(bones);
+  const auto job = ride();
   std::vector<double> most(totals_.size(), 0.0);
   const std::size_t blocks = state_.blocks();
   parallel_split(totals_.size(), pieces_per_thread<Real>, [&](std::size_t begin, std::size_t end) {
@@ -153,36 +161,89 @@ void ListStepper<Real>::look(const std::vector<kernel::BoneNow<Real>>& bones) {
 }
 
 template <class Real>
-void ListStepper<Real>::keep_lists_true(const Pose& pose,
-                                        const std::vector<kernel::BoneNow<Real>>& bones) {
-  if (!listed_) return rebuild(pose, bones);
+void ListStepper<Real>::keep_lists_true(const Pose& pose) {
+  if (!listed_) return rebuild(pose);
   follow_last_step(pose);
   const auto motions = motions_between(listed_pose_, pose);
   const double approach = contacts_.approach(motions);
   if (!wide_drift_.holds(approach)) {
-    look(bones);
+    look();
     // A look that leaves little to go on with would be followed by another at once.
-    if (!wide_drift_.holds(approach + wide_drift_.skin() / 8)) return rebuild(pose, bones);
+    if (!wide_drift_.holds(approach + wide_drift_.skin() / 8)) return rebuild(pose);
   }
-  const double range = 4294967296.0 * measure_.length;
-  if (sizeof(Real) == 4 && contacts_.travel(motions) > free_travel * range)
-    return rebuild(pose, bones);
+  if (sizeof(Real) == 4 && contacts_.travel(motions) > free_travel * whole_range * measure_.length)
+    return rebuild(pose);
   if (!narrow_drift_.holds(contacts_.approach_since(sifted_motions_, motions, moved_when_sifted_)))
     sift(pose);
 }
 
 template <class Real>
-void ListStepper<Real>::rebuild(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones) {
+double ListStepper<Real>::wide_range() const {
+  const PairForce& pair = body_->material.pair;
+  return (pair.b + wide_skin * 2 * pair.r) / measure_.length;
+}
+
+/// Puts the particles into columns where that makes the lists shorter.
+template <class Real>
+void ListStepper<Real>::sort() {
+  const auto order =
+      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / measure_.length);
+  reorder(state_, order, next_);
+  auto sorted = find_offsets(kernel_, next_, BlockCells(next_, wide_range()), wide_range());
+  mean_when_sorted_ = std::min(sorted.mean(), wide_.mean());
+  if (sorted.mean() > 0.95 * wide_.mean()) return;
+  ++counts_.sorts;
+  std::swap(state_, next_);
+  wide_ = std::move(sorted);
+  std::vector<std::int32_t> id(id_.size(), 0);
+  std::vector<std::uint32_t> caller(caller_.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    id[k + block] = id_[order[k] + block];
+    caller[k] = caller_[order[k]];
+  }
+  id_ = std::move(id);
+  caller_ = std::move(caller);
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, measure_);
+}
+
+/// Whole numbers hold a body that has grown or travelled far in a measure of its own.
+template <class Real>
+void ListStepper<Real>::remeasure() {
+  if (sizeof(Real) == 8) return;
+  const std::size_t n = caller_.size();
+  Box box;
+  for (std::size_t k = 0; k < n; ++k) box.extend(state_.position(k, measure_));
+  const double usual = whole_range * measure_.length / 4;
+  if (n == 0 ||
+      ((box.center() - measure_.origin).norm() < usual / 4 && box.sizes().maxCoeff() < 1.5 * usual))
+    return;
+  const Measure before =
+      std::exchange(measure_, measure_for<Real>(box, body_->material.pair, stepping_.step));
+  for (std::size_t k = 0; k < n; ++k) state_.set_position(k, state_.position(k, before), measure_);
+  const double scale = before.length / measure_.length;
+  for (Real* axis : state_.arrays().v)
+    for (std::size_t k = 0; k < n; ++k) axis[k] = static_cast<Real>(axis[k] * scale);
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
+  world_ = world_frame<Real>(measure_);
+}
+
+template <class Real>
+void ListStepper<Real>::rebuild(const Pose& pose) {
   ++counts_.rebuilds;
-  const double d0 = 2 * body_->material.pair.r / measure_.length;
-  const double range = body_->material.pair.b / measure_.length + wide_skin * d0;
-  const BlockCells cells(state_, range);
+  remeasure();
+  place_bones(pose);
+  const double range = wide_range();
+  auto cells = BlockCells(state_, range);
   wide_ = find_offsets(kernel_, state_, cells, range);
+  if (wide_.mean() > most_growth * mean_when_sorted_) {
+    sort();
+    cells = BlockCells(state_, range);
+  }
   contacts_ = BoneContacts(cells, slots_.lead, body_->skeleton.size() + 1, measure_.origin,
                            measure_.length, range * measure_.length);
   listed_pose_ = pose;
-  kernel_.remember(ride(bones), 0, state_.blocks());
-  wide_drift_ = Drift(wide_skin * d0 * measure_.length);
+  kernel_.remember(ride(), 0, state_.blocks());
+  wide_drift_ = Drift(wide_skin * 2 * body_->material.pair.r);
   counts_.wide = wide_.mean();
   listed_ = true;
   sift(pose);
@@ -215,9 +276,9 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
-  const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
-  keep_lists_true(pose, bones);
-  const auto now = job(bones);
+  place_bones(pose);
+  keep_lists_true(pose);
+  const auto now = job();
   parallel_split(totals_.size(), pieces_per_thread<Real>,
                  [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
   StepSums sums = sums_of_totals();
@@ -259,15 +320,15 @@ Failure ListStepper<Real>::culprit(const Pose& pose) {
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
-  const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
-  keep_lists_true(pose, bones);
+  place_bones(pose);
+  keep_lists_true(pose);
   fastest_ = 0;  // the step that led here has been followed
   last_pose_ = pose;
   const std::size_t n = caller_.size(), slots = state_.blocks() * block;
   std::array<std::vector<Real>, 9> told;
   for (auto& axis : told) axis.resize(slots);
   std::vector<std::int32_t> partners(slots);
-  auto now = job(bones);
+  auto now = job();
   for (int axis = 0; axis < 3; ++axis) {
     now.probed.pair[axis] = told[axis].data();
     now.probed.damping[axis] = told[3 + axis].data();

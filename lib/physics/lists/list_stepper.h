@@ -37,14 +37,18 @@ class ListStepper {
   static constexpr int block = BlockState<Real>::block;
 
   void load(const Particles& particles);
-  kernel::Holds<Real> holds(const std::vector<kernel::BoneNow<Real>>& bones) const;
-  kernel::Step<Real> job(const std::vector<kernel::BoneNow<Real>>& bones);
-  kernel::Ride<Real> ride(const std::vector<kernel::BoneNow<Real>>& bones);
+  void place_bones(const Pose& pose);
+  kernel::Holds<Real> holds() const;
+  kernel::Step<Real> job();
+  kernel::Ride<Real> ride();
 
-  void keep_lists_true(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones);
+  void keep_lists_true(const Pose& pose);
   void follow_last_step(const Pose& pose);
-  void look(const std::vector<kernel::BoneNow<Real>>& bones);
-  void rebuild(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones);
+  void look();
+  void rebuild(const Pose& pose);
+  void remeasure();
+  double wide_range() const;
+  void sort();
   void sift(const Pose& pose);
   StepSums sums_of_totals() const;
   Failure culprit(const Pose& pose);
@@ -58,11 +62,13 @@ class ListStepper {
   std::vector<std::int32_t> id_;       ///< with pads, as the states have
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   BoneSlots<Real> slots_;
+  std::vector<kernel::BoneNow<Real>> bones_;  ///< where they are now
   kernel::BoneNow<Real> world_{};
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
   bool listed_ = false;
   OffsetLists wide_, narrow_;
+  double mean_when_sorted_ = 45;  ///< differences per block in wide_; here: of a packed body
   Drift wide_drift_, narrow_drift_;
   BoneContacts contacts_;
   std::array<std::vector<float>, 3> reference_;
