@@ -58,6 +58,7 @@ class Simulation {
   static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
                               const Particles& particles, kernel::InstructionSet instructions);
   void evaluate();
+  void forget_read();
   [[noreturn]] void fail(const Failure& failure) const;
 
   std::shared_ptr<const Body> body_;
@@ -67,7 +68,7 @@ class Simulation {
   mutable Stepper stepper_;
   EnergyBook book_;
 
-  mutable Particles particles_;  ///< as read last
+  mutable Particles particles_;  ///< as read last; radius, mass and ids always
   mutable bool read_ = true;     ///< whether they are those of the present moment
   Forces forces_;
   Balance balance_;

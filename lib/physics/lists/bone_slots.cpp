@@ -35,9 +35,9 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const double r = body.material.pair.r;
   const bool aside = std::hypot(local.y(), local.z()) >= on_axis * r;
   const double distance = influence.rest_distance < on_axis * r ? 0 : influence.rest_distance;
-  const double foot = place_along(bone, influence.foot);
-  const double fields[kernel::held_fields] = {
-      foot - centre, local.x() - centre, aside ? local.y() : 0, aside ? local.z() : 0, distance};
+  const double fields[kernel::held_fields] = {influence.foot - centre, local.x() - centre,
+                                              aside ? local.y() : 0, aside ? local.z() : 0,
+                                              distance};
   for (int field = 0; field < kernel::held_fields; ++field)
     lane[field * block] = static_cast<Real>(fields[field] / measure.length);
 }

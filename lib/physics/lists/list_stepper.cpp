@@ -363,6 +363,9 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
 template <class Real>
 void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
   const std::size_t n = caller_.size();
+  for (auto* values :
+       {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
+    values->resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       particles.set_position(caller_[k], state_.position(k, measure_));
