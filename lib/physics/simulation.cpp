@@ -35,7 +35,9 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
       stepping_(stepping),
       stepper_(make_stepper(body_, stepping, particles, instructions)),
       book_(stepping.step),
-      particles_(std::move(particles)) {}
+      particles_(std::move(particles)) {
+  forget_read();
+}
 
 void Simulation::step() {
   const Pose now = pose();

@@ -69,7 +69,7 @@ class Simulation {
   EnergyBook book_;
 
   mutable Particles particles_;  ///< as read last; radius, mass and ids always
-  mutable bool read_ = true;     ///< whether they are those of the present moment
+  mutable bool read_ = false;    ///< whether they are those of the present moment
   Forces forces_;
   Balance balance_;
   bool evaluated_ = false;
