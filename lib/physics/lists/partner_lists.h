@@ -59,7 +59,7 @@ class PartnerLists {
   double travel(const Pose& pose) const {
     return contacts_.travel(motions_between(listed_pose_, pose));
   }
-  void count(ListCounts& counts) const;
+  ListCounts counts() const;
 
  private:
   double range(double skin, const Measure& measure) const;
@@ -92,7 +92,7 @@ class PartnerLists {
   std::unordered_map<std::uint32_t, Vec3> strayed_;  ///< where strays were when the lists were made
   double shift_ = 0;  ///< how far the farthest of them has been anchored from there, m
 
-  std::int64_t sifts_ = 0, looks_ = 0, makes_ = 0, anchored_ = 0;
+  ListCounts counts_;
 };
 
 }  // namespace sinew
