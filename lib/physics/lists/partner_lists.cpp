@@ -12,11 +12,11 @@ namespace {
 
 // In diameters, measured: longer lists cost every step, shorter ones are made more often. The
 // narrow skin leaves out the second neighbours of a packed body.
-constexpr double wide_skin = 0.5, narrow_skin = 0.1;
+constexpr double wide_skin = 0.7, narrow_skin = 0.1;
 // A particle that moved farther than this is astray; if more than one in so many are, all lists are
 // made anew.
-constexpr double astray = 0.12;
-constexpr std::size_t particles_per_stray = 100;
+constexpr double astray = 0.2;
+constexpr std::size_t particles_per_stray = 50;
 constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
 constexpr std::size_t pieces_per_part = 32;
 constexpr std::size_t strays_per_piece = 8;
