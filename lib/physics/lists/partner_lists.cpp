@@ -21,6 +21,21 @@ constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
 constexpr std::size_t pieces_per_part = 32;
 constexpr std::size_t strays_per_piece = 8;
 
+template <class Real>
+kernel::Ride<Real> ride_of(const Riders<Real>& riders,
+                           std::array<std::vector<float>, 3>& reference) {
+  return {riders.state.arrays(),
+          riders.holds,
+          &riders.world,
+          {reference[0].data(), reference[1].data(), reference[2].data()}};
+}
+
+/// Calls visit(begin, end) for parts of the blocks.
+template <class Visit>
+void for_each_part(std::size_t blocks, Visit&& visit) {
+  parallel_for(blocks, blocks_per_piece * pieces_per_part, visit);
+}
+
 }  // namespace
 
 template <class Real>
@@ -39,25 +54,6 @@ OffsetLists PartnerLists<Real>::wide_of(BlockState<Real>& state, const Measure& 
   const double reach = range(wide_skin, measure);
   return find_offsets(kernel_, state, BlockCells(state, reach), reach);
 }
-
-namespace {
-
-template <class Real>
-kernel::Ride<Real> ride_of(const Riders<Real>& riders,
-                           std::array<std::vector<float>, 3>& reference) {
-  return {riders.state.arrays(),
-          riders.holds,
-          &riders.world,
-          {reference[0].data(), reference[1].data(), reference[2].data()}};
-}
-
-/// Calls visit(begin, end) for parts of the blocks.
-template <class Visit>
-void for_each_part(std::size_t blocks, Visit&& visit) {
-  parallel_for(blocks, blocks_per_piece * pieces_per_part, visit);
-}
-
-}  // namespace
 
 template <class Real>
 void PartnerLists<Real>::make(const Riders<Real>& riders) {
@@ -142,12 +138,11 @@ Vec3 PartnerLists<Real>::place(const Riders<Real>& riders, std::size_t k) const 
 
 /// Particles farther from their reference than what is astray, ascending.
 template <class Real>
-std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders) const {
+std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders) {
   const double limit = 0.999 * astray * 2 * pair_.r / riders.measure.length;
   const std::size_t blocks = riders.state.blocks(), size = BlockState<Real>::block;
   std::vector<std::vector<std::uint32_t>> found(blocks / (blocks_per_piece * pieces_per_part) + 1);
-  auto& reference = const_cast<std::array<std::vector<float>, 3>&>(reference_);
-  const auto ride = ride_of(riders, reference);
+  const auto ride = ride_of(riders, reference_);
   for_each_part(blocks, [&](std::size_t begin, std::size_t end) {
     auto& here = found[begin / (blocks_per_piece * pieces_per_part)];
     for (std::size_t block = begin; block < end; ++block) {

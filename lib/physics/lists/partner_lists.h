@@ -66,7 +66,7 @@ class PartnerLists {
   void add_step(const Pose& pose, double fastest, double rounding);
   void sift(const Riders<Real>& riders);
   bool look(const Riders<Real>& riders, double approach);
-  std::vector<std::uint32_t> strays(const Riders<Real>& riders) const;
+  std::vector<std::uint32_t> strays(const Riders<Real>& riders);
   Vec3 place(const Riders<Real>& riders, std::size_t k) const;
   Vec3 place_when_listed(const Riders<Real>& riders, std::size_t k) const;
   void pair_up(const Riders<Real>& riders, std::uint32_t k, double approach,
