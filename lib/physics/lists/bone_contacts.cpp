@@ -12,8 +12,10 @@ namespace {
 constexpr std::int64_t rings = 2;  // of cells around a group's own that count as near it
 
 /// The largest |(A - B) x| over a box: convex, so at a corner.
-double difference_within(const RigidMotion& a, const RigidMotion& b, const Box& box) {
+double difference_within(const RigidMotion& a, const RigidMotion& b, Box box, double wider = 0) {
   if (box.isEmpty()) return 0;
+  box.min().array() -= wider;
+  box.max().array() += wider;
   const Mat3 turn = a.turn - b.turn;
   const Vec3 shift = a.shift - b.shift;
   double most = 0;
@@ -35,7 +37,7 @@ double gap_between(const Box& a, const Box& b) { return a.exteriorDistance(b); }
 class CellGroups {
  public:
   CellGroups(const BlockCells& cells, std::span<const std::uint16_t> lead)
-      : cells_(cells), sole_(cells.cells(), nobody) {
+      : sole_(cells.cells(), nobody) {
     const auto cell = cells.cell_of_particle();
     for (std::size_t k = 0; k < cell.size(); ++k) add(cell[k], lead[k]);
   }
@@ -47,8 +49,8 @@ class CellGroups {
     for (const std::uint32_t group : many_.at(cell)) visit(group);
   }
 
-  /// Whether all cells within the rings around `cell` hold no other group than its own one.
   bool empty(std::size_t cell) const { return sole_[cell] == nobody; }
+  /// Whether `other` holds no group but the one of `cell`.
   bool alone_with(std::size_t cell, std::size_t other) const {
     return sole_[other] == nobody || (sole_[other] == sole_[cell] && sole_[cell] != several);
   }
@@ -64,7 +66,6 @@ class CellGroups {
     if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
   }
 
-  const BlockCells& cells_;
   std::vector<std::uint32_t> sole_;
   std::map<std::size_t, std::vector<std::uint32_t>> many_;
 };
@@ -152,34 +153,35 @@ void BoneContacts::find_pairs(const BlockCells& cells, std::span<const std::uint
     }
 }
 
-double BoneContacts::approach(std::span<const RigidMotion> motions) const {
+double BoneContacts::approach(std::span<const RigidMotion> motions, double shift) const {
   double most = 0;
   for (const Pair& pair : pairs_) {
     const RigidMotion &a = motions[pair.a], &b = motions[pair.b];
-    most = std::max(
-        most, std::min(difference_within(a, b, pair.near_a), difference_within(a, b, pair.near_b)));
+    most = std::max(most, std::min(difference_within(a, b, pair.near_a, shift),
+                                   difference_within(a, b, pair.near_b, shift)));
     // Pairs beyond the reach have that much farther to go.
-    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a]),
-                                   difference_within(a, b, whole_[pair.b])) -
-                              (reach_ - range_));
+    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a], shift),
+                                   difference_within(a, b, whole_[pair.b], shift)) -
+                              (reach_ - range_ - 2 * shift));
   }
   for (const Apart& pair : apart_) {
     const RigidMotion &a = motions[pair.a], &b = motions[pair.b];
-    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a]),
-                                   difference_within(a, b, whole_[pair.b])) -
-                              (pair.gap - range_));
+    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a], shift),
+                                   difference_within(a, b, whole_[pair.b], shift)) -
+                              (pair.gap - range_ - 2 * shift));
   }
   return most;
 }
 
 double BoneContacts::approach_since(std::span<const RigidMotion> earlier,
-                                    std::span<const RigidMotion> motions, double moved) const {
+                                    std::span<const RigidMotion> motions, double moved,
+                                    double shift) const {
   double most = 0;
   for (const Pair& pair : pairs_) {
     const auto added = [&](std::size_t a, std::size_t b, const Box& near_b) {
       const RigidMotion then = seen_from(earlier[a], earlier[b]);
       const RigidMotion now = seen_from(motions[a], motions[b]);
-      return difference_within(now, then, near_b) + (now.turn - then.turn).norm() * moved;
+      return difference_within(now, then, near_b, shift) + (now.turn - then.turn).norm() * moved;
     };
     most = std::max(
         most, std::min(added(pair.a, pair.b, pair.near_b), added(pair.b, pair.a, pair.near_a)));
