@@ -46,7 +46,8 @@ Json lists_of(const ListCounts& counts) {
   return {{"rebuilds", counts.rebuilds},
           {"sifts", counts.sifts},
           {"looks", counts.looks},
-          {"sorts", counts.sorts}};
+          {"sorts", counts.sorts},
+          {"strays", counts.strays}};
 }
 
 }  // namespace

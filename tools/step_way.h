@@ -20,7 +20,7 @@ struct StepWay {
   NeighbourSearch search = NeighbourSearch::lists;
   Precision precision = Precision::binary64;
   kernel::InstructionSet instructions = kernel::best_instruction_set();
-  std::optional<Unserved> unserved{};  ///< why cells take the place of the lists that were asked for
+  std::optional<Unserved> unserved{};  ///< why cells take the place of the lists asked for
 };
 
 /// Cells know one precision, double, and no instruction set but the plain one.
