@@ -5,7 +5,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_piece = 512;
+constexpr std::size_t particles_per_piece = 512, particles_per_sum = 16384;
 
 HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
   return {body.rest[particles.id[i]], particles.position(i), particles.velocity(i),
@@ -41,12 +41,22 @@ void bone_forces(const Particles& particles, const Body& body, const Pose& pose,
 }
 
 std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose) {
+  const std::size_t pieces = particles.size() / particles_per_sum + 1;
+  std::vector<std::vector<Reaction>> parts(pieces, std::vector<Reaction>(pose.size()));
+  parallel_for(particles.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
+    auto& part = parts[begin / particles_per_sum];
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_pull(particles, body, pose, i, [&](int b, const BonePull& pull) {
+        part[b].force -= pull.force();
+        part[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(pull.force());
+      });
+  });
   std::vector<Reaction> on(pose.size());
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    for_each_pull(particles, body, pose, i, [&](int b, const BonePull& pull) {
-      on[b].force -= pull.force();
-      on[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(pull.force());
-    });
+  for (const auto& part : parts)  // in the order of the pieces, whichever thread made them
+    for (std::size_t b = 0; b < on.size(); ++b) {
+      on[b].force += part[b].force;
+      on[b].moment += part[b].moment;
+    }
   return on;
 }
 
