@@ -14,10 +14,12 @@ constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::
 /// Both ways of stepping, from one start.
 struct Both {
   Simulation lists, cells;
+  double step;  ///< s
 
-  Both(const Settings& settings, const Points& rest, const Particles& particles, double step)
-      : lists(test::simulation_from(settings, rest, particles, step)),
-        cells(test::simulation_from(test::with_cells(settings), rest, particles, step)) {}
+  Both(const Settings& settings, const Points& rest, const Particles& particles, double dt)
+      : lists(test::simulation_from(settings, rest, particles, dt)),
+        cells(test::simulation_from(test::with_cells(settings), rest, particles, dt)),
+        step(dt) {}
 
   void step_until(std::int64_t steps) {
     while (lists.steps() < steps) lists.step(), cells.step();
@@ -43,14 +45,16 @@ double largest_force_difference(const Points& a, const Points& b) {
 void expect_same(Both& both, double part) {
   const Particles &a = both.lists.particles(), &b = both.cells.particles();
   const Material& material = both.cells.body().material;
-  const double speed = std::max(test::largest_speed(b), 1e-3 * material.pair.r);
-  EXPECT_LT(test::largest_distance(a, b), part * material.pair.r);
-  EXPECT_LT(test::largest_difference_of_velocity(a, b), part * speed);
+  // Where all but rests, a speed of a hundredth of a radius per step is what counts.
+  const double slow = 0.01 * material.pair.r / both.step;
+  const double speed = std::max(test::largest_speed(b), slow);
+  EXPECT_LE(test::largest_distance(a, b), part * material.pair.r);
+  EXPECT_LE(test::largest_difference_of_velocity(a, b), part * speed);
   const Forces &f = both.lists.forces(), &g = both.cells.forces();
   const double force = material.stiffness() * material.pair.r;
-  EXPECT_LT(largest_force_difference(f.pair, g.pair), 4 * part * force);
-  EXPECT_LT(largest_force_difference(f.damping, g.damping), 4 * part * material.damping * speed);
-  EXPECT_LT(largest_force_difference(f.bone, g.bone), 4 * part * force);
+  EXPECT_LE(largest_force_difference(f.pair, g.pair), 4 * part * force);
+  EXPECT_LE(largest_force_difference(f.damping, g.damping), 4 * part * material.damping * speed);
+  EXPECT_LE(largest_force_difference(f.bone, g.bone), 4 * part * force);
   EXPECT_EQ(f.neighbours, g.neighbours);
   expect_same_energies(both.lists.energies(), both.cells.energies(), part);
 }
@@ -67,18 +71,18 @@ Settings moving_scene() {
   return settings;
 }
 
-/// After 1, 10 and 100 steps from a shaken start.
+/// After 1, 10 and 100 steps from a shaken start; rounding grows with the steps.
 void expect_same_steps(const Settings& settings, double shake = 0.02 * r, double speed = 0.05,
-                       double factor = 0.5) {
+                       double factor = 0.5, int last = 100) {
   const Points rest = test::fcc_box(7, 7, 25, r);
   const Body body = test::make_body(settings, rest);
   double step = test::step_of(settings, body, factor);
   if (step == 0) step = 1e-4;  // explicit Euler without damping has no limit
   Both both(settings, rest, test::shaken(rest, body.material, shake, speed), step);
-  for (const int steps : {0, 1, 10, 100}) {
+  for (const int steps : {0, 1, 10, last}) {
     SCOPED_TRACE(steps);
     both.step_until(steps);
-    expect_same(both, 1e-12);
+    expect_same(both, steps > 10 ? 2e-11 : 1e-12);
   }
 }
 
@@ -97,7 +101,8 @@ TEST(Steppers, TakeTheSameStepsForEveryShapeOfThePairForce) {
       Settings settings = moving_scene();
       settings.material.a = a;
       settings.material.b = b;
-      expect_same_steps(settings);
+      // Beyond 2 sqrt(2) r second neighbours attract, and the body implodes.
+      expect_same_steps(settings, 0.02 * r, 0.05, 0.2, b > 2.9 ? 25 : 100);
     }
 }
 
@@ -281,6 +286,23 @@ TEST(Failures, NameTheSameParticleThatIsNotFinite) {
       particles.set_velocity(100, {0, 0, value});
       expect_same_last_words(settings, rest, particles, 1e-3);
     }
+}
+
+TEST(Failures, NameAParticleWhereSinglePrecisionHardlyTellsTheSpeed) {
+  const Points rest = test::fcc_box(5, 5, 25, r);
+  Settings settings = test::unbound(test::in(Precision::binary32, test::box_scene(25)));
+  KeySettings end = test::bend_key(1, 0);
+  end.translation = {2000, 0, 0};  // 200 r in each step
+  settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
+  settings.tracks[0].interpolation = Interpolation::linear;
+  const double step = 1e-3, most = 0.25 * r / step;
+  for (int k = 0; k < 200; ++k) {
+    Particles particles = particles_at(rest, r, test::material_of(settings).mass);
+    const Vec3 velocity(2000 + most * (1 - 2e-6 * k), 0, 0);
+    for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, velocity);
+    const std::string words = last_words(settings, rest, particles, step, 1);
+    EXPECT_TRUE(words.empty() || words.find("particle 0 on") != std::string::npos) << words;
+  }
 }
 
 TEST(Failures, TellTheSameStepOfARunThatIsUnstable) {
