@@ -24,7 +24,7 @@ struct Carried {
 
 Carried carry(const Influence& influence, const Bone& bone, const BonePose& pose,
               const Vec3& rest) {
-  return {pose.frame.origin + pose.turn * (influence.foot - bone.head()),
+  return {pose.frame.origin + influence.foot * (pose.turn * bone.axis()),
           pose.frame.origin + pose.turn * (rest - bone.head())};
 }
 

@@ -35,7 +35,9 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
       stepping_(stepping),
       stepper_(make_stepper(body_, stepping, particles, instructions)),
       book_(stepping.step),
-      particles_(std::move(particles)) {}
+      particles_(std::move(particles)) {
+  forget_read();
+}
 
 void Simulation::step() {
   const Pose now = pose();
@@ -43,7 +45,16 @@ void Simulation::step() {
   if (sums.failure) fail(*sums.failure);
   book_.add_step(sums.power, sums.lost);
   ++steps_;
-  evaluated_ = read_ = false;
+  evaluated_ = false;
+  if (read_) forget_read();
+}
+
+/// What was read last is of no use any more, and takes as much memory as half of the state.
+void Simulation::forget_read() {
+  for (auto* values :
+       {&particles_.x, &particles_.y, &particles_.z, &particles_.u, &particles_.v, &particles_.w})
+    std::vector<double>().swap(*values);
+  read_ = false;
 }
 
 void Simulation::fail(const Failure& failure) const {

@@ -58,6 +58,7 @@ class Simulation {
   static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
                               const Particles& particles, kernel::InstructionSet instructions);
   void evaluate();
+  void forget_read();
   [[noreturn]] void fail(const Failure& failure) const;
 
   std::shared_ptr<const Body> body_;
@@ -67,8 +68,8 @@ class Simulation {
   mutable Stepper stepper_;
   EnergyBook book_;
 
-  mutable Particles particles_;  ///< as read last
-  mutable bool read_ = true;     ///< whether they are those of the present moment
+  mutable Particles particles_;  ///< as read last; radius, mass and ids always
+  mutable bool read_ = false;    ///< whether they are those of the present moment
   Forces forces_;
   Balance balance_;
   bool evaluated_ = false;

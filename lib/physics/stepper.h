@@ -46,6 +46,7 @@ struct Balance {
 /// How often lists were made, and how long they are.
 struct ListCounts {
   std::int64_t rebuilds = 0, sifts = 0, looks = 0, sorts = 0;
+  std::int64_t strays = 0;      ///< particles that got new partners by themselves
   double wide = 0, narrow = 0;  ///< differences per block
 };
 

@@ -27,9 +27,9 @@ struct Joint {
 
 double along(const Bone& bone, const Vec3& point) { return (point - bone.head()).dot(bone.axis()); }
 
-Vec3 foot_on(const Bone& bone, const Vec3& point, double before, double beyond) {
-  const double s = std::clamp(along(bone, point), -before, bone.length + beyond);
-  return bone.head() + s * bone.axis();
+/// Where on the axis, extended by `before` and `beyond`, the point nearest to `point` lies.
+double foot_of(const Bone& bone, const Vec3& point, double before, double beyond) {
+  return std::clamp(along(bone, point), -before, bone.length + beyond);
 }
 
 std::vector<double> cross_sections(const Skeleton& skeleton, const std::vector<double>& volumes) {
@@ -111,8 +111,9 @@ std::vector<Influence> influences_on(const Vec3& point, int nearest, const Skele
   std::vector<Influence> held = shares(nearest, point, joints);
   for (Influence& influence : held) {
     const int b = influence.bone;
-    influence.foot = foot_on(skeleton.bones[b], point, reach.before[b], reach.beyond[b]);
-    influence.rest_distance = (point - influence.foot).norm();
+    const Bone& bone = skeleton.bones[b];
+    influence.foot = foot_of(bone, point, reach.before[b], reach.beyond[b]);
+    influence.rest_distance = (point - influence.foot_on(bone)).norm();
   }
   return held;
 }
@@ -135,7 +136,9 @@ int nearest_bone(const Skeleton& skeleton, const Vec3& point) {
   int nearest = no_bone;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < skeleton.size(); ++b) {
-    const double distance = (point - foot_on(skeleton.bones[b], point, 0, 0)).squaredNorm();
+    const double distance = (point - skeleton.bones[b].head() -
+                             foot_of(skeleton.bones[b], point, 0, 0) * skeleton.bones[b].axis())
+                                .squaredNorm();
     if (distance < least) least = distance, nearest = static_cast<int>(b);
   }
   return nearest;

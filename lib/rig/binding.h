@@ -18,9 +18,12 @@ namespace sinew {
 /// One bone's hold on one particle.
 struct Influence {
   int bone = no_bone;
-  double weight = 0;         ///< the weights of a particle sum to 1
-  Vec3 foot = Vec3::Zero();  ///< reference point on the bone's axis, in the rest pose, m
+  double weight = 0;  ///< the weights of a particle sum to 1
+  double foot = 0;    ///< reference point on the bone's axis: m from the head towards the tail
   double rest_distance = 0;  ///< from the foot to the particle at rest, m
+
+  /// In the rest pose.
+  Vec3 foot_on(const Bone& its_bone) const { return its_bone.head() + foot * its_bone.axis(); }
 };
 
 struct Binding {

@@ -75,8 +75,9 @@ SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held
   const V drive = k * rho02 * alpha;
   V inward = L::all(0), share = L::all(1);
   taper<L>(rho2, rho02, drive * alpha, share, inward);
-  const auto turns = L::both(L::less(L::all(0), rho2), L::less(L::all(0), rho02));
-  const V around = L::keep(turns, share * drive / rho2), in = L::keep(turns, inward);
+  const auto turns = L::less(L::all(0), rho2 * rho02);
+  const V per_rho2 = L::all(1) / rho2;
+  const V around = L::keep(turns, share * drive * per_rho2), in = L::keep(turns, inward);
   Pull<L> pull{{L::all(0), L::less_fused(in, at.y, around * at.z),
                 L::less_fused(in, at.z, (L::all(0) - around) * at.y)},
                L::all(0)};
@@ -93,44 +94,53 @@ SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held
   return pull;
 }
 
-/// Adds what one bone does.
+/// What one bone does with a weight of 1.
 template <class L, bool energy>
-SINEW_INLINE void add_bone(const BoneNow<typename L::Real>& bone, const Held<L>& held,
-                           const Shares<L>& shares, const Triple<L>& arm, const Triple<L>& velocity,
-                           BoneSums<L>& sums) {
-  using V = typename L::V;
+SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const Held<L>& held,
+                                    const Place<L>& here, const Triple<L>& velocity) {
+  const Triple<L> arm = from_centre<L>(bone, here);
   const Triple<L> at = into_frame<L>(bone, arm);
   const Pull<L> radial = radial_pull<L, energy>(L::all(bone.radial), at, held);
   const Pull<L> twist = twist_pull<L, energy>(L::all(bone.twist), at, held);
   const Pull<L> axial = axial_pull<L, energy>(L::all(bone.axial), at, held);
-  const Triple<L> local = radial.force + twist.force + axial.force;
-  const Triple<L> spring = shares.weight * from_frame<L>(bone, local);
-
-  const Triple<L> carried = all<L>(bone.velocity) + cross<L>(all<L>(bone.spin), arm);
-  const V rate = shares.weight * L::all(bone.damping);
-  const Triple<L> damping = rate * (carried - velocity);
-  sums.spring = sums.spring + spring;
-  sums.damping = sums.damping + damping;
-  sums.power = sums.power + dot<L>(spring + damping, carried);
-  sums.damping_power = sums.damping_power + dot<L>(damping, carried);
-  sums.carried = fused<L>(shares.lead, carried, sums.carried);
+  BoneSums<L> pull;
+  pull.carried = all<L>(bone.velocity) + cross<L>(all<L>(bone.spin), arm);
+  pull.spring = from_frame<L>(bone, {radial.force.x + axial.force.x, radial.force.y + twist.force.y,
+                                     radial.force.z + twist.force.z});
+  pull.damping = L::all(bone.damping) * (pull.carried - velocity);
+  pull.damping_power = dot<L>(pull.damping, pull.carried);
+  pull.power = pull.damping_power + dot<L>(pull.spring, pull.carried);
   if constexpr (energy)
-    sums.energy = sums.energy + shares.weight * (radial.energy + twist.energy + axial.energy) *
-                                    L::all(static_cast<typename L::Real>(0.5));
+    pull.energy =
+        (radial.energy + twist.energy + axial.energy) * L::all(static_cast<typename L::Real>(0.5));
+  return pull;
 }
 
+template <class L>
+SINEW_INLINE void add(const BoneSums<L>& pull, const Shares<L>& shares, BoneSums<L>& sums) {
+  sums.spring = fused<L>(shares.weight, pull.spring, sums.spring);
+  sums.damping = fused<L>(shares.weight, pull.damping, sums.damping);
+  sums.power = L::fused(shares.weight, pull.power, sums.power);
+  sums.damping_power = L::fused(shares.weight, pull.damping_power, sums.damping_power);
+  sums.energy = L::fused(shares.weight, pull.energy, sums.energy);
+  sums.carried = fused<L>(shares.lead, pull.carried, sums.carried);
+}
+
+/// All the bones of a vector. One bone alone, as nearly everywhere, needs no weights.
 template <class L, bool energy>
 SINEW_INLINE BoneSums<L> bone_sums(const Step<typename L::Real>& step, std::size_t block, int lane,
                                    const Place<L>& here, const Triple<L>& velocity) {
   const auto& holds = step.holds;
+  const std::uint32_t begin = holds.first[block], end = holds.first[block + 1];
+  const auto pull_of = [&](std::uint32_t s) __attribute__((always_inline)) {
+    return whole_pull<L, energy>(holds.bones[holds.slots[s].bone], held_by<L>(holds, s, lane), here,
+                                 velocity);
+  };
+  if (end - begin == 1 && holds.slots[begin].shares < 0) [[likely]]
+    return pull_of(begin);
   BoneSums<L> sums;
-  for (std::uint32_t s = holds.first[block]; s != holds.first[block + 1]; ++s) {
-    const Slot slot = holds.slots[s];
-    const auto& bone = holds.bones[slot.bone];
-    const Triple<L> arm = from_centre<L>(bone, here);
-    add_bone<L, energy>(bone, held_by<L>(holds, s, lane), shares_of<L>(holds, slot, lane), arm,
-                        velocity, sums);
-  }
+  for (std::uint32_t s = begin; s != end; ++s)
+    add<L>(pull_of(s), shares_of<L>(holds, holds.slots[s], lane), sums);
   return sums;
 }
 

@@ -7,7 +7,8 @@
 //
 //     V, M, C                 numbers, truth values, coordinates; one per lane
 //     all, load, store, _coord  one value in all lanes; from and to memory, unaligned
-//     root, larger, size      square root; the larger of two; absolute value
+//     root, size              square root, absolute value
+//     larger, smaller         of two; the second where either is not a number
 //     fused, less_fused       c + a b and c - a b, rounded once
 //     less, at_most, both     comparisons, false where a lane is not a number
 //     any, every              over the lanes

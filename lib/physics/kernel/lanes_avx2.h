@@ -23,6 +23,7 @@ struct Doubles {
   static V fused(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
   static V less_fused(V a, V b, V c) { return _mm256_fnmadd_pd(a, b, c); }
   static V larger(V a, V b) { return _mm256_max_pd(a, b); }
+  static V smaller(V a, V b) { return _mm256_min_pd(a, b); }
   static V size(V v) { return _mm256_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
@@ -55,6 +56,7 @@ struct Floats {
   static V fused(V a, V b, V c) { return _mm256_fmadd_ps(a, b, c); }
   static V less_fused(V a, V b, V c) { return _mm256_fnmadd_ps(a, b, c); }
   static V larger(V a, V b) { return _mm256_max_ps(a, b); }
+  static V smaller(V a, V b) { return _mm256_min_ps(a, b); }
   static V size(V v) { return _mm256_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }

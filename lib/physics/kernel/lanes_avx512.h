@@ -23,6 +23,7 @@ struct Doubles {
   static V fused(V a, V b, V c) { return _mm512_fmadd_pd(a, b, c); }
   static V less_fused(V a, V b, V c) { return _mm512_fnmadd_pd(a, b, c); }
   static V larger(V a, V b) { return _mm512_max_pd(a, b); }
+  static V smaller(V a, V b) { return _mm512_min_pd(a, b); }
   static V size(V v) { return _mm512_abs_pd(v); }
   static M less(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
@@ -55,6 +56,7 @@ struct Floats {
   static V fused(V a, V b, V c) { return _mm512_fmadd_ps(a, b, c); }
   static V less_fused(V a, V b, V c) { return _mm512_fnmadd_ps(a, b, c); }
   static V larger(V a, V b) { return _mm512_max_ps(a, b); }
+  static V smaller(V a, V b) { return _mm512_min_ps(a, b); }
   static V size(V v) { return _mm512_abs_ps(v); }
   static M less(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }

@@ -21,6 +21,7 @@ struct One {
   static V fused(V a, V b, V c) { return std::fma(a, b, c); }
   static V less_fused(V a, V b, V c) { return std::fma(-a, b, c); }
   static V larger(V a, V b) { return a > b ? a : b; }
+  static V smaller(V a, V b) { return a < b ? a : b; }
   static V size(V v) { return std::fabs(v); }
   static M less(V a, V b) { return a < b; }
   static M at_most(V a, V b) { return a <= b; }

@@ -29,6 +29,7 @@ struct Doubles {
   }
   static V less_fused(V a, V b, V c) { return fused(all(0) - a, b, c); }
   static V larger(V a, V b) { return _mm_max_pd(a, b); }
+  static V smaller(V a, V b) { return _mm_min_pd(a, b); }
   static V size(V v) { return _mm_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm_cmplt_pd(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_pd(a, b); }
@@ -66,6 +67,7 @@ struct Floats {
   }
   static V less_fused(V a, V b, V c) { return fused(all(0) - a, b, c); }
   static V larger(V a, V b) { return _mm_max_ps(a, b); }
+  static V smaller(V a, V b) { return _mm_min_ps(a, b); }
   static V size(V v) { return _mm_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm_cmplt_ps(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_ps(a, b); }

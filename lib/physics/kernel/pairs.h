@@ -27,75 +27,77 @@ class PullLaw<L, float> {
   SINEW_INLINE explicit PullLaw(const Law<float>& law)
       : k1_(L::all(law.k1 / law.r)),
         touching_(L::all(4 * law.k1 * law.r)),
-        a_(L::all(law.a)),
         b_(L::all(law.b)),
-        k2_(L::all(law.k2 / law.r)) {}
+        k2_(L::all(law.k2 / law.r)),
+        k2_a_(L::all(-law.k2 / law.r * law.a)) {}
 
-  /// Each of the two terms is zero where the other acts.
-  SINEW_INLINE V operator()(V squared, V& d) const {
+  /// Of the two terms one is zero. `d` is exact; at 0 it gives no number.
+  template <bool careful>
+  SINEW_INLINE V pull(V squared, V& d) const {
     d = L::root(squared);
     const V repulsion = L::larger(L::less_fused(k1_, squared, touching_), L::all(0));
-    const V stretch = k2_ * L::larger(d - a_, L::all(0));
+    const V stretch = L::larger(L::fused(k2_, d, k2_a_), L::all(0));
     return L::less_fused(stretch, b_ - d, repulsion) / d;
   }
+  /// Whether sums of a vector, of which one axis, want the careful way: after a distance of 0.
+  SINEW_INLINE bool asks_for_care(V, V force) const { return !L::every(L::at_most(force, force)); }
 
  private:
-  V k1_, touching_, a_, b_, k2_;
+  V k1_, touching_, b_, k2_, k2_a_;
 };
 
-/// 1 / sqrt(s) for s between 2.25 and 8: a minimax polynomial with a relative error of 1.4e-3,
-/// improved by the series of 1 / sqrt(1 - h) up to h^5. An error of 2 in the last place, the same
-/// everywhere, in half the time of root and division.
-template <class L>
-SINEW_INLINE typename L::V inverse_root(typename L::V s) {
-  const auto all = [](double c) { return L::all(c); };
-  const typename L::V s2 = s * s;
-  const typename L::V low = L::fused(all(-0.3655432081), s, all(1.199850214));
-  const typename L::V high =
-      L::fused(all(0.0002723509958), s2, L::fused(all(-0.007049514311), s, all(0.07144285003)));
-  const typename L::V y = L::fused(s2, high, low);
-  const typename L::V h = L::less_fused(s * y, y, all(1)), h2 = h * h;
-  const typename L::V first = L::fused(all(3. / 8), h, all(1. / 2));
-  const typename L::V last =
-      L::fused(all(63. / 256), h2, L::fused(all(35. / 128), h, all(5. / 16)));
-  return L::fused(y * h, L::fused(h2, last, first), y);
-}
-
-/// Double precision, in whose vectors root and division are slow: nearly all pairs are where
-/// inverse_root is good, between 1.5 and 2.83 radii. Attraction, (d - a) (b - d) / d = a + b -
-/// (s + a b) / d, is written so that little is left to do once 1 / d is known: the loop waits for
-/// it.
+/// Double precision, in whose vectors root and division are slow. Nearly all pairs are between 1.5
+/// and 2.83 radii; there 1 / d is found in half the time as a minimax polynomial in s = d^2 with a
+/// relative error of 1.4e-3, improved by the series of 1 / sqrt(1 - h) up to h^5: an error of 2 in
+/// the last place, the same everywhere. Attraction, (d - a) (b - d) / d = a + b - (s + a b) / d, is
+/// written so that little is left to do once 1 / d is known: the loop waits for it.
 template <class L>
 class PullLaw<L, double> {
  public:
   using V = typename L::V;
 
   SINEW_INLINE explicit PullLaw(const Law<double>& law)
-      : per_r2_(L::all(1 / (law.r * law.r))),
-        r_(L::all(law.r)),
-        usual_(L::all(law.b * law.b <= 8 * law.r * law.r ? 2.25 : 1e300)),
-        a2_(L::all(law.a * law.a / (law.r * law.r))),
-        k1_(L::all(law.k1)),
-        touching_(L::all(4 * law.k1)),
-        k2_(L::all(law.k2)),
-        k2_ab_(L::all(law.k2 * law.a * law.b / (law.r * law.r))),
-        k2_a_b_(L::all(-law.k2 * (law.a + law.b) / law.r)) {}
+      : usual_(L::all((law.b * law.b <= 8 * law.r * law.r ? 2.25 : 1e300) * law.r * law.r)),
+        a2_(L::all(law.a * law.a)),
+        k1_(L::all(law.k1 / law.r)),
+        touching_(L::all(4 * law.k1 * law.r)),
+        k2_(L::all(law.k2 / law.r)),
+        k2_ab_(L::all(law.k2 / law.r * law.a * law.b)),
+        k2_a_b_(L::all(-law.k2 / law.r * (law.a + law.b))) {
+    constexpr double coefficients[] = {1.199850214, -0.3655432081, 0.07144285003, -0.007049514311,
+                                       0.0002723509958};
+    double scale = 1 / law.r;
+    for (int k = 0; k < 5; ++k) {
+      seed_[k] = L::all(coefficients[k] * scale);
+      scale /= law.r * law.r;
+    }
+  }
 
-  SINEW_INLINE V operator()(V squared, V& d) const {
-    const V s = squared * per_r2_;
-    V inverse = inverse_root<L>(s);
-    const auto unusual = L::less(s, usual_);
-    if (L::any(unusual)) [[unlikely]]
-      inverse = L::pick(unusual, L::all(1) / L::root(s), inverse);
-    d = r_ * s * inverse;
+  template <bool careful>
+  SINEW_INLINE V pull(V s, V& d) const {
+    V inverse = inverse_root(s);
+    if constexpr (careful) inverse = L::pick(L::less(s, usual_), L::all(1) / L::root(s), inverse);
+    d = s * inverse;
     const auto attracted = L::at_most(a2_, s);
     const V repulsion = L::larger(L::less_fused(k1_, s, touching_), L::all(0));
     const V factor = L::pick(attracted, L::fused(k2_, s, k2_ab_), repulsion);
     return L::fused(factor, inverse, L::keep(attracted, k2_a_b_));
   }
+  SINEW_INLINE bool asks_for_care(V least, V) const { return L::any(L::less(least, usual_)); }
 
  private:
-  V per_r2_, r_, usual_, a2_, k1_, touching_, k2_, k2_ab_, k2_a_b_;
+  SINEW_INLINE V inverse_root(V s) const {
+    const V s2 = s * s;
+    const V low = L::fused(seed_[1], s, seed_[0]);
+    const V high = L::fused(seed_[4], s2, L::fused(seed_[3], s, seed_[2]));
+    const V y = L::fused(s2, high, low);
+    const V h = L::less_fused(s * y, y, L::all(1)), h2 = h * h;
+    const V first = L::fused(L::all(3. / 8), h, L::all(1. / 2));
+    const V last = L::fused(L::all(63. / 256), h2, L::fused(L::all(35. / 128), h, L::all(5. / 16)));
+    return L::fused(y * h, L::fused(h2, last, first), y);
+  }
+
+  V seed_[5], usual_, a2_, k1_, touching_, k2_, k2_ab_, k2_a_b_;
 };
 
 /// The potential of eq. 1 at d < b.
@@ -120,33 +122,36 @@ SINEW_INLINE typename L::V way_out(const std::int32_t* id, std::ptrdiff_t i, std
 /// Eq. 1 at d = 0 has a size and no direction.
 template <class L>
 SINEW_INLINE void part(const Step<typename L::Real>& step, std::ptrdiff_t i, std::ptrdiff_t j,
-                       typename L::M together, typename L::V& pull, typename L::V& apart_x) {
+                       typename L::V squared, typename L::V& pull, typename L::V& apart_x) {
+  const auto together = L::at_most(squared, L::all(0));
+  if (!L::any(together)) return;
   const typename L::Real push = 4 * step.law.k1 * step.law.r;
   pull = L::pick(together, L::all(push), pull);
   apart_x = L::pick(together, way_out<L>(step.id, i, j), apart_x);
 }
 
-/// The sums over the differences [begin, end).
-template <class L, bool energy>
-SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const PullLaw<L>& law,
+/// The sums over the differences [begin, end); `least` tells the least squared distance met. What
+/// is `careful` treats all distances, what is not those that `law` does not ask care for.
+template <class L, bool energy, bool careful>
+SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const PullLaw<L>& law,
                                    std::ptrdiff_t i, const std::int32_t* begin,
-                                   const std::int32_t* end) {
+                                   const std::int32_t* end, typename L::V& least) {
   using V = typename L::V;
   const Place<L> here = load_place<L>(step.before.x, i);
   const V b2 = L::all(step.law.b2);
   // By themselves, not in a PairSums: so the compiler keeps them in registers.
   V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
+  V closest = b2;
   for (const std::int32_t* difference = begin; difference != end; ++difference) {
     const std::ptrdiff_t j = i + *difference;
     Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
     const V squared = squared_distance<L>(apart);
     const auto near = L::less(squared, b2);
     if (!L::any(near)) continue;
+    closest = L::smaller(squared, closest);
     V d;
-    V pull = law(squared, d);
-    const auto together = L::at_most(squared, L::all(0));
-    if (L::any(together)) [[unlikely]]
-      part<L>(step, i, j, together, pull, apart.x);
+    V pull = law.template pull<careful>(squared, d);
+    if constexpr (careful) part<L>(step, i, j, squared, pull, apart.x);
     pull = L::keep(near, pull);
     fx = L::fused(pull, apart.x, fx);
     fy = L::fused(pull, apart.y, fy);
@@ -159,7 +164,32 @@ SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const Pul
       stored =
           L::add_where(near, stored, L::all(typename L::Real(0.5)) * potential<L>(step.law, d));
   }
+  least = closest;
   return {{fx, fy, fz}, {su, sv, sw}, count, stored};
+}
+
+/// Apart from the others, so that they need not keep their values in memory for it.
+template <class L, bool energy>
+[[gnu::noinline, gnu::cold]] void sum_pairs_carefully(const Step<typename L::Real>& step,
+                                                      std::ptrdiff_t i, const std::int32_t* begin,
+                                                      const std::int32_t* end, PairSums<L>& sums) {
+  typename L::V least;
+  sums = sum_pairs<L, energy, true>(step, PullLaw<L>(step.law), i, begin, end, least);
+}
+
+template <class L, bool energy>
+SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const PullLaw<L>& law,
+                                   std::ptrdiff_t i, const std::int32_t* begin,
+                                   const std::int32_t* end) {
+  typename L::V least;
+  PairSums<L> sums = sum_pairs<L, energy, false>(step, law, i, begin, end, least);
+  if (law.asks_for_care(least, sums.force.x)) [[unlikely]] {
+    PairSums<L> careful;
+    sum_pairs_carefully<L, energy>(step, i, begin, end, careful);
+    sums.force = {careful.force.x, careful.force.y, careful.force.z};
+    sums.energy = careful.energy;
+  }
+  return sums;
 }
 
 /// Eq. 2: towards the mean velocity of the partners.

@@ -38,10 +38,11 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullL
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   Forces<L> forces;
+  // First: this long chain of operations ends while those of the pairs go on.
+  forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
   forces.pairs = pair_sums<L, energy>(step, law, i, step.lists.value + step.lists.first[block],
                                       step.lists.value + step.lists.first[block + 1]);
   forces.damping = damping_of<L>(forces.pairs, L::all(step.law.damping), velocity);
-  forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
   return forces;
@@ -64,9 +65,12 @@ SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& dri
                         Sums<L>& sums) {
   const Triple<L> relative = drifting - carried;
   const typename L::V speed2 = dot<L>(relative, relative);
-  // Zero times an infinite value or one that is no number is no number.
-  const typename L::V nothing = dot<L>(L::all(0) * kicked, kicked);
-  sums.sound = sums.sound && L::every(L::at_most(speed2 + nothing, L::all(step.most)));
+  sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
+  if (step.drift_first) {  // the velocity after is not in it: zero times what is not finite is no
+                           // number
+    const typename L::V nothing = dot<L>(L::all(0) * kicked, kicked);
+    sums.sound = sums.sound && L::every(L::at_most(nothing, L::all(0)));
+  }
   L::store(sums.fastest + lane, L::larger(speed2, L::load(sums.fastest + lane)));
 }
 

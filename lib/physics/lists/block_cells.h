@@ -2,8 +2,10 @@
 // The paper's cells, holding blocks instead of particles: which blocks have a particle where.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +16,7 @@ namespace sinew {
 
 class BlockCells {
  public:
+  BlockCells() = default;
   /// Cells whose edge is `range` (in lengths of the kernel) or more.
   template <class Real>
   BlockCells(BlockState<Real>& state, double range);
@@ -25,8 +28,29 @@ class BlockCells {
   double edge() const { return edge_; }
   /// The cell of each particle.
   std::span<const std::uint32_t> cell_of_particle() const { return cell_; }
+  /// Lets go of that, which takes the most memory.
+  void forget_particles() { std::vector<std::uint32_t>().swap(cell_); }
   /// Bounds of the cell's particles: its own box, in lengths from the corner of the grid.
   const Vec3& low() const { return low_; }
+
+  /// Calls visit(block) for the blocks with a particle within two edges of a point, in lengths,
+  /// and others; some more than once.
+  template <class Visit>
+  void for_each_block_near(const Vec3& point, Visit&& visit) const {
+    std::array<std::int64_t, 3> from, to;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = std::floor((point[axis] - low_[axis]) / edge_);
+      const auto last = static_cast<double>(counts_[axis] - 1);
+      from[axis] = static_cast<std::int64_t>(std::clamp(at - 2, 0.0, last));
+      to[axis] = static_cast<std::int64_t>(std::clamp(at + 2, 0.0, last));
+    }
+    for (std::int64_t k = from[2]; k <= to[2]; ++k)
+      for (std::int64_t j = from[1]; j <= to[1]; ++j) {
+        const std::int64_t row = (k * counts_[1] + j) * counts_[0];
+        for (std::uint32_t p = first_[row + from[0]]; p < first_[row + to[0] + 1]; ++p)
+          visit(inside_[p]);
+      }
+  }
 
   /// Finds the blocks with a particle in the cells around those of a block's particles.
   class Finder {
@@ -65,8 +89,8 @@ class BlockCells {
   template <class Visit>
   void for_each_cell(std::size_t block, Visit&& visit) const;
 
-  std::size_t block_size_;
-  std::size_t blocks_;
+  std::size_t block_size_ = 1;
+  std::size_t blocks_ = 0;
   Vec3 low_ = Vec3::Zero();
   double edge_ = 0;
   std::array<std::int64_t, 3> counts_{1, 1, 1};

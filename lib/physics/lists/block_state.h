@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/particles.h"
@@ -27,6 +28,12 @@ struct Measure {
 /// The measure for particles within `box` (m) that take steps of `step` (s).
 template <class Real>
 Measure measure_for(const Box& box, const PairForce& pair, double step);
+
+/// a - b as the kernel has it: whole numbers wrap round.
+inline double difference_of(double a, double b) { return a - b; }
+inline std::int32_t difference_of(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
 
 template <class Real>
 class BlockState {

@@ -12,8 +12,10 @@ namespace {
 constexpr std::int64_t rings = 2;  // of cells around a group's own that count as near it
 
 /// The largest |(A - B) x| over a box: convex, so at a corner.
-double difference_within(const RigidMotion& a, const RigidMotion& b, const Box& box) {
+double difference_within(const RigidMotion& a, const RigidMotion& b, Box box, double wider = 0) {
   if (box.isEmpty()) return 0;
+  box.min().array() -= wider;
+  box.max().array() += wider;
   const Mat3 turn = a.turn - b.turn;
   const Vec3 shift = a.shift - b.shift;
   double most = 0;
@@ -152,34 +154,35 @@ void BoneContacts::find_pairs(const BlockCells& cells, std::span<const std::uint
     }
 }
 
-double BoneContacts::approach(std::span<const RigidMotion> motions) const {
+double BoneContacts::approach(std::span<const RigidMotion> motions, double shift) const {
   double most = 0;
   for (const Pair& pair : pairs_) {
     const RigidMotion &a = motions[pair.a], &b = motions[pair.b];
-    most = std::max(
-        most, std::min(difference_within(a, b, pair.near_a), difference_within(a, b, pair.near_b)));
+    most = std::max(most, std::min(difference_within(a, b, pair.near_a, shift),
+                                   difference_within(a, b, pair.near_b, shift)));
     // Pairs beyond the reach have that much farther to go.
-    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a]),
-                                   difference_within(a, b, whole_[pair.b])) -
-                              (reach_ - range_));
+    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a], shift),
+                                   difference_within(a, b, whole_[pair.b], shift)) -
+                              (reach_ - range_ - 2 * shift));
   }
   for (const Apart& pair : apart_) {
     const RigidMotion &a = motions[pair.a], &b = motions[pair.b];
-    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a]),
-                                   difference_within(a, b, whole_[pair.b])) -
-                              (pair.gap - range_));
+    most = std::max(most, std::min(difference_within(a, b, whole_[pair.a], shift),
+                                   difference_within(a, b, whole_[pair.b], shift)) -
+                              (pair.gap - range_ - 2 * shift));
   }
   return most;
 }
 
 double BoneContacts::approach_since(std::span<const RigidMotion> earlier,
-                                    std::span<const RigidMotion> motions, double moved) const {
+                                    std::span<const RigidMotion> motions, double moved,
+                                    double shift) const {
   double most = 0;
   for (const Pair& pair : pairs_) {
     const auto added = [&](std::size_t a, std::size_t b, const Box& near_b) {
       const RigidMotion then = seen_from(earlier[a], earlier[b]);
       const RigidMotion now = seen_from(motions[a], motions[b]);
-      return difference_within(now, then, near_b) + (now.turn - then.turn).norm() * moved;
+      return difference_within(now, then, near_b, shift) + (now.turn - then.turn).norm() * moved;
     };
     most = std::max(
         most, std::min(added(pair.a, pair.b, pair.near_b), added(pair.b, pair.a, pair.near_a)));

@@ -32,12 +32,13 @@ class BoneContacts {
                const Vec3& origin, double scale, double range);
 
   /// How much nearer the bones' motions since the reference may have brought particles that the
-  /// lists do not pair, m. The lists hold as long as this plus 2 |e| stays below range - b.
-  double approach(std::span<const RigidMotion> motions) const;
+  /// lists do not pair, m, when no particle is farther than `shift` (m) out of its place. The lists
+  /// hold as long as this plus 2 |e| stays below range - b.
+  double approach(std::span<const RigidMotion> motions, double shift = 0) const;
   /// The same for pairs that the lists hold, and only what was added after `earlier`, when no
   /// particle was farther than `moved` (m) from its T x(0).
   double approach_since(std::span<const RigidMotion> earlier, std::span<const RigidMotion> motions,
-                        double moved) const;
+                        double moved, double shift = 0) const;
   /// How far any particle has been carried, m.
   double travel(std::span<const RigidMotion> motions) const;
   /// Upper bound of a group's distance from `point` at the reference, m; 0 for an empty group.

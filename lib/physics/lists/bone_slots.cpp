@@ -35,9 +35,9 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const double r = body.material.pair.r;
   const bool aside = std::hypot(local.y(), local.z()) >= on_axis * r;
   const double distance = influence.rest_distance < on_axis * r ? 0 : influence.rest_distance;
-  const double foot = place_along(bone, influence.foot);
-  const double fields[kernel::held_fields] = {
-      foot - centre, local.x() - centre, aside ? local.y() : 0, aside ? local.z() : 0, distance};
+  const double fields[kernel::held_fields] = {influence.foot - centre, local.x() - centre,
+                                              aside ? local.y() : 0, aside ? local.z() : 0,
+                                              distance};
   for (int field = 0; field < kernel::held_fields; ++field)
     lane[field * block] = static_cast<Real>(fields[field] / measure.length);
 }
@@ -96,6 +96,21 @@ class Filler {
   BoneSlots<Real>& out_;
 };
 
+/// How many slots the blocks will take: memory that grows by doubling would be half empty.
+std::size_t count_slots(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
+  std::size_t count = 0;
+  std::vector<int> bones;
+  for (std::size_t begin = 0; begin < id.size(); begin += block) {
+    bones.clear();
+    for (const std::int32_t i : id.subspan(begin, std::min(block, id.size() - begin)))
+      for (const Influence& influence : body.binding.of(i))
+        if (std::find(bones.begin(), bones.end(), influence.bone) == bones.end())
+          bones.push_back(influence.bone);
+    count += bones.size();
+  }
+  return count;
+}
+
 template <class Real>
 void put(const Vec3& from, double scale, Real* to) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = static_cast<Real>(from[axis] * scale);
@@ -129,6 +144,11 @@ BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
   constexpr std::size_t block = kernel::Traits<Real>::block;
   BoneSlots<Real> slots;
   slots.centre = centres(body);
+  const std::size_t count = count_slots(body, id, block);
+  slots.slots.reserve(count);
+  slots.held.reserve(count * kernel::held_fields * block);
+  slots.lead.reserve(id.size());
+  slots.first.reserve(id.size() / block + 2);
   slots.first.push_back(0);
   Filler<Real> filler(body, measure, slots);
   for (std::size_t begin = 0; begin < id.size(); begin += block)

@@ -6,29 +6,22 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "physics/lists/order.h"
 
 namespace sinew {
 namespace {
 
-// In diameters, measured: longer lists cost every step, shorter ones are made more often.
-constexpr double wide_skin = 0.5, narrow_skin = 0.08;
+// Columns of sorted particles, in diameters; how much longer lists may become before a sort is
+// tried anew.
+constexpr double column_edge = 1.2, most_growth = 1.3;
 // A barrier costs more than the work below this many particles per thread.
 constexpr std::size_t particles_per_thread = 8192;
 // Share of the range of whole numbers that a body may travel before it is centred again.
-constexpr double free_travel = 0.125;
+constexpr double free_travel = 0.125, whole_range = 4294967296;
 
 template <class Real>
 constexpr std::size_t pieces_per_thread = particles_per_thread /
                                           (kernel::blocks_per_piece * BlockState<Real>::block);
-
-double bone_excess(const Pose& before, const Pose& now, double step, const BoneContacts& contacts,
-                   const Pose& listed, double beyond) {
-  double most = 0;
-  for (std::size_t b = 0; b < now.size(); ++b)
-    most = std::max(most, excess_of_step(before[b], now[b], step,
-                                         contacts.reach_from(listed[b].frame.origin, b) + beyond));
-  return most;
-}
 
 }  // namespace
 
@@ -46,7 +39,8 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
     : body_(std::move(body)),
       stepping_(stepping),
       mass_(particles.mass),
-      kernel_(kernel::functions_of<Real>(instructions)) {
+      kernel_(kernel::functions_of<Real>(instructions)),
+      lists_(kernel_, body_->material.pair, stepping.step) {
   load(particles);
 }
 
@@ -67,19 +61,22 @@ void ListStepper<Real>::load(const Particles& particles) {
   }
   slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
   world_ = world_frame<Real>(measure_);
-  for (auto& axis : reference_) axis.resize(state_.blocks() * block);
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
 template <class Real>
-kernel::Holds<Real> ListStepper<Real>::holds(
-    const std::vector<kernel::BoneNow<Real>>& bones) const {
-  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
-          bones.data()};
+void ListStepper<Real>::place_bones(const Pose& pose) {
+  bones_ = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
 }
 
 template <class Real>
-kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real>>& bones) {
+kernel::Holds<Real> ListStepper<Real>::holds() const {
+  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
+          bones_.data()};
+}
+
+template <class Real>
+kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
   const double L = measure_.length, T = measure_.time, dt = stepping_.step;
@@ -89,8 +86,8 @@ kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real
   step.after = next_.arrays();
   step.blocks = state_.blocks();
   step.id = id_.data() + block;
-  step.lists = narrow_.arrays();
-  step.holds = holds(bones);
+  step.lists = lists_.arrays();
+  step.holds = holds();
   const double per_mass = pair.r * T * T / mass_;
   step.law = {real(pair.r / L),
               real(pair.a / L),
@@ -113,91 +110,75 @@ kernel::Step<Real> ListStepper<Real>::job(const std::vector<kernel::BoneNow<Real
 }
 
 template <class Real>
-kernel::Ride<Real> ListStepper<Real>::ride(const std::vector<kernel::BoneNow<Real>>& bones) {
-  return {state_.arrays(),
-          holds(bones),
-          &world_,
-          {reference_[0].data(), reference_[1].data(), reference_[2].data()}};
-}
-
-/// How far the particles may have moved in their bones' frames in the step that led here.
-template <class Real>
-void ListStepper<Real>::follow_last_step(const Pose& pose) {
-  const double dt = stepping_.step;
-  // Whole units of single precision add up to one unit to what the speed says.
-  const double rounding = sizeof(Real) == 4 && fastest_ > 0 ? measure_.length : 0;
-  const double moved =
-      fastest_ * dt * (1 + 1e-5) + rounding +
-      bone_excess(last_pose_, pose, dt, contacts_, listed_pose_, wide_drift_.skin());
-  wide_drift_.add(moved);
-  narrow_drift_.add(moved);
+Riders<Real> ListStepper<Real>::riders(const Pose& pose) {
+  return {state_, measure_, holds(), world_, slots_.lead, pose};
 }
 
 template <class Real>
-void ListStepper<Real>::look(const std::vector<kernel::BoneNow<Real>>& bones) {
-  ++counts_.looks;
-  const auto job = ride(bones);
-  std::vector<double> most(totals_.size(), 0.0);
-  const std::size_t blocks = state_.blocks();
-  parallel_split(totals_.size(), pieces_per_thread<Real>, [&](std::size_t begin, std::size_t end) {
-    most[begin] = static_cast<double>(kernel_.displacement(
-        job, begin * kernel::blocks_per_piece, std::min(blocks, end * kernel::blocks_per_piece)));
-  });
-  double squared = 0;
-  for (const double part : most) squared = std::max(squared, part);
-  // The reference is kept in floats: to their rounding.
-  double reach = 0;
-  for (std::size_t b = 0; b < listed_pose_.size(); ++b)
-    reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
-  wide_drift_.found(std::sqrt(squared) * measure_.length + 2.5e-7 * reach);
+void ListStepper<Real>::keep_lists_true(const Pose& pose) {
+  if (!lists_.made() || !lists_.follow(riders(pose), fastest_)) return rebuild(pose);
+  if (sizeof(Real) == 4 && lists_.travel(pose) > free_travel * whole_range * measure_.length)
+    rebuild(pose);
 }
 
+/// Puts the particles into columns where that makes the lists shorter.
 template <class Real>
-void ListStepper<Real>::keep_lists_true(const Pose& pose,
-                                        const std::vector<kernel::BoneNow<Real>>& bones) {
-  if (!listed_) return rebuild(pose, bones);
-  follow_last_step(pose);
-  const auto motions = motions_between(listed_pose_, pose);
-  const double approach = contacts_.approach(motions);
-  if (!wide_drift_.holds(approach)) {
-    look(bones);
-    // A look that leaves little to go on with would be followed by another at once.
-    if (!wide_drift_.holds(approach + wide_drift_.skin() / 8)) return rebuild(pose, bones);
+bool ListStepper<Real>::sort() {
+  const auto order =
+      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / measure_.length);
+  reorder(state_, order, next_);
+  const double sorted = lists_.wide_of(next_, measure_).mean(), unsorted = lists_.mean_of_wide();
+  mean_when_sorted_ = std::min(sorted, unsorted);
+  if (sorted > 0.95 * unsorted) return false;
+  ++sorts_;
+  std::swap(state_, next_);
+  std::vector<std::int32_t> id(id_.size(), 0);
+  std::vector<std::uint32_t> caller(caller_.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    id[k + block] = id_[order[k] + block];
+    caller[k] = caller_[order[k]];
   }
-  const double range = 4294967296.0 * measure_.length;
-  if (sizeof(Real) == 4 && contacts_.travel(motions) > free_travel * range)
-    return rebuild(pose, bones);
-  if (!narrow_drift_.holds(contacts_.approach_since(sifted_motions_, motions, moved_when_sifted_)))
-    sift(pose);
+  id_ = std::move(id);
+  caller_ = std::move(caller);
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, measure_);
+  return true;
+}
+
+/// Whole numbers hold a body that has grown or travelled far in a measure of its own.
+template <class Real>
+void ListStepper<Real>::remeasure() {
+  if (sizeof(Real) == 8) return;
+  const std::size_t n = caller_.size();
+  Box box;
+  for (std::size_t k = 0; k < n; ++k) box.extend(state_.position(k, measure_));
+  const double usual = whole_range * measure_.length / 4;
+  if (n == 0 ||
+      ((box.center() - measure_.origin).norm() < usual / 4 && box.sizes().maxCoeff() < 1.5 * usual))
+    return;
+  const Measure before =
+      std::exchange(measure_, measure_for<Real>(box, body_->material.pair, stepping_.step));
+  for (std::size_t k = 0; k < n; ++k) state_.set_position(k, state_.position(k, before), measure_);
+  const double scale = before.length / measure_.length;
+  for (Real* axis : state_.arrays().v)
+    for (std::size_t k = 0; k < n; ++k) axis[k] = static_cast<Real>(axis[k] * scale);
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
+  world_ = world_frame<Real>(measure_);
 }
 
 template <class Real>
-void ListStepper<Real>::rebuild(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones) {
-  ++counts_.rebuilds;
-  const double d0 = 2 * body_->material.pair.r / measure_.length;
-  const double range = body_->material.pair.b / measure_.length + wide_skin * d0;
-  const BlockCells cells(state_, range);
-  wide_ = find_offsets(kernel_, state_, cells, range);
-  contacts_ = BoneContacts(cells, slots_.lead, body_->skeleton.size() + 1, measure_.origin,
-                           measure_.length, range * measure_.length);
-  listed_pose_ = pose;
-  kernel_.remember(ride(bones), 0, state_.blocks());
-  wide_drift_ = Drift(wide_skin * d0 * measure_.length);
-  counts_.wide = wide_.mean();
-  listed_ = true;
-  sift(pose);
+void ListStepper<Real>::rebuild(const Pose& pose) {
+  remeasure();
+  place_bones(pose);
+  lists_.make(riders(pose));
+  if (lists_.mean_of_wide() > most_growth * mean_when_sorted_ && sort()) lists_.make(riders(pose));
 }
 
 template <class Real>
-void ListStepper<Real>::sift(const Pose& pose) {
-  ++counts_.sifts;
-  const double d0 = 2 * body_->material.pair.r / measure_.length;
-  const double range = body_->material.pair.b / measure_.length + narrow_skin * d0;
-  narrow_ = sift_offsets(kernel_, state_, wide_, range);
-  narrow_drift_ = Drift(narrow_skin * d0 * measure_.length);
-  sifted_motions_ = motions_between(listed_pose_, pose);
-  moved_when_sifted_ = wide_drift_.moved();
-  counts_.narrow = narrow_.mean();
+ListCounts ListStepper<Real>::counts() const {
+  ListCounts counts;
+  lists_.count(counts);
+  counts.sorts = sorts_;
+  return counts;
 }
 
 template <class Real>
@@ -215,9 +196,9 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
-  const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
-  keep_lists_true(pose, bones);
-  const auto now = job(bones);
+  place_bones(pose);
+  keep_lists_true(pose);
+  const auto now = job();
   parallel_split(totals_.size(), pieces_per_thread<Real>,
                  [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
   StepSums sums = sums_of_totals();
@@ -232,7 +213,6 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   fastest_ = std::sqrt(fastest) * measure_.length / measure_.time;
   std::swap(state_, next_);
   state_.pad_last_block();
-  last_pose_ = pose;
   kicked_ = true;
   return sums;
 }
@@ -259,15 +239,14 @@ Failure ListStepper<Real>::culprit(const Pose& pose) {
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
-  const auto bones = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
-  keep_lists_true(pose, bones);
+  place_bones(pose);
+  keep_lists_true(pose);
   fastest_ = 0;  // the step that led here has been followed
-  last_pose_ = pose;
   const std::size_t n = caller_.size(), slots = state_.blocks() * block;
   std::array<std::vector<Real>, 9> told;
   for (auto& axis : told) axis.resize(slots);
   std::vector<std::int32_t> partners(slots);
-  auto now = job(bones);
+  auto now = job();
   for (int axis = 0; axis < 3; ++axis) {
     now.probed.pair[axis] = told[axis].data();
     now.probed.damping[axis] = told[3 + axis].data();
@@ -302,6 +281,9 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
 template <class Real>
 void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
   const std::size_t n = caller_.size();
+  for (auto* values :
+       {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
+    values->resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       particles.set_position(caller_[k], state_.position(k, measure_));

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps with the kernel: the fast way, for the paper's pair force, damping and bones.
-//
-// Two kinds of lists: a wide one, found with the cells, that lasts long, and a narrow one sifted
-// from it, which the kernel works through in every step.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +8,8 @@
 
 #include "physics/kernel/kernel.h"
 #include "physics/lists/block_state.h"
-#include "physics/lists/bone_contacts.h"
 #include "physics/lists/bone_slots.h"
-#include "physics/lists/drift.h"
-#include "physics/lists/offset_lists.h"
+#include "physics/lists/partner_lists.h"
 #include "physics/stepper.h"
 
 namespace sinew {
@@ -31,21 +26,21 @@ class ListStepper {
   StepSums step(const Pose& pose);
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
-  const ListCounts& counts() const { return counts_; }
+  ListCounts counts() const;
 
  private:
   static constexpr int block = BlockState<Real>::block;
 
   void load(const Particles& particles);
-  kernel::Holds<Real> holds(const std::vector<kernel::BoneNow<Real>>& bones) const;
-  kernel::Step<Real> job(const std::vector<kernel::BoneNow<Real>>& bones);
-  kernel::Ride<Real> ride(const std::vector<kernel::BoneNow<Real>>& bones);
+  void place_bones(const Pose& pose);
+  kernel::Holds<Real> holds() const;
+  kernel::Step<Real> job();
+  Riders<Real> riders(const Pose& pose);
 
-  void keep_lists_true(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones);
-  void follow_last_step(const Pose& pose);
-  void look(const std::vector<kernel::BoneNow<Real>>& bones);
-  void rebuild(const Pose& pose, const std::vector<kernel::BoneNow<Real>>& bones);
-  void sift(const Pose& pose);
+  void keep_lists_true(const Pose& pose);
+  void rebuild(const Pose& pose);
+  void remeasure();
+  bool sort();
   StepSums sums_of_totals() const;
   Failure culprit(const Pose& pose);
 
@@ -58,21 +53,17 @@ class ListStepper {
   std::vector<std::int32_t> id_;       ///< with pads, as the states have
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   BoneSlots<Real> slots_;
+  std::vector<kernel::BoneNow<Real>> bones_;  ///< where they are now
   kernel::BoneNow<Real> world_{};
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
-  bool listed_ = false;
-  OffsetLists wide_, narrow_;
-  Drift wide_drift_, narrow_drift_;
-  BoneContacts contacts_;
-  std::array<std::vector<float>, 3> reference_;
-  Pose listed_pose_, last_pose_;
-  std::vector<RigidMotion> sifted_motions_;
-  double moved_when_sifted_ = 0;
+  PartnerLists<Real> lists_;
+  double mean_when_sorted_ =
+      45;  ///< differences per block in the wide list; here: of a packed body
+  std::int64_t sorts_ = 0;
   double fastest_ = 0;  ///< in the last step, relative to the leading bone, m/s
 
   std::vector<kernel::Totals> totals_;
-  ListCounts counts_;
 };
 
 }  // namespace sinew

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <mutex>
 
@@ -135,6 +136,25 @@ double OffsetLists::mean() const {
   return first.size() < 2
              ? 0
              : static_cast<double>(value.size()) / static_cast<double>(first.size() - 1);
+}
+
+OffsetLists with_added(const OffsetLists& lists, std::vector<BlockOffset> added) {
+  if (added.empty()) return lists;
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
+  return in_pieces(
+      lists.first.size() - 1, [&](std::size_t begin, std::size_t end, OffsetLists& part) {
+        auto next = std::lower_bound(added.begin(), added.end(),
+                                     BlockOffset{static_cast<std::uint32_t>(begin), INT32_MIN});
+        for (std::size_t block = begin; block < end; ++block) {
+          const auto old = lists.value.begin() + lists.first[block];
+          const auto old_end = lists.value.begin() + lists.first[block + 1];
+          std::vector<std::int32_t> more;
+          for (; next != added.end() && next->block == block; ++next) more.push_back(next->offset);
+          std::set_union(old, old_end, more.begin(), more.end(), std::back_inserter(part.value));
+          part.first.push_back(static_cast<std::uint32_t>(part.value.size()));
+        }
+      });
 }
 
 template <class Real>
