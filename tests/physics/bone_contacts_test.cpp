@@ -245,8 +245,8 @@ TEST(ExcessOfStep, FallsWithTheSquareOfTheStepAndVanishesForSteadyTravel) {
   const Skeleton skeleton = make_skeleton(settings);
   const auto excess = [&](double step) {
     const Motion motion = make_motion(settings, skeleton);
-    return excess_of_step(pose_at(skeleton, motion, 0.4)[0], pose_at(skeleton, motion, 0.4 + step)[0],
-                          step, 1);
+    return excess_of_step(pose_at(skeleton, motion, 0.4)[0],
+                          pose_at(skeleton, motion, 0.4 + step)[0], step, 1);
   };
   EXPECT_NEAR(excess(1e-3) / excess(5e-4), 4, 0.02);
   KeySettings end = test::bend_key(1, 0);

@@ -149,8 +149,8 @@ TEST(BoneSlots, NonFiniteForcesDoNotComeFromParticlesExactlyOnTheirAxis) {
   const Scene scene(moving_scene());
   const Particles particles = about_their_bones(scene, 0, 0, {0, 0, 0});
   for (const Precision precision : test::precisions) {
-    Simulation simulation = test::simulation_from(test::in(precision, scene.settings), scene.rest,
-                                                  particles, 1e-3);
+    Simulation simulation =
+        test::simulation_from(test::in(precision, scene.settings), scene.rest, particles, 1e-3);
     for (const Vec3& force : simulation.forces().bone) ASSERT_TRUE(force.allFinite());
     EXPECT_TRUE(std::isfinite(simulation.energies().bone));
   }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/parallel.h"
+#include "physics/lists/order.h"
 #include "ways.h"
 
 namespace sinew {
@@ -109,9 +110,9 @@ TYPED_TEST(OffsetListsOf, NameTheDifferencesOfAllPairsInRangeAndNoOthers) {
     const BlockCells cells(world.state, world.range);
     const auto expected = by_all_pairs(world, world.range);
     for (const auto set : test::instruction_sets())
-      expect_lists(find_offsets(kernel::functions_of<TypeParam>(set), world.state, cells,
-                                world.range),
-                   expected);
+      expect_lists(
+          find_offsets(kernel::functions_of<TypeParam>(set), world.state, cells, world.range),
+          expected);
   }
 }
 
@@ -159,6 +160,60 @@ TYPED_TEST(OffsetListsOf, BlocksOfALatticeInOrderAreShort) {
   EXPECT_LT(find_offsets(kernel, world.state, cells, world.range).mean(), 40);
 }
 
+TYPED_TEST(OffsetListsOf, WithOthersAddedAreTheUnion) {
+  World<TypeParam> world(test::fcc_box(9, 9, 41, r), 2.7 * r);
+  const BlockCells cells(world.state, world.range);
+  const OffsetLists lists =
+      find_offsets(kernel::functions_of<TypeParam>(kernel::best_instruction_set()), world.state,
+                   cells, world.range);
+  std::vector<std::set<std::int32_t>> expected(world.state.blocks());
+  std::vector<BlockOffset> added;
+  std::mt19937 random(4);
+  for (int k = 0; k < 300; ++k)  // many twice, many that are there
+    added.push_back({static_cast<std::uint32_t>(random() % expected.size()),
+                     static_cast<std::int32_t>(random() % 60) - 80});
+  for (std::size_t block = 0; block < expected.size(); ++block)
+    expected[block].insert(lists.value.begin() + lists.first[block],
+                           lists.value.begin() + lists.first[block + 1]);
+  for (const BlockOffset& one : added) expected[one.block].insert(one.offset);
+  expect_lists(with_added(lists, added), expected);
+  for (const BlockOffset& one : added) EXPECT_TRUE(with_added(lists, added).has(one));
+  EXPECT_EQ(with_added(lists, {}).value, lists.value);
+}
+
+template <class Real>
+class OrderOf : public testing::Test {};
+TYPED_TEST_SUITE(OrderOf, Reals);
+
+TYPED_TEST(OrderOf, ColumnsNamesEveryParticleOnceForEveryThreadCount) {
+  for (const Points& body : bodies()) {
+    World<TypeParam> world(body, 3.6 * r);
+    const double edge = 2 * r / world.measure.length;
+    const auto order = order_by_columns(world.state, edge);
+    auto sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    ASSERT_EQ(sorted.size(), body.size());
+    for (std::uint32_t k = 0; k < sorted.size(); ++k) ASSERT_EQ(sorted[k], k);
+    with_threads(3, [&] { ASSERT_EQ(order_by_columns(world.state, edge), order); });
+  }
+}
+
+TYPED_TEST(OrderOf, ColumnsShortensTheListsOfAShuffledBody) {
+  Points points = test::fcc_box(15, 15, 41, r);
+  std::shuffle(points.begin(), points.end(), std::mt19937(3));
+  World<TypeParam> world(points, 3.6 * r);
+  const auto kernel = kernel::functions_of<TypeParam>(kernel::best_instruction_set());
+  const auto mean = [&](BlockState<TypeParam>& state) {
+    return find_offsets(kernel, state, BlockCells(state, world.range), world.range).mean();
+  };
+  BlockState<TypeParam> sorted(points.size());
+  const auto order = order_by_columns(world.state, 2.4 * r / world.measure.length);
+  reorder(world.state, order, sorted);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    ASSERT_EQ(sorted.position(k, world.measure), world.state.position(order[k], world.measure));
+  EXPECT_LT(mean(sorted), 0.6 * mean(world.state));
+}
+
 template <class Real>
 class BlockCellsOf : public testing::Test {};
 TYPED_TEST_SUITE(BlockCellsOf, Reals);
@@ -204,6 +259,28 @@ TYPED_TEST(BlockCellsOf, FindAllBlocksInReachOnceInAscendingOrder) {
           if (squared >= world.range * world.range) continue;
           ASSERT_TRUE(std::binary_search(found.begin(), found.end(), j / size));
         }
+    }
+  }
+}
+
+TYPED_TEST(BlockCellsOf, FindAllBlocksWithinTwoEdgesOfAnyPoint) {
+  std::mt19937 random(9);
+  for (const Points& body : bodies()) {
+    World<TypeParam> world(body, 3.6 * r);
+    const BlockCells cells(world.state, world.range);
+    const auto arrays = world.state.arrays();
+    for (int trial = 0; trial < 40; ++trial) {
+      const std::size_t at = random() % body.size();
+      const auto place = [&](std::size_t k) {
+        return Vec3(static_cast<double>(arrays.x[0][k]), static_cast<double>(arrays.x[1][k]),
+                    static_cast<double>(arrays.x[2][k]));
+      };
+      const Vec3 point = place(at) + 4 * cells.edge() * test::random_vector(random);
+      std::set<std::size_t> found;
+      cells.for_each_block_near(point, [&](std::uint32_t block) { found.insert(block); });
+      for (std::size_t k = 0; k < body.size(); ++k)
+        ASSERT_TRUE((place(k) - point).norm() >= 2 * cells.edge() ||
+                    found.count(k / BlockState<TypeParam>::block) > 0);
     }
   }
 }

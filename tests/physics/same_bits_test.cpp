@@ -27,7 +27,7 @@ struct Told {
   std::vector<double> energies;
   Points pair, damping, bone;
   std::vector<int> neighbours;
-  std::int64_t rebuilds, sifts;
+  std::int64_t rebuilds, sifts, sorts;
 
   bool operator==(const Told&) const = default;
 };
@@ -36,14 +36,15 @@ Told tell(Simulation& simulation) {
   const Energies energies = simulation.energies();
   const Forces& forces = simulation.forces();
   return {state_hash(simulation.particles()),
-          {energies.kinetic, energies.gravity, energies.pair, energies.bone,
-           energies.work_of_bones, energies.dissipation},
+          {energies.kinetic, energies.gravity, energies.pair, energies.bone, energies.work_of_bones,
+           energies.dissipation},
           forces.pair,
           forces.damping,
           forces.bone,
           forces.neighbours,
           simulation.list_counts().rebuilds,
-          simulation.list_counts().sifts};
+          simulation.list_counts().sifts,
+          simulation.list_counts().sorts};
 }
 
 Told run(kernel::InstructionSet set, const Settings& settings, const Points& rest, int steps,
@@ -112,7 +113,8 @@ void expect_same_for_threads(Precision precision) {
   std::optional<Told> first;
   for (const int threads : {1, 2, 3, 8})
     with_threads(threads, [&] {
-      const Told told = run(kernel::best_instruction_set(), settings, rest, 16, 0.05 * r, 0.5, 0.25);
+      const Told told =
+          run(kernel::best_instruction_set(), settings, rest, 16, 0.05 * r, 0.5, 0.25);
       if (!first) first = told;
       EXPECT_GT(told.rebuilds, 1);
       EXPECT_GT(told.sifts, told.rebuilds);
@@ -137,10 +139,27 @@ TEST(SameBits, OfAllInstructionSetsWithSeveralThreads) {
   }
 }
 
+TEST(SameBits, OfBodiesThatComeInNoOrderAndAreSorted) {
+  Points rest = test::fcc_box(15, 15, 33, r);
+  std::shuffle(rest.begin(), rest.end(), std::mt19937(7));
+  for (const Precision precision : test::precisions) {
+    const Settings settings = bend_and_twist(33, precision);
+    const Told best = run(kernel::best_instruction_set(), settings, rest, 40, 0.02 * r, 0.2);
+    EXPECT_GT(best.sorts, 0);
+    for (const auto set : test::instruction_sets())
+      EXPECT_TRUE(run(set, settings, rest, 40, 0.02 * r, 0.2) == best) << kernel::name_of(set);
+    for (const int threads : {1, 3})
+      with_threads(threads, [&] {
+        EXPECT_TRUE(run(kernel::best_instruction_set(), settings, rest, 40, 0.02 * r, 0.2) == best);
+      });
+  }
+}
+
 TEST(SameBits, HoweverOftenForcesAndEnergiesAreAskedFor) {
   const Points rest = test::fcc_box(7, 7, 33, r);
   for (const Precision precision : test::precisions)
-    for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+    for (const Integrator integrator :
+         {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
       Settings settings = bend_and_twist(33, precision);
       settings.solver.integrator = integrator;
       Simulation quiet = test::make_simulation(settings, rest);

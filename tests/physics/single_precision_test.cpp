@@ -96,11 +96,10 @@ Settings bend_scene(Precision precision, Integrator integrator = Integrator::sym
 
 Points box() { return test::fcc_box(7, 7, 33, r); }
 
-// A bend that goes on to snap a bond somewhere parts the two by more: the snap comes a little sooner
-// or later.
+// A bend that goes on to snap a bond somewhere parts the two by more: the snap comes a little
+// sooner or later.
 TEST(SinglePrecision, BendsAsDoublePrecisionDoes) {
-  for (const Integrator integrator :
-       {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Simulation floats = test::make_simulation(bend_scene(Precision::binary32, integrator), box());
     Simulation doubles = test::make_simulation(bend_scene(Precision::binary64, integrator), box());
     while (doubles.time() < 0.6) floats.step(), doubles.step();

@@ -182,7 +182,6 @@ TEST(Steppers, KeepTheirBooksAlikeOverAWholeBend) {
   expect_same_energies(both.lists.energies(), both.cells.energies(), 1e-6);
 }
 
-
 /// Every fourth particle where the one before is.
 Particles doubled(const Points& rest, const Material& material) {
   Particles particles = particles_at(rest, r, material.mass);
@@ -238,7 +237,6 @@ TEST(Coincident, PairLeavesAlongXTheLowerIdToTheLeft) {
     }
 }
 
-
 /// What the run says when it fails; nothing when it does not within `steps`.
 std::string last_words(const Settings& settings, const Points& rest, const Particles& particles,
                        double step, int steps) {
@@ -254,8 +252,7 @@ std::string last_words(const Settings& settings, const Points& rest, const Parti
 
 void expect_same_last_words(Settings settings, const Points& rest, const Particles& particles,
                             double step, int steps = 1) {
-  const std::string expected =
-      last_words(test::with_cells(settings), rest, particles, step, steps);
+  const std::string expected = last_words(test::with_cells(settings), rest, particles, step, steps);
   EXPECT_NE(expected, "");
   for (const Precision precision : test::precisions)
     EXPECT_EQ(last_words(test::in(precision, settings), rest, particles, step, steps), expected);
@@ -311,8 +308,7 @@ TEST(Failures, TellTheSameStepOfARunThatIsUnstable) {
   const Body body = test::make_body(settings, rest);
   const Particles particles = test::shaken(rest, body.material, 0.01 * r, 0.1);
   const double step = test::step_of(settings, body, 1.5);
-  const std::string expected =
-      last_words(test::with_cells(settings), rest, particles, step, 200);
+  const std::string expected = last_words(test::with_cells(settings), rest, particles, step, 200);
   EXPECT_NE(expected, "");
   EXPECT_EQ(last_words(settings, rest, particles, step, 200), expected);
 }
