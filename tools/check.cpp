@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "config/scene.h"
+#include "core/available_memory.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "estimate.h"
@@ -12,15 +13,21 @@
 #include "run_folder.h"
 #include "scene_body.h"
 #include "setup.h"
+#include "step_way.h"
 #include "warnings.h"
 
 namespace {
 
 using namespace sinew;
 
-/// Seconds one step takes, tried out on the spot with bones at rest.
-double seconds_per_step(const Settings& settings, Setup setup, const Particles& particles,
-                        std::vector<std::string>& warnings) {
+// The trial's lists serve for all its steps; of a body that bends they have to be made again.
+constexpr double slower_with_lists_in_motion = 1.8;
+
+/// Particle-steps per second, tried out on the spot with bones at rest; what is usual where the
+/// body does not bear it.
+double speed_at_rest(const Settings& settings, Setup setup, const Particles& particles,
+                     std::vector<std::string>& warnings) {
+  const double usual = usual_speed(step_way(settings.solver, setup.body));
   setup.motion = {};
   Simulation simulation = start(settings, std::move(setup), particles);
   double spent = 0;
@@ -35,7 +42,21 @@ double seconds_per_step(const Settings& settings, Setup setup, const Particles& 
     if (error.exit() != Exit::unstable) throw;
     warnings.push_back(std::string("the body leaves its bones at once: ") + error.what());
   }
-  return steps > 0 ? spent / steps : 0;
+  return steps > 0 ? steps * static_cast<double>(particles.size()) / spent : usual;
+}
+
+double speed_in_motion(const Setup& setup, const StepWay& way, double at_rest) {
+  const bool lists_are_made_again =
+      way.search == NeighbourSearch::lists && !setup.motion.tracks.empty();
+  return lists_are_made_again ? at_rest / slower_with_lists_in_motion : at_rest;
+}
+
+void warn_of_memory(const Needs& needs, std::vector<std::string>& warnings) {
+  const auto available = static_cast<std::uint64_t>(available_memory());
+  if (needs.memory > available)
+    warnings.push_back("the run needs about " + bytes_text(needs.memory) + " of memory, " +
+                       bytes_text(available) +
+                       " are free: make body.radius larger, or use solver.precision single");
 }
 
 void add_sizes(const Filling& filling, const Surface& surface, Results& results) {
@@ -78,6 +99,12 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("bone_speed", speed, "radii per step");
 }
 
+void add_way(const StepWay& way, Results& results) {
+  results.add("precision", name_of(way.precision));
+  results.add("neighbour_search", name_of(way.search));
+  results.add("instruction_set", kernel::name_of(way.instructions));
+}
+
 Exit check(const std::string& scene, const Common& common) {
   const Settings settings = read_scene(scene, common.overrides);
   const Surface surface = read_mesh(settings);
@@ -85,19 +112,26 @@ Exit check(const std::string& scene, const Common& common) {
   const Setup setup = set_up(settings, filling.particles);
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
+  const StepWay way = step_way(settings.solver, setup.body);
   const double speed = bone_speed(setup, settings.output.interval);
-  auto warnings = warnings_of(setup, speed);
+  auto warnings = warnings_of(setup, settings.solver, speed);
+  warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
-  const double per_step = seconds_per_step(settings, setup, filling.particles, warnings);
+  const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);
+  const double rate = speed_in_motion(setup, way, at_rest);
+  const double work = static_cast<double>(setup.frames) * setup.steps.per_frame *
+                      static_cast<double>(filling.particles.size());
 
   Results results;
   add_sizes(filling, surface, results);
   add_material(setup.body.material, results);
   add_steps(settings, setup, speed, results);
+  add_way(way, results);
   results.add("disk", bytes_text(needs.disk));
   results.add("disk_free", bytes_text(free_space(run_folder(scene, "").path)));
   results.add("memory", bytes_text(needs.memory));
-  results.add("stepping_time", per_step * setup.frames * setup.steps.per_frame, "s");
+  results.add("particle_steps_per_second", rate);
+  results.add("stepping_time", work / rate, "s");
   results.add("warnings", warnings.size());
   results.print(common.json);
   for (const std::string& warning : warnings)

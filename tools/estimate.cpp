@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "step_way.h"
 
 namespace sinew {
 namespace {
@@ -18,8 +19,17 @@ constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
-// State, forces, lists of the rest shape, and one frame in the making.
-constexpr double memory_per_particle = 1500;
+// Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
+// disk (two copies, and one as numbers in double) with the rest shape and its binding; lists take
+// about 280 in double and 160 in single precision.
+constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 1130;
+constexpr double memory_with_cells = 1500;
+constexpr double memory_per_point = 600, memory_beside = 30e6;
+
+double memory_per_particle(const StepWay& way) {
+  if (way.search == NeighbourSearch::cells) return memory_with_cells;
+  return way.precision == Precision::binary64 ? memory_with_lists_double : memory_with_lists_single;
+}
 
 }  // namespace
 
@@ -38,7 +48,9 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
       raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
   Needs needs;
   needs.disk = static_cast<std::uint64_t>((coded + bytes_per_frame_beside) * (setup.frames + 1));
-  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle + 3 * raw);
+  const StepWay way = step_way(settings.solver, setup.body);
+  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
+                                            points * memory_per_point + memory_beside);
   return needs;
 }
 

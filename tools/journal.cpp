@@ -42,6 +42,14 @@ Json material_of(const Material& material) {
           {"young_modulus", material.young_modulus()}};
 }
 
+Json lists_of(const ListCounts& counts) {
+  return {{"rebuilds", counts.rebuilds},
+          {"sifts", counts.sifts},
+          {"looks", counts.looks},
+          {"sorts", counts.sorts},
+          {"strays", counts.strays}};
+}
+
 }  // namespace
 
 Journal::Journal(const RunFolder& folder, int argc, char** argv)
@@ -83,6 +91,7 @@ void Journal::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
+  describe(step_way(settings.solver, setup.body));
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();
@@ -92,6 +101,15 @@ void Journal::describe(const Settings& settings, const Setup& setup) {
       " frames of " + std::to_string(steps.per_frame) + " steps");
   log("stability limit " + number_text(steps.limit) + " s, step " + number_text(steps.step) +
       " s, factor " + number_text(steps.factor()));
+}
+
+void Journal::describe(const StepWay& way) {
+  record_["precision"] = name_of(way.precision);
+  record_["neighbour_search"] = name_of(way.search);
+  record_["instruction_set"] = kernel::name_of(way.instructions);
+  log(std::string("steps in ") + name_of(way.precision) + " precision, partners by " +
+      name_of(way.search) + ", instructions " + kernel::name_of(way.instructions) +
+      (way.unserved ? ", for " + way.unserved->key + " is " + way.unserved->value : ""));
 }
 
 void Journal::spend(const std::string& stage, double seconds) {
@@ -112,6 +130,7 @@ void Journal::end(const std::string& status, const Simulation& simulation) {
   record_["steps"] = simulation.steps();
   record_["particle_steps_per_second"] =
       stepping > 0 ? steps * static_cast<double>(simulation.particles().size()) / stepping : 0.0;
+  record_["lists"] = lists_of(simulation.list_counts());
   record_["state_hash"] = hash_text(state_hash(simulation.particles()));
   write_record(folder_, record_);
   log(status + " after " + std::to_string(simulation.steps()) + " steps");

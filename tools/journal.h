@@ -9,6 +9,7 @@
 #include "core/settings.h"
 #include "run_folder.h"
 #include "setup.h"
+#include "step_way.h"
 
 namespace spdlog {
 class logger;
@@ -40,6 +41,7 @@ class Journal {
   const nlohmann::ordered_json& record() const { return record_; }
 
  private:
+  void describe(const StepWay& way);
   void log(const std::string& line);
 
   RunFolder folder_;

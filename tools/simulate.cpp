@@ -132,6 +132,7 @@ Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder
     Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
     made.body = {};  // millions of numbers that nobody needs any more
     Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles);
+    simulation.forces();  // finds the first partners: no part of what writing costs
     journal.spend("binding", watch.lap());
     const Exit exit = record_run(simulation, course, recorder, journal, quiet);
     journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
@@ -150,7 +151,8 @@ void print_results(const RunFolder& folder, const Journal& journal, bool as_json
   Results results;
   results.add("folder", folder.path.string());
   for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",
-                          "time_step_factor", "particle_steps_per_second", "state_hash"})
+                          "time_step_factor", "precision", "neighbour_search", "instruction_set",
+                          "particle_steps_per_second", "state_hash"})
     results.add(key, record[key]);
   results.print(as_json);
 }

@@ -96,9 +96,22 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
                          "'; move it into the body");
 }
 
+void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
+  const StepWay way = step_way(solver, setup.body);
+  if (!way.unserved) return;
+  const auto& [key, value, served] = *way.unserved;
+  std::string warning = key;
+  warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
+  if (solver.precision == Precision::binary32) warning += ", in double precision";
+  warning += ", about " + three_digits(std::round(slowness_of_cells(solver.precision))) +
+             " times slower; use " + key + ' ' + served + " where its difference does not matter";
+  warnings.push_back(warning);
+}
+
 }  // namespace
 
-std::vector<std::string> warnings_of(const Setup& setup, double bone_speed) {
+std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
+                                     double bone_speed) {
   Warnings warnings;
   warn_of_material(setup.body.material.pair, warnings);
   warn_of_step(setup.steps, warnings);
@@ -108,6 +121,7 @@ std::vector<std::string> warnings_of(const Setup& setup, double bone_speed) {
     warn_of_jumps(setup, track, warnings);
   }
   warn_of_idle_bones(setup.body, warnings);
+  warn_of_cells(setup, solver, warnings);
   return warnings;
 }
 

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "setup.h"
+#include "step_way.h"
 
 namespace sinew {
 
 /// Each a line with the number, the reason and the cure. `bone_speed` in radii per step.
-std::vector<std::string> warnings_of(const Setup& setup, double bone_speed);
+std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
+                                     double bone_speed);
 
 }  // namespace sinew

@@ -4,8 +4,14 @@
 #include <numeric>
 
 #include "core/hash.h"
+#include "core/parallel.h"
 
 namespace sinew {
+namespace {
+
+constexpr std::size_t particles_per_piece = 1 << 14;
+
+}  // namespace
 
 Particles particles_at_rest(std::size_t count) {
   Particles particles;
@@ -32,14 +38,22 @@ Points positions_of(const Particles& particles) {
 }
 
 std::uint64_t state_hash(const Particles& particles) {
-  std::vector<std::size_t> at(particles.size());
-  for (std::size_t i = 0; i < at.size(); ++i) at[particles.id[i]] = i;
+  const std::size_t n = particles.size();
+  std::vector<std::size_t> at(n);
+  for (std::size_t i = 0; i < n; ++i) at[particles.id[i]] = i;
+  std::vector<std::uint64_t> of_pieces((n + particles_per_piece - 1) / particles_per_piece);
+  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    Hash hash;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = at[k];
+      const double state[6] = {particles.x[i], particles.y[i], particles.z[i],
+                               particles.u[i], particles.v[i], particles.w[i]};
+      hash.add(state, sizeof state);
+    }
+    of_pieces[begin / particles_per_piece] = hash.value();
+  });
   Hash hash;
-  for (const std::size_t i : at) {
-    const double state[6] = {particles.x[i], particles.y[i], particles.z[i],
-                             particles.u[i], particles.v[i], particles.w[i]};
-    hash.add(state, sizeof state);
-  }
+  hash.add(of_pieces.data(), of_pieces.size() * sizeof of_pieces[0]);
   return hash.value();
 }
 

@@ -223,6 +223,11 @@ std::vector<Field<Settings>> make_solver() {
                not_negative),
       field<S>("solver", "gravity", SINEW_AT(S, solver.gravity), "m/s^2",
                "acceleration of gravity"),
+      choice<S>("solver", "precision", SINEW_AT(S, solver.precision), {"double", "single"},
+                "of the steps; single is about twice as fast"),
+      choice<S>("solver", "neighbour_search", SINEW_AT(S, solver.neighbour_search),
+                {"lists", "cells"},
+                "how partners are found; cells: the paper's, a slow and readable reference"),
   };
 }
 

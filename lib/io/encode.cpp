@@ -15,7 +15,6 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t block_bytes = 32768;    // what VTK uses; it fits the caches of all cores
 constexpr std::size_t blocks_per_piece = 16;  // enough to pay for a compressor of its own
 constexpr std::size_t triplets_per_piece = 1 << 17;
 constexpr int fastest = 1;  // moving floats gain nothing from the slower levels
@@ -101,15 +100,13 @@ std::string plain_text(const FileArray& array) {
   return base64(bytes);
 }
 
-constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
 using Pairs = std::array<std::array<char, 2>, 4096>;
 
 /// The two digits of every 12 bits.
 constexpr Pairs pairs_of_digits() {
   Pairs pairs{};
   for (std::size_t bits = 0; bits < pairs.size(); ++bits)
-    pairs[bits] = {digits[bits >> 6], digits[bits & 63]};
+    pairs[bits] = {base64_digits[bits >> 6], base64_digits[bits & 63]};
   return pairs;
 }
 

@@ -22,6 +22,7 @@
 #include "io/vtk_messages.h"
 #include "io/vtu.h"
 #include "io/vtu_header.h"
+#include "io/vtu_lines.h"
 
 namespace sinew {
 namespace {
@@ -169,6 +170,7 @@ void select(vtkXMLUnstructuredGridReader& reader, const Names& names) {
 
 /// All arrays of the points where `names` is none.
 Dataset read_checked(const std::filesystem::path& path, const std::optional<Names>& names) {
+  if (auto ours = read_vtu_lines(path, names)) return *std::move(ours);
   const VtkMessages messages;
   check_vtu_header(path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;

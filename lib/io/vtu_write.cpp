@@ -8,6 +8,7 @@
 #include "io/encode.h"
 #include "io/file_array.h"
 #include "io/vtu.h"
+#include "io/vtu_tags.h"
 
 namespace sinew {
 namespace {
@@ -75,10 +76,6 @@ Element points_element(const Dataset& data, const VtuFormat& format) {
   const bool float64 = format.double_precision || beyond_float32(data.points, format.radius);
   const double* first = data.points.empty() ? nullptr : data.points.front().data();
   return {"Points", 3, row, reals(first, 3 * data.points.size(), row, float64)};
-}
-
-int vtk_type(CellKind kind) {
-  return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;
 }
 
 /// Cells of the dataset's kind first, then its lines.
@@ -216,7 +213,9 @@ class VtuText {
   std::uint64_t offset_ = 0;  ///< of the next array in the appended data
 };
 
-std::string opening_tag(Encoding encoding) {
+}  // namespace
+
+std::string vtu_opening(Encoding encoding) {
   std::string tag =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\"";
@@ -225,7 +224,9 @@ std::string opening_tag(Encoding encoding) {
   return tag + ">\n<UnstructuredGrid>\n";
 }
 
-}  // namespace
+int vtk_type(CellKind kind) {
+  return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;
+}
 
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
   const auto field = field_elements(data, format);
@@ -237,7 +238,7 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which
   // Debian 12 has by its updates: only data within the elements is safe.
   VtuText text(file, format.encoding);
-  text.add(opening_tag(format.encoding));
+  text.add(vtu_opening(format.encoding));
   text.add_group("FieldData", "", field);
   text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
            std::to_string(data.cells()) + "\">\n");

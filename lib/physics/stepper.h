@@ -48,6 +48,8 @@ struct ListCounts {
   std::int64_t rebuilds = 0, sifts = 0, looks = 0, sorts = 0;
   std::int64_t strays = 0;      ///< particles that got new partners by themselves
   double wide = 0, narrow = 0;  ///< differences per block
+  /// Wall time spent on them, s.
+  double rebuilding = 0, sifting = 0, looking = 0, sorting = 0;
 };
 
 }  // namespace sinew

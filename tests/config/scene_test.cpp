@@ -40,6 +40,8 @@ TEST_F(SceneTest, WhatIsNotGivenHasItsDefault) {
   EXPECT_EQ(settings.body.packing, Packing::fcc);
   EXPECT_EQ(settings.material.young_modulus, MaterialSettings().young_modulus);
   EXPECT_EQ(settings.solver.duration, SolverSettings().duration);
+  EXPECT_EQ(settings.solver.precision, Precision::binary64);
+  EXPECT_EQ(settings.solver.neighbour_search, NeighbourSearch::lists);
   EXPECT_TRUE(settings.tracks.empty());
   ASSERT_EQ(settings.bones.size(), 1u);
   EXPECT_EQ(settings.bones[0].tail, Vec3(0, 0, 1));
@@ -57,6 +59,8 @@ TEST_F(SceneTest, EveryKindOfValueIsRead) {
                                  "    - 0\n"
                                  "    - 0\n"
                                  "    - -9.81\n"
+                                 "  precision: single\n"
+                                 "  neighbour_search: cells\n"
                                  "output:\n"
                                  "  double_precision: true\n"
                                  "  interval: 1/30\n");
@@ -67,6 +71,8 @@ TEST_F(SceneTest, EveryKindOfValueIsRead) {
   EXPECT_EQ(settings.solver.integrator, Integrator::velocity_verlet);
   EXPECT_FALSE(settings.solver.time_step);
   EXPECT_EQ(settings.solver.gravity, Vec3(0, 0, -9.81));
+  EXPECT_EQ(settings.solver.precision, Precision::binary32);
+  EXPECT_EQ(settings.solver.neighbour_search, NeighbourSearch::cells);
   EXPECT_TRUE(settings.output.double_precision);
   EXPECT_EQ(settings.output.interval, 1.0 / 30);
 }
@@ -144,6 +150,7 @@ TEST_F(SceneTest, OverridesStandInPlaceOfTheScene) {
   EXPECT_EQ(settings.solver.duration, 3);
   EXPECT_EQ(settings.solver.gravity, Vec3(0, 0, -9.81));
   EXPECT_EQ(settings.body.packing, Packing::hcp);
+  EXPECT_EQ(read(small_scene, {"solver.precision=single"}).solver.precision, Precision::binary32);
   EXPECT_EQ(settings.places.at("body.packing").text(), "--set body.packing=hcp");
 }
 
@@ -170,6 +177,7 @@ TEST_F(SceneTest, OverridesAddSectionsThatAreMissing) {
 TEST_F(SceneTest, WrongOverridesAreNamed) {
   EXPECT_TRUE(holds(message(small_scene, {"body.radius=big"}), "--set body.radius=big: "));
   EXPECT_TRUE(holds(message(small_scene, {"body.raduis=1"}), "did you mean radius?"));
+  EXPECT_TRUE(holds(message(small_scene, {"solver.precision=float"}), "double"));
   EXPECT_TRUE(holds(message(small_scene, {"sovler.duration=1"}), "did you mean solver?"));
   EXPECT_TRUE(holds(message(small_scene, {"duration=1"}), "section.key=value"));
   EXPECT_TRUE(holds(message(small_scene, {"solver.duration"}), "section.key=value"));

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <random>
 
 #include "core/closest_packing.h"
 #include "core/hash.h"
 #include "core/neighbours.h"
+#include "core/parallel.h"
 #include "world.h"
 
 namespace sinew {
@@ -53,6 +56,23 @@ TEST(StateHash, SeesTheLastBitOfEveryNumber) {
       (other.*axis)[i] = std::nextafter((other.*axis)[i], 100.0);
       EXPECT_NE(state_hash(other), state_hash(particles));
     }
+}
+
+TEST(StateHash, OfManyParticlesDependsNeitherOnOrderNorOnThreads) {
+  std::mt19937 random(7);
+  Points positions(50'000);
+  for (Vec3& position : positions) position = test::random_vector(random);
+  const Particles particles = particles_at(positions, 0.5, 2);
+  std::vector<std::size_t> order(particles.size());
+  std::iota(order.rbegin(), order.rend(), 0);
+  Particles other = test::reordered(particles, order);
+  for (const int threads : {1, 2, 5})
+    with_threads(threads, [&] { EXPECT_EQ(state_hash(other), state_hash(particles)); });
+  for (const std::size_t i : {std::size_t{0}, std::size_t{20'000}, particles.size() - 1}) {
+    Particles changed = particles;
+    changed.w[i] = std::nextafter(changed.w[i], 1.0);
+    EXPECT_NE(state_hash(changed), state_hash(particles));
+  }
 }
 
 TEST(ClosestPacking, HasTwelveNeighboursAndThePaperCounts) {

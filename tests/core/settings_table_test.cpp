@@ -99,9 +99,10 @@ TEST(SettingsTable, HasTheNamesScriptsRelyOn) {
   std::set<std::string> names;
   for (const auto& field : settings_table())
     names.insert(std::string(field.section) + '.' + std::string(field.name));
-  for (const char* name : {"body.mesh", "body.radius", "body.count", "body.packing",
-                           "material.model", "material.density", "solver.integrator",
-                           "solver.time_step", "solver.duration", "output.interval"})
+  for (const char* name :
+       {"body.mesh", "body.radius", "body.count", "body.packing", "material.model",
+        "material.density", "solver.integrator", "solver.time_step", "solver.duration",
+        "solver.precision", "solver.neighbour_search", "output.interval"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 

@@ -115,8 +115,11 @@ class Commands(unittest.TestCase):
         self.assertEqual(list(rows[0])[0], "time")
         record = self.record()
         for key in ["version", "command", "host", "particles", "steps", "frames", "time_step",
-                    "particle_steps_per_second", "seconds", "state_hash", "arrays"]:
+                    "particle_steps_per_second", "seconds", "state_hash", "arrays", "instruction_set"]:
             self.assertIn(key, record)
+        self.assertEqual((record["precision"], record["neighbour_search"]), ("double", "lists"))
+        self.assertGreaterEqual(record["lists"]["sifts"], record["lists"]["rebuilds"])
+        self.assertGreater(record["lists"]["rebuilds"], 0)
         self.assertEqual(record["status"], "finished")
         self.assertEqual(record["frames"], 13)
         self.assertEqual(list(self.folder.rglob("*.tmp")), [])
@@ -146,6 +149,30 @@ class Commands(unittest.TestCase):
         again = self.folder / "again"
         sinew("simulate", self.out / "scene.yaml", "-o", again, check=0)
         self.assertEqual(self.record(again)["state_hash"], self.record()["state_hash"])
+
+    def test_record_tells_how_the_steps_were_done(self):
+        for words, used in [
+                (["solver.precision=single"], ("single", "lists")),
+                (["solver.neighbour_search=cells"], ("double", "cells")),
+                (["solver.precision=single", "solver.neighbour_search=cells"], ("double", "cells")),
+                (["material.damping_form=central"], ("double", "cells")),
+                (["binding.force=anchor"], ("double", "cells"))]:
+            sets = [part for word in ["solver.duration=0.1", *words] for part in ["--set", word]]
+            self.simulate("--force", *sets)
+            record = self.record()
+            self.assertEqual((record["precision"], record["neighbour_search"]), used, words)
+            self.assertEqual(record["lists"]["rebuilds"] > 0, used[1] == "lists", words)
+            self.assertEqual(record["instruction_set"] == "plain", used[1] == "cells", words)
+
+    def test_precision_and_search_change_no_result_much(self):
+        reference = None
+        for word in ["neighbour_search=cells", "neighbour_search=lists", "precision=single"]:
+            self.simulate("--force", "--set", "solver." + word)
+            sinew("measure", self.out, check=0)
+            rows = list(csv.DictReader((self.out / "metrics.csv").open()))
+            most = max(float(row["displacement_max"]) for row in rows)
+            reference = reference or most
+            self.assertAlmostEqual(most / reference, 1, places=3)
 
     def test_state_does_not_depend_on_the_number_of_threads(self):
         hashes = set()
@@ -335,6 +362,20 @@ class Commands(unittest.TestCase):
             self.assertNotEqual(changed, text)
             doubtful.write_text(changed)
             self.assertIn(word, sinew("check", doubtful, check=0).stderr)
+
+    def test_check_tells_how_steps_are_done_and_warns_of_cells(self):
+        found = json.loads(sinew("check", self.scene, "--set", "solver.precision=single", "--json",
+                                 check=0).stdout)
+        self.assertEqual((found["precision"], found["neighbour_search"]), ("single", "lists"))
+        for key, value in [("material.damping_form", "symmetric"), ("binding.force", "anchor"),
+                           ("binding.twist_form", "open_loop")]:
+            done = sinew("check", self.scene, "--set", f"{key}={value}", "--json", check=0)
+            self.assertEqual(json.loads(done.stdout)["neighbour_search"], "cells")
+            warning = next(line for line in done.stderr.splitlines() if "cells" in line)
+            for part in [f"{key} is {value}", "times slower", f"use {key}"]:
+                self.assertIn(part, warning)
+        asked = sinew("check", self.scene, "--set", "solver.neighbour_search=cells", check=0)
+        self.assertNotIn("times slower", asked.stderr)
 
     def test_explicit_euler_without_damping_has_no_step(self):
         done = sinew("check", self.scene, "--set", "solver.integrator=explicit_euler", "--set",

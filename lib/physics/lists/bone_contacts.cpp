@@ -37,7 +37,7 @@ double gap_between(const Box& a, const Box& b) { return a.exteriorDistance(b); }
 class CellGroups {
  public:
   CellGroups(const BlockCells& cells, std::span<const std::uint16_t> lead)
-      : cells_(cells), sole_(cells.cells(), nobody) {
+      : sole_(cells.cells(), nobody) {
     const auto cell = cells.cell_of_particle();
     for (std::size_t k = 0; k < cell.size(); ++k) add(cell[k], lead[k]);
   }
@@ -49,8 +49,8 @@ class CellGroups {
     for (const std::uint32_t group : many_.at(cell)) visit(group);
   }
 
-  /// Whether all cells within the rings around `cell` hold no other group than its own one.
   bool empty(std::size_t cell) const { return sole_[cell] == nobody; }
+  /// Whether `other` holds no group but the one of `cell`.
   bool alone_with(std::size_t cell, std::size_t other) const {
     return sole_[other] == nobody || (sole_[other] == sole_[cell] && sole_[cell] != several);
   }
@@ -66,7 +66,6 @@ class CellGroups {
     if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
   }
 
-  const BlockCells& cells_;
   std::vector<std::uint32_t> sole_;
   std::map<std::size_t, std::vector<std::uint32_t>> many_;
 };

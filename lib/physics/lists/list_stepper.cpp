@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "physics/lists/order.h"
 
 namespace sinew {
@@ -22,6 +23,19 @@ constexpr double free_travel = 0.125, whole_range = 4294967296;
 template <class Real>
 constexpr std::size_t pieces_per_thread = particles_per_thread /
                                           (kernel::blocks_per_piece * BlockState<Real>::block);
+
+template <class Real>
+Box box_of(const BlockState<Real>& state, const Measure& measure) {
+  std::vector<Box> boxes(state.size() / particles_per_thread + 1);
+  parallel_for(state.size(), particles_per_thread, [&](std::size_t begin, std::size_t end) {
+    Box& box = boxes[begin / particles_per_thread];
+    for (std::size_t k = begin; k < end; ++k) box.extend(state.position(k, measure));
+  });
+  Box all;
+  for (const Box& box : boxes)
+    if (!box.isEmpty()) all.extend(box);
+  return all;
+}
 
 }  // namespace
 
@@ -124,11 +138,13 @@ void ListStepper<Real>::keep_lists_true(const Pose& pose) {
 /// Puts the particles into columns where that makes the lists shorter.
 template <class Real>
 bool ListStepper<Real>::sort() {
+  Stopwatch watch;
   const auto order =
       order_by_columns(state_, column_edge * 2 * body_->material.pair.r / measure_.length);
   reorder(state_, order, next_);
   const double sorted = lists_.wide_of(next_, measure_).mean(), unsorted = lists_.mean_of_wide();
   mean_when_sorted_ = std::min(sorted, unsorted);
+  sorting_ += watch.lap();
   if (sorted > 0.95 * unsorted) return false;
   ++sorts_;
   std::swap(state_, next_);
@@ -141,6 +157,7 @@ bool ListStepper<Real>::sort() {
   id_ = std::move(id);
   caller_ = std::move(caller);
   slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, measure_);
+  sorting_ += watch.lap();
   return true;
 }
 
@@ -149,18 +166,19 @@ template <class Real>
 void ListStepper<Real>::remeasure() {
   if (sizeof(Real) == 8) return;
   const std::size_t n = caller_.size();
-  Box box;
-  for (std::size_t k = 0; k < n; ++k) box.extend(state_.position(k, measure_));
+  const Box box = box_of(state_, measure_);
   const double usual = whole_range * measure_.length / 4;
   if (n == 0 ||
       ((box.center() - measure_.origin).norm() < usual / 4 && box.sizes().maxCoeff() < 1.5 * usual))
     return;
   const Measure before =
       std::exchange(measure_, measure_for<Real>(box, body_->material.pair, stepping_.step));
-  for (std::size_t k = 0; k < n; ++k) state_.set_position(k, state_.position(k, before), measure_);
-  const double scale = before.length / measure_.length;
-  for (Real* axis : state_.arrays().v)
-    for (std::size_t k = 0; k < n; ++k) axis[k] = static_cast<Real>(axis[k] * scale);
+  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      state_.set_velocity(k, state_.velocity(k, before), measure_);
+      state_.set_position(k, state_.position(k, before), measure_);
+    }
+  });
   slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
   world_ = world_frame<Real>(measure_);
 }
@@ -175,9 +193,9 @@ void ListStepper<Real>::rebuild(const Pose& pose) {
 
 template <class Real>
 ListCounts ListStepper<Real>::counts() const {
-  ListCounts counts;
-  lists_.count(counts);
+  ListCounts counts = lists_.counts();
   counts.sorts = sorts_;
+  counts.sorting = sorting_;
   return counts;
 }
 

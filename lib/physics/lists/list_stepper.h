@@ -61,6 +61,7 @@ class ListStepper {
   double mean_when_sorted_ =
       45;  ///< differences per block in the wide list; here: of a packed body
   std::int64_t sorts_ = 0;
+  double sorting_ = 0;  ///< s
   double fastest_ = 0;  ///< in the last step, relative to the leading bone, m/s
 
   std::vector<kernel::Totals> totals_;

@@ -5,20 +5,36 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 
 namespace sinew {
 namespace {
 
 // In diameters, measured: longer lists cost every step, shorter ones are made more often. The
 // narrow skin leaves out the second neighbours of a packed body.
-constexpr double wide_skin = 0.5, narrow_skin = 0.1;
+constexpr double wide_skin = 0.7, narrow_skin = 0.1;
 // A particle that moved farther than this is astray; if more than one in so many are, all lists are
 // made anew.
-constexpr double astray = 0.12;
-constexpr std::size_t particles_per_stray = 100;
+constexpr double astray = 0.2;
+constexpr std::size_t particles_per_stray = 50;
 constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
 constexpr std::size_t pieces_per_part = 32;
 constexpr std::size_t strays_per_piece = 8;
+
+template <class Real>
+kernel::Ride<Real> ride_of(const Riders<Real>& riders,
+                           std::array<std::vector<float>, 3>& reference) {
+  return {riders.state.arrays(),
+          riders.holds,
+          &riders.world,
+          {reference[0].data(), reference[1].data(), reference[2].data()}};
+}
+
+/// Calls visit(begin, end) for parts of the blocks.
+template <class Visit>
+void for_each_part(std::size_t blocks, Visit&& visit) {
+  parallel_for(blocks, blocks_per_piece * pieces_per_part, visit);
+}
 
 }  // namespace
 
@@ -39,28 +55,10 @@ OffsetLists PartnerLists<Real>::wide_of(BlockState<Real>& state, const Measure& 
   return find_offsets(kernel_, state, BlockCells(state, reach), reach);
 }
 
-namespace {
-
-template <class Real>
-kernel::Ride<Real> ride_of(const Riders<Real>& riders,
-                           std::array<std::vector<float>, 3>& reference) {
-  return {riders.state.arrays(),
-          riders.holds,
-          &riders.world,
-          {reference[0].data(), reference[1].data(), reference[2].data()}};
-}
-
-/// Calls visit(begin, end) for parts of the blocks.
-template <class Visit>
-void for_each_part(std::size_t blocks, Visit&& visit) {
-  parallel_for(blocks, blocks_per_piece * pieces_per_part, visit);
-}
-
-}  // namespace
-
 template <class Real>
 void PartnerLists<Real>::make(const Riders<Real>& riders) {
-  ++makes_;
+  Stopwatch watch;
+  ++counts_.rebuilds;
   const double reach = range(wide_skin, riders.measure);
   cells_ = BlockCells(riders.state, reach);
   wide_ = find_offsets(kernel_, riders.state, cells_, reach);
@@ -75,16 +73,19 @@ void PartnerLists<Real>::make(const Riders<Real>& riders) {
   wide_drift_ = Drift(wide_skin * 2 * pair_.r);
   strayed_.clear();
   shift_ = 0;
+  counts_.rebuilding += watch.lap();
   sift(riders);
 }
 
 template <class Real>
 void PartnerLists<Real>::sift(const Riders<Real>& riders) {
-  ++sifts_;
+  Stopwatch watch;
+  ++counts_.sifts;
   narrow_ = sift_offsets(kernel_, riders.state, wide_, range(narrow_skin, riders.measure));
   narrow_drift_ = Drift(narrow_skin * 2 * pair_.r);
   sifted_motions_ = motions_between(listed_pose_, riders.pose);
   moved_when_sifted_ = wide_drift_.moved();
+  counts_.sifting += watch.lap();
 }
 
 /// How far the particles may have moved in their bones' frames in the step that led here.
@@ -137,12 +138,11 @@ Vec3 PartnerLists<Real>::place(const Riders<Real>& riders, std::size_t k) const 
 
 /// Particles farther from their reference than what is astray, ascending.
 template <class Real>
-std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders) const {
+std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders) {
   const double limit = 0.999 * astray * 2 * pair_.r / riders.measure.length;
   const std::size_t blocks = riders.state.blocks(), size = BlockState<Real>::block;
   std::vector<std::vector<std::uint32_t>> found(blocks / (blocks_per_piece * pieces_per_part) + 1);
-  auto& reference = const_cast<std::array<std::vector<float>, 3>&>(reference_);
-  const auto ride = ride_of(riders, reference);
+  const auto ride = ride_of(riders, reference_);
   for_each_part(blocks, [&](std::size_t begin, std::size_t end) {
     auto& here = found[begin / (blocks_per_piece * pieces_per_part)];
     for (std::size_t block = begin; block < end; ++block) {
@@ -163,17 +163,19 @@ std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders
 /// Gives strays new partners. False where there are too many, or too little is left to go on with.
 template <class Real>
 bool PartnerLists<Real>::look(const Riders<Real>& riders, double approach) {
-  ++looks_;
+  Stopwatch watch;
+  ++counts_.looks;
   const auto found = strays(riders);
   if (found.size() * particles_per_stray > riders.lead.size()) return false;
   wide_ = with_added(wide_, partners_of(riders, found, approach));
   for (const std::uint32_t k : found) anchor(riders, k);
-  anchored_ += static_cast<std::int64_t>(found.size());
+  counts_.strays += static_cast<std::int64_t>(found.size());
   // References are kept in floats: to their rounding.
   double reach = 0;
   for (std::size_t b = 0; b < listed_pose_.size(); ++b)
     reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
   wide_drift_.found(astray * 2 * pair_.r + 2.5e-7 * reach);
+  counts_.looking += watch.lap();
   const double room = cells_.edge() * riders.measure.length - approach - astray * 2 * pair_.r;
   return shift_ < room &&
          wide_drift_.holds(contacts_.approach(motions_between(listed_pose_, riders.pose), shift_) +
@@ -247,13 +249,11 @@ void PartnerLists<Real>::anchor(const Riders<Real>& riders, std::uint32_t k) {
 }
 
 template <class Real>
-void PartnerLists<Real>::count(ListCounts& counts) const {
-  counts.rebuilds = makes_;
-  counts.sifts = sifts_;
-  counts.looks = looks_;
-  counts.strays = anchored_;
+ListCounts PartnerLists<Real>::counts() const {
+  ListCounts counts = counts_;
   counts.wide = wide_.mean();
   counts.narrow = narrow_.mean();
+  return counts;
 }
 
 template class PartnerLists<double>;

@@ -59,14 +59,14 @@ class PartnerLists {
   double travel(const Pose& pose) const {
     return contacts_.travel(motions_between(listed_pose_, pose));
   }
-  void count(ListCounts& counts) const;
+  ListCounts counts() const;
 
  private:
   double range(double skin, const Measure& measure) const;
   void add_step(const Pose& pose, double fastest, double rounding);
   void sift(const Riders<Real>& riders);
   bool look(const Riders<Real>& riders, double approach);
-  std::vector<std::uint32_t> strays(const Riders<Real>& riders) const;
+  std::vector<std::uint32_t> strays(const Riders<Real>& riders);
   Vec3 place(const Riders<Real>& riders, std::size_t k) const;
   Vec3 place_when_listed(const Riders<Real>& riders, std::size_t k) const;
   void pair_up(const Riders<Real>& riders, std::uint32_t k, double approach,
@@ -92,7 +92,7 @@ class PartnerLists {
   std::unordered_map<std::uint32_t, Vec3> strayed_;  ///< where strays were when the lists were made
   double shift_ = 0;  ///< how far the farthest of them has been anchored from there, m
 
-  std::int64_t sifts_ = 0, looks_ = 0, makes_ = 0, anchored_ = 0;
+  ListCounts counts_;
 };
 
 }  // namespace sinew
