@@ -87,8 +87,6 @@ void expect_same_steps(const Settings& settings, double shake = 0.02 * r, double
 }
 
 TEST(Steppers, TakeTheSameStepsWithEveryIntegrator) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   for (const Integrator integrator : integrators) {
     Settings settings = moving_scene();
     settings.solver.integrator = integrator;
@@ -97,8 +95,6 @@ TEST(Steppers, TakeTheSameStepsWithEveryIntegrator) {
 }
 
 TEST(Steppers, TakeTheSameStepsForEveryShapeOfThePairForce) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   for (const double a : {2.0, 2.2})
     for (const double b : {2.6, 2 * std::sqrt(2.0), 3.2}) {
       SCOPED_TRACE(b);
@@ -111,8 +107,6 @@ TEST(Steppers, TakeTheSameStepsForEveryShapeOfThePairForce) {
 }
 
 TEST(Steppers, TakeTheSameStepsForEveryStiffnessInTension) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   for (const double lambda : {0.0, 0.1, 4.0}) {
     Settings settings = moving_scene();
     settings.material.lambda = lambda;
@@ -121,8 +115,6 @@ TEST(Steppers, TakeTheSameStepsForEveryStiffnessInTension) {
 }
 
 TEST(Steppers, TakeTheSameStepsWithGravityUndampedAndUnbound) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   for (const Integrator integrator : integrators) {
     Settings heavy = moving_scene();
     heavy.solver.integrator = integrator;
@@ -140,8 +132,6 @@ TEST(Steppers, TakeTheSameStepsWithGravityUndampedAndUnbound) {
 }
 
 TEST(Steppers, TakeTheSameStepsOfADisorderedBody) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   const Settings settings = moving_scene();
   const Points rest = test::fcc_box(7, 7, 25, r);
   const Body body = test::make_body(settings, rest);
@@ -154,8 +144,6 @@ TEST(Steppers, TakeTheSameStepsOfADisorderedBody) {
 }
 
 TEST(Steppers, TakeTheSameStepsInAnyOrderOfTheParticles) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   const Settings settings = moving_scene();
   const Points rest = test::fcc_box(7, 7, 25, r);
   const Body body = test::make_body(settings, rest);
@@ -184,8 +172,6 @@ TEST(Steppers, TakeTheSameStepsOfAFewParticles) {
 }
 
 TEST(Steppers, KeepTheirBooksAlikeOverAWholeBend) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   Settings settings = moving_scene();
   settings.solver.gravity = {0, 0, -1};
   const Points rest = test::fcc_box(7, 7, 25, r);
@@ -205,8 +191,6 @@ Particles doubled(const Points& rest, const Material& material) {
 }
 
 TEST(Coincident, ParticlesPartTheSameWayWithListsAndCells) {
-  GTEST_SKIP()
-      << "the kernel tells no number for the energy of coincident particles (pairs.h, part)";
   const Points rest = test::fcc_box(5, 5, 9, r);
   const Settings settings = test::box_scene(9);
   const Body body = test::make_body(settings, rest);
@@ -222,8 +206,6 @@ TEST(Coincident, ParticlesPartTheSameWayWithListsAndCells) {
 }
 
 TEST(Coincident, ParticlesPartTheSameWayInSinglePrecision) {
-  GTEST_SKIP()
-      << "the kernel lacks a factor of the taper in the twist about a bone (bones.h, twist_pull)";
   const Points rest = test::fcc_box(5, 5, 9, r);
   const Settings settings = test::box_scene(9);
   const Body body = test::make_body(settings, rest);
