@@ -77,7 +77,7 @@ SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held
   taper<L>(rho2, rho02, drive * alpha, share, inward);
   const auto turns = L::less(L::all(0), rho2 * rho02);
   const V per_rho2 = L::all(1) / rho2;
-  const V around = L::keep(turns, share * drive * per_rho2), in = L::keep(turns, inward);
+  const V around = L::keep(turns, share * share * drive * per_rho2), in = L::keep(turns, inward);
   Pull<L> pull{{L::all(0), L::less_fused(in, at.y, around * at.z),
                 L::less_fused(in, at.z, (L::all(0) - around) * at.y)},
                L::all(0)};

@@ -122,11 +122,13 @@ SINEW_INLINE typename L::V way_out(const std::int32_t* id, std::ptrdiff_t i, std
 /// Eq. 1 at d = 0 has a size and no direction.
 template <class L>
 SINEW_INLINE void part(const Step<typename L::Real>& step, std::ptrdiff_t i, std::ptrdiff_t j,
-                       typename L::V squared, typename L::V& pull, typename L::V& apart_x) {
+                       typename L::V squared, typename L::V& pull, typename L::V& d,
+                       typename L::V& apart_x) {
   const auto together = L::at_most(squared, L::all(0));
   if (!L::any(together)) return;
   const typename L::Real push = 4 * step.law.k1 * step.law.r;
   pull = L::pick(together, L::all(push), pull);
+  d = L::pick(together, L::all(0), d);
   apart_x = L::pick(together, way_out<L>(step.id, i, j), apart_x);
 }
 
@@ -151,7 +153,7 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
     closest = L::smaller(squared, closest);
     V d;
     V pull = law.template pull<careful>(squared, d);
-    if constexpr (careful) part<L>(step, i, j, squared, pull, apart.x);
+    if constexpr (careful) part<L>(step, i, j, squared, pull, d, apart.x);
     pull = L::keep(near, pull);
     fx = L::fused(pull, apart.x, fx);
     fy = L::fused(pull, apart.y, fy);

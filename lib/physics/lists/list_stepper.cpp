@@ -130,7 +130,9 @@ Riders<Real> ListStepper<Real>::riders(const Pose& pose) {
 
 template <class Real>
 void ListStepper<Real>::keep_lists_true(const Pose& pose) {
-  if (!lists_.made() || !lists_.follow(riders(pose), fastest_)) return rebuild(pose);
+  const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
+  if (!lists_.made()) return rebuild(pose);
+  if (fastest && !lists_.follow(riders(pose), *fastest)) return rebuild(pose);
   if (sizeof(Real) == 4 && lists_.travel(pose) > free_travel * whole_range * measure_.length)
     rebuild(pose);
 }
@@ -235,31 +237,37 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   return sums;
 }
 
-/// The first particle in the caller's order whose step was not sound.
+/// The first particle in the caller's order whose step was not sound; where rounding makes that
+/// none, the fastest.
 template <class Real>
 Failure ListStepper<Real>::culprit(const Pose& pose) {
-  Failure failure{caller_.size(), true};
+  Failure first{caller_.size(), true}, fastest;
   const double most = most_radii_per_step * body_->material.pair.r;
+  double farthest = -1;
   for (std::size_t k = 0; k < caller_.size(); ++k) {
     const Vec3 velocity = next_.velocity(k, measure_);
-    const Vec3 before = state_.position(k, measure_);
-    const Vec3 drifting = stepping_.integrator == Integrator::explicit_euler
-                              ? state_.velocity(k, measure_)
-                              : velocity;
-    const std::size_t bone = slots_.lead[k];
-    const Vec3 carried = bone < pose.size() ? pose[bone].velocity_at(before) : Vec3(Vec3::Zero());
-    const double moved = stepping_.step * (drifting - carried).norm();
-    if (moved <= most * (1 - 1e-5) && velocity.allFinite()) continue;
-    if (caller_[k] < failure.particle) failure = {caller_[k], velocity.allFinite()};
+    const double moved = stepping_.step * relative_velocity(pose, k).norm();
+    if (moved > farthest) farthest = moved, fastest = {caller_[k], true};
+    if (moved <= most && velocity.allFinite()) continue;
+    if (caller_[k] < first.particle) first = {caller_[k], velocity.allFinite()};
   }
-  return failure;
+  return first.particle < caller_.size() ? first : fastest;
+}
+
+/// To the leading bone, of the velocity with which the particle has been moved.
+template <class Real>
+Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
+  const bool drift_first = stepping_.integrator == Integrator::explicit_euler;
+  const Vec3 velocity = (drift_first ? state_ : next_).velocity(k, measure_);
+  const std::size_t bone = slots_.lead[k];
+  return bone < pose.size() ? Vec3(velocity - pose[bone].velocity_at(state_.position(k, measure_)))
+                            : velocity;
 }
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   place_bones(pose);
   keep_lists_true(pose);
-  fastest_ = 0;  // the step that led here has been followed
   const std::size_t n = caller_.size(), slots = state_.blocks() * block;
   std::array<std::vector<Real>, 9> told;
   for (auto& axis : told) axis.resize(slots);

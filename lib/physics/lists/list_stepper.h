@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics/kernel/kernel.h"
@@ -43,6 +44,7 @@ class ListStepper {
   bool sort();
   StepSums sums_of_totals() const;
   Failure culprit(const Pose& pose);
+  Vec3 relative_velocity(const Pose& pose, std::size_t k) const;
 
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
@@ -62,7 +64,8 @@ class ListStepper {
       45;  ///< differences per block in the wide list; here: of a packed body
   std::int64_t sorts_ = 0;
   double sorting_ = 0;  ///< s
-  double fastest_ = 0;  ///< in the last step, relative to the leading bone, m/s
+  std::optional<double>
+      fastest_;  ///< in a step not yet followed, relative to the leading bone, m/s
 
   std::vector<kernel::Totals> totals_;
 };
