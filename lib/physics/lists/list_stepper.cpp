@@ -242,7 +242,8 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
 template <class Real>
 Failure ListStepper<Real>::culprit(const Pose& pose) {
   Failure first{caller_.size(), true}, fastest;
-  const double most = most_radii_per_step * body_->material.pair.r;
+  const double rounding = sizeof(Real) == 4 ? 1e-5 : 0;
+  const double most = most_radii_per_step * body_->material.pair.r * (1 - rounding);
   double farthest = -1;
   for (std::size_t k = 0; k < caller_.size(); ++k) {
     const Vec3 velocity = next_.velocity(k, measure_);
