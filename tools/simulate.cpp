@@ -119,6 +119,9 @@ Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder
     close(recorder, journal);
     journal.frames(recorder.written());
     throw;
+  } catch (...) {
+    journal.frames(recorder.written());
+    throw;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/cell_grid.h"
+#include "core/error.h"
 #include "core/parallel.h"
 
 namespace sinew {
@@ -36,6 +37,10 @@ NeighbourLists neighbours_within(const Points& points, double range) {
       lists.first[i + 1] = static_cast<std::uint32_t>(partner.size());  // within the piece
     }
   });
+  std::uint64_t all = 0;
+  for (const auto& piece : pieces) all += piece.size();
+  if (all > UINT32_MAX)
+    throw bad_input("lists of neighbours need over 2^32 entries", "make body.radius larger");
   for (std::size_t begin = points_per_piece; begin < points.size(); begin += points_per_piece)
     for (std::size_t i = begin; i < std::min(begin + points_per_piece, points.size()); ++i)
       lists.first[i + 1] += lists.first[begin];

@@ -21,7 +21,8 @@ struct NeighbourLists {
   }
 };
 
-/// Every pair closer than `range` (m), from both sides. Same answer as brute force. In parallel.
+/// Every pair closer than `range` (m), from both sides. Same answer as brute force. Throws bad
+/// input for more than 2^32 of them. In parallel.
 NeighbourLists neighbours_within(const Points& points, double range);
 
 }  // namespace sinew

@@ -90,7 +90,10 @@ Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   pair_forces(particles_, body_->material, forces_);
   bone_forces(particles_, *body_, pose, forces_);
   const StepSums now = sums();
-  forces = forces_;
+  forces.pair = forces_.pair;
+  forces.damping = forces_.damping;
+  forces.bone = forces_.bone;
+  forces.neighbours = forces_.neighbours;
   return {now.power, now.lost, pair_energy(particles_, body_->material.pair),
           bone_energy(particles_, *body_, pose)};
 }

@@ -19,6 +19,7 @@ struct Forces {
   Points pair, damping, bone;
   std::vector<int> neighbours;  ///< partners nearer than b
 
+  // Of bone_forces only: a simulation's own forces leave them out.
   Points bone_damping;                     ///< the part of bone that damps
   std::vector<double> bone_power;          ///< that the bones put in, W
   std::vector<double> bone_damping_power;  ///< the damping's part of it, W

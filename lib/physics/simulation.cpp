@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 512;
 
+const Particles& checked(const Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (!particles.position(i).allFinite())
+      throw bad_input(
+          "particle " + std::to_string(particles.id[i]) + " has a position that is not finite",
+          "fill the body again");
+  return particles;
+}
+
 }  // namespace
 
 Stepping stepping_of(const SolverSettings& solver, double step) {
@@ -33,7 +42,7 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
     : body_(std::make_shared<const Body>(std::move(body))),
       motion_(std::move(motion)),
       stepping_(stepping),
-      stepper_(make_stepper(body_, stepping, particles, instructions)),
+      stepper_(make_stepper(body_, stepping, checked(particles), instructions)),
       book_(stepping.step),
       particles_(std::move(particles)) {
   forget_read();

@@ -29,7 +29,8 @@ Stepping stepping_of(const SolverSettings& solver, double step);
 class Simulation {
  public:
   /// `particles` in any order, their id telling their place in body.rest. The kernel is compiled
-  /// for several instruction sets; all of them give the same bits.
+  /// for several instruction sets; all of them give the same bits. Throws bad input for a position
+  /// that is not finite.
   Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
              kernel::InstructionSet instructions = kernel::best_instruction_set());
 

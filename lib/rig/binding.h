@@ -34,8 +34,10 @@ struct Binding {
   std::span<const Influence> of(std::size_t i) const {
     return {influences.data() + first[i], first[i + 1] - first[i]};
   }
-  /// The bone that holds particle i most.
-  int bone(std::size_t i) const { return influences[first[i]].bone; }
+  /// The bone that holds particle i most; no_bone where none does.
+  int bone(std::size_t i) const {
+    return first[i] == first[i + 1] ? no_bone : influences[first[i]].bone;
+  }
 };
 
 /// Binds particles at `rest` (n x 3, m), each of volume `particle_volume` (m^3), to the bones.

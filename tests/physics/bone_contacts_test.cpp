@@ -27,11 +27,11 @@ Vec3 moved(const RigidMotion& motion, const Vec3& x) { return motion.turn * x + 
 /// A body whose particles follow groups, and their contacts.
 struct Scene {
   Points points;
-  std::vector<std::uint16_t> lead;
+  std::vector<std::uint32_t> lead;
   std::size_t groups;
   BoneContacts contacts;
 
-  Scene(Points at, std::vector<std::uint16_t> leads)
+  Scene(Points at, std::vector<std::uint32_t> leads)
       : points(std::move(at)),
         lead(std::move(leads)),
         groups(*std::max_element(lead.begin(), lead.end()) + std::size_t{1}) {
@@ -46,9 +46,9 @@ struct Scene {
 /// A bar cut across into `groups` parts.
 Scene bar(std::size_t groups) {
   const Points points = test::fcc_box(5, 5, 41, r);
-  std::vector<std::uint16_t> lead;
+  std::vector<std::uint32_t> lead;
   for (std::size_t k = 0; k < points.size(); ++k)
-    lead.push_back(static_cast<std::uint16_t>(k * groups / points.size()));
+    lead.push_back(static_cast<std::uint32_t>(k * groups / points.size()));
   return {points, lead};
 }
 
@@ -57,15 +57,15 @@ Scene two_bars() {
   Points points = test::fcc_box(5, 5, 25, r);
   const std::size_t half = points.size();
   for (std::size_t k = 0; k < half; ++k) points.push_back(points[k] + Vec3(16 * r, 0, 0));
-  std::vector<std::uint16_t> lead(2 * half, 0);
-  std::fill(lead.begin() + static_cast<std::ptrdiff_t>(half), lead.end(), std::uint16_t{1});
+  std::vector<std::uint32_t> lead(2 * half, 0);
+  std::fill(lead.begin() + static_cast<std::ptrdiff_t>(half), lead.end(), std::uint32_t{1});
   return {points, lead};
 }
 
 /// Groups without any order.
 Scene mixed() {
   const Points points = test::fcc_box(7, 7, 25, r);
-  std::vector<std::uint16_t> lead;
+  std::vector<std::uint32_t> lead;
   std::mt19937 random(2);
   for (std::size_t k = 0; k < points.size(); ++k) lead.push_back(random() % 3);
   return {points, lead};

@@ -10,7 +10,7 @@
 //     root, size              square root, absolute value
 //     larger, smaller         of two; the second where either is not a number
 //     fused, less_fused       c + a b and c - a b, rounded once
-//     less, at_most, both     comparisons, false where a lane is not a number
+//     less, at_most           comparisons, false where a lane is not a number
 //     any, every              over the lanes
 //     keep, pick, add_where   where the mask is set, else zero, `no`, or `sum` itself
 //     difference, moved       a - b as a number; c displaced by one

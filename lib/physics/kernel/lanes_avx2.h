@@ -27,7 +27,6 @@ struct Doubles {
   static V size(V v) { return _mm256_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
-  static M both(M a, M b) { return _mm256_and_pd(a, b); }
   static bool any(M m) { return _mm256_movemask_pd(m) != 0; }
   static bool every(M m) { return _mm256_movemask_pd(m) == 0xf; }
   static V keep(M m, V v) { return _mm256_and_pd(m, v); }
@@ -60,7 +59,6 @@ struct Floats {
   static V size(V v) { return _mm256_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
-  static M both(M a, M b) { return _mm256_and_ps(a, b); }
   static bool any(M m) { return _mm256_movemask_ps(m) != 0; }
   static bool every(M m) { return _mm256_movemask_ps(m) == 0xff; }
   static V keep(M m, V v) { return _mm256_and_ps(m, v); }

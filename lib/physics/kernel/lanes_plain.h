@@ -25,7 +25,6 @@ struct One {
   static V size(V v) { return std::fabs(v); }
   static M less(V a, V b) { return a < b; }
   static M at_most(V a, V b) { return a <= b; }
-  static M both(M a, M b) { return a && b; }
   static bool any(M m) { return m; }
   static bool every(M m) { return m; }
   static V keep(M m, V v) { return m ? v : 0; }
@@ -50,7 +49,11 @@ struct Floats : One<float> {
   static void store_coord(std::int32_t* p, C c) { *p = static_cast<Coord>(c); }
   static C all_coord(std::int32_t value) { return static_cast<C>(value); }
   static V difference(C a, C b) { return static_cast<float>(static_cast<Coord>(a - b)); }
-  static C moved(C c, V by) { return c + static_cast<C>(static_cast<Coord>(std::nearbyint(by))); }
+  static C moved(C c, V by) {
+    // What whole numbers cannot hold becomes the least of them, as it does in vectors.
+    const bool held = std::fabs(by) < 2147483648.0F;
+    return c + (held ? static_cast<C>(static_cast<Coord>(std::nearbyint(by))) : C{1} << 31);
+  }
 };
 
 }  // namespace sinew::kernel::plain

@@ -27,13 +27,12 @@ struct Doubles {
     for (int k = 0; k < width; ++k) z[k] = std::fma(x[k], y[k], z[k]);
     return load(z);
   }
-  static V less_fused(V a, V b, V c) { return fused(all(0) - a, b, c); }
+  static V less_fused(V a, V b, V c) { return fused(_mm_xor_pd(a, all(-0.0)), b, c); }
   static V larger(V a, V b) { return _mm_max_pd(a, b); }
   static V smaller(V a, V b) { return _mm_min_pd(a, b); }
   static V size(V v) { return _mm_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm_cmplt_pd(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_pd(a, b); }
-  static M both(M a, M b) { return _mm_and_pd(a, b); }
   static bool any(M m) { return _mm_movemask_pd(m) != 0; }
   static bool every(M m) { return _mm_movemask_pd(m) == 0x3; }
   static V keep(M m, V v) { return _mm_and_pd(m, v); }
@@ -65,13 +64,12 @@ struct Floats {
     for (int k = 0; k < width; ++k) z[k] = std::fma(x[k], y[k], z[k]);
     return load(z);
   }
-  static V less_fused(V a, V b, V c) { return fused(all(0) - a, b, c); }
+  static V less_fused(V a, V b, V c) { return fused(_mm_xor_ps(a, all(-0.0F)), b, c); }
   static V larger(V a, V b) { return _mm_max_ps(a, b); }
   static V smaller(V a, V b) { return _mm_min_ps(a, b); }
   static V size(V v) { return _mm_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm_cmplt_ps(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_ps(a, b); }
-  static M both(M a, M b) { return _mm_and_ps(a, b); }
   static bool any(M m) { return _mm_movemask_ps(m) != 0; }
   static bool every(M m) { return _mm_movemask_ps(m) == 0xf; }
   static V keep(M m, V v) { return _mm_and_ps(m, v); }

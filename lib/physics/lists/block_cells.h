@@ -30,7 +30,7 @@ class BlockCells {
   std::span<const std::uint32_t> cell_of_particle() const { return cell_; }
   /// Lets go of that, which takes the most memory.
   void forget_particles() { std::vector<std::uint32_t>().swap(cell_); }
-  /// Bounds of the cell's particles: its own box, in lengths from the corner of the grid.
+  /// Corner of the grid, in lengths of the kernel.
   const Vec3& low() const { return low_; }
 
   /// Calls visit(block) for the blocks with a particle within two edges of a point, in lengths,

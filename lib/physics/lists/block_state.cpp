@@ -6,8 +6,9 @@
 namespace sinew {
 
 // Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
-// at first, and its lists are built anew, centred again, before it has moved by an eighth: the far
-// half of the range is left to the pads.
+// at first; it is measured anew when it is larger than 1.25 of that, off the middle by more than an
+// eighth of it, or has been carried by more than 0.36 of it (see ListStepper::remeasure). So no
+// particle comes farther out than 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
 constexpr double body_range = 1073741824;          // 2^30
 constexpr std::int32_t first_pad = 1342177280;     // 1.25 * 2^30
 constexpr std::uint32_t between_pads = 402653184;  // 0.375 * 2^30: four along each axis
@@ -86,7 +87,7 @@ void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Measure&
 
 template <>
 void BlockState<double>::pad(std::size_t slot, int number) {
-  for (auto& axis : x_) axis[slot] = 1e60 * (1 + number);
+  for (auto& axis : x_) axis[slot] = 1e30 * (1 + number);  // a float holds it
   for (auto& axis : v_) axis[slot] = 0;
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <map>
 
 namespace sinew {
@@ -26,17 +26,22 @@ double difference_within(const RigidMotion& a, const RigidMotion& b, Box box, do
   return std::sqrt(most);
 }
 
+/// Cheaply, no less than that.
+double rough_difference(const RigidMotion& a, const RigidMotion& b, const Box& box, double wider) {
+  const Mat3 turn = a.turn - b.turn;
+  const double half = box.diagonal().norm() / 2 + 2 * wider;
+  return (turn * box.center() + a.shift - b.shift).norm() + turn.norm() * half;
+}
+
 /// The motion of b in the directions and from the place of a.
 RigidMotion seen_from(const RigidMotion& a, const RigidMotion& b) {
   return {a.turn.transpose() * b.turn, a.turn.transpose() * (b.shift - a.shift)};
 }
 
-double gap_between(const Box& a, const Box& b) { return a.exteriorDistance(b); }
-
 /// The groups with particles in each cell, and the box of the cell.
 class CellGroups {
  public:
-  CellGroups(const BlockCells& cells, std::span<const std::uint16_t> lead)
+  CellGroups(const BlockCells& cells, std::span<const std::uint32_t> lead)
       : sole_(cells.cells(), nobody) {
     const auto cell = cells.cell_of_particle();
     for (std::size_t k = 0; k < cell.size(); ++k) add(cell[k], lead[k]);
@@ -116,13 +121,13 @@ std::vector<RigidMotion> motions_between(const Pose& before, const Pose& now) {
   return motions;
 }
 
-BoneContacts::BoneContacts(const BlockCells& cells, std::span<const std::uint16_t> lead,
+BoneContacts::BoneContacts(const BlockCells& cells, std::span<const std::uint32_t> lead,
                            std::size_t groups, const Vec3& origin, double scale, double range)
     : range_(range), reach_(static_cast<double>(rings) * cells.edge() * scale), whole_(groups) {
   find_pairs(cells, lead, origin, scale);
 }
 
-void BoneContacts::find_pairs(const BlockCells& cells, std::span<const std::uint16_t> lead,
+void BoneContacts::find_pairs(const BlockCells& cells, std::span<const std::uint32_t> lead,
                               const Vec3& origin, double scale) {
   const CellGroups in(cells, lead);
   const CellBoxes boxes{cells, origin, scale};
@@ -149,7 +154,7 @@ void BoneContacts::find_pairs(const BlockCells& cells, std::span<const std::uint
       if (met != near.end())
         pairs_.push_back({a, b, met->second, near.at({b, a})});
       else
-        apart_.push_back({a, b, std::max(reach_, gap_between(whole_[a], whole_[b]))});
+        apart_.push_back({a, b, std::max(reach_, whole_[a].exteriorDistance(whole_[b]))});
     }
 }
 
@@ -166,9 +171,11 @@ double BoneContacts::approach(std::span<const RigidMotion> motions, double shift
   }
   for (const Apart& pair : apart_) {
     const RigidMotion &a = motions[pair.a], &b = motions[pair.b];
+    const double spare = pair.gap - range_ - 2 * shift;
+    if (rough_difference(a, b, whole_[pair.a], shift) - spare <= most) continue;
     most = std::max(most, std::min(difference_within(a, b, whole_[pair.a], shift),
                                    difference_within(a, b, whole_[pair.b], shift)) -
-                              (pair.gap - range_ - 2 * shift));
+                              spare);
   }
   return most;
 }

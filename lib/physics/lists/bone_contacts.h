@@ -28,7 +28,7 @@ class BoneContacts {
   BoneContacts() = default;
   /// `lead` names the group of each particle of the cells, below `groups`; `origin` and `scale`
   /// turn their lengths into the scene's, m. Lists hold the pairs within `range` (m).
-  BoneContacts(const BlockCells& cells, std::span<const std::uint16_t> lead, std::size_t groups,
+  BoneContacts(const BlockCells& cells, std::span<const std::uint32_t> lead, std::size_t groups,
                const Vec3& origin, double scale, double range);
 
   /// How much nearer the bones' motions since the reference may have brought particles that the
@@ -54,7 +54,7 @@ class BoneContacts {
     double gap;  ///< at least that far from each other, m
   };
 
-  void find_pairs(const BlockCells& cells, std::span<const std::uint16_t> lead, const Vec3& origin,
+  void find_pairs(const BlockCells& cells, std::span<const std::uint32_t> lead, const Vec3& origin,
                   double scale);
 
   double range_ = 0;

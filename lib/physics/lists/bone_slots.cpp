@@ -155,7 +155,7 @@ BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
     filler.add(id.subspan(begin, std::min(block, id.size() - begin)));
   for (const std::int32_t i : id) {
     const auto influences = body.binding.of(i);
-    slots.lead.push_back(static_cast<std::uint16_t>(influences.empty() ? body.skeleton.size()
+    slots.lead.push_back(static_cast<std::uint32_t>(influences.empty() ? body.skeleton.size()
                                                                        : influences.front().bone));
   }
   return slots;

@@ -18,7 +18,7 @@ struct BoneSlots {
   std::vector<std::uint32_t> first;  ///< blocks + 1 long
   std::vector<kernel::Slot> slots;
   std::vector<Real> held, shares;
-  std::vector<std::uint16_t> lead;  ///< by particle: its leading bone; the number of bones: none
+  std::vector<std::uint32_t> lead;  ///< by particle: its leading bone; the number of bones: none
 
   /// Where on each bone's axis its frame has its origin, m from the head: amid what it holds, so
   /// that few digits are lost far from a head.

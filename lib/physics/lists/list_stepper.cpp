@@ -18,7 +18,7 @@ constexpr double column_edge = 1.2, most_growth = 1.3;
 // A barrier costs more than the work below this many particles per thread.
 constexpr std::size_t particles_per_thread = 8192;
 // Share of the range of whole numbers that a body may travel before it is centred again.
-constexpr double free_travel = 0.125, whole_range = 4294967296;
+constexpr double free_travel = 0.09, whole_range = 4294967296;
 
 template <class Real>
 constexpr std::size_t pieces_per_thread = particles_per_thread /
@@ -170,8 +170,8 @@ void ListStepper<Real>::remeasure() {
   const std::size_t n = caller_.size();
   const Box box = box_of(state_, measure_);
   const double usual = whole_range * measure_.length / 4;
-  if (n == 0 ||
-      ((box.center() - measure_.origin).norm() < usual / 4 && box.sizes().maxCoeff() < 1.5 * usual))
+  if (n == 0 || ((box.center() - measure_.origin).norm() < usual / 8 &&
+                 box.sizes().maxCoeff() < 1.25 * usual))
     return;
   const Measure before =
       std::exchange(measure_, measure_for<Real>(box, body_->material.pair, stepping_.step));

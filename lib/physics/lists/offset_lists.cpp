@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/error.h"
 #include "core/parallel.h"
 
 namespace sinew {
@@ -28,8 +29,14 @@ OffsetLists in_pieces(std::size_t blocks, Fill&& fill) {
     return std::move(parts[0]);
   }
   std::vector<std::uint32_t> start(pieces + 1, 0);
-  for (std::size_t p = 0; p < pieces; ++p)
-    start[p + 1] = start[p] + static_cast<std::uint32_t>(parts[p].value.size());
+  std::uint64_t all = 0;
+  for (std::size_t p = 0; p < pieces; ++p) {
+    all += parts[p].value.size();
+    start[p + 1] = static_cast<std::uint32_t>(all);
+  }
+  if (all > UINT32_MAX)
+    throw bad_input("lists of partners need over 2^32 entries",
+                    "make body.radius larger, or use solver.precision single");
   OffsetLists lists;
   lists.first.resize(blocks + 1, 0);
   lists.value.resize(start[pieces]);

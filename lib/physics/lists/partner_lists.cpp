@@ -110,7 +110,7 @@ bool PartnerLists<Real>::follow(const Riders<Real>& riders, double fastest) {
   const auto motions = motions_between(listed_pose_, riders.pose);
   const double approach = contacts_.approach(motions, shift_);
   if (!wide_drift_.holds(approach)) {
-    if (!look(riders, approach)) return false;
+    if (!look(riders)) return false;
     sift(riders);
   }
   const double since =
@@ -162,13 +162,15 @@ std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders
 
 /// Gives strays new partners. False where there are too many, or too little is left to go on with.
 template <class Real>
-bool PartnerLists<Real>::look(const Riders<Real>& riders, double approach) {
+bool PartnerLists<Real>::look(const Riders<Real>& riders) {
   Stopwatch watch;
   ++counts_.looks;
   const auto found = strays(riders);
   if (found.size() * particles_per_stray > riders.lead.size()) return false;
-  wide_ = with_added(wide_, partners_of(riders, found, approach));
   for (const std::uint32_t k : found) anchor(riders, k);
+  // Of places widened by what the strays have moved, hence after that.
+  const double approach = contacts_.approach(motions_between(listed_pose_, riders.pose), shift_);
+  if (!found.empty()) wide_ = with_added(wide_, partners_of(riders, found, approach));
   counts_.strays += static_cast<std::int64_t>(found.size());
   // References are kept in floats: to their rounding.
   double reach = 0;
@@ -176,10 +178,11 @@ bool PartnerLists<Real>::look(const Riders<Real>& riders, double approach) {
     reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
   wide_drift_.found(astray * 2 * pair_.r + 2.5e-7 * reach);
   counts_.looking += watch.lap();
-  const double room = cells_.edge() * riders.measure.length - approach - astray * 2 * pair_.r;
-  return shift_ < room &&
-         wide_drift_.holds(contacts_.approach(motions_between(listed_pose_, riders.pose), shift_) +
-                           wide_drift_.skin() / 8);
+  // Strays are found in the cells around their place; and no two of them may meet that were farther
+  // apart, when the lists were made, than the bones' contacts know.
+  const double edge = cells_.edge() * riders.measure.length;
+  const double room = std::min(edge - approach - astray * 2 * pair_.r, edge / 2);
+  return shift_ < room && wide_drift_.holds(approach + wide_drift_.skin() / 8);
 }
 
 /// Where the particle would have been when the lists were made, had it stood where it does in its

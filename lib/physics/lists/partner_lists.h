@@ -33,7 +33,7 @@ struct Riders {
   const Measure& measure;
   kernel::Holds<Real> holds;
   const kernel::BoneNow<Real>& world;
-  std::span<const std::uint16_t> lead;  ///< by particle; pose.size(): none
+  std::span<const std::uint32_t> lead;  ///< by particle; pose.size(): none
   const Pose& pose;
 };
 
@@ -45,7 +45,7 @@ class PartnerLists {
 
   /// The narrow list.
   kernel::Lists arrays() const { return narrow_.arrays(); }
-  bool made() const { return !listed_pose_.empty(); }
+  bool made() const { return !wide_.first.empty(); }
   /// Makes both lists from nothing.
   void make(const Riders<Real>& riders);
   /// The wide list for another order of the particles, to see whether it is shorter.
@@ -65,7 +65,7 @@ class PartnerLists {
   double range(double skin, const Measure& measure) const;
   void add_step(const Pose& pose, double fastest, double rounding);
   void sift(const Riders<Real>& riders);
-  bool look(const Riders<Real>& riders, double approach);
+  bool look(const Riders<Real>& riders);
   std::vector<std::uint32_t> strays(const Riders<Real>& riders);
   Vec3 place(const Riders<Real>& riders, std::size_t k) const;
   Vec3 place_when_listed(const Riders<Real>& riders, std::size_t k) const;
