@@ -5,29 +5,12 @@
 
 namespace sinew {
 
-// Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
-// at first; it is measured anew when it is larger than 1.25 of that, off the middle by more than an
-// eighth of it, or has been carried by more than 0.36 of it (see ListStepper::remeasure). So no
-// particle comes farther out than 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
-constexpr double body_range = 1073741824;          // 2^30
-constexpr std::int32_t first_pad = 1342177280;     // 1.25 * 2^30
+namespace {
+
+constexpr std::int32_t first_pad = 1342177280;     // 1.25 * 2^30, farther than any particle
 constexpr std::uint32_t between_pads = 402653184;  // 0.375 * 2^30: four along each axis
 
-template <>
-Measure measure_for<double>(const Box&, const PairForce&, double) {
-  return {};
-}
-
-template <>
-Measure measure_for<float>(const Box& box, const PairForce& pair, double step) {
-  // So wide that pads are out of each other's range as well.
-  const double extent = (box.isEmpty() ? 0 : box.sizes().maxCoeff()) + 16 * pair.b;
-  Measure measure;
-  measure.time = step;
-  measure.length = extent / body_range;
-  measure.origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
-  return measure;
-}
+}  // namespace
 
 template <class Real>
 BlockState<Real>::BlockState(std::size_t particles) : size_(particles) {

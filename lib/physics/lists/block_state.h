@@ -10,24 +10,9 @@
 
 #include "core/particles.h"
 #include "physics/kernel/kernel.h"
-#include "physics/pair_force.h"
+#include "physics/lists/measure.h"
 
 namespace sinew {
-
-/// How the kernel measures. Double precision keeps metres and seconds. Single precision counts time
-/// in steps and positions as whole numbers of a small length from an origin.
-struct Measure {
-  double length = 1;  ///< m
-  double time = 1;    ///< s
-  Vec3 origin = Vec3::Zero();
-
-  double acceleration(double si) const { return si * time * time / length; }
-  double velocity(double si) const { return si * time / length; }
-};
-
-/// The measure for particles within `box` (m) that take steps of `step` (s).
-template <class Real>
-Measure measure_for(const Box& box, const PairForce& pair, double step);
 
 /// a - b as the kernel has it: whole numbers wrap round.
 inline double difference_of(double a, double b) { return a - b; }

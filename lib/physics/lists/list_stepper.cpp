@@ -17,8 +17,6 @@ namespace {
 constexpr double column_edge = 1.2, most_growth = 1.3;
 // A barrier costs more than the work below this many particles per thread.
 constexpr std::size_t particles_per_thread = 8192;
-// Share of the range of whole numbers that a body may travel before it is centred again.
-constexpr double free_travel = 0.09, whole_range = 4294967296;
 
 template <class Real>
 constexpr std::size_t pieces_per_thread = particles_per_thread /
@@ -133,8 +131,7 @@ void ListStepper<Real>::keep_lists_true(const Pose& pose) {
   const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
   if (!lists_.made()) return rebuild(pose);
   if (fastest && !lists_.follow(riders(pose), *fastest)) return rebuild(pose);
-  if (sizeof(Real) == 4 && lists_.travel(pose) > free_travel * whole_range * measure_.length)
-    rebuild(pose);
+  if (sizeof(Real) == 4 && lists_.travel(pose) > free_travel<Real>(measure_)) rebuild(pose);
 }
 
 /// Puts the particles into columns where that makes the lists shorter.
@@ -163,16 +160,12 @@ bool ListStepper<Real>::sort() {
   return true;
 }
 
-/// Whole numbers hold a body that has grown or travelled far in a measure of its own.
 template <class Real>
 void ListStepper<Real>::remeasure() {
   if (sizeof(Real) == 8) return;
   const std::size_t n = caller_.size();
   const Box box = box_of(state_, measure_);
-  const double usual = whole_range * measure_.length / 4;
-  if (n == 0 || ((box.center() - measure_.origin).norm() < usual / 8 &&
-                 box.sizes().maxCoeff() < 1.25 * usual))
-    return;
+  if (sinew::serves<Real>(measure_, box)) return;
   const Measure before =
       std::exchange(measure_, measure_for<Real>(box, body_->material.pair, stepping_.step));
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
