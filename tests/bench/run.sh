@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh [--quick] [--update-readme]: measures the speed of stepping beside LAMMPS, the paper's cells and this
-# machine's limits; tables, plot and raw figures go to build/bench/speed. About 10 minutes; --quick: one.
+# machine's limits; tables, plot and raw figures go to build/bench/speed. About 15 minutes; --quick: one.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
