@@ -9,15 +9,16 @@ namespace {
 using kernel::InstructionSet;
 
 // Measured with a bent body of 1e5 particles, whole steps, on a server's core of about 2.5 GHz.
-// Vectors half as long do not take twice as long: loads and the making of lists stay the same.
+// Vectors half as long do not take twice as long: loads and the making of lists stay the same. What
+// has no fused multiply-add of its own calls a function for each.
 struct Speed {
   InstructionSet set;
   double in_double, in_single;  // particle-steps per second
 };
 constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
                                        {InstructionSet::avx2, 23e6, 50e6},
-                                       {InstructionSet::sse2, 12e6, 25e6},
-                                       {InstructionSet::plain, 6e6, 7e6}};
+                                       {InstructionSet::sse2, 1.6e6, 3.4e6},
+                                       {InstructionSet::plain, 1.7e6, 3.0e6}};
 // Whatever the instruction set: cells are sorted anew, and pairs worked through one by one.
 constexpr double speed_with_cells = 2e6;
 

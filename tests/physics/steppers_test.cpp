@@ -2,6 +2,7 @@
 // Whole steps with lists and with cells: the same positions, velocities, forces and books to
 // rounding, and the same words when a run fails.
 #include "core/error.h"
+#include "expect_error.h"
 #include "ways.h"
 
 namespace sinew {
@@ -300,6 +301,19 @@ TEST(Failures, NameAParticleWhereSinglePrecisionHardlyTellsTheSpeed) {
     const std::string words = last_words(settings, rest, particles, step, 1);
     EXPECT_TRUE(words.empty() || words.find("particle 0 on") != std::string::npos) << words;
   }
+}
+
+TEST(Failures, APositionThatIsNotFiniteIsRefusedAtOnce) {
+  const Points rest = test::fcc_box(5, 5, 5, r);
+  Particles particles = particles_at(rest, r, 1);
+  particles.y[7] = std::nan("");
+  for (const Precision precision : {Precision::binary64, Precision::binary32})
+    test::expect_error(Exit::bad_input,
+                       [&] {
+                         test::simulation_from(test::in(precision, test::box_scene(25)), rest,
+                                               particles, 1e-3);
+                       },
+                       {"particle 7 ", "not finite"});
 }
 
 TEST(Failures, TellTheSameStepOfARunThatIsUnstable) {
