@@ -64,10 +64,10 @@ TEST(SameBits, OfAllInstructionSetsOverABendWithATwist) {
          {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::explicit_euler}) {
       Settings settings = bend_and_twist(33, precision);
       settings.solver.integrator = integrator;
-      const Told best = run(kernel::best_instruction_set(), settings, rest, 120, 0.02 * r, 0.1);
+      const Told best = run(kernel::best_instruction_set(), settings, rest, 220, 0.02 * r, 0.1);
       EXPECT_GT(best.rebuilds, 1);
       for (const auto set : test::instruction_sets())
-        EXPECT_TRUE(run(set, settings, rest, 120, 0.02 * r, 0.1) == best) << kernel::name_of(set);
+        EXPECT_TRUE(run(set, settings, rest, 220, 0.02 * r, 0.1) == best) << kernel::name_of(set);
     }
 }
 

@@ -98,15 +98,16 @@ SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held
 template <class L, bool energy>
 SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const Held<L>& held,
                                     const Place<L>& here, const Triple<L>& velocity) {
-  const Triple<L> arm = from_centre<L>(bone, here);
-  const Triple<L> at = into_frame<L>(bone, arm);
+  const Triple<L> arm = from_centre<L>(bone.frame, here);
+  const Triple<L> at = into_frame<L>(bone.frame, arm);
   const Pull<L> radial = radial_pull<L, energy>(L::all(bone.radial), at, held);
   const Pull<L> twist = twist_pull<L, energy>(L::all(bone.twist), at, held);
   const Pull<L> axial = axial_pull<L, energy>(L::all(bone.axial), at, held);
   BoneSums<L> pull;
-  pull.carried = all<L>(bone.velocity) + cross<L>(all<L>(bone.spin), arm);
-  pull.spring = from_frame<L>(bone, {radial.force.x + axial.force.x, radial.force.y + twist.force.y,
-                                     radial.force.z + twist.force.z});
+  pull.carried = carried_by<L>(bone.frame, arm);
+  pull.spring =
+      from_frame<L>(bone.frame, {radial.force.x + axial.force.x, radial.force.y + twist.force.y,
+                                 radial.force.z + twist.force.z});
   pull.damping = L::all(bone.damping) * (pull.carried - velocity);
   pull.damping_power = dot<L>(pull.damping, pull.carried);
   pull.power = pull.damping_power + dot<L>(pull.spring, pull.carried);

@@ -57,14 +57,19 @@ struct Law {
   Real damping;
 };
 
-/// A bone, its springs, and where it is: in the bone's frame a particle has the coordinates
-/// axes (x - centre), the first of them along the bone.
+/// A rigid frame: in it a particle has the coordinates axes (x - centre).
 template <class Real>
-struct BoneNow {
+struct FrameNow {
   typename Traits<Real>::Coord centre[3];
   Real rest_of_centre[3];  ///< what whole numbers leave of it
   Real axes[9];
   Real velocity[3], spin[3];  ///< of the centre; angular
+};
+
+/// A bone, where it is, and its springs. The first axis of its frame points along it.
+template <class Real>
+struct BoneNow {
+  FrameNow<Real> frame;
   Real radial, twist, axial, damping;
 };
 
@@ -89,14 +94,28 @@ struct Holds {
   const BoneNow<Real>* bones;
 };
 
+/// The frames that carry a block's particles along, each particle by one.
+struct CarrierSlot {
+  std::int32_t frame;
+  std::int32_t lanes;  ///< whose ones, or -1: all lanes are this frame's
+};
+
+template <class Real>
+struct Carriers {
+  const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
+  const CarrierSlot* slots;
+  const Real* lanes;  ///< x block; 1 where the frame carries the particle, else 0
+  const FrameNow<Real>* frames;
+};
+
 /// What a piece adds up to.
 struct Totals {
   double power;        ///< of the bones
   double lost;         ///< what the step dissipates per time
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
-  double fastest;      ///< largest squared speed relative to the leading bone
-  bool sound;          ///< no particle faster than that allows, all values finite
+  double fastest;      ///< largest squared speed relative to the carrier
+  bool sound;          ///< none too fast for its leading bone, all values finite
 };
 
 /// Forces of a probe, by particle.
@@ -115,6 +134,7 @@ struct Step {
   const std::int32_t* id;
   Lists lists;
   Holds<Real> holds;
+  Carriers<Real> carriers;
   Law<Real> law;
   Real unit;         ///< length of one unit of coordinates
   Real gravity[3];   ///< per time squared
@@ -127,13 +147,12 @@ struct Step {
   Probed<Real> probed;
 };
 
-/// Where particles are in the frame of their leading bone, beside where they were at a moment of
-/// reference: a body that rides along with its bones stands still there.
+/// Where particles are in the frames that carry them, beside where they were at a moment of
+/// reference: a body that rides along with them stands still there.
 template <class Real>
 struct Ride {
   State<Real> state;
-  Holds<Real> holds;
-  const BoneNow<Real>* world;  ///< the frame of particles that no bone holds
+  Carriers<Real> carriers;
   float* reference[3];
 };
 

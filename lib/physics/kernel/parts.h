@@ -84,26 +84,26 @@ SINEW_INLINE Triple<L> offset(const Place<L>& a, const Place<L>& b) {
   return {L::difference(a.x, b.x), L::difference(a.y, b.y), L::difference(a.z, b.z)};
 }
 
-/// From a bone's centre to the particles, in the directions of the scene.
+/// From a frame's centre to the particles, in the directions of the scene.
 template <class L>
-SINEW_INLINE Triple<L> from_centre(const BoneNow<typename L::Real>& bone, const Place<L>& at) {
-  const Place<L> centre{L::all_coord(bone.centre[0]), L::all_coord(bone.centre[1]),
-                        L::all_coord(bone.centre[2])};
-  return offset<L>(at, centre) - all<L>(bone.rest_of_centre);
+SINEW_INLINE Triple<L> from_centre(const FrameNow<typename L::Real>& frame, const Place<L>& at) {
+  const Place<L> centre{L::all_coord(frame.centre[0]), L::all_coord(frame.centre[1]),
+                        L::all_coord(frame.centre[2])};
+  return offset<L>(at, centre) - all<L>(frame.rest_of_centre);
 }
 
-/// The coordinates in the bone's frame of a vector in the scene.
+/// The coordinates in a frame of a vector in the scene.
 template <class L>
-SINEW_INLINE Triple<L> into_frame(const BoneNow<typename L::Real>& bone, const Triple<L>& a) {
-  return {dot<L>(all<L>(bone.axes), a), dot<L>(all<L>(bone.axes + 3), a),
-          dot<L>(all<L>(bone.axes + 6), a)};
+SINEW_INLINE Triple<L> into_frame(const FrameNow<typename L::Real>& frame, const Triple<L>& a) {
+  return {dot<L>(all<L>(frame.axes), a), dot<L>(all<L>(frame.axes + 3), a),
+          dot<L>(all<L>(frame.axes + 6), a)};
 }
 
 /// And back.
 template <class L>
-SINEW_INLINE Triple<L> from_frame(const BoneNow<typename L::Real>& bone, const Triple<L>& a) {
-  return fused<L>(a.x, all<L>(bone.axes),
-                  fused<L>(a.y, all<L>(bone.axes + 3), a.z * all<L>(bone.axes + 6)));
+SINEW_INLINE Triple<L> from_frame(const FrameNow<typename L::Real>& frame, const Triple<L>& a) {
+  return fused<L>(a.x, all<L>(frame.axes),
+                  fused<L>(a.y, all<L>(frame.axes + 3), a.z * all<L>(frame.axes + 6)));
 }
 
 template <class L>
@@ -125,6 +125,29 @@ SINEW_INLINE Shares<L> shares_of(const Holds<typename L::Real>& holds, const Slo
   const auto* fields =
       holds.shares + static_cast<std::ptrdiff_t>(slot.shares) * share_fields * block + lane;
   return {L::load(fields + weight * block), L::load(fields + lead * block)};
+}
+
+/// The velocity, at a distance from its centre, of what a frame carries.
+template <class L>
+SINEW_INLINE Triple<L> carried_by(const FrameNow<typename L::Real>& frame, const Triple<L>& arm) {
+  return all<L>(frame.velocity) + cross<L>(all<L>(frame.spin), arm);
+}
+
+/// For each lane what `told` says of the frame that carries it.
+template <class L, class Tell>
+SINEW_INLINE Triple<L> by_carrier(const Carriers<typename L::Real>& carriers, std::size_t block,
+                                  int lane, Tell tell) {
+  constexpr int size = Traits<typename L::Real>::block;
+  const std::uint32_t begin = carriers.first[block], end = carriers.first[block + 1];
+  if (end - begin == 1 && carriers.slots[begin].lanes < 0) [[likely]]
+    return tell(carriers.frames[carriers.slots[begin].frame]);
+  Triple<L> sum = none<L>();
+  for (std::uint32_t s = begin; s != end; ++s) {
+    const CarrierSlot slot = carriers.slots[s];
+    const auto* lanes = carriers.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
+    sum = sum + L::load(lanes) * tell(carriers.frames[slot.frame]);
+  }
+  return sum;
 }
 
 }  // namespace sinew::kernel

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far particles have moved in the frame of the bone that leads them.
+// How far particles have moved in the frames that carry them.
 #pragma once
 
 #include "physics/kernel/parts.h"
 
 namespace sinew::kernel {
 
-/// Places in the frames of the leading bones.
+/// Places in the frames that carry them.
 template <class L>
 SINEW_INLINE Triple<L> ridden(const Ride<typename L::Real>& ride, std::size_t block, int lane) {
   const auto i = static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(ride.state.x, i);
-  typename L::V unled = L::all(1);
-  Triple<L> sum = none<L>();
-  for (std::uint32_t s = ride.holds.first[block]; s != ride.holds.first[block + 1]; ++s) {
-    const Slot slot = ride.holds.slots[s];
-    const auto& bone = ride.holds.bones[slot.bone];
-    const typename L::V leads = shares_of<L>(ride.holds, slot, lane).lead;
-    sum = sum + leads * into_frame<L>(bone, from_centre<L>(bone, here));
-    unled = unled - leads;
-  }
-  if (!L::any(L::less(L::all(0), unled))) return sum;
-  return sum + unled * into_frame<L>(*ride.world, from_centre<L>(*ride.world, here));
+  return by_carrier<L>(
+      ride.carriers, block,
+      lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
+        return into_frame<L>(frame, from_centre<L>(frame, here));
+      });
 }
 
 template <class L>

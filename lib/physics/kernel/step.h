@@ -59,10 +59,23 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
   add_to<L>(sums.lost + lane, lost);
 }
 
+/// The fastest in the frames that carry them.
+template <class L>
+SINEW_INLINE void watch(const Step<typename L::Real>& step, std::size_t block, int lane,
+                        const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
+  const Triple<L> carried = by_carrier<L>(
+      step.carriers, block,
+      lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
+        return carried_by<L>(frame, from_centre<L>(frame, here));
+      });
+  const Triple<L> relative = drifting - carried;
+  L::store(sums.fastest + lane,
+           L::larger(dot<L>(relative, relative), L::load(sums.fastest + lane)));
+}
+
 template <class L>
 SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& drifting,
-                        const Triple<L>& kicked, const Triple<L>& carried, int lane,
-                        Sums<L>& sums) {
+                        const Triple<L>& kicked, const Triple<L>& carried, Sums<L>& sums) {
   const Triple<L> relative = drifting - carried;
   const typename L::V speed2 = dot<L>(relative, relative);
   sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
@@ -71,7 +84,6 @@ SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& dri
     const typename L::V nothing = dot<L>(L::all(0) * kicked, kicked);
     sums.sound = sums.sound && L::every(L::at_most(nothing, L::all(0)));
   }
-  L::store(sums.fastest + lane, L::larger(speed2, L::load(sums.fastest + lane)));
 }
 
 template <class L>
@@ -90,7 +102,8 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& 
   L::store_coord(step.after.x[1] + i, L::moved(here.y, by.y));
   L::store_coord(step.after.x[2] + i, L::moved(here.z, by.z));
   account<L>(step, forces, velocity, lane, sums);
-  guard<L>(step, drifting, kicked, forces.bones.carried, lane, sums);
+  guard<L>(step, drifting, kicked, forces.bones.carried, sums);
+  watch<L>(step, block, lane, here, drifting, sums);
 }
 
 template <class L>

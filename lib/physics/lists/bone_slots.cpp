@@ -117,17 +117,17 @@ void put(const Vec3& from, double scale, Real* to) {
 }
 
 /// A point in whole units, and what they leave of it in lengths.
-void put_centre(const Vec3& p, const Measure&, kernel::BoneNow<double>& bone) {
-  put(p, 1, bone.centre);
-  put(Vec3(Vec3::Zero()), 1, bone.rest_of_centre);
+void put_centre(const Vec3& p, const Measure&, kernel::FrameNow<double>& frame) {
+  put(p, 1, frame.centre);
+  put(Vec3(Vec3::Zero()), 1, frame.rest_of_centre);
 }
 
-void put_centre(const Vec3& p, const Measure& measure, kernel::BoneNow<float>& bone) {
+void put_centre(const Vec3& p, const Measure& measure, kernel::FrameNow<float>& frame) {
   const Vec3 units = (p - measure.origin) / measure.length;
   for (int axis = 0; axis < 3; ++axis) {
     const double whole = std::nearbyint(units[axis]);
-    bone.centre[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(whole));
-    bone.rest_of_centre[axis] = static_cast<float>(units[axis] - whole);
+    frame.centre[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(whole));
+    frame.rest_of_centre[axis] = static_cast<float>(units[axis] - whole);
   }
 }
 
@@ -139,6 +139,19 @@ void put_axes(const Mat3& rotation, Real* axes) {
 }  // namespace
 
 template <class Real>
+kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& centre, const Measure& measure) {
+  kernel::FrameNow<Real> frame{};
+  put_centre(centre, measure, frame);
+  put_axes(pose.frame.rotation, frame.axes);
+  put(pose.velocity_at(centre), measure.velocity(1), frame.velocity);
+  put(pose.angular_velocity, measure.time, frame.spin);
+  return frame;
+}
+
+template kernel::FrameNow<double> frame_now(const BonePose&, const Vec3&, const Measure&);
+template kernel::FrameNow<float> frame_now(const BonePose&, const Vec3&, const Measure&);
+
+template <class Real>
 BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
                            const Measure& measure) {
   constexpr std::size_t block = kernel::Traits<Real>::block;
@@ -147,17 +160,11 @@ BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
   const std::size_t count = count_slots(body, id, block);
   slots.slots.reserve(count);
   slots.held.reserve(count * kernel::held_fields * block);
-  slots.lead.reserve(id.size());
   slots.first.reserve(id.size() / block + 2);
   slots.first.push_back(0);
   Filler<Real> filler(body, measure, slots);
   for (std::size_t begin = 0; begin < id.size(); begin += block)
     filler.add(id.subspan(begin, std::min(block, id.size() - begin)));
-  for (const std::int32_t i : id) {
-    const auto influences = body.binding.of(i);
-    slots.lead.push_back(static_cast<std::uint32_t>(influences.empty() ? body.skeleton.size()
-                                                                       : influences.front().bone));
-  }
   return slots;
 }
 
@@ -170,24 +177,13 @@ std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
   for (std::size_t b = 0; b < pose.size(); ++b) {
     const Vec3 at = pose[b].frame.origin + centre[b] * pose[b].axis();
     const BoneSprings& springs = body.springs[b];
-    put_centre(at, measure, bones[b]);
-    put_axes(pose[b].frame.rotation, bones[b].axes);
-    put(pose[b].velocity_at(at), measure.velocity(1), bones[b].velocity);
-    put(pose[b].angular_velocity, measure.time, bones[b].spin);
+    bones[b].frame = frame_now<Real>(pose[b], at, measure);
     bones[b].radial = static_cast<Real>(springs.radial * spring);
     bones[b].twist = static_cast<Real>(springs.twist * spring);
     bones[b].axial = static_cast<Real>(springs.axial * spring);
     bones[b].damping = static_cast<Real>(springs.damping * measure.time / mass);
   }
   return bones;
-}
-
-template <class Real>
-kernel::BoneNow<Real> world_frame(const Measure& measure) {
-  kernel::BoneNow<Real> world{};
-  put_centre(measure.origin, measure, world);
-  put_axes(Mat3(Mat3::Identity()), world.axes);
-  return world;
 }
 
 template struct BoneSlots<double>;
@@ -200,7 +196,5 @@ template std::vector<kernel::BoneNow<double>> bones_now(const Body&, const Pose&
 template std::vector<kernel::BoneNow<float>> bones_now(const Body&, const Pose&,
                                                        std::span<const double>, double,
                                                        const Measure&);
-template kernel::BoneNow<double> world_frame(const Measure&);
-template kernel::BoneNow<float> world_frame(const Measure&);
 
 }  // namespace sinew

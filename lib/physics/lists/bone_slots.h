@@ -18,7 +18,6 @@ struct BoneSlots {
   std::vector<std::uint32_t> first;  ///< blocks + 1 long
   std::vector<kernel::Slot> slots;
   std::vector<Real> held, shares;
-  std::vector<std::uint32_t> lead;  ///< by particle: its leading bone; the number of bones: none
 
   /// Where on each bone's axis its frame has its origin, m from the head: amid what it holds, so
   /// that few digits are lost far from a head.
@@ -36,8 +35,8 @@ std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
                                              std::span<const double> centre, double mass,
                                              const Measure& measure);
 
-/// The frame of particles that no bone holds: that of the scene.
+/// A rigid frame with its centre at the point that is at `centre` (m) now.
 template <class Real>
-kernel::BoneNow<Real> world_frame(const Measure& measure);
+kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& centre, const Measure& measure);
 
 }  // namespace sinew

@@ -52,6 +52,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       stepping_(stepping),
       mass_(particles.mass),
       kernel_(kernel::functions_of<Real>(instructions)),
+      carriers_(*body_),
       lists_(kernel_, body_->material.pair, stepping.step) {
   load(particles);
 }
@@ -72,7 +73,6 @@ void ListStepper<Real>::load(const Particles& particles) {
     state_.set_velocity(k, particles.velocity(k), measure_);
   }
   slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
-  world_ = world_frame<Real>(measure_);
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
@@ -88,6 +88,30 @@ kernel::Holds<Real> ListStepper<Real>::holds() const {
 }
 
 template <class Real>
+kernel::Carriers<Real> ListStepper<Real>::carriers() const {
+  return {carrier_slots_.first.data(), carrier_slots_.slots.data(), carrier_slots_.lanes.data(),
+          frames_.data()};
+}
+
+template <class Real>
+void ListStepper<Real>::place_carriers(const Pose& pose) {
+  carrier_pose_ = carriers_.at(pose);
+  frames_.clear();
+  for (std::size_t c = 0; c < carrier_pose_.size(); ++c)
+    frames_.push_back(c < bones_.size() ? bones_[c].frame
+                                        : frame_now<Real>(carrier_pose_[c],
+                                                          carrier_pose_[c].frame.origin, measure_));
+  frames_.push_back(frame_now<Real>(BonePose(), measure_.origin, measure_));
+}
+
+template <class Real>
+void ListStepper<Real>::choose_carriers(const Pose& pose) {
+  carriers_.choose(*body_, pose, state_, measure_, {id_.data() + block, caller_.size()});
+  carrier_slots_ = carrier_slots<Real>(carriers_.of_particles());
+  place_carriers(pose);
+}
+
+template <class Real>
 kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
@@ -100,6 +124,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.id = id_.data() + block;
   step.lists = lists_.arrays();
   step.holds = holds();
+  step.carriers = carriers();
   const double per_mass = pair.r * T * T / mass_;
   step.law = {real(pair.r / L),
               real(pair.a / L),
@@ -122,16 +147,18 @@ kernel::Step<Real> ListStepper<Real>::job() {
 }
 
 template <class Real>
-Riders<Real> ListStepper<Real>::riders(const Pose& pose) {
-  return {state_, measure_, holds(), world_, slots_.lead, pose};
+Riders<Real> ListStepper<Real>::riders() {
+  return {state_, measure_, carriers(), carriers_.of_particles(), carrier_pose_};
 }
 
 template <class Real>
 void ListStepper<Real>::keep_lists_true(const Pose& pose) {
   const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
   if (!lists_.made()) return rebuild(pose);
-  if (fastest && !lists_.follow(riders(pose), *fastest)) return rebuild(pose);
-  if (sizeof(Real) == 4 && lists_.travel(pose) > free_travel<Real>(measure_)) rebuild(pose);
+  place_carriers(pose);
+  if (fastest && !lists_.follow(riders(), *fastest)) return rebuild(pose);
+  if (sizeof(Real) == 4 && lists_.travel(carrier_pose_) > free_travel<Real>(measure_))
+    rebuild(pose);
 }
 
 /// Puts the particles into columns where that makes the lists shorter.
@@ -175,15 +202,17 @@ void ListStepper<Real>::remeasure() {
     }
   });
   slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
-  world_ = world_frame<Real>(measure_);
 }
 
 template <class Real>
 void ListStepper<Real>::rebuild(const Pose& pose) {
   remeasure();
   place_bones(pose);
-  lists_.make(riders(pose));
-  if (lists_.mean_of_wide() > most_growth * mean_when_sorted_ && sort()) lists_.make(riders(pose));
+  choose_carriers(pose);
+  lists_.make(riders());
+  if (lists_.mean_of_wide() <= most_growth * mean_when_sorted_ || !sort()) return;
+  choose_carriers(pose);
+  lists_.make(riders());
 }
 
 template <class Real>
@@ -253,9 +282,9 @@ template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
   const bool drift_first = stepping_.integrator == Integrator::explicit_euler;
   const Vec3 velocity = (drift_first ? state_ : next_).velocity(k, measure_);
-  const std::size_t bone = slots_.lead[k];
-  return bone < pose.size() ? Vec3(velocity - pose[bone].velocity_at(state_.position(k, measure_)))
-                            : velocity;
+  const int bone = body_->binding.bone(static_cast<std::size_t>(id_[k + block]));
+  return bone == no_bone ? velocity
+                         : Vec3(velocity - pose[bone].velocity_at(state_.position(k, measure_)));
 }
 
 template <class Real>

@@ -10,6 +10,7 @@
 #include "physics/kernel/kernel.h"
 #include "physics/lists/block_state.h"
 #include "physics/lists/bone_slots.h"
+#include "physics/lists/carriers.h"
 #include "physics/lists/partner_lists.h"
 #include "physics/stepper.h"
 
@@ -35,8 +36,11 @@ class ListStepper {
   void load(const Particles& particles);
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
+  kernel::Carriers<Real> carriers() const;
+  void place_carriers(const Pose& pose);
+  void choose_carriers(const Pose& pose);
   kernel::Step<Real> job();
-  Riders<Real> riders(const Pose& pose);
+  Riders<Real> riders();
 
   void keep_lists_true(const Pose& pose);
   void rebuild(const Pose& pose);
@@ -56,16 +60,18 @@ class ListStepper {
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   BoneSlots<Real> slots_;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< where they are now
-  kernel::BoneNow<Real> world_{};
+  Carriers carriers_;
+  CarrierSlots<Real> carrier_slots_;
+  Pose carrier_pose_;
+  std::vector<kernel::FrameNow<Real>> frames_;  ///< of the carriers; the last stands still
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
   PartnerLists<Real> lists_;
   double mean_when_sorted_ =
       45;  ///< differences per block in the wide list; here: of a packed body
   std::int64_t sorts_ = 0;
-  double sorting_ = 0;  ///< s
-  std::optional<double>
-      fastest_;  ///< in a step not yet followed, relative to the leading bone, m/s
+  double sorting_ = 0;             ///< s
+  std::optional<double> fastest_;  ///< in a step not yet followed, relative to the carriers, m/s
 
   std::vector<kernel::Totals> totals_;
 };

@@ -137,6 +137,31 @@ class Runs {
   std::uint32_t begin_ = 0, end_ = 0;
 };
 
+/// Appends the lists of the blocks [begin, end) with what is added to them.
+void copy_with(const OffsetLists& lists, const std::vector<BlockOffset>& added, std::size_t begin,
+               std::size_t end, OffsetLists& part) {
+  const auto place = [&](std::size_t block) {
+    return std::lower_bound(added.begin(), added.end(),
+                            BlockOffset{static_cast<std::uint32_t>(block), INT32_MIN});
+  };
+  const auto last = place(end);
+  part.first.reserve(end - begin + 1);
+  part.value.reserve(lists.first[end] - lists.first[begin] +
+                     static_cast<std::size_t>(last - place(begin)));
+  auto next = place(begin);
+  for (std::size_t block = begin; block < end; ++block) {
+    const auto old = lists.value.begin() + lists.first[block];
+    const auto old_end = lists.value.begin() + lists.first[block + 1];
+    std::vector<std::int32_t> more;
+    for (; next != last && next->block == block; ++next) more.push_back(next->offset);
+    if (more.empty())
+      part.value.insert(part.value.end(), old, old_end);
+    else
+      std::set_union(old, old_end, more.begin(), more.end(), std::back_inserter(part.value));
+    part.first.push_back(static_cast<std::uint32_t>(part.value.size()));
+  }
+}
+
 }  // namespace
 
 double OffsetLists::mean() const {
@@ -149,19 +174,10 @@ OffsetLists with_added(const OffsetLists& lists, std::vector<BlockOffset> added)
   if (added.empty()) return lists;
   std::sort(added.begin(), added.end());
   added.erase(std::unique(added.begin(), added.end()), added.end());
-  return in_pieces(
-      lists.first.size() - 1, [&](std::size_t begin, std::size_t end, OffsetLists& part) {
-        auto next = std::lower_bound(added.begin(), added.end(),
-                                     BlockOffset{static_cast<std::uint32_t>(begin), INT32_MIN});
-        for (std::size_t block = begin; block < end; ++block) {
-          const auto old = lists.value.begin() + lists.first[block];
-          const auto old_end = lists.value.begin() + lists.first[block + 1];
-          std::vector<std::int32_t> more;
-          for (; next != added.end() && next->block == block; ++next) more.push_back(next->offset);
-          std::set_union(old, old_end, more.begin(), more.end(), std::back_inserter(part.value));
-          part.first.push_back(static_cast<std::uint32_t>(part.value.size()));
-        }
-      });
+  return in_pieces(lists.first.size() - 1,
+                   [&](std::size_t begin, std::size_t end, OffsetLists& part) {
+                     copy_with(lists, added, begin, end, part);
+                   });
 }
 
 template <class Real>

@@ -12,11 +12,12 @@ namespace {
 
 // In diameters, measured: longer lists cost every step, shorter ones are made more often. The
 // narrow skin leaves out the second neighbours of a packed body.
-constexpr double wide_skin = 0.7, narrow_skin = 0.1;
-// A particle that moved farther than this is astray; if more than one in so many are, all lists are
-// made anew.
-constexpr double astray = 0.2;
-constexpr std::size_t particles_per_stray = 50;
+constexpr double wide_skin = 0.9, narrow_skin = 0.1;
+// Particles that moved farther than the others are astray: farther than the first of these, in
+// diameters, that only one block in so many exceeds, or than the last. If more than one particle in
+// so many is, all lists are made anew.
+constexpr std::array astray{0.04, 0.07, 0.1, 0.15, 0.2};
+constexpr std::size_t blocks_per_stray = 100, particles_per_stray = 50;
 constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
 constexpr std::size_t pieces_per_part = 32;
 constexpr std::size_t strays_per_piece = 8;
@@ -25,8 +26,7 @@ template <class Real>
 kernel::Ride<Real> ride_of(const Riders<Real>& riders,
                            std::array<std::vector<float>, 3>& reference) {
   return {riders.state.arrays(),
-          riders.holds,
-          &riders.world,
+          riders.carriers,
           {reference[0].data(), reference[1].data(), reference[2].data()}};
 }
 
@@ -62,8 +62,8 @@ void PartnerLists<Real>::make(const Riders<Real>& riders) {
   const double reach = range(wide_skin, riders.measure);
   cells_ = BlockCells(riders.state, reach);
   wide_ = find_offsets(kernel_, riders.state, cells_, reach);
-  contacts_ = BoneContacts(cells_, riders.lead, riders.pose.size() + 1, riders.measure.origin,
-                           riders.measure.length, reach * riders.measure.length);
+  contacts_ = Contacts(riders.state, riders.measure, riders.carrier, riders.pose.size() + 1,
+                       reach * riders.measure.length);
   for (auto& axis : reference_) axis.resize(riders.state.blocks() * BlockState<Real>::block);
   const auto ride = ride_of(riders, reference_);
   for_each_part(riders.state.blocks(),
@@ -88,7 +88,7 @@ void PartnerLists<Real>::sift(const Riders<Real>& riders) {
   counts_.sifting += watch.lap();
 }
 
-/// How far the particles may have moved in their bones' frames in the step that led here.
+/// How far the particles may have moved in their frames in the step that led here.
 template <class Real>
 void PartnerLists<Real>::add_step(const Pose& pose, double fastest, double rounding) {
   double excess = 0;
@@ -119,45 +119,65 @@ bool PartnerLists<Real>::follow(const Riders<Real>& riders, double fastest) {
   return true;
 }
 
-/// The place of a particle in the frame of its leading bone, in lengths.
+/// The place of a particle in the frame of its carrier, in lengths.
 template <class Real>
 Vec3 PartnerLists<Real>::place(const Riders<Real>& riders, std::size_t k) const {
-  const auto& bone =
-      riders.lead[k] < riders.pose.size() ? riders.holds.bones[riders.lead[k]] : riders.world;
+  const auto& frame = riders.carriers.frames[riders.carrier[k]];
   const auto arrays = riders.state.arrays();
   Vec3 arm;
   Mat3 axes;
   for (int axis = 0; axis < 3; ++axis) {
-    arm[axis] = static_cast<double>(difference_of(arrays.x[axis][k], bone.centre[axis])) -
-                static_cast<double>(bone.rest_of_centre[axis]);
+    arm[axis] = static_cast<double>(difference_of(arrays.x[axis][k], frame.centre[axis])) -
+                static_cast<double>(frame.rest_of_centre[axis]);
     for (int column = 0; column < 3; ++column)
-      axes(axis, column) = static_cast<double>(bone.axes[3 * axis + column]);
+      axes(axis, column) = static_cast<double>(frame.axes[3 * axis + column]);
   }
   return axes * arm;
 }
 
-/// Particles farther from their reference than what is astray, ascending.
+/// The largest displacement within each block since the lists were made, in lengths.
 template <class Real>
-std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders) {
-  const double limit = 0.999 * astray * 2 * pair_.r / riders.measure.length;
-  const std::size_t blocks = riders.state.blocks(), size = BlockState<Real>::block;
-  std::vector<std::vector<std::uint32_t>> found(blocks / (blocks_per_piece * pieces_per_part) + 1);
+std::vector<double> PartnerLists<Real>::displacements(const Riders<Real>& riders) {
+  std::vector<double> largest(riders.state.blocks());
   const auto ride = ride_of(riders, reference_);
-  for_each_part(blocks, [&](std::size_t begin, std::size_t end) {
-    auto& here = found[begin / (blocks_per_piece * pieces_per_part)];
-    for (std::size_t block = begin; block < end; ++block) {
-      if (static_cast<double>(kernel_.displacement(ride, block, block + 1)) < limit * limit)
-        continue;
-      for (std::size_t k = block * size; k < std::min((block + 1) * size, riders.lead.size());
-           ++k) {
-        const Vec3 was(reference_[0][k], reference_[1][k], reference_[2][k]);
-        if ((place(riders, k) - was).norm() >= limit) here.push_back(static_cast<std::uint32_t>(k));
-      }
-    }
+  for_each_part(largest.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block)
+      largest[block] = std::sqrt(static_cast<double>(kernel_.displacement(ride, block, block + 1)));
   });
-  std::vector<std::uint32_t> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  return largest;
+}
+
+/// Beyond what displacement, m, particles of blocks so displaced are astray.
+template <class Real>
+double PartnerLists<Real>::astray_beyond(const std::vector<double>& displaced,
+                                         const Measure& measure) const {
+  for (const double diameters : astray) {
+    const double limit = diameters * 2 * pair_.r, lengths = 0.999 * limit / measure.length;
+    const auto beyond = std::count_if(displaced.begin(), displaced.end(),
+                                      [&](double most) { return most >= lengths; });
+    if (static_cast<std::size_t>(beyond) * blocks_per_stray <= displaced.size()) return limit;
+  }
+  return astray.back() * 2 * pair_.r;
+}
+
+/// The particles displaced by `limit` (m) or more, ascending.
+template <class Real>
+std::vector<std::uint32_t> PartnerLists<Real>::strays(const Riders<Real>& riders,
+                                                      const std::vector<double>& displaced,
+                                                      double limit) {
+  const double lengths = 0.999 * limit / riders.measure.length;
+  constexpr std::size_t size = BlockState<Real>::block;
+  std::vector<std::uint32_t> found;
+  for (std::size_t block = 0; block < displaced.size(); ++block) {
+    if (displaced[block] < lengths) continue;
+    for (std::size_t k = block * size; k < std::min((block + 1) * size, riders.carrier.size());
+         ++k) {
+      const Vec3 was(reference_[0][k], reference_[1][k], reference_[2][k]);
+      if ((place(riders, k) - was).norm() >= lengths)
+        found.push_back(static_cast<std::uint32_t>(k));
+    }
+  }
+  return found;
 }
 
 /// Gives strays new partners. False where there are too many, or too little is left to go on with.
@@ -165,45 +185,47 @@ template <class Real>
 bool PartnerLists<Real>::look(const Riders<Real>& riders) {
   Stopwatch watch;
   ++counts_.looks;
-  const auto found = strays(riders);
-  if (found.size() * particles_per_stray > riders.lead.size()) return false;
+  const auto displaced = displacements(riders);
+  const double limit = astray_beyond(displaced, riders.measure);
+  const auto found = strays(riders, displaced, limit);
+  if (found.size() * particles_per_stray > riders.carrier.size()) return false;
   for (const std::uint32_t k : found) anchor(riders, k);
   // Of places widened by what the strays have moved, hence after that.
   const double approach = contacts_.approach(motions_between(listed_pose_, riders.pose), shift_);
-  if (!found.empty()) wide_ = with_added(wide_, partners_of(riders, found, approach));
+  if (!found.empty()) wide_ = with_added(wide_, partners_of(riders, found, limit + approach));
   counts_.strays += static_cast<std::int64_t>(found.size());
   // References are kept in floats: to their rounding.
   double reach = 0;
   for (std::size_t b = 0; b < listed_pose_.size(); ++b)
     reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
-  wide_drift_.found(astray * 2 * pair_.r + 2.5e-7 * reach);
+  wide_drift_.found(limit + 2.5e-7 * reach);
   counts_.looking += watch.lap();
   // Strays are found in the cells around their place; and no two of them may meet that were farther
   // apart, when the lists were made, than the bones' contacts know.
   const double edge = cells_.edge() * riders.measure.length;
-  const double room = std::min(edge - approach - astray * 2 * pair_.r, edge / 2);
+  const double room = std::min(edge - approach - limit, edge / 2);
   return shift_ < room && wide_drift_.holds(approach + wide_drift_.skin() / 8);
 }
 
 /// Where the particle would have been when the lists were made, had it stood where it does in its
-/// leading bone's frame: m.
+/// carrier's frame: m.
 template <class Real>
 Vec3 PartnerLists<Real>::place_when_listed(const Riders<Real>& riders, std::size_t k) const {
   const Vec3 here = riders.state.position(k, riders.measure);
-  if (riders.lead[k] >= riders.pose.size()) return here;
-  const RigidFrame &now = riders.pose[riders.lead[k]].frame,
-                   &then = listed_pose_[riders.lead[k]].frame;
+  if (riders.carrier[k] >= riders.pose.size()) return here;
+  const RigidFrame &now = riders.pose[riders.carrier[k]].frame,
+                   &then = listed_pose_[riders.carrier[k]].frame;
   return then.origin + then.rotation * (now.rotation.transpose() * (here - now.origin));
 }
 
-/// The pairs of a stray with all that could come near it before the next look.
+/// The pairs of a stray with all that could come near it before the next look, when others may have
+/// come nearer by `nearer` (m) than their references tell.
 template <class Real>
-void PartnerLists<Real>::pair_up(const Riders<Real>& riders, std::uint32_t k, double approach,
+void PartnerLists<Real>::pair_up(const Riders<Real>& riders, std::uint32_t k, double nearer,
                                  std::vector<BlockOffset>& added) const {
   const auto arrays = riders.state.arrays();
   const std::size_t size = BlockState<Real>::block;
-  const double reach =
-      range(wide_skin, riders.measure) + (astray * 2 * pair_.r + approach) / riders.measure.length;
+  const double reach = range(wide_skin, riders.measure) + nearer / riders.measure.length;
   const Vec3 at = (place_when_listed(riders, k) - riders.measure.origin) / riders.measure.length;
   std::vector<std::uint32_t> blocks;
   cells_.for_each_block_near(at, [&](std::uint32_t block) { blocks.push_back(block); });
@@ -214,7 +236,8 @@ void PartnerLists<Real>::pair_up(const Riders<Real>& riders, std::uint32_t k, do
     if (!wide_.has(one)) added.push_back(one);
   };
   for (const std::uint32_t block : blocks)
-    for (std::size_t j = block * size; j < std::min((block + 1) * size, riders.lead.size()); ++j) {
+    for (std::size_t j = block * size; j < std::min((block + 1) * size, riders.carrier.size());
+         ++j) {
       double squared = 0;
       for (int axis = 0; axis < 3; ++axis) {
         const auto apart = static_cast<double>(difference_of(arrays.x[axis][k], arrays.x[axis][j]));
@@ -230,11 +253,11 @@ void PartnerLists<Real>::pair_up(const Riders<Real>& riders, std::uint32_t k, do
 template <class Real>
 std::vector<BlockOffset> PartnerLists<Real>::partners_of(const Riders<Real>& riders,
                                                          const std::vector<std::uint32_t>& found,
-                                                         double approach) const {
+                                                         double nearer) const {
   std::vector<std::vector<BlockOffset>> parts(found.size() / strays_per_piece + 1);
   parallel_for(found.size(), strays_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      pair_up(riders, found[n], approach, parts[begin / strays_per_piece]);
+      pair_up(riders, found[n], nearer, parts[begin / strays_per_piece]);
   });
   std::vector<BlockOffset> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

@@ -3,9 +3,9 @@
 //
 // A wide list, found with the cells, lasts long; a narrow one, sifted from it, is what the kernel
 // works through. Both hold until particles have approached by their skins, judged by what the
-// bones' motions and the fastest particle allow, step by step, and by a look at all particles when
-// that is used up. A look that finds a few particles astray, as in a body that flows, gives those
-// alone new partners; when there are many, all lists are made anew.
+// carriers' motions and the fastest particle allow, step by step, and by a look at all particles
+// when that is used up. A look that finds a few particles astray, as in a body that flows, gives
+// those alone new partners; when there are many, all lists are made anew.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 #include "physics/kernel/kernel.h"
 #include "physics/lists/block_cells.h"
 #include "physics/lists/block_state.h"
-#include "physics/lists/bone_contacts.h"
+#include "physics/lists/contacts.h"
 #include "physics/lists/drift.h"
 #include "physics/lists/offset_lists.h"
 #include "physics/pair_force.h"
@@ -26,15 +26,14 @@
 
 namespace sinew {
 
-/// Particles, and the bones that lead them, at one moment.
+/// Particles, and the frames that carry them, at one moment.
 template <class Real>
 struct Riders {
   BlockState<Real>& state;
   const Measure& measure;
-  kernel::Holds<Real> holds;
-  const kernel::BoneNow<Real>& world;
-  std::span<const std::uint32_t> lead;  ///< by particle; pose.size(): none
-  const Pose& pose;
+  kernel::Carriers<Real> carriers;
+  std::span<const std::uint32_t> carrier;  ///< by particle; pose.size(): the scene
+  const Pose& pose;                        ///< of the carriers
 };
 
 template <class Real>
@@ -52,8 +51,8 @@ class PartnerLists {
   OffsetLists wide_of(BlockState<Real>& state, const Measure& measure) const;
   double mean_of_wide() const { return wide_.mean(); }
 
-  /// After a step in which no particle was faster than `fastest` (m/s) relative to its leading
-  /// bone, from the pose told last. False: the lists have to be made anew.
+  /// After a step in which no particle was faster than `fastest` (m/s) relative to its
+  /// carrier, from the pose told last. False: the lists have to be made anew.
   bool follow(const Riders<Real>& riders, double fastest);
   /// How far particles have been carried since the lists were made, m.
   double travel(const Pose& pose) const {
@@ -66,14 +65,17 @@ class PartnerLists {
   void add_step(const Pose& pose, double fastest, double rounding);
   void sift(const Riders<Real>& riders);
   bool look(const Riders<Real>& riders);
-  std::vector<std::uint32_t> strays(const Riders<Real>& riders);
+  std::vector<double> displacements(const Riders<Real>& riders);
+  double astray_beyond(const std::vector<double>& displaced, const Measure& measure) const;
+  std::vector<std::uint32_t> strays(const Riders<Real>& riders,
+                                    const std::vector<double>& displaced, double limit);
   Vec3 place(const Riders<Real>& riders, std::size_t k) const;
   Vec3 place_when_listed(const Riders<Real>& riders, std::size_t k) const;
-  void pair_up(const Riders<Real>& riders, std::uint32_t k, double approach,
+  void pair_up(const Riders<Real>& riders, std::uint32_t k, double nearer,
                std::vector<BlockOffset>& added) const;
   std::vector<BlockOffset> partners_of(const Riders<Real>& riders,
                                        const std::vector<std::uint32_t>& found,
-                                       double approach) const;
+                                       double nearer) const;
   void anchor(const Riders<Real>& riders, std::uint32_t k);
 
   kernel::Functions<Real> kernel_{};
@@ -82,10 +84,9 @@ class PartnerLists {
 
   OffsetLists wide_, narrow_;
   BlockCells cells_;
-  BoneContacts contacts_;
+  Contacts contacts_;
   Drift wide_drift_, narrow_drift_;
-  std::array<std::vector<float>, 3>
-      reference_;  ///< places in the leading bones' frames, in lengths
+  std::array<std::vector<float>, 3> reference_;  ///< places in the carriers' frames, in lengths
   Pose listed_pose_, last_pose_;
   std::vector<RigidMotion> sifted_motions_;
   double moved_when_sifted_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What bones' motions may do to lists is bounded from above, and not by far too much.
-#include "physics/lists/bone_contacts.h"
+#include "physics/lists/contacts.h"
 
 #include <numeric>
 
@@ -29,7 +29,7 @@ struct Scene {
   Points points;
   std::vector<std::uint32_t> lead;
   std::size_t groups;
-  BoneContacts contacts;
+  Contacts contacts;
 
   Scene(Points at, std::vector<std::uint32_t> leads)
       : points(std::move(at)),
@@ -38,8 +38,7 @@ struct Scene {
     BlockState<double> state(points.size());
     const Measure metres;
     for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], metres);
-    const BlockCells cells(state, range);
-    contacts = BoneContacts(cells, lead, groups, metres.origin, metres.length, range);
+    contacts = Contacts(state, metres, lead, groups, range);
   }
 };
 
@@ -71,7 +70,10 @@ Scene mixed() {
   return {points, lead};
 }
 
-std::vector<Scene> scenes() { return {bar(2), bar(4), two_bars(), mixed()}; }
+/// All of the body in one cell, two groups in it.
+Scene handful() { return {test::fcc_box(2, 2, 4, r), {0, 0, 1, 1, 0, 0, 1, 1}}; }
+
+std::vector<Scene> scenes() { return {bar(2), bar(4), two_bars(), mixed(), handful()}; }
 
 std::vector<RigidMotion> random_motions(std::size_t count, std::mt19937& random, double angle,
                                         double shift) {
@@ -83,7 +85,7 @@ std::vector<RigidMotion> random_motions(std::size_t count, std::mt19937& random,
 
 constexpr std::pair<double, double> sizes[] = {{0.5, 0.1 * r}, {3, r}, {20, 5 * r}, {180, 40 * r}};
 
-TEST(BoneContacts, NoPairOutsideTheListsComesNearerThanApproachAllows) {
+TEST(Contacts, NoPairOutsideTheListsComesNearerThanApproachAllows) {
   std::mt19937 random(1);
   for (const Scene& scene : scenes())
     for (const auto& [angle, shift] : sizes)
@@ -101,7 +103,7 @@ TEST(BoneContacts, NoPairOutsideTheListsComesNearerThanApproachAllows) {
       }
 }
 
-TEST(BoneContacts, NoListedPairComesNearerThanApproachSinceAllows) {
+TEST(Contacts, NoListedPairComesNearerThanApproachSinceAllows) {
   std::mt19937 random(2);
   for (const Scene& scene : scenes())
     for (const auto& [angle, shift] : sizes)
@@ -126,7 +128,7 @@ TEST(BoneContacts, NoListedPairComesNearerThanApproachSinceAllows) {
       }
 }
 
-TEST(BoneContacts, BoundTravelAndReach) {
+TEST(Contacts, BoundTravelAndReach) {
   std::mt19937 random(3);
   for (const Scene& scene : scenes())
     for (const auto& [angle, shift] : sizes) {
@@ -143,7 +145,7 @@ TEST(BoneContacts, BoundTravelAndReach) {
     }
 }
 
-TEST(BoneContacts, BonesThatMoveAsOneBringNothingNearer) {
+TEST(Contacts, BonesThatMoveAsOneBringNothingNearer) {
   std::mt19937 random(4);
   for (const Scene& scene : scenes())
     for (const auto& [angle, shift] : sizes) {
@@ -155,7 +157,7 @@ TEST(BoneContacts, BonesThatMoveAsOneBringNothingNearer) {
     }
 }
 
-TEST(BoneContacts, OnlyTheSurroundingsOfAJointCountInABend) {
+TEST(Contacts, OnlyTheSurroundingsOfAJointCountInABend) {
   const Scene scene = bar(2);
   const Vec3 joint(0, 0, 41 * half_plane_spacing(r) / 2);
   const Mat3 turn = test::turned(Vec3::UnitY(), 1);
@@ -165,7 +167,7 @@ TEST(BoneContacts, OnlyTheSurroundingsOfAJointCountInABend) {
   EXPECT_GT(scene.contacts.approach(bend), 2 * r * radians(1));
 }
 
-TEST(BoneContacts, GroupsFarApartMayMoveFreelyAtFirst) {
+TEST(Contacts, GroupsFarApartMayMoveFreelyAtFirst) {
   const Scene scene = two_bars();  // 10 r between their surfaces
   const auto pushed = [](double way) {
     return std::vector<RigidMotion>{{}, {Mat3::Identity(), Vec3(-way, 0, 0)}};
