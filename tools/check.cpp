@@ -73,7 +73,7 @@ void add_material(const Material& material, Results& results) {
   const PairForce& pair = material.pair;
   const double k = pair.contact_stiffness();
   results.add("young_modulus", material.young_modulus(), "Pa");
-  results.add("poisson_ratio", poisson_ratio_hill);
+  results.add("poisson_ratio", material.constants().hill_poisson_ratio());
   results.add("bulk_modulus", 2 * std::sqrt(2.0) / 3 * k / (2 * pair.r), "Pa");
   results.add("k1", pair.k1, "Pa");
   results.add("k2", pair.k2, "Pa");

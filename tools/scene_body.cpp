@@ -29,14 +29,6 @@ auto told_at(const Settings& settings, const char* key, Job&& job) {
 }
 
 /// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
-Mat3 turned_about_xyz(const Vec3& angles) {
-  if (angles.isZero(0)) return Mat3::Identity();
-  const auto about = [&](int axis) {
-    return Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis));
-  };
-  return (about(2) * about(1) * about(0)).toRotationMatrix();
-}
-
 }  // namespace
 
 bool is_scene(const std::filesystem::path& path) {
@@ -53,6 +45,15 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
                       "give another name with -o");
 }
 
+Mat3 lattice_axes(const BodySettings& body) {
+  const Vec3& angles = body.lattice_rotation;
+  if (angles.isZero(0)) return Mat3::Identity();
+  const auto about = [&](int axis) {
+    return Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis));
+  };
+  return (about(2) * about(1) * about(0)).toRotationMatrix();
+}
+
 Surface read_mesh(const Settings& settings) {
   return told_at(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
 }
@@ -65,7 +66,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.count = body.count;
   options.density = settings.material.density;
   options.lattice_origin = body.lattice_origin;
-  options.lattice_axes = turned_about_xyz(body.lattice_rotation);
+  options.lattice_axes = lattice_axes(body);
   options.keep = body.keep;
   options.clearance = body.clearance;
   options.thickness = body.thickness;

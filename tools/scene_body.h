@@ -17,6 +17,9 @@ bool is_scene(const std::filesystem::path& path);
 /// Throws Error (bad input) where an output is no .vtu, or one of the inputs.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);
 
+/// The directions of the packing, as columns.
+Mat3 lattice_axes(const BodySettings& body);
+
 /// Reads the mesh that a scene names. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);
 

@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/error.h"
+#include "scene_body.h"
 
 namespace sinew {
 namespace {
@@ -20,13 +21,19 @@ int frames_of(const Settings& settings) {
   return static_cast<int>(frames);
 }
 
+BodyShape shape_of(const Settings& settings, const Points& rest, const Particles& particles) {
+  BodyShape shape = sinew::shape_of(rest, particles.radius, particles.mass);
+  shape.lattice = lattice_axes(settings.body);
+  return shape;
+}
+
 Body make_body(const Settings& settings, const Particles& particles) {
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = make_skeleton(settings);
   body.binding = bind_to_bones(body.rest, body.skeleton, volume_per_particle(particles.radius),
                                settings.binding.joint_zone);
-  body.material = make_material(settings.material, particles.radius, particles.mass);
+  body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
   body.springs = bone_springs(settings.binding, body.material, body.binding);
   return body;
 }

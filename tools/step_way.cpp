@@ -23,6 +23,11 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
 constexpr double speed_with_cells = 2e6;
 
 Unserved unserved_by_lists(const Body& body) {
+  if (body.material.model != MaterialModel::paper)
+    return {"material.model",
+            body.material.model == MaterialModel::bonded ? "bonded" : "bonded_volume", "paper"};
+  if (body.material.cohesion != Cohesion::all)
+    return {"material.cohesion", "initial_neighbours", "all"};
   if (body.material.damping_form != DampingForm::paper)
     return {"material.damping_form",
             body.material.damping_form == DampingForm::central ? "central" : "symmetric", "paper"};

@@ -98,7 +98,7 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
   const StepWay way = step_way(solver, setup.body);
-  if (!way.unserved) return;
+  if (!way.unserved || setup.body.material.model != MaterialModel::paper) return;
   const auto& [key, value, served] = *way.unserved;
   std::string warning = key;
   warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
@@ -113,7 +113,8 @@ void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& w
 std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
                                      double bone_speed) {
   Warnings warnings;
-  warn_of_material(setup.body.material.pair, warnings);
+  if (setup.body.material.model == MaterialModel::paper)
+    warn_of_material(setup.body.material.pair, warnings);
   warn_of_step(setup.steps, warnings);
   warn_of_speed(bone_speed, warnings);
   for (const Track& track : setup.motion.tracks) {

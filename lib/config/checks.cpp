@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "core/material_presets.h"
 #include "core/settings_table.h"
 
 namespace sinew {
@@ -34,13 +35,41 @@ Place place_of(const Settings& settings, const char* first, const char* second) 
   return settings.place(is_given(settings, first) ? first : second);
 }
 
+void check_material(const Settings& settings) {
+  const MaterialSettings& material = settings.material;
+  if (!(material.a < material.b))
+    throw bad_input(place_of(settings, "material.a", "material.b"),
+                    "attraction would end at b = " + number_text(material.b) +
+                        " radii before it begins at a = " + number_text(material.a),
+                    "give an a below b");
+  const bool has_bonds = material.model != MaterialModel::paper;
+  for (const char* key : {"material.breaking_strain", "material.yield_strain"})
+    if (is_given(settings, key) && !has_bonds)
+      throw bad_input(settings.place(key),
+                      std::string(key) + " is of bonds, and the paper's model has none",
+                      "set material.model to bonded or bonded_volume, or remove it");
+  if (material.cohesion != Cohesion::all && has_bonds)
+    throw bad_input(settings.place("material.cohesion"),
+                    "bonded models attract none but their bonds",
+                    "remove material.cohesion, or set material.model to paper");
+  if (!material.modulus_direction) return;
+  if (material.modulus_direction->norm() == 0)
+    throw bad_input(settings.place("material.modulus_direction"), "a direction without length",
+                    "give [x, y, z], not all zero");
+  if (settings.body.packing != Packing::fcc)
+    throw bad_input(settings.place("material.modulus_direction"),
+                    "moduli along a direction are known for fcc only",
+                    "set body.packing to fcc, or remove it");
+}
+
 }  // namespace
 
 std::span<const EitherOr> either_or() {
-  static constexpr std::array<EitherOr, 3> pairs = {{
+  static constexpr std::array<EitherOr, 4> pairs = {{
       {"body.radius", "body.count", true},
       {"material.young_modulus", "material.k1", false},
       {"material.lambda", "material.k2", false},
+      {"material.damping", "material.damping_ratio", false},
   }};
   return pairs;
 }
@@ -53,14 +82,26 @@ std::string_view rival_of(std::string_view path) {
   return "";
 }
 
+void apply_preset(Settings& settings) {
+  MaterialSettings& material = settings.material;
+  const MaterialPreset* preset = preset_named(material.preset);
+  if (preset == nullptr) return;
+  const auto free = [&](std::string_view key) {
+    const std::string_view rival = rival_of(key);
+    return !is_given(settings, key) && (rival.empty() || !is_given(settings, rival));
+  };
+  if (free("material.density")) material.density = preset->density;
+  if (free("material.young_modulus")) material.young_modulus = preset->young_modulus;
+  if (free("material.poisson_ratio")) material.poisson_ratio = preset->poisson_ratio;
+  if (free("material.damping_ratio")) material.damping_ratio = preset->damping_ratio;
+  if (preset->yield_strain && free("material.model")) material.model = MaterialModel::bonded;
+  if (material.model != MaterialModel::paper && free("material.yield_strain"))
+    material.yield_strain = preset->yield_strain;
+}
+
 void check_together(const Settings& settings) {
   for (const EitherOr& pair : either_or()) check_pair(settings, pair);
-  const MaterialSettings& material = settings.material;
-  if (!(material.a < material.b))
-    throw bad_input(place_of(settings, "material.a", "material.b"),
-                    "attraction would end at b = " + number_text(material.b) +
-                        " radii before it begins at a = " + number_text(material.a),
-                    "give an a below b");
+  check_material(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

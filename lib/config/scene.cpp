@@ -7,8 +7,8 @@
 #include "config/mapping.h"
 #include "config/paths.h"
 #include "config/text_file.h"
-#include "core/words.h"
 #include "core/settings_table.h"
+#include "core/words.h"
 
 namespace sinew {
 namespace {
@@ -95,6 +95,7 @@ Settings read_scene(const std::filesystem::path& path, std::span<const Override>
   YamlNode scene = parse_yaml(read_text(path), file);
   for (const Override& given : overrides) apply_override(given, scene);
   Settings settings = read_settings(scene, file, sections());
+  apply_preset(settings);
   check_together(settings);
   open_paths_from_here(settings, path.parent_path());
   return settings;
@@ -108,6 +109,7 @@ Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Ove
   YamlNode scene = {Kind::map, place, "", false, {body}, {{"body", place}}};
   for (const Override& given : overrides) apply_override(given, scene);
   Settings settings = read_settings(scene, place.file, known);
+  apply_preset(settings);
   check_together(settings);
   return settings;
 }

@@ -38,7 +38,9 @@ struct Dataset {
   std::vector<Column> field_columns;  ///< one row each: what holds for the whole file
   std::string meta;                   ///< UTF-8 JSON, or empty
 
-  std::size_t cells() const { return connectivity.size() / static_cast<std::size_t>(kind) + lines.size() / 2; }
+  std::size_t cells() const {
+    return connectivity.size() / static_cast<std::size_t>(kind) + lines.size() / 2;
+  }
 };
 
 /// One vertex cell per point: 0, 1, 2, ...

@@ -39,20 +39,30 @@ struct BodySettings {
   double clearance = 0;
 };
 
-enum class MaterialModel { paper };
+enum class MaterialModel { paper, bonded, bonded_volume };
+enum class MaterialPresetName { none, fat, muscle, skin, silicone, rubber_foam, clay };
+enum class Cohesion { all, initial_neighbours };
 enum class DampingForm { paper, symmetric, central };
 
 struct MaterialSettings {
+  MaterialPresetName preset = MaterialPresetName::none;
   MaterialModel model = MaterialModel::paper;
+  Cohesion cohesion = Cohesion::all;
   double density = 1000;
   double young_modulus = 10e3;
+  std::optional<Vec3> modulus_direction;
+  double poisson_ratio = 0.45;
   std::optional<double> k1;
   std::optional<double> k2;
   double lambda = 1;
   double a = 2;
   double b = 2.6;
   double damping = 0.5;
+  std::optional<double> damping_ratio;
   DampingForm damping_form = DampingForm::paper;
+  std::optional<double> breaking_strain;
+  std::optional<double> yield_strain;
+  double creep_rate = 1;
 };
 
 struct BoneSettings {

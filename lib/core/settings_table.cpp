@@ -161,12 +161,28 @@ std::vector<Field<Settings>> make_body() {
 std::vector<Field<Settings>> make_material() {
   using S = Settings;
   return {
-      choice<S>("material", "model", SINEW_AT(S, material.model), {"paper"},
-                "force law: paper is Komiya and Tokoi's, without fixed bonds"),
+      choice<S>("material", "preset", SINEW_AT(S, material.preset),
+                {"none", "fat", "muscle", "skin", "silicone", "rubber_foam", "clay"},
+                "a material by name: density, young_modulus, poisson_ratio and damping_ratio where "
+                "the scene gives none"),
+      choice<S>(
+          "material", "model", SINEW_AT(S, material.model), {"paper", "bonded", "bonded_volume"},
+          "paper: Komiya and Tokoi's, without fixed bonds, flows when bent far; bonded: keeps "
+          "its bonds and comes back; bonded_volume: keeps its volume too"),
+      choice<S>("material", "cohesion", SINEW_AT(S, material.cohesion),
+                {"all", "initial_neighbours"},
+                "who attracts whom in the paper's model: all that come near, so that parts that "
+                "touch stick, or only neighbours at rest"),
       field<S>("material", "density", SINEW_AT(S, material.density), "kg/m^3",
                "mass of the body over its mesh's volume", positive),
       field<S>("material", "young_modulus", SINEW_AT(S, material.young_modulus), "Pa",
                "Young's modulus, averaged over directions (Hill); sets k1 = E / 2.701", positive),
+      field<S>("material", "modulus_direction", SINEW_AT(S, material.modulus_direction), "",
+               "young_modulus is meant along this direction of the scene, in a packing of fcc", any,
+               "none"),
+      field<S>("material", "poisson_ratio", SINEW_AT(S, material.poisson_ratio), "",
+               "of bonded_volume, averaged over directions (Hill); the others have 0.261",
+               {0.26, 0.45}),
       field<S>("material", "k1", SINEW_AT(S, material.k1), "Pa",
                "the paper's repulsion constant, instead of young_modulus", positive),
       field<S>("material", "k2", SINEW_AT(S, material.k2), "Pa",
@@ -181,9 +197,19 @@ std::vector<Field<Settings>> make_material() {
                {2, 8, true}),
       field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
                "damping constant C of neighbours' relative velocity", not_negative),
+      field<S>("material", "damping_ratio", SINEW_AT(S, material.damping_ratio), "",
+               "of the body's first bending, instead of damping", not_negative, "none"),
       choice<S>("material", "damping_form", SINEW_AT(S, material.damping_form),
                 {"paper", "symmetric", "central"},
                 "paper: eq. 2; symmetric keeps momentum; central keeps angular momentum too"),
+      field<S>("material", "breaking_strain", SINEW_AT(S, material.breaking_strain), "",
+               "stretch at which a bond breaks, over its length; of bonded models", positive,
+               "none"),
+      field<S>("material", "yield_strain", SINEW_AT(S, material.yield_strain), "",
+               "strain of a bond beyond which its rest length creeps after it; of bonded models",
+               positive, "none"),
+      field<S>("material", "creep_rate", SINEW_AT(S, material.creep_rate), "1/s",
+               "share of the strain beyond yield_strain that creeps away per time", not_negative),
   };
 }
 

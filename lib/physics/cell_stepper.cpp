@@ -11,11 +11,38 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 512;
 
+std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
+  if (!remembers_neighbours(body.material)) return std::nullopt;
+  Points rest;
+  rest.reserve(particles.size());
+  for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
+  return Solid(body.material, std::move(rest));
+}
+
 }  // namespace
 
 CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
                          Particles particles)
-    : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {}
+    : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {
+  solid_ = solid_of(*body_, particles_);
+}
+
+void CellStepper::find_forces(const Pose& pose) {
+  if (solid_)
+    solid_->forces(particles_, forces_);
+  else
+    pair_forces(particles_, body_->material, forces_);
+  bone_forces(particles_, *body_, pose, forces_);
+}
+
+double CellStepper::stored_in_pairs() {
+  return solid_ ? solid_->energy(particles_) : pair_energy(particles_, body_->material.pair);
+}
+
+std::span<const std::int32_t> CellStepper::broken_bonds() const {
+  if (!solid_ || body_->material.model == MaterialModel::paper) return {};
+  return solid_->bonds().broken;
+}
 
 Vec3 CellStepper::acceleration(std::size_t i) const {
   return forces_.total(i) / particles_.mass + stepping_.gravity;
@@ -62,9 +89,9 @@ bool CellStepper::sound(std::size_t i, const Vec3& before, const Pose& pose) con
 }
 
 StepSums CellStepper::step(const Pose& pose) {
-  pair_forces(particles_, body_->material, forces_);
-  bone_forces(particles_, *body_, pose, forces_);
+  find_forces(pose);
   StepSums sums = this->sums();
+  if (solid_) sums.lost += solid_->evolve(particles_, stepping_.step) / stepping_.step;
   const bool half = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
   const double kick = half ? stepping_.step / 2 : stepping_.step;
   const std::size_t n = particles_.size();
@@ -87,15 +114,13 @@ StepSums CellStepper::step(const Pose& pose) {
 }
 
 Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
-  pair_forces(particles_, body_->material, forces_);
-  bone_forces(particles_, *body_, pose, forces_);
+  find_forces(pose);
   const StepSums now = sums();
   forces.pair = forces_.pair;
   forces.damping = forces_.damping;
   forces.bone = forces_.bone;
   forces.neighbours = forces_.neighbours;
-  return {now.power, now.lost, pair_energy(particles_, body_->material.pair),
-          bone_energy(particles_, *body_, pose)};
+  return {now.power, now.lost, stored_in_pairs(), bone_energy(particles_, *body_, pose)};
 }
 
 void CellStepper::read(const Pose& pose, Particles& particles) {

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 
+#include "physics/solid/solid.h"
 #include "physics/stepper.h"
 #include "rig/pose.h"
 
@@ -17,8 +20,12 @@ class CellStepper {
   StepSums step(const Pose& pose);
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
+  /// Bonds broken so far, by particle; none for a body without bonds.
+  std::span<const std::int32_t> broken_bonds() const;
 
  private:
+  void find_forces(const Pose& pose);
+  double stored_in_pairs();
   Vec3 acceleration(std::size_t i) const;
   StepSums sums() const;
   void advance(std::size_t i, double kick);
@@ -27,6 +34,7 @@ class CellStepper {
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
   Particles particles_;
+  std::optional<Solid> solid_;  ///< of materials that remember who was whose neighbour
   Forces forces_;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 };

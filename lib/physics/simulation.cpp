@@ -132,6 +132,11 @@ Energies Simulation::energies() {
   return energies;
 }
 
+std::span<const std::int32_t> Simulation::broken_bonds() const {
+  const auto* cells = std::get_if<CellStepper>(&stepper_);
+  return cells != nullptr ? cells->broken_bonds() : std::span<const std::int32_t>();
+}
+
 ListCounts Simulation::list_counts() const {
   return std::visit(
       [](const auto& stepper) {

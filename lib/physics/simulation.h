@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <variant>
 
 #include "core/energies.h"
@@ -49,6 +50,10 @@ class Simulation {
   /// Kinetic energy and dissipation are taken at the moment of the positions, so that the balance
   /// closes to second order in the step.
   Energies energies();
+
+  /// Bonds of each particle that are broken, in the order of the particles; none for the paper's
+  /// model, which has no bonds.
+  std::span<const std::int32_t> broken_bonds() const;
 
   /// How often lists of partners were made; none for cells.
   ListCounts list_counts() const;

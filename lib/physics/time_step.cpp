@@ -20,11 +20,17 @@ struct Mode {
   double w2;    // k / m
 };
 
+/// Highest frequency of the packing, w^2 in k / m.
+double lattice_factor(const Material& material) {
+  return highest_frequency_factor(material.volume_stiffness / (2 * material.pair.k1));
+}
+
 /// Within the packing (exact), and at its surface, where few partners make the damping of eq. 2
 /// stronger and the springs softer (the most found by power iteration on boxes and balls).
 std::array<Mode, 2> worst_modes(const Material& material) {
-  if (is_central(material)) return {Mode{2.0 / 3, 8}, Mode{0.87, 5}};
-  return {Mode{4.0 / 3, 8}, Mode{1.52, 5}};
+  const double w2 = lattice_factor(material);
+  if (is_central(material)) return {Mode{2.0 / 3, w2}, Mode{0.87, w2 * 5 / 8}};
+  return {Mode{4.0 / 3, w2}, Mode{1.52, w2 * 5 / 8}};
 }
 
 double largest_damping(const std::vector<BoneSprings>& springs) {
@@ -51,7 +57,7 @@ double semi_implicit_limit(const Material& material, const std::vector<BoneSprin
 
 double explicit_limit(const Material& material, const std::vector<BoneSprings>& springs) {
   const double C = material.damping, k = material.stiffness();
-  double limit = C / ((is_central(material) ? 12 : 8) * k);
+  double limit = C / ((is_central(material) ? 1.5 : 1) * lattice_factor(material) * k);
   for (const Mode& mode : worst_modes(material))
     if (C > 0)
       limit = std::min(limit, 2 * material.mass / (mode.rate * C + largest_damping(springs)));
@@ -64,7 +70,8 @@ double explicit_limit(const Material& material, const std::vector<BoneSprings>& 
 
 double highest_frequency_squared(const Material& material,
                                  const std::vector<BoneSprings>& springs) {
-  return (8 * material.stiffness() + stiffest_spring(springs)) / material.mass;
+  return (lattice_factor(material) * material.stiffness() + stiffest_spring(springs)) /
+         material.mass;
 }
 
 double step_limit(Integrator integrator, const Material& material,

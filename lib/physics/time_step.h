@@ -10,8 +10,9 @@
 
 namespace sinew {
 
-/// Highest frequency of the packed body on its bones: w^2 = 8 k / m + (stiffest bone spring) / m,
-/// in 1/s^2. (A body cut from the packing is no stiffer than the packing.)
+/// Highest frequency of the packed body on its bones: w^2 = 8 k / m (more where volumes are kept) +
+/// (stiffest bone spring) / m, in 1/s^2. (A body cut from the packing is no stiffer than the
+/// packing.)
 double highest_frequency_squared(const Material& material, const std::vector<BoneSprings>& springs);
 
 /// The largest stable step, s. Symplectic Euler and velocity Verlet, which damps with the half-step

@@ -134,7 +134,7 @@ TEST(Material, YoungsModulusIsTheHillAverageOfTheLattice) {
   const double reuss = 5 * (c11 - c12) * c44 / (4 * c44 + 3 * (c11 - c12));
   const double shear = (voigt + reuss) / 2, young = 9 * bulk * shear / (3 * bulk + shear);
   EXPECT_NEAR(young * unit, 10e3, 10);
-  EXPECT_NEAR((3 * bulk - 2 * shear) / (2 * (3 * bulk + shear)), poisson_ratio_hill, 1e-3);
+  EXPECT_NEAR((3 * bulk - 2 * shear) / (2 * (3 * bulk + shear)), hill_poisson, 1e-3);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "physics/lists/order.h"
+#include "physics/solid/solid.h"
 
 namespace sinew {
 namespace {
@@ -39,7 +40,8 @@ Box box_of(const BlockState<Real>& state, const Measure& measure) {
 
 template <class Real>
 bool ListStepper<Real>::serves(const Body& body) {
-  return body.material.damping_form == DampingForm::paper &&
+  return !remembers_neighbours(body.material) &&
+         body.material.damping_form == DampingForm::paper &&
          std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
            return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
          });

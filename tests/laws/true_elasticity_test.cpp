@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What has bonds comes back from where the paper's body flows.
+#include <gtest/gtest.h>
+
+#include "core/deformation.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+
+double farthest_from_rest(const Simulation& simulation) {
+  const Particles& now = simulation.particles();
+  double most = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    most = std::max(most, (now.position(i) - simulation.body().rest[now.id[i]]).norm());
+  return most;
+}
+
+Simulation box(MaterialModel model, const std::vector<KeySettings>& keys, double joint_zone = 0) {
+  Settings settings = test::box_scene(25);
+  settings.material.model = model;
+  settings.binding.joint_zone = joint_zone;
+  settings.tracks = {test::track("upper", keys)};
+  return test::make_simulation(settings, test::fcc_box(7, 7, 25, r));
+}
+
+void step_until(Simulation& simulation, double time) {
+  while (simulation.time() < time) simulation.step();
+}
+
+TEST(Bonded, ComesBackFromABendOf90Degrees) {
+  for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume}) {
+    Simulation simulation =
+        box(model, {test::bend_key(0, 0), test::bend_key(1, 90), test::bend_key(2, 0)});
+    step_until(simulation, 1);
+    EXPECT_GT(farthest_from_rest(simulation), 10 * r);
+    step_until(simulation, 4);
+    EXPECT_LT(farthest_from_rest(simulation), 0.01 * r);
+  }
+}
+
+TEST(Bonded, ComesBackFromATwistOf180Degrees) {
+  Simulation simulation =
+      box(MaterialModel::bonded,
+          {test::twist_key(0, 0), test::twist_key(1, 180), test::twist_key(2, 0)}, 3);
+  step_until(simulation, 4);
+  EXPECT_LT(farthest_from_rest(simulation), 0.01 * r);
+}
+
+TEST(BondedVolume, KeepsTheVolumeOfABentBoxCloserThanBonded) {
+  const auto lost_volume = [](MaterialModel model) {
+    Simulation simulation = box(model, {test::bend_key(0, 0), test::bend_key(1, 90)});
+    step_until(simulation, 2);
+    const RestShape shape = rest_shape(simulation.body().rest, rest_neighbour_range(r));
+    double volume = 0, whole = 0;
+    const auto gradients = deformation_gradients(shape, positions_of(simulation.particles()));
+    for (std::size_t i = 0; i < gradients.size(); ++i) {
+      if (!shape.defined(i)) continue;
+      volume += gradients[i].determinant();
+      whole += 1;
+    }
+    return std::abs(1 - volume / whole);
+  };
+  const double bonded = lost_volume(MaterialModel::bonded);
+  const double kept = lost_volume(MaterialModel::bonded_volume);
+  EXPECT_LT(kept, 0.02);
+  EXPECT_LT(kept, bonded / 2.5);
+}
+
+TEST(Bonded, BalanceOfEnergyClosesOverABend) {
+  for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume}) {
+    Simulation simulation = box(model, {test::bend_key(0, 0), test::bend_key(1, 90)});
+    const double start = simulation.energies().stored();
+    step_until(simulation, 1.5);
+    const Energies end = simulation.energies();
+    EXPECT_NEAR(end.stored() - start, end.work_of_bones - end.dissipation,
+                0.005 * end.work_of_bones);
+  }
+}
+
+TEST(Bonded, LosesToFlowWhatItDoesNotGiveBack) {
+  Settings settings = test::box_scene(25);
+  settings.material.model = MaterialModel::bonded;
+  settings.material.yield_strain = 0.02;
+  settings.material.creep_rate = 20;
+  settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 90)})};
+  Simulation simulation = test::make_simulation(settings, test::fcc_box(7, 7, 25, r));
+  const double start = simulation.energies().stored();
+  step_until(simulation, 1.5);
+  const Energies end = simulation.energies();
+  EXPECT_NEAR(end.stored() - start, end.work_of_bones - end.dissipation, 0.005 * end.work_of_bones);
+}
+
+/// The longest step, s, with which a shaken body stays at rest, by bisection.
+double longest_step(const Settings& settings, const Points& rest, double expected) {
+  const Body body = test::make_body(settings, rest);
+  Points start = rest;
+  std::mt19937 random(1);
+  for (Vec3& point : start) point += 1e-7 * r * test::random_vector(random);
+  const auto rests = [&](double step) {
+    Simulation simulation(body, make_motion(settings, body.skeleton),
+                          particles_at(start, r, body.material.mass),
+                          stepping_of(settings.solver, step));
+    try {
+      for (int n = 0; n < 3000; ++n) simulation.step();
+    } catch (const Error&) {
+      return false;
+    }
+    return farthest_from_rest(simulation) < 1e-4 * r;
+  };
+  double below = 0.8 * expected, above = 1.2 * expected;
+  for (int n = 0; n < 6; ++n) (rests((below + above) / 2) ? below : above) = (below + above) / 2;
+  return below;
+}
+
+TEST(StepLimit, OfSolidsIsFoundWhereItIsPredicted) {
+  for (const double nu : {0.3, 0.45}) {
+    Settings settings = test::box_scene(11);
+    settings.material.model = MaterialModel::bonded_volume;
+    settings.material.poisson_ratio = nu;
+    const Points rest = test::fcc_box(11, 11, 11, r);
+    const Body body = test::make_body(settings, rest);
+    const double limit = step_limit(settings.solver.integrator, body.material, body.springs);
+    const double found = longest_step(settings, rest, limit);
+    EXPECT_GE(found, 0.99 * limit) << nu;
+    EXPECT_LE(found, 1.05 * limit) << nu;
+  }
+}
+
+}  // namespace
+}  // namespace sinew

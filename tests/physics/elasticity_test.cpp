@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elastic constants against the closed forms of a lattice of central bonds, and against what the
+// filled lattice itself does when it is strained.
+#include "physics/elasticity.h"
+
+#include <gtest/gtest.h>
+
+#include "physics/solid/solid.h"
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+
+Material material_of(MaterialModel model, double poisson_ratio = 0.45) {
+  MaterialSettings settings;
+  settings.model = model;
+  settings.poisson_ratio = poisson_ratio;
+  return make_material(settings, r, 1000 * volume_per_particle(r));
+}
+
+TEST(FccConstants, AreThoseOfCentralBonds) {
+  const CubicConstants C = fcc_constants();
+  EXPECT_NEAR(C.C11, std::sqrt(2.0), 1e-15);
+  EXPECT_EQ(C.C12, C.C44);  // Cauchy
+  EXPECT_NEAR(C.bulk_modulus(), bulk_of_bonds, 1e-12);
+  EXPECT_NEAR(C.hill_young_modulus(), hill_young, 1e-4);
+  EXPECT_NEAR(C.hill_shear_modulus(), hill_shear, 1e-4);
+  EXPECT_NEAR(C.hill_poisson_ratio(), hill_poisson, 5e-4);
+}
+
+TEST(FccConstants, AlongDirections) {
+  const CubicConstants C = fcc_constants();
+  EXPECT_NEAR(C.young_modulus({1, 0, 0}), 2 * std::sqrt(2.0) / 3, 1e-12);
+  EXPECT_NEAR(C.young_modulus({1, 1, 0}), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(C.young_modulus({1, 1, 1}), 1.6971, 1e-4);
+  EXPECT_NEAR(C.young_modulus({0, -5, 0}), C.young_modulus({1, 0, 0}), 1e-12);
+  EXPECT_NEAR(C.poisson_ratio({1, 0, 0}), 1.0 / 3, 1e-12);
+}
+
+TEST(VolumeStiffness, GivesThePoissonRatioAskedFor) {
+  EXPECT_NEAR(volume_stiffness_for(0.45), 4.233, 1e-3);
+  for (const double nu : {0.27, 0.3, 0.4, 0.45})
+    EXPECT_NEAR(fcc_constants(volume_stiffness_for(nu)).hill_poisson_ratio(), nu, 5e-4);
+  EXPECT_NEAR(volume_stiffness_for(0.26), 0, 1e-3);
+  // Along a cube axis, for stiffnesses of 0, 1, 2, 3 and 4.233 k / d0.
+  const double along[] = {.333, .414, .442, .457, .467}, K[] = {0, 1, 2, 3, 4.233};
+  for (int n = 0; n < 5; ++n)
+    EXPECT_NEAR(fcc_constants(K[n]).poisson_ratio({1, 0, 0}), along[n], 1e-3);
+}
+
+TEST(Material, HasTheModulusAskedFor) {
+  for (const auto model :
+       {MaterialModel::paper, MaterialModel::bonded, MaterialModel::bonded_volume}) {
+    EXPECT_NEAR(material_of(model).young_modulus(), 10e3, 30) << static_cast<int>(model);
+    EXPECT_NEAR(material_of(model).constants().hill_young_modulus(), 10e3, 30);
+  }
+  MaterialSettings settings;
+  settings.modulus_direction = Vec3(1, 1, 0);
+  BodyShape shape{r, 1, 1, 0.1, test::turned(Vec3::UnitZ(), 45)};
+  const Material along = make_material(settings, shape);  // the cube axis lies along the direction
+  EXPECT_NEAR(along.constants().young_modulus({1, 0, 0}), 10e3, 1e-6);
+}
+
+double energy_of(const Material& material, const Points& rest, const Mat3& F) {
+  const Particles moved = particles_at(test::affine(rest, F), r, material.mass);
+  return material.model == MaterialModel::paper ? pair_energy(moved, material.pair)
+                                                : Solid(material, rest).energy(moved);
+}
+
+/// Energy density of the packing's inside under F, Pa: what boxes longer by four half-planes have
+/// more, in all three directions. Faces, edges and corners drop out exactly.
+double energy_density(const Material& material, const Mat3& F) {
+  double energy = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto size = [&](int axis) { return corner >> axis & 1 ? 11 : 7; };
+    const int sign =
+        size(0) + size(1) + size(2) == 33 || size(0) + size(1) + size(2) == 25 ? 1 : -1;
+    energy += sign * energy_of(material, test::fcc_box(size(0), size(1), size(2), r), F);
+  }
+  return energy / (32 * volume_per_particle(r));
+}
+
+/// The second derivative of the energy density along a strain, Pa.
+double modulus(const Material& material, const Mat3& strain) {
+  const double e = 1e-4;
+  const auto density = [&](double by) {
+    return energy_density(material, Mat3(Mat3::Identity()) + by * e * strain);
+  };
+  return (density(1) - 2 * density(0) + density(-1)) / (e * e);
+}
+
+Mat3 unit(int i, int j) { return Vec3::Unit(i) * Vec3::Unit(j).transpose(); }
+
+class Moduli : public testing::TestWithParam<MaterialModel> {};
+
+TEST_P(Moduli, OfTheFilledLatticeAreItsClosedForms) {
+  const Material material = material_of(GetParam());
+  const CubicConstants C = material.constants();
+  for (int axis = 0; axis < 3; ++axis) {
+    const int next = (axis + 1) % 3;
+    const double C11 = modulus(material, unit(axis, axis));
+    EXPECT_NEAR(C11, C.C11, 1e-3 * C.C11);
+    const double both = modulus(material, unit(axis, axis) + unit(next, next));
+    EXPECT_NEAR(both / 2 - C11, C.C12, 1e-3 * C.C12);
+    EXPECT_NEAR(modulus(material, unit(axis, next)), C.C44, 1e-3 * C.C44);
+  }
+}
+
+TEST_P(Moduli, LetWavesTravelAsTheyShould) {
+  const Material material = material_of(GetParam(), 0.3);
+  const double wave_number = 2 * std::numbers::pi / (20 * 2 * r);
+  const Points rest = test::fcc_ball(9, r);
+  const auto speed = [&](int along, int shift) {
+    Points moved = rest;
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      moved[i][shift] += 1e-5 * r * std::cos(wave_number * rest[i][along]);
+    Forces forces;
+    const Particles particles = particles_at(moved, r, material.mass);
+    if (GetParam() == MaterialModel::paper)
+      pair_forces(particles, material, forces);
+    else
+      Solid(material, rest).forces(particles, forces);
+    std::size_t middle = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      if (rest[i].norm() < rest[middle].norm()) middle = i;
+    return std::sqrt(-forces.pair[middle][shift] / material.mass / (1e-5 * r)) / wave_number;
+  };
+  const double density = material.mass / volume_per_particle(r);
+  EXPECT_NEAR(speed(0, 0), std::sqrt(material.constants().C11 / density), 0.01 * speed(0, 0));
+  EXPECT_NEAR(speed(0, 1), std::sqrt(material.constants().C44 / density), 0.01 * speed(0, 1));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, Moduli,
+    testing::Values(MaterialModel::paper, MaterialModel::bonded, MaterialModel::bonded_volume),
+    [](const auto& one) {
+      return std::array{"Paper", "Bonded", "BondedVolume"}[static_cast<int>(one.param)];
+    });
+
+TEST(DampingRatio, IsWhatItWasAskedToBe) {
+  MaterialSettings settings;
+  settings.damping_ratio = 0.15;
+  const BodyShape shape = shape_of(test::fcc_box(7, 7, 51, r), r, 1000 * volume_per_particle(r));
+  EXPECT_NEAR(shape.length, 51 * half_plane_spacing(r), 0.02 * shape.length);
+  EXPECT_NEAR(shape.gyration, 7 * half_plane_spacing(r) / std::sqrt(12.0), 0.03 * shape.gyration);
+  const Material material = make_material(settings, shape);
+  EXPECT_NEAR(damping_ratio(material, shape), 0.15, 1e-12);
+  EXPECT_GT(material.damping, 0);
+}
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bonds, volumes, cohesion: forces are the slopes of energies, laws of conservation hold, and what
+// breaks or creeps does so as it is told.
+#include "physics/solid/solid.h"
+
+#include <gtest/gtest.h>
+
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+
+Material material_of(MaterialModel model, double breaking_strain = 0) {
+  MaterialSettings settings;
+  settings.model = model;
+  if (breaking_strain > 0) settings.breaking_strain = breaking_strain;
+  return make_material(settings, r, 1000 * volume_per_particle(r));
+}
+
+Material without_cohesion() {
+  MaterialSettings settings;
+  settings.cohesion = Cohesion::initial_neighbours;
+  return make_material(settings, r, 1000 * volume_per_particle(r));
+}
+
+const std::vector<Material>& materials() {
+  static const std::vector<Material> all = {material_of(MaterialModel::bonded),
+                                            material_of(MaterialModel::bonded_volume),
+                                            without_cohesion()};
+  return all;
+}
+
+Points shaken(Points points, double by, unsigned seed) {
+  std::mt19937 random(seed);
+  for (Vec3& point : points) point += by * test::random_vector(random);
+  return points;
+}
+
+Points pair_forces_of(Solid& solid, const Material& material, const Points& at) {
+  Forces forces;
+  solid.forces(particles_at(at, r, material.mass), forces);
+  return forces.pair;
+}
+
+double energy_of(Solid& solid, const Material& material, const Points& at) {
+  return solid.energy(particles_at(at, r, material.mass));
+}
+
+TEST(Solid, IsAtRestAtRestAndWhereverItIsCarried) {
+  const Points rest = test::fcc_box(5, 5, 9, r);
+  for (const Material& material : {materials()[0], materials()[1]}) {
+    Solid solid(material, rest);
+    const Points carried = test::affine(rest, test::turned({1, 2, 3}, 100), Vec3(0.3, -0.2, 0.1));
+    for (const Vec3& force : pair_forces_of(solid, material, carried))
+      EXPECT_LT(force.norm(), 1e-12 * material.pair.k1 * r * r);
+    EXPECT_LT(energy_of(solid, material, carried), 1e-20);
+  }
+}
+
+TEST(Solid, ForcesAreTheSlopesOfItsEnergy) {
+  const Points rest = test::fcc_box(5, 5, 7, r);
+  for (const Material& material : materials()) {
+    Solid solid(material, rest);
+    const Mat3 F =
+        Mat3(Mat3::Identity()) + 0.2 * (Mat3() << 1, .5, 0, -.3, -1, .2, 0, .4, .5).finished();
+    const Points at = shaken(test::affine(rest, F), 0.3 * r, 7);
+    const Points forces = pair_forces_of(solid, material, at);
+    const double h = 1e-6 * r, scale = material.pair.k1 * r * r;
+    for (std::size_t i = 0; i < rest.size(); i += 5)
+      for (int axis = 0; axis < 3; ++axis) {
+        Points ahead = at, behind = at;
+        ahead[i][axis] += h;
+        behind[i][axis] -= h;
+        const double slope =
+            (energy_of(solid, material, ahead) - energy_of(solid, material, behind)) / (2 * h);
+        EXPECT_NEAR(forces[i][axis], -slope, 1e-5 * scale);
+      }
+  }
+}
+
+TEST(Solid, KeepsMomentumAndAngularMomentum) {
+  const Points rest = test::fcc_box(5, 5, 9, r);
+  for (const Material& material : materials()) {
+    Solid solid(material, rest);
+    const Points at = shaken(rest, r, 3);
+    const Points forces = pair_forces_of(solid, material, at);
+    Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+    double size = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      sum += forces[i];
+      moment += at[i].cross(forces[i]);
+      size += forces[i].norm();
+    }
+    EXPECT_LT(sum.norm(), 1e-13 * size);
+    EXPECT_LT(moment.norm(), 1e-13 * size);
+  }
+}
+
+TEST(Solid, OnlyNeighboursAtRestAttractWithoutCohesion) {
+  // Two blocks that come to touch: gap of 2.3 r between the nearest, within the paper's attraction.
+  const Points block = test::fcc_box(3, 3, 3, r);
+  Points rest = block, touching = block;
+  for (const Vec3& point : block) {
+    rest.push_back(point + Vec3(0.2, 0, 0));
+    touching.push_back(point + Vec3(2 * half_plane_spacing(r) + 2.3 * r, 0, 0));
+  }
+  const auto push_apart = [&](const Material& material, const Points& at) {
+    Solid solid(material, rest);
+    const Points forces = pair_forces_of(solid, material, at);
+    double along = 0;
+    for (std::size_t i = 0; i < block.size(); ++i) along -= forces[i].x();
+    return along;
+  };
+  Forces sticking;
+  const Material paper = material_of(MaterialModel::paper);
+  pair_forces(particles_at(touching, r, paper.mass), paper, sticking);
+  double along = 0;
+  for (std::size_t i = 0; i < block.size(); ++i) along -= sticking.pair[i].x();
+  EXPECT_LT(along, -1e-3 * paper.pair.k1 * r * r);  // the paper's blocks pull
+  for (const Material& material : materials()) {
+    EXPECT_NEAR(push_apart(material, touching), 0, 1e-12 * paper.pair.k1 * r * r);
+    Points pressed = touching;
+    for (std::size_t i = block.size(); i < pressed.size(); ++i) pressed[i].x() -= 0.5 * r;
+    EXPECT_GT(push_apart(material, pressed), 1e-3 * paper.pair.k1 * r * r);
+  }
+}
+
+TEST(Bonds, BreakBeyondTheirStrainAndTheEnergyIsTold) {
+  const Points rest = test::fcc_box(3, 3, 9, r);
+  for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume}) {
+    const Material material = material_of(model, 0.1);
+    Solid solid(material, rest);
+    const double middle = rest.back().z() / 2;
+    Points torn = shaken(rest, 0.05 * r, 4);
+    for (Vec3& point : torn)
+      if (point.z() > middle) point.z() += 0.5 * r;
+    const Particles particles = particles_at(torn, r, material.mass);
+    Forces forces;
+    solid.forces(particles, forces);
+    const double before = solid.energy(particles);
+    const double lost = solid.evolve(particles, 1e-3);
+    EXPECT_GT(lost, 0);
+    EXPECT_NEAR(before - solid.energy(particles), lost, 1e-12 * before);
+    int broken = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      broken += solid.bonds().broken[i];
+      int lacking = 0;
+      for (std::size_t j = 0; j < rest.size(); ++j) {
+        const auto other = static_cast<std::uint32_t>(j);
+        lacking += solid.bonds().were_neighbours(i, other) && !solid.bonds().bonded(i, other);
+        EXPECT_EQ(solid.bonds().bonded(i, other),
+                  solid.bonds().bonded(j, static_cast<std::uint32_t>(i)));
+      }
+      EXPECT_EQ(lacking, solid.bonds().broken[i]);
+    }
+    EXPECT_GT(broken, 0);
+    EXPECT_EQ(solid.evolve(particles, 1e-3), 0);  // nothing more breaks where nothing moved
+  }
+}
+
+TEST(Bonds, CreepAfterWhatExceedsTheYieldStrain) {
+  MaterialSettings settings;
+  settings.model = MaterialModel::bonded;
+  settings.yield_strain = 0.02;
+  settings.creep_rate = 3;
+  const Material material = make_material(settings, r, 1000 * volume_per_particle(r));
+  Solid solid(material, {Vec3(0, 0, 0), Vec3(2 * r, 0, 0)});
+  const double stretched = 2.4 * r;
+  const Particles particles =
+      particles_at({Vec3(0, 0, 0), Vec3(stretched, 0, 0)}, r, material.mass);
+  const double before = solid.energy(particles);
+  double lost = 0;
+  for (int step = 0; step < 1000; ++step) lost += solid.evolve(particles, 1e-3);
+  // dl/dt = rate (d - l - yield l): an exponential towards d / (1 + yield), in steps.
+  const double end = stretched / 1.02, start = 2 * r;
+  const double expected = end + (start - end) * std::exp(-3 * 1.02 * 1.0);
+  EXPECT_NEAR(solid.bonds().rest_length[0], expected, 1e-3 * r);
+  EXPECT_EQ(solid.bonds().rest_length[0], solid.bonds().rest_length[1]);
+  EXPECT_NEAR(before - solid.energy(particles), lost, 1e-12 * before);
+  EXPECT_EQ(solid.bonds().broken[0], 0);
+}
+
+}  // namespace
+}  // namespace sinew
