@@ -132,12 +132,15 @@ TEST_P(Moduli, LetWavesTravelAsTheyShould) {
   EXPECT_NEAR(speed(0, 1), std::sqrt(material.constants().C44 / density), 0.01 * speed(0, 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, Moduli,
-    testing::Values(MaterialModel::paper, MaterialModel::bonded, MaterialModel::bonded_volume),
-    [](const auto& one) {
-      return std::array{"Paper", "Bonded", "BondedVolume"}[static_cast<int>(one.param)];
-    });
+std::string name_of(const testing::TestParamInfo<MaterialModel>& info) {
+  static const char* names[] = {"Paper", "Bonded", "BondedVolume"};
+  return names[static_cast<int>(info.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Moduli,
+                         testing::Values(MaterialModel::paper, MaterialModel::bonded,
+                                         MaterialModel::bonded_volume),
+                         name_of);
 
 TEST(DampingRatio, IsWhatItWasAskedToBe) {
   MaterialSettings settings;
