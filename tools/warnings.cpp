@@ -49,10 +49,15 @@ std::string bone_of(const Setup& setup, const Track& track) {
   return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
 }
 
-/// The part of a key's rotation that turns the bone about itself, and its twist, rad.
-double turn_about_bone(const Bone& bone, const Key& key) {
-  const double along = key.rotation.vec().dot(bone.axis());
-  return std::abs(2 * std::atan2(along, std::abs(key.rotation.w()))) + std::abs(key.twist);
+/// How far the track turns the bone about itself at most, by its rotations and its twist, rad.
+double turn_about_bone(const Bone& bone, const Track& track) {
+  double turned = 0, twisted = 0;
+  for (const Quat& rotation : track.rotation.values) {
+    const double along = rotation.vec().dot(bone.axis());
+    turned = std::max(turned, std::abs(2 * std::atan2(along, std::abs(rotation.w()))));
+  }
+  for (const double twist : track.twist.values) twisted = std::max(twisted, std::abs(twist));
+  return turned + twisted;
 }
 
 /// Planes of particles over which a turn about the bone is spread.
@@ -64,8 +69,7 @@ double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
 void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
   const Bone& bone = setup.body.skeleton.bones[track.bone];
   if (bone.parent == no_bone) return;
-  double turn = 0;
-  for (const Key& key : track.keys) turn = std::max(turn, turn_about_bone(bone, key));
+  const double turn = turn_about_bone(bone, track);
   const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
   if (step > steepest_joint)
     warnings.push_back("bone " + bone_of(setup, track) + " turns " + three_digits(degrees(turn)) +
@@ -75,7 +79,7 @@ void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
 }
 
 void warn_of_jumps(const Setup& setup, const Track& track, Warnings& warnings) {
-  const Key& first = track.keys.front();
+  const LocalMotion first = track.at(setup.motion.start);
   const bool turned = Eigen::AngleAxisd(first.rotation).angle() > radians(1);
   const bool shifted = first.translation.norm() > 0.1 * setup.body.material.pair.r;
   if (turned || shifted || std::abs(first.twist) > radians(1))
@@ -83,7 +87,7 @@ void warn_of_jumps(const Setup& setup, const Track& track, Warnings& warnings) {
         "bone " + bone_of(setup, track) +
         " does not begin at rest: the body is torn at the first step; begin its keys "
         "with one that has no rotation and no translation");
-  if (track.interpolation == Interpolation::step && track.keys.size() > 1)
+  if (track.rotation.interpolation == Interpolation::step && track.rotation.times.size() > 1)
     warnings.push_back("bone " + bone_of(setup, track) +
                        " jumps from key to key: the body is torn at each; use interpolation linear "
                        "or smooth");

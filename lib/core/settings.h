@@ -62,7 +62,8 @@ struct BoneSettings {
   Vec3 tail = Vec3::Zero();
 };
 
-enum class Interpolation { step, linear, smooth };
+enum class Interpolation { step, linear, smooth, cubic };
+enum class Extrapolation { hold, loop, ping_pong };
 
 struct KeySettings {
   double time = 0;

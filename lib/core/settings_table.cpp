@@ -266,8 +266,8 @@ std::vector<Field<TrackSettings>> make_tracks() {
   using T = TrackSettings;
   return {
       required(field<T>("", "bone", SINEW_AT(T, bone), "", "name of the bone that moves")),
-      choice<T>("", "interpolation", SINEW_AT(T, interpolation), {"step", "linear", "smooth"},
-                "between keys; smooth starts and ends each part without speed"),
+      choice<T>("", "interpolation", SINEW_AT(T, interpolation), {"step", "linear", "smooth", "cubic"},
+                "between keys; smooth rests at each, cubic passes them without a jump of speed"),
       field<T>("", "order", SINEW_AT(T, order), "", "order of euler angles, such as xyz or zyx"),
   };
 }

@@ -24,8 +24,8 @@ struct Carried {
 
 Carried carry(const Influence& influence, const Bone& bone, const BonePose& pose,
               const Vec3& rest) {
-  return {pose.frame.origin + influence.foot * (pose.turn * bone.axis()),
-          pose.frame.origin + pose.turn * (rest - bone.head())};
+  return {pose.frame.origin + pose.stretch * influence.foot * (pose.turn * bone.axis()),
+          pose.carried(rest, bone)};
 }
 
 Spring to_point(double k, const Vec3& offset) {
