@@ -14,8 +14,9 @@ struct ClipTime {
   double time, speed;
 };
 
-/// `passed` s after the clip has begun.
+/// `passed` s after the clip has begun; before that it holds its beginning.
 ClipTime clip_time(const Motion& motion, double passed) {
+  if (passed < 0) return {motion.start, 0};
   const double length = clip_length(motion);
   const bool within = passed < length;
   if (within || motion.extrapolation == Extrapolation::hold || !(length > 0))
@@ -104,8 +105,8 @@ bool stretches(const Motion& motion) {
 
 std::vector<LocalMotion> local_motions(const Motion& motion, std::size_t bones, double time) {
   std::vector<LocalMotion> local(bones);
-  const ClipTime moment = clip_time(motion, std::max(0.0, time - motion.preroll));
-  const bool ramp = time < motion.preroll;
+  const ClipTime moment = clip_time(motion, time - motion.preroll);
+  const bool ramp = time < motion.preroll && motion.preroll > 0;
   const double s = ramp ? std::max(0.0, time / motion.preroll) : 1;
   for (const Track& track : motion.tracks) {
     LocalMotion& its = local[static_cast<std::size_t>(track.bone)];
