@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/number_text.h"
+#include "rig/motion_warnings.h"
 
 namespace sinew {
 namespace {
@@ -15,6 +16,7 @@ using Warnings = std::vector<std::string>;
 // Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
 constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
+constexpr double least_shift = 0.1;   // radii that a bone may jump unnoticed
 constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
@@ -78,21 +80,6 @@ void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
                        "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
 }
 
-void warn_of_jumps(const Setup& setup, const Track& track, Warnings& warnings) {
-  const LocalMotion first = track.at(setup.motion.start);
-  const bool turned = Eigen::AngleAxisd(first.rotation).angle() > radians(1);
-  const bool shifted = first.translation.norm() > 0.1 * setup.body.material.pair.r;
-  if (turned || shifted || std::abs(first.twist) > radians(1))
-    warnings.push_back(
-        "bone " + bone_of(setup, track) +
-        " does not begin at rest: the body is torn at the first step; begin its keys "
-        "with one that has no rotation and no translation");
-  if (track.rotation.interpolation == Interpolation::step && track.rotation.times.size() > 1)
-    warnings.push_back("bone " + bone_of(setup, track) +
-                       " jumps from key to key: the body is torn at each; use interpolation linear "
-                       "or smooth");
-}
-
 void warn_of_idle_bones(const Body& body, Warnings& warnings) {
   for (std::size_t b = 0; b < body.skeleton.size(); ++b)
     if (!(body.binding.cross_section[b] > 0))
@@ -101,7 +88,7 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 }
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
-  const StepWay way = step_way(solver, setup.body);
+  const StepWay way = step_way(solver, setup.body, setup.motion);
   if (!way.unserved) return;
   const auto& [key, value, served] = *way.unserved;
   std::string warning = key;
@@ -120,10 +107,10 @@ std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& s
   warn_of_material(setup.body.material.pair, warnings);
   warn_of_step(setup.steps, warnings);
   warn_of_speed(bone_speed, warnings);
-  for (const Track& track : setup.motion.tracks) {
-    warn_of_cut(setup, track, warnings);
-    warn_of_jumps(setup, track, warnings);
-  }
+  for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
+  for (std::string& warning :
+       motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
+    warnings.push_back(std::move(warning));
   warn_of_idle_bones(setup.body, warnings);
   warn_of_cells(setup, solver, warnings);
   return warnings;

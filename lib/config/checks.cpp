@@ -34,6 +34,22 @@ Place place_of(const Settings& settings, const char* first, const char* second) 
   return settings.place(is_given(settings, first) ? first : second);
 }
 
+void check_axes(const Settings& settings) {
+  if (to_scene(settings.skeleton).determinant() < 0.5)
+    throw bad_input(place_of(settings, "skeleton.forward", "skeleton.up"),
+                    "up and forward of the rig lie along one axis",
+                    "name two different axes, as in up: y and forward: z");
+}
+
+void check_clip(const Settings& settings) {
+  const MotionSettings& motion = settings.motion;
+  if (motion.end && !(*motion.end > motion.start))
+    throw bad_input(place_of(settings, "motion.end", "motion.start"),
+                    "the clip would end at " + number_text(*motion.end) +
+                        " s before it begins at " + number_text(motion.start) + " s",
+                    "give an end after motion.start");
+}
+
 }  // namespace
 
 std::span<const EitherOr> either_or() {
@@ -61,6 +77,8 @@ void check_together(const Settings& settings) {
                     "attraction would end at b = " + number_text(material.b) +
                         " radii before it begins at a = " + number_text(material.a),
                     "give an a below b");
+  check_axes(settings);
+  check_clip(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

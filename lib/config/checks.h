@@ -20,8 +20,9 @@ std::span<const EitherOr> either_or();
 /// The other key of a pair, or "".
 std::string_view rival_of(std::string_view path);
 
-/// Throws bad input, naming the scene's line, for two rivals or none of a needed pair, a >= b, and
-/// frames further apart than the run is long.
+/// Throws bad input, naming the scene's line, for two rivals or none of a needed pair, a >= b,
+/// frames further apart than the run is long, up along forward, and a clip that ends before it
+/// begins.
 void check_together(const Settings& settings);
 
 }  // namespace sinew

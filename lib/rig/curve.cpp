@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "rig/rotation_vector.h"
 
@@ -93,13 +94,29 @@ Vec3 zero_of<Vec3>() {
   return Vec3::Zero();
 }
 
+/// The ways that meet at a key: from the key before and to the key after, by the number of the key
+/// each leads to. The ends have none but where the curve is cyclic.
+struct Ways {
+  std::size_t to_it, from_it;
+};
+
+template <class AnyCurve>
+std::optional<Ways> ways_at(const AnyCurve& curve, std::size_t key) {
+  const std::size_t last = curve.times.size() - 1;
+  if (key > 0 && key < last) return Ways{key, key + 1};
+  return curve.cyclic ? std::optional(Ways{last, 1}) : std::nullopt;
+}
+
 template <class Value>
 Value made_tangent(const Curve<Value>& curve, std::size_t key) {
-  const auto& t = curve.times;
-  if (key == 0 || key + 1 == t.size()) return zero_of<Value>();
-  const double before = t[key] - t[key - 1], after = t[key + 1] - t[key];
-  return slope_between<Value>((curve.values[key] - curve.values[key - 1]) / before, before,
-                              (curve.values[key + 1] - curve.values[key]) / after, after);
+  const auto ways = ways_at(curve, key);
+  if (!ways) return zero_of<Value>();
+  const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
+  const auto slope = [&](std::size_t k) -> Value {
+    return (curve.values[k] - curve.values[k - 1]) / duration(k);
+  };
+  return slope_between<Value>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
+                              duration(ways->from_it));
 }
 
 template <class Value>
@@ -120,11 +137,12 @@ Vec3 turn_to(const RotationCurve& curve, std::size_t key) {
 }
 
 Vec3 made_velocity(const RotationCurve& curve, std::size_t key) {
-  const auto& t = curve.times;
-  if (key == 0 || key + 1 == t.size()) return Vec3::Zero();
-  const double before = t[key] - t[key - 1], after = t[key + 1] - t[key];
-  return slope_between<Vec3>(turn_to(curve, key) / before, before, turn_to(curve, key + 1) / after,
-                             after);
+  const auto ways = ways_at(curve, key);
+  if (!ways) return Vec3::Zero();
+  const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
+  const auto slope = [&](std::size_t k) -> Vec3 { return turn_to(curve, k) / duration(k); };
+  return slope_between<Vec3>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
+                             duration(ways->from_it));
 }
 
 /// The vector of `rotation` that is nearest to `wanted`, which may be longer than pi.

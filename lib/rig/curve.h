@@ -5,9 +5,10 @@
 // every key (smoothstep); cubic passes the keys without a jump of speed: Hermite's polynomial.
 // Where no tangents are given they follow from the neighbours (the parabola through three keys, as
 // Catmull and Rom's for even times) and are zero at the first and the last key, where the curve
-// begins and ends to hold. Cubic rotations without tangents: Kim, Kim and Shin, "A general
-// construction scheme for unit quaternion curves" (SIGGRAPH 1995), with angular velocities at the
-// keys. With tangents: glTF 2.0, appendix C.
+// begins and ends to hold; a cyclic curve takes its last key for its first one and goes on. Cubic
+// rotations without tangents: Kim, Kim and Shin, "A general construction scheme for unit quaternion
+// curves" (SIGGRAPH 1995), with angular velocities at the keys. With tangents: glTF 2.0, appendix
+// C.
 //
 // Times are in seconds and ascend; before the first key and after the last a curve holds. A curve
 // without keys is no curve: at() must not be asked.
@@ -31,6 +32,7 @@ struct Curve {
   std::vector<double> times;  ///< s, ascending
   std::vector<Value> values;
   std::vector<Value> in, out;  ///< cubic: tangents before and after each key, 1/s; or empty
+  bool cyclic = false;
 
   bool empty() const { return times.empty(); }
   Sample at(double time) const;
@@ -52,6 +54,7 @@ struct RotationCurve {
   /// is not used. Empty: the short way.
   std::vector<Vec3> turns;
   std::vector<Quat> in, out;  ///< cubic: tangents of the quaternion, 1/s; or empty
+  bool cyclic = false;
 
   bool empty() const { return times.empty(); }
   Sample at(double time) const;

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/number_text.h"
+#include "rig/joint_limits.h"
 #include "rig/rotation_vector.h"
 
 namespace sinew {
 namespace {
+
+constexpr double least_stretch = 0.01;  // what a cubic between positive keys may go below
 
 /// A moment of the clip, and how fast it passes there: 1, 0 where it holds, -1 on the way back.
 struct ClipTime {
@@ -51,6 +55,18 @@ LocalMotion ramped(const LocalMotion& goal, double way, double rate) {
   return motion;
 }
 
+void place(RotationCurve& curve, const Mat3& turn) {
+  const Quat q(turn);
+  for (auto* values : {&curve.values, &curve.in, &curve.out})
+    for (Quat& value : *values) value = q * value * q.conjugate();
+  for (Vec3& vector : curve.turns) vector = turn * vector;
+}
+
+void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
+  for (auto* values : {&curve.values, &curve.in, &curve.out})
+    for (Vec3& value : *values) value = scale * (turn * value);
+}
+
 }  // namespace
 
 LocalMotion Track::at(double time) const {
@@ -72,8 +88,9 @@ LocalMotion Track::at(double time) const {
   }
   if (!stretch.empty()) {
     const auto sample = stretch.at(time);
-    motion.stretch = sample.value;
-    motion.stretch_rate = sample.rate;
+    const bool held = sample.value < least_stretch;
+    motion.stretch = held ? least_stretch : sample.value;
+    motion.stretch_rate = held ? 0 : sample.rate;
   }
   return motion;
 }
@@ -103,8 +120,38 @@ bool stretches(const Motion& motion) {
   });
 }
 
-std::vector<LocalMotion> local_motions(const Motion& motion, std::size_t bones, double time) {
-  std::vector<LocalMotion> local(bones);
+Motion played(Motion clip, const Settings& settings) {
+  const MotionSettings& asked = settings.motion;
+  clip.extrapolation = asked.extrapolation;
+  clip.start = asked.start;
+  clip.end = asked.end;
+  clip.preroll = asked.preroll;
+  const double last = last_key(clip);
+  if (!clip.tracks.empty() && clip.start > 0 && clip.start >= clip.end.value_or(last))
+    throw bad_input(settings.place("motion.start"),
+                    "the clip would start at " + number_text(clip.start) +
+                        " s, and its last key is at " + number_text(last) + " s",
+                    "give a start before that");
+  for (Track& track : clip.tracks) {
+    const bool cyclic = clip.extrapolation == Extrapolation::loop;
+    track.rotation.cyclic = track.twist.cyclic = cyclic;
+    track.translation.cyclic = track.stretch.cyclic = cyclic;
+  }
+  return clip;
+}
+
+Motion placed(Motion motion, double scale, const Mat3& turn) {
+  if (scale == 1 && turn == Mat3::Identity()) return motion;
+  for (Track& track : motion.tracks) {
+    place(track.rotation, turn);
+    place(track.translation, scale, turn);
+  }
+  return motion;
+}
+
+std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion,
+                                       double time) {
+  std::vector<LocalMotion> local(skeleton.size());
   const ClipTime moment = clip_time(motion, time - motion.preroll);
   const bool ramp = time < motion.preroll && motion.preroll > 0;
   const double s = ramp ? std::max(0.0, time / motion.preroll) : 1;
@@ -115,6 +162,7 @@ std::vector<LocalMotion> local_motions(const Motion& motion, std::size_t bones, 
       its = ramped(its, s * s * (3 - 2 * s), 6 * s * (1 - s) / motion.preroll);
     else
       slow_down(its, moment.speed);
+    limit(skeleton.bones[static_cast<std::size_t>(track.bone)], its);
   }
   return local;
 }

@@ -61,12 +61,20 @@ double clip_length(const Motion& motion);
 /// Whether any bone changes its length.
 bool stretches(const Motion& motion);
 
+/// A clip's motion with what a scene's section motion says of it: start, end, extrapolation and
+/// preroll. Throws bad input for a clip that would end before it starts.
+Motion played(Motion clip, const Settings& settings);
+
+/// The motion in a scene's directions and lengths, as the skeleton by its `placed`.
+Motion placed(Motion motion, double scale, const Mat3& turn);
+
 /// Builds the motion a scene describes. Throws bad input, naming the scene's line, for an unknown
-/// bone, two tracks of one bone, keys out of order, or a rotation given in two ways or by half.
+/// bone, two tracks of one bone, keys out of order, with no or two times, in frames of no known
+/// rate, or with a rotation given in two ways, by half, or by a quaternion that is no rotation.
 Motion make_motion(const Settings& settings, const Skeleton& skeleton);
 
-/// What each of so many bones does at `time` (s of the scene).
-std::vector<LocalMotion> local_motions(const Motion& motion, std::size_t bones, double time);
+/// What each bone does at `time` (s of the scene), held within its limits.
+std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion, double time);
 
 /// The pose at `time` (s of the scene), with the velocities of the moving bones.
 Pose pose_at(const Skeleton& skeleton, const Motion& motion, double time);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/number_text.h"
 #include "rig/motion.h"
 #include "rig/rotation_vector.h"
 
@@ -24,10 +25,24 @@ Quat from_euler(const Vec3& angles, const std::string& order) {
   return rotation;
 }
 
+constexpr double largest_rounding = 1e-3;  // of a quaternion's length: more is no rounding
+
+Quat from_quaternion(const std::array<double, 4>& given, const Place& place) {
+  const Quat rotation(given[0], given[1], given[2], given[3]);
+  const double length = rotation.norm();
+  if (!(std::abs(length - 1) <= largest_rounding))
+    throw bad_input(place, "a quaternion of length " + number_text(length) + " is no rotation",
+                    "give [w, x, y, z] of length 1");
+  return rotation.normalized();
+}
+
 Quat rotation_of(const KeySettings& key, const std::string& order, const Place& place) {
-  if (key.euler && (key.axis || key.angle))
-    throw bad_input(place, "a key gives its rotation twice", "keep either euler or axis and angle");
+  const int ways = (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
+  if (ways > 1)
+    throw bad_input(place, "a key gives its rotation twice",
+                    "keep one of euler, quaternion, and axis and angle");
   if (key.euler) return from_euler(*key.euler, order);
+  if (key.quaternion) return from_quaternion(*key.quaternion, place);
   if (key.axis && !key.angle)
     throw bad_input(place, "an axis without an angle", "give angle: DEGREES");
   if (!key.angle) return Quat::Identity();
@@ -36,9 +51,15 @@ Quat rotation_of(const KeySettings& key, const std::string& order, const Place& 
   return Quat(Eigen::AngleAxisd(radians(*key.angle), key.axis->normalized()));
 }
 
+/// Whether a key asks for any rotation; euler angles of 0 do not.
+bool is_turned(const KeySettings& key) {
+  const bool by_quaternion = key.quaternion && *key.quaternion != std::array<double, 4>{1, 0, 0, 0};
+  return key.angle || by_quaternion || (key.euler && !key.euler->isZero(0));
+}
+
 /// The angle of a key about `axis`, if that is how it is given; no rotation is no angle.
 std::optional<double> angle_about(const Vec3& axis, const KeySettings& key) {
-  if (!key.angle && !key.euler) return 0;
+  if (!is_turned(key)) return 0;
   if (!key.axis || (key.axis->normalized() - axis).norm() > 1e-12) return std::nullopt;
   return radians(*key.angle);
 }
@@ -64,15 +85,37 @@ void check_order(const TrackSettings& track, const Place& place) {
                     "use xyz, xzy, yxz, yzx, zxy or zyx");
 }
 
-void check_keys(const Settings& settings, std::size_t index) {
-  const auto& keys = settings.tracks[index].keys;
-  for (std::size_t i = 1; i < keys.size(); ++i)
-    if (keys[i].time <= keys[i - 1].time)
-      throw bad_input(settings.place(path_of(index, i) + ".time"), "keys are not in ascending time",
-                      "sort them, each with its own time");
-  if (keys.empty())
+double time_of(const Settings& settings, const KeySettings& key, const std::string& path) {
+  if (key.time && key.frame)
+    throw bad_input(settings.place(path + ".frame"), "a key gives its time twice",
+                    "keep one of time and frame");
+  if (key.time) return *key.time;
+  if (!key.frame)
+    throw bad_input(settings.place(path), path + ".time is missing",
+                    "add time: SECONDS, or frame: NUMBER");
+  if (!settings.motion.frame_rate)
+    throw bad_input(settings.place(path + ".frame"),
+                    "a key in frames, and nobody says how many there are in a second",
+                    "give motion: frame_rate: as in 30, or time: instead of frame:");
+  return *key.frame / *settings.motion.frame_rate;
+}
+
+/// The keys' times, s.
+std::vector<double> times_of(const Settings& settings, std::size_t index) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < settings.tracks[index].keys.size(); ++i) {
+    const KeySettings& key = settings.tracks[index].keys[i];
+    const std::string path = path_of(index, i);
+    const double time = time_of(settings, key, path);
+    if (i > 0 && !(time > times.back()))
+      throw bad_input(settings.place(path + (key.frame ? ".frame" : ".time")),
+                      "keys are not in ascending time", "sort them, each with its own time");
+    times.push_back(time);
+  }
+  if (times.empty())
     throw bad_input(settings.place(path_of(index)), "a track without keys",
                     "give it keys, or remove it");
+  return times;
 }
 
 RotationCurve rotation_curve(const Settings& settings, std::size_t index) {
@@ -110,17 +153,26 @@ int bone_of(const Settings& settings, std::size_t index, const Skeleton& skeleto
   return bone;
 }
 
+/// Twist, translation and stretch are curves only where a key asks for some.
 Track make_track(const Settings& settings, std::size_t index) {
   const TrackSettings& given = settings.tracks[index];
+  const std::vector<double> times = times_of(settings, index);
+  const auto any = [&](auto&& says) {
+    return std::any_of(given.keys.begin(), given.keys.end(), says);
+  };
   Track track;
   track.rotation = rotation_curve(settings, index);
-  track.twist = curve_of<double>(given, [](const auto& key) { return radians(key.twist); });
-  track.translation = curve_of<Vec3>(given, [](const auto& key) { return key.translation; });
-  const auto time = [&](auto& curve) {
+  if (any([](const KeySettings& key) { return key.twist != 0; }))
+    track.twist = curve_of<double>(given, [](const auto& key) { return radians(key.twist); });
+  if (any([](const KeySettings& key) { return key.translation != Vec3::Zero(); }))
+    track.translation = curve_of<Vec3>(given, [](const auto& key) { return key.translation; });
+  if (any([](const KeySettings& key) { return key.stretch != 1; }))
+    track.stretch = curve_of<double>(given, [](const auto& key) { return key.stretch; });
+  const auto finish = [&](auto& curve) {
     curve.interpolation = given.interpolation;
-    for (const KeySettings& key : given.keys) curve.times.push_back(key.time);
+    if (!curve.values.empty()) curve.times = times;
   };
-  time(track.rotation), time(track.twist), time(track.translation);
+  finish(track.rotation), finish(track.twist), finish(track.translation), finish(track.stretch);
   return track;
 }
 
@@ -131,11 +183,11 @@ Motion make_motion(const Settings& settings, const Skeleton& skeleton) {
   for (std::size_t i = 0; i < settings.tracks.size(); ++i) {
     check_order(settings.tracks[i], settings.place(path_of(i) + ".order"));
     const int bone = bone_of(settings, i, skeleton, motion);
-    check_keys(settings, i);
     motion.tracks.push_back(make_track(settings, i));
     motion.tracks.back().bone = bone;
   }
-  return motion;
+  return placed(played(std::move(motion), settings), settings.skeleton.scale,
+                to_scene(settings.skeleton));
 }
 
 }  // namespace sinew

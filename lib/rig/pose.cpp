@@ -41,7 +41,7 @@ BonePose move(const Bone& bone, const LocalMotion& local, const BonePose& parent
 }  // namespace
 
 Pose pose_at(const Skeleton& skeleton, const Motion& motion, double time) {
-  const std::vector<LocalMotion> local = local_motions(motion, skeleton.size(), time);
+  const std::vector<LocalMotion> local = local_motions(skeleton, motion, time);
   const BonePose scene;
   Pose pose;
   pose.reserve(skeleton.size());

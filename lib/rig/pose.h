@@ -24,11 +24,13 @@ struct BonePose {
     const double longer = (stretch - 1) * bone.axis().dot(offset);
     return frame.origin + turn * (offset + longer * bone.axis());
   }
-  /// Velocity of the point of this bone that is at `p` now, m/s.
+  /// Velocity of the point of this bone that is at `p` now, m/s; rigid: without its stretching.
+  Vec3 rigid_velocity_at(const Vec3& p) const {
+    return velocity + angular_velocity.cross(p - frame.origin);
+  }
   Vec3 velocity_at(const Vec3& p) const {
-    const Vec3 rigid = velocity + angular_velocity.cross(p - frame.origin);
-    if (stretch_rate == 0) return rigid;
-    return rigid + stretch_rate / stretch * axis().dot(p - frame.origin) * axis();
+    if (stretch_rate == 0) return rigid_velocity_at(p);
+    return rigid_velocity_at(p) + stretch_rate / stretch * axis().dot(p - frame.origin) * axis();
   }
 };
 
