@@ -218,6 +218,13 @@ typename Curve<Value>::Sample Curve<Value>::at(double time) const {
 template struct Curve<double>;
 template struct Curve<Vec3>;
 
+void find_turns(RotationCurve& curve) {
+  if (curve.empty() || !curve.turns.empty()) return;
+  std::vector<Vec3> turns = {Vec3::Zero()};
+  for (std::size_t k = 1; k < curve.values.size(); ++k) turns.push_back(turn_to(curve, k));
+  curve.turns = std::move(turns);
+}
+
 RotationCurve::Sample RotationCurve::at(double time) const {
   if (time < times.front()) return {values.front(), Vec3::Zero()};
   if (time >= times.back()) return {values.back(), Vec3::Zero()};

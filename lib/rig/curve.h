@@ -60,4 +60,7 @@ struct RotationCurve {
   Sample at(double time) const;
 };
 
+/// Writes down the short ways, which at() else finds anew each time: for curves asked often.
+void find_turns(RotationCurve& curve);
+
 }  // namespace sinew

@@ -136,7 +136,9 @@ Motion played(Motion clip, const Settings& settings) {
     const bool cyclic = clip.extrapolation == Extrapolation::loop;
     track.rotation.cyclic = track.twist.cyclic = cyclic;
     track.translation.cyclic = track.stretch.cyclic = cyclic;
+    find_turns(track.rotation);
   }
+  if (!clip.end) clip.end = last;
   return clip;
 }
 

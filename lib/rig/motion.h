@@ -62,7 +62,8 @@ double clip_length(const Motion& motion);
 bool stretches(const Motion& motion);
 
 /// A clip's motion with what a scene's section motion says of it: start, end, extrapolation and
-/// preroll. Throws bad input for a clip that would end before it starts.
+/// preroll; made ready to be asked for many poses. Throws bad input for a clip that would end
+/// before it starts.
 Motion played(Motion clip, const Settings& settings);
 
 /// The motion in a scene's directions and lengths, as the skeleton by its `placed`.

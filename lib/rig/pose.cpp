@@ -25,7 +25,9 @@ BonePose move(const Bone& bone, const LocalMotion& local, const BonePose& parent
       parent.turn * (joint.offset + (parent.stretch - 1) * joint.along + local.translation);
   const Vec3 axis = rotation * bone.axis();
   BonePose pose;
-  pose.turn = rotation * Eigen::AngleAxisd(local.twist, bone.axis()).toRotationMatrix();
+  pose.turn = rotation;
+  if (local.twist != 0)
+    pose.turn = rotation * Eigen::AngleAxisd(local.twist, bone.axis()).toRotationMatrix();
   pose.frame.rotation = pose.turn * bone.rest.rotation;
   pose.frame.origin = parent.frame.origin + offset;
   pose.velocity = parent.velocity + parent.angular_velocity.cross(offset) +
