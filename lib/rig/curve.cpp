@@ -18,18 +18,16 @@ struct Span {
 };
 
 /// The last key not after `time`, which lies between the first and the last. Most clips have even
-/// times: the guess then is right, or off by one.
+/// times: the guess then is right.
 std::size_t key_before(const std::vector<double>& times, double time) {
-  const double share = (time - times.front()) / (times.back() - times.front());
   const std::size_t last = times.size() - 2;
+  const double share = (time - times.front()) / (times.back() - times.front());
   const auto guess =
       std::min(static_cast<std::size_t>(share * static_cast<double>(last + 1)), last);
-  const std::size_t low = guess > 0 ? guess - 1 : 0, high = std::min(guess + 2, last + 1);
-  auto begin = times.begin(), end = times.end();
-  if (times[low] <= time && time < times[high])
-    begin += static_cast<std::ptrdiff_t>(low),
-        end = times.begin() + static_cast<std::ptrdiff_t>(high);
-  return static_cast<std::size_t>(std::upper_bound(begin, end, time) - times.begin()) - 1;
+  if (times[guess] <= time && time < times[guess + 1]) return guess;
+  return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) -
+                                  times.begin()) -
+         1;
 }
 
 Span span_at(const std::vector<double>& times, double time) {
