@@ -27,7 +27,7 @@ constexpr double slower_with_lists_in_motion = 1.8;
 /// body does not bear it.
 double speed_at_rest(const Settings& settings, Setup setup, const Particles& particles,
                      std::vector<std::string>& warnings) {
-  const double usual = usual_speed(step_way(settings.solver, setup.body));
+  const double usual = usual_speed(step_way(settings.solver, setup.body, setup.motion));
   setup.motion = {};
   Simulation simulation = start(settings, std::move(setup), particles);
   double spent = 0;
@@ -112,7 +112,7 @@ Exit check(const std::string& scene, const Common& common) {
   const Setup setup = set_up(settings, filling.particles);
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
-  const StepWay way = step_way(settings.solver, setup.body);
+  const StepWay way = step_way(settings.solver, setup.body, setup.motion);
   const double speed = bone_speed(setup, settings.output.interval);
   auto warnings = warnings_of(setup, settings.solver, speed);
   warn_of_memory(needs, warnings);

@@ -48,7 +48,7 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
       raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
   Needs needs;
   needs.disk = static_cast<std::uint64_t>((coded + bytes_per_frame_beside) * (setup.frames + 1));
-  const StepWay way = step_way(settings.solver, setup.body);
+  const StepWay way = step_way(settings.solver, setup.body, setup.motion);
   needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
                                             points * memory_per_point + memory_beside);
   return needs;

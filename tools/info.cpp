@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-info: what is in a mesh or a scene, and what is wrong with it.
-#include <algorithm>
-
 #include "body_options.h"
 #include "command.h"
 #include "config/scene.h"
@@ -19,12 +17,6 @@ struct Options {
   BodyOptions body;
 };
 
-double duration_of(const Motion& motion) {
-  double last = 0;
-  for (const Track& track : motion.tracks) last = std::max(last, track.keys.back().time);
-  return last;
-}
-
 void add_scene(const Settings& settings, Results& results) {
   const Skeleton skeleton = make_skeleton(settings);
   const Motion motion = make_motion(settings, skeleton);
@@ -34,7 +26,7 @@ void add_scene(const Settings& settings, Results& results) {
     results.add("bone_" + bone.name, bone.length,
                 bone.parent == no_bone ? "m" : "m, on " + skeleton.bones[bone.parent].name);
   results.add("tracks", motion.tracks.size());
-  results.add("duration", duration_of(motion), "s");
+  results.add("duration", last_key(motion), "s");
 }
 
 BodySettings body_of_mesh(const Options& options, const Common& common) {

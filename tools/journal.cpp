@@ -91,7 +91,7 @@ void Journal::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
-  describe(step_way(settings.solver, setup.body));
+  describe(step_way(settings.solver, setup.body, setup.motion));
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();

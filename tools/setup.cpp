@@ -77,7 +77,8 @@ double bone_speed(const Setup& setup, double interval) {
   for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
     const Pose pose = pose_at(body.skeleton, setup.motion, sample * interval / samples_per_frame);
     for (std::size_t b = 0; b < pose.size(); ++b) {
-      const Vec3 tail = pose[b].frame.origin + body.skeleton.bones[b].length * pose[b].axis();
+      const double length = pose[b].stretch * body.skeleton.bones[b].length;
+      const Vec3 tail = pose[b].frame.origin + length * pose[b].axis();
       const double spin = pose[b].angular_velocity.norm() * reach[b];
       fastest = std::max(
           {fastest, pose[b].velocity.norm() + spin, pose[b].velocity_at(tail).norm() + spin});

@@ -22,12 +22,13 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
 // Whatever the instruction set: cells are sorted anew, and pairs worked through one by one.
 constexpr double speed_with_cells = 2e6;
 
-Unserved unserved_by_lists(const Body& body) {
+Unserved unserved_by_lists(const Body& body, const Motion& motion) {
   if (body.material.model != MaterialModel::paper)
     return {"material.model",
             body.material.model == MaterialModel::bonded ? "bonded" : "bonded_volume", "paper"};
   if (body.material.cohesion != Cohesion::all)
     return {"material.cohesion", "initial_neighbours", "all"};
+  if (stretches(motion)) return {"a key's stretch", "not 1", "1"};
   if (body.material.damping_form != DampingForm::paper)
     return {"material.damping_form",
             body.material.damping_form == DampingForm::central ? "central" : "symmetric", "paper"};
@@ -38,11 +39,12 @@ Unserved unserved_by_lists(const Body& body) {
 
 }  // namespace
 
-StepWay step_way(const SolverSettings& solver, const Body& body) {
+StepWay step_way(const SolverSettings& solver, const Body& body, const Motion& motion) {
   StepWay way{solver.neighbour_search, solver.precision};
-  if (way.search == NeighbourSearch::lists && !ListStepper<double>::serves(body)) {
+  const bool served = ListStepper<double>::serves(body) && !stretches(motion);
+  if (way.search == NeighbourSearch::lists && !served) {
     way.search = NeighbourSearch::cells;
-    way.unserved = unserved_by_lists(body);
+    way.unserved = unserved_by_lists(body, motion);
   }
   if (way.search == NeighbourSearch::cells) {
     way.precision = Precision::binary64;

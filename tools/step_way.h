@@ -8,6 +8,7 @@
 #include "core/settings.h"
 #include "physics/forces.h"
 #include "physics/kernel/kernel.h"
+#include "rig/motion.h"
 
 namespace sinew {
 
@@ -24,7 +25,7 @@ struct StepWay {
 };
 
 /// Cells know one precision, double, and no instruction set but the plain one.
-StepWay step_way(const SolverSettings& solver, const Body& body);
+StepWay step_way(const SolverSettings& solver, const Body& body, const Motion& motion);
 
 /// As the scene's keys spell them.
 const char* name_of(NeighbourSearch search);

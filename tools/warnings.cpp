@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/number_text.h"
+#include "rig/motion_warnings.h"
 
 namespace sinew {
 namespace {
@@ -15,6 +16,7 @@ using Warnings = std::vector<std::string>;
 // Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
 constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
+constexpr double least_shift = 0.1;   // radii that a bone may jump unnoticed
 constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
@@ -49,10 +51,15 @@ std::string bone_of(const Setup& setup, const Track& track) {
   return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
 }
 
-/// The part of a key's rotation that turns the bone about itself, and its twist, rad.
-double turn_about_bone(const Bone& bone, const Key& key) {
-  const double along = key.rotation.vec().dot(bone.axis());
-  return std::abs(2 * std::atan2(along, std::abs(key.rotation.w()))) + std::abs(key.twist);
+/// How far the track turns the bone about itself at most, by its rotations and its twist, rad.
+double turn_about_bone(const Bone& bone, const Track& track) {
+  double turned = 0, twisted = 0;
+  for (const Quat& rotation : track.rotation.values) {
+    const double along = rotation.vec().dot(bone.axis());
+    turned = std::max(turned, std::abs(2 * std::atan2(along, std::abs(rotation.w()))));
+  }
+  for (const double twist : track.twist.values) twisted = std::max(twisted, std::abs(twist));
+  return turned + twisted;
 }
 
 /// Planes of particles over which a turn about the bone is spread.
@@ -64,29 +71,13 @@ double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
 void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
   const Bone& bone = setup.body.skeleton.bones[track.bone];
   if (bone.parent == no_bone) return;
-  double turn = 0;
-  for (const Key& key : track.keys) turn = std::max(turn, turn_about_bone(bone, key));
+  const double turn = turn_about_bone(bone, track);
   const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
   if (step > steepest_joint)
     warnings.push_back("bone " + bone_of(setup, track) + " turns " + three_digits(degrees(turn)) +
                        " degrees about itself, " + three_digits(step) +
                        " from one plane of particles to the next: that cuts the body; set "
                        "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
-}
-
-void warn_of_jumps(const Setup& setup, const Track& track, Warnings& warnings) {
-  const Key& first = track.keys.front();
-  const bool turned = Eigen::AngleAxisd(first.rotation).angle() > radians(1);
-  const bool shifted = first.translation.norm() > 0.1 * setup.body.material.pair.r;
-  if (turned || shifted || std::abs(first.twist) > radians(1))
-    warnings.push_back(
-        "bone " + bone_of(setup, track) +
-        " does not begin at rest: the body is torn at the first step; begin its keys "
-        "with one that has no rotation and no translation");
-  if (track.interpolation == Interpolation::step && track.keys.size() > 1)
-    warnings.push_back("bone " + bone_of(setup, track) +
-                       " jumps from key to key: the body is torn at each; use interpolation linear "
-                       "or smooth");
 }
 
 void warn_of_idle_bones(const Body& body, Warnings& warnings) {
@@ -97,7 +88,7 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 }
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
-  const StepWay way = step_way(solver, setup.body);
+  const StepWay way = step_way(solver, setup.body, setup.motion);
   if (!way.unserved || setup.body.material.model != MaterialModel::paper) return;
   const auto& [key, value, served] = *way.unserved;
   std::string warning = key;
@@ -117,10 +108,10 @@ std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& s
     warn_of_material(setup.body.material.pair, warnings);
   warn_of_step(setup.steps, warnings);
   warn_of_speed(bone_speed, warnings);
-  for (const Track& track : setup.motion.tracks) {
-    warn_of_cut(setup, track, warnings);
-    warn_of_jumps(setup, track, warnings);
-  }
+  for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
+  for (std::string& warning :
+       motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
+    warnings.push_back(std::move(warning));
   warn_of_idle_bones(setup.body, warnings);
   warn_of_cells(setup, solver, warnings);
   return warnings;

@@ -62,6 +62,22 @@ void check_material(const Settings& settings) {
                     "set body.packing to fcc, or remove it");
 }
 
+void check_axes(const Settings& settings) {
+  if (to_scene(settings.skeleton).determinant() < 0.5)
+    throw bad_input(place_of(settings, "skeleton.forward", "skeleton.up"),
+                    "up and forward of the rig lie along one axis",
+                    "name two different axes, as in up: y and forward: z");
+}
+
+void check_clip(const Settings& settings) {
+  const MotionSettings& motion = settings.motion;
+  if (motion.end && !(*motion.end > motion.start))
+    throw bad_input(place_of(settings, "motion.end", "motion.start"),
+                    "the clip would end at " + number_text(*motion.end) +
+                        " s before it begins at " + number_text(motion.start) + " s",
+                    "give an end after motion.start");
+}
+
 }  // namespace
 
 std::span<const EitherOr> either_or() {
@@ -102,6 +118,8 @@ void apply_preset(Settings& settings) {
 void check_together(const Settings& settings) {
   for (const EitherOr& pair : either_or()) check_pair(settings, pair);
   check_material(settings);
+  check_axes(settings);
+  check_clip(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

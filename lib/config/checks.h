@@ -23,8 +23,9 @@ std::string_view rival_of(std::string_view path);
 /// Gives the keys that a named material stands for their values, where the scene gives none.
 void apply_preset(Settings& settings);
 
-/// Throws bad input, naming the scene's line, for two rivals or none of a needed pair, a >= b, and
-/// frames further apart than the run is long.
+/// Throws bad input, naming the scene's line, for two rivals or none of a needed pair, a >= b,
+/// frames further apart than the run is long, up along forward, and a clip that ends before it
+/// begins.
 void check_together(const Settings& settings);
 
 }  // namespace sinew

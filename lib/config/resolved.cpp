@@ -38,9 +38,14 @@ std::string entry(std::span<const Field<Owner>> rows, const Owner& owner, std::s
 }
 
 std::string bones_text(const Settings& settings) {
+  if (settings.bones.empty()) return "";  // they stand in skeleton.file
   std::string text = "  bones:\n";
-  for (const BoneSettings& bone : settings.bones)
-    text += entry(bone_fields(), bone, 4, &bone == &settings.bones.front());
+  for (const BoneSettings& bone : settings.bones) {
+    const bool first = &bone == &settings.bones.front();
+    text += entry(bone_fields(), bone, 4, first) + "      limits:\n";
+    for (const auto& row : limit_fields())
+      text += "        " + line(row, row.get(bone.limits), first);
+  }
   return text;
 }
 

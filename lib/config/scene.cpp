@@ -6,6 +6,7 @@
 #include "config/checks.h"
 #include "config/mapping.h"
 #include "config/paths.h"
+#include "config/rig.h"
 #include "config/text_file.h"
 #include "core/settings_table.h"
 #include "core/words.h"
@@ -15,42 +16,11 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-std::string entry(const std::string& path, std::string_view list, std::size_t index) {
-  return path_below(path, list) + '[' + std::to_string(index) + ']';
-}
-
 std::vector<Field<Settings>> rows_of(std::string_view section) {
   std::vector<Field<Settings>> rows;
   for (const auto& row : settings_table())
     if (row.section == section) rows.push_back(row);
   return rows;
-}
-
-void read_bones(const YamlNode& skeleton, Settings& settings) {
-  const auto items = list_below(skeleton, "skeleton", "bones", settings.places);
-  for (std::size_t i = 0; i < items.size(); ++i)
-    read_fields(items[i], entry("skeleton", "bones", i), bone_fields(), "",
-                settings.bones.emplace_back(), settings.places);
-}
-
-void read_keys(const YamlNode& track, const std::string& path, Settings& settings) {
-  const auto items = list_below(track, path, "keys", settings.places);
-  for (std::size_t i = 0; i < items.size(); ++i)
-    read_fields(items[i], entry(path, "keys", i), key_fields(), "",
-                settings.tracks.back().keys.emplace_back(), settings.places);
-}
-
-void read_tracks(const YamlNode& motion, Settings& settings) {
-  const YamlNode* tracks = motion.find("tracks");
-  if (tracks == nullptr || (tracks->kind != Kind::scalar && tracks->items.empty()))
-    return;  // at rest
-  const auto items = list_below(motion, "motion", "tracks", settings.places);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::string path = entry("motion", "tracks", i);
-    read_fields(items[i], path, track_fields(), "keys", settings.tracks.emplace_back(),
-                settings.places);
-    read_keys(items[i], path, settings);
-  }
 }
 
 /// A section that is not there has all its defaults, and is missed where it must not be.
@@ -98,6 +68,7 @@ Settings read_scene(const std::filesystem::path& path, std::span<const Override>
   apply_preset(settings);
   check_together(settings);
   open_paths_from_here(settings, path.parent_path());
+  read_rig_files(settings);
   return settings;
 }
 

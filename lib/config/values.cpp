@@ -106,7 +106,7 @@ std::string read_word(const Given& given) {
   if (given.node.kind != Kind::scalar) throw wrong(given, ", not a text");
   const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
   if (std::any_of(text.begin(), text.end(), is_control)) throw wrong(given, ", more than one line");
-  if (text.empty() && given.rules.absent.empty()) throw wrong(given, ", empty");
+  if (text.empty()) throw wrong(given, ", empty");
   return text;
 }
 
@@ -118,20 +118,25 @@ FieldValue read_choice(const Given& given) {
   return word;
 }
 
-FieldValue read_vector(const Given& given) {
+/// `count` numbers; `words` names that count.
+std::vector<double> read_list(const Given& given, std::size_t count, const std::string& words) {
   const YamlNode& node = given.node;
   if (node.kind == Kind::empty) throw wrong(given, "");
-  if (node.kind != Kind::list) throw wrong(given, ", not a list of three numbers");
-  if (node.items.size() != 3)
-    throw wrong(given, " of " + std::to_string(node.items.size()) + " values, not of three");
+  if (node.kind != Kind::list) throw wrong(given, ", not a list of " + words + " numbers");
+  if (node.items.size() != count)
+    throw wrong(given, " of " + std::to_string(node.items.size()) + " values, not of " + words);
   const Rules number = {FieldKind::number, given.rules.unit, given.rules.range, {}, {}};
-  Vec3 vector;
-  for (int i = 0; i < 3; ++i) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) {
     const std::string path = given.path + '[' + std::to_string(i) + ']';
-    vector[i] =
-        std::get<double>(read_bounded({node.items[static_cast<std::size_t>(i)], path, number}));
+    values.push_back(std::get<double>(read_bounded({node.items[i], path, number})));
   }
-  return vector;
+  return values;
+}
+
+FieldValue read_vector(const Given& given) {
+  const std::vector<double> values = read_list(given, 3, "three");
+  return Vec3(values[0], values[1], values[2]);
 }
 
 std::string kind_text(const Rules& rules) {
@@ -150,6 +155,8 @@ std::string kind_text(const Rules& rules) {
       return "true or false";
     case FieldKind::vector:
       return "[x, y, z]";
+    case FieldKind::numbers:
+      return "a list of " + std::to_string(rules.count) + " numbers";
   }
   return "";
 }
@@ -188,6 +195,8 @@ FieldValue read_value(const YamlNode& node, const std::string& path, const Rules
       return read_choice(given);
     case FieldKind::vector:
       return read_vector(given);
+    case FieldKind::numbers:
+      return read_list(given, rules.count, std::to_string(rules.count));
     case FieldKind::text:
     case FieldKind::path:
       break;

@@ -18,11 +18,12 @@ struct Rules {
   Range range;
   std::span<const std::string_view> choices;
   std::string_view absent;
+  std::size_t count = 0;  ///< of a list of numbers
 };
 
 template <class Owner>
 Rules rules_of(const Field<Owner>& row) {
-  return {row.kind, row.unit, row.range, row.choices, row.absent};
+  return {row.kind, row.unit, row.range, row.choices, row.absent, row.count};
 }
 
 /// "a number > 0 (m), or auto": what may be given.

@@ -44,6 +44,12 @@ bool plain(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_safe);
 }
 
+std::string list_text(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + number_text(value);
+  return text + ']';
+}
+
 }  // namespace
 
 std::string scene_text(const FieldValue& value, std::string_view absent) {
@@ -52,9 +58,8 @@ std::string scene_text(const FieldValue& value, std::string_view absent) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value))
     return plain(*text) ? *text : quoted(*text);
-  if (const auto* vector = std::get_if<Vec3>(&value))
-    return '[' + number_text(vector->x()) + ", " + number_text(vector->y()) + ", " +
-           number_text(vector->z()) + ']';
+  if (const auto* vector = std::get_if<Vec3>(&value)) return list_text({vector->data(), 3});
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return list_text(*list);
   return std::string(absent);
 }
 

@@ -2,6 +2,25 @@
 #include "core/settings.h"
 
 namespace sinew {
+namespace {
+
+Vec3 direction(Axis axis) {
+  const int index = static_cast<int>(axis) % 3;
+  return axis < Axis::minus_x ? Vec3::Unit(index) : Vec3(-Vec3::Unit(index));
+}
+
+}  // namespace
+
+Mat3 to_scene(const SkeletonSettings& settings) {
+  const Vec3 up = direction(settings.up);
+  const Axis after_up = static_cast<Axis>((static_cast<int>(settings.up) + 1) % 3);
+  const Vec3 forward = direction(settings.forward.value_or(after_up));
+  Mat3 turn;
+  turn.row(0) = forward;
+  turn.row(1) = up.cross(forward);
+  turn.row(2) = up;
+  return turn;
+}
 
 double metres(LengthUnit unit) {
   switch (unit) {

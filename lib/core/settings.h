@@ -3,6 +3,7 @@
 // "radii" are multiples of the particle radius. What each key means stands in settings_table.cpp.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -65,22 +66,61 @@ struct MaterialSettings {
   double creep_rate = 1;
 };
 
+enum class Axis { x, y, z, minus_x, minus_y, minus_z };
+
+struct SkeletonSettings {
+  std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
+  double scale = 1;
+  Axis up = Axis::z;
+  std::optional<Axis> forward;
+};
+
+/// Turns the rig's own directions into the scene's: up becomes z, forward x.
+Mat3 to_scene(const SkeletonSettings& settings);
+
+struct LimitSettings {
+  std::optional<double> swing = {};
+  std::optional<std::array<double, 2>> twist = {};
+};
+
 struct BoneSettings {
   std::string name;
   std::string parent;
-  std::optional<Vec3> head;  ///< the parent's tail when not given
-  Vec3 tail = Vec3::Zero();
+  std::optional<Vec3> head;       ///< the parent's tail when not given
+  std::optional<Vec3> tail = {};  ///< this or length
+  std::optional<double> length = {};
+  std::optional<Vec3> direction = {};  ///< with length; the parent's when not given
+  std::optional<bool> connected = {};
+  double roll = 0;
+  LimitSettings limits = {};
 };
 
-enum class Interpolation { step, linear, smooth };
+enum class Interpolation { step, linear, smooth, cubic };
+enum class Extrapolation { hold, loop, ping_pong };
+
+enum class Positions { replace, add };
+
+struct MotionSettings {
+  std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
+  std::string clip;
+  double start = 0;
+  std::optional<double> end;
+  std::optional<double> frame_rate;
+  Positions positions = Positions::replace;
+  Extrapolation extrapolation = Extrapolation::hold;
+  double preroll = 0;
+};
 
 struct KeySettings {
-  double time = 0;
+  std::optional<double> time;  ///< this or frame
+  std::optional<double> frame;
   std::optional<Vec3> axis;
   std::optional<double> angle;
   std::optional<Vec3> euler;
+  std::optional<std::array<double, 4>> quaternion;  ///< w, x, y, z
   double twist = 0;
   Vec3 translation = Vec3::Zero();
+  double stretch = 1;
 };
 
 struct TrackSettings {
@@ -128,7 +168,9 @@ struct OutputSettings {
 struct Settings {
   BodySettings body;
   MaterialSettings material;
-  std::vector<BoneSettings> bones;    ///< section skeleton
+  SkeletonSettings skeleton;
+  std::vector<BoneSettings> bones;  ///< section skeleton
+  MotionSettings motion;
   std::vector<TrackSettings> tracks;  ///< section motion
   BindingSettings binding;
   SolverSettings solver;

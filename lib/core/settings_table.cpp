@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/settings_table.h"
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -23,6 +24,33 @@ struct Unwrap<std::optional<T>> {
   static constexpr bool optional = true;
 };
 
+/// How many numbers a std::array holds; 0 for anything else.
+template <class T>
+constexpr std::size_t count_of = 0;
+template <std::size_t n>
+constexpr std::size_t count_of<std::array<double, n>> = n;
+
+/// Members as they lie in a FieldValue: arrays become lists.
+template <class T>
+FieldValue stored_as_field(const T& value) {
+  if constexpr (count_of < T >> 0)
+    return std::vector<double>(value.begin(), value.end());
+  else
+    return value;
+}
+
+template <class T>
+T from_field(const FieldValue& field) {
+  if constexpr (count_of < T >> 0) {
+    const auto& list = std::get<std::vector<double>>(field);
+    T value{};
+    std::copy_n(list.begin(), std::min(list.size(), value.size()), value.begin());
+    return value;
+  } else {
+    return std::get<T>(field);
+  }
+}
+
 template <class T>
 constexpr FieldKind kind_of() {
   if constexpr (std::is_same_v<T, double>)
@@ -33,6 +61,8 @@ constexpr FieldKind kind_of() {
     return FieldKind::flag;
   else if constexpr (std::is_same_v<T, Vec3>)
     return FieldKind::vector;
+  else if constexpr (count_of<T> > 0)
+    return FieldKind::numbers;
   else
     return FieldKind::text;
 }
@@ -48,6 +78,7 @@ Field<Owner> field(std::string_view section, std::string_view name, Member membe
   row.section = section;
   row.name = name;
   row.kind = kind_of<Value>();
+  row.count = count_of<Value>;
   row.unit = unit;
   row.help = help;
   row.range = range;
@@ -55,33 +86,39 @@ Field<Owner> field(std::string_view section, std::string_view name, Member membe
   row.get = [member](const Owner& owner) -> FieldValue {
     const Stored& stored = member(const_cast<Owner&>(owner));
     if constexpr (Unwrap<Stored>::optional)
-      return stored ? FieldValue(*stored) : FieldValue();
+      return stored ? stored_as_field(*stored) : FieldValue();
     else
-      return stored;
+      return stored_as_field(stored);
   };
   row.set = [member](Owner& owner, const FieldValue& value) {
     if constexpr (Unwrap<Stored>::optional)
       if (std::holds_alternative<std::monostate>(value)) return member(owner).reset();
-    member(owner) = std::get<Value>(value);
+    member(owner) = from_field<Value>(value);
   };
   return row;
 }
 
-/// A field for an enum; `choices` in the order of its values.
+/// A field for an enum; `choices` in the order of its values. An optional one may be auto.
 template <class Owner, class Member>
 Field<Owner> choice(std::string_view section, std::string_view name, Member member,
                     std::vector<std::string_view> choices, std::string_view help) {
-  using Enum = std::remove_reference_t<decltype(member(std::declval<Owner&>()))>;
+  using Stored = std::remove_reference_t<decltype(member(std::declval<Owner&>()))>;
+  using Enum = typename Unwrap<Stored>::type;
   Field<Owner> row;
   row.section = section;
   row.name = name;
   row.kind = FieldKind::choice;
   row.help = help;
   row.choices = choices;
+  if (Unwrap<Stored>::optional) row.absent = "auto";
   row.get = [member, choices](const Owner& owner) -> FieldValue {
-    return std::string(choices[static_cast<std::size_t>(member(const_cast<Owner&>(owner)))]);
+    const std::optional<Enum> stored = member(const_cast<Owner&>(owner));
+    if (!stored) return {};
+    return std::string(choices[static_cast<std::size_t>(*stored)]);
   };
   row.set = [member, choices](Owner& owner, const FieldValue& value) {
+    if constexpr (Unwrap<Stored>::optional)
+      if (std::holds_alternative<std::monostate>(value)) return member(owner).reset();
     for (std::size_t i = 0; i < choices.size(); ++i)
       if (choices[i] == std::get<std::string>(value)) member(owner) = static_cast<Enum>(i);
   };
@@ -213,6 +250,48 @@ std::vector<Field<Settings>> make_material() {
   };
 }
 
+std::vector<Field<Settings>> make_skeleton_section() {
+  using S = Settings;
+  const std::vector<std::string_view> axes = {"x", "y", "z", "-x", "-y", "-z"};
+  return {
+      path(may_lack("none",
+                    field<S>("skeleton", "file", SINEW_AT(S, skeleton.file), "",
+                             "rig instead of bones: YAML with a list of bones, BVH, glTF or GLB"))),
+      field<S>("skeleton", "scale", SINEW_AT(S, skeleton.scale), "",
+               "factor on the lengths of the rig and its motion", positive),
+      choice<S>("skeleton", "up", SINEW_AT(S, skeleton.up), axes,
+                "axis of the rig that becomes the scene's z"),
+      choice<S>("skeleton", "forward", SINEW_AT(S, skeleton.forward), axes,
+                "axis of the rig that becomes the scene's x; auto: the one after up (x, y, z, x)"),
+  };
+}
+
+std::vector<Field<Settings>> make_motion_section() {
+  using S = Settings;
+  return {
+      path(may_lack("none",
+                    field<S>("motion", "file", SINEW_AT(S, motion.file), "",
+                             "clip instead of tracks: YAML with a list of tracks, BVH, glTF or "
+                             "GLB"))),
+      may_lack("auto", field<S>("motion", "clip", SINEW_AT(S, motion.clip), "",
+                                "name of the clip, where the file has several; auto: the first")),
+      field<S>("motion", "start", SINEW_AT(S, motion.start), "s",
+               "time of the clip at which it begins", not_negative),
+      field<S>("motion", "end", SINEW_AT(S, motion.end), "s",
+               "time of the clip at which it ends; auto: its last key", positive),
+      field<S>("motion", "frame_rate", SINEW_AT(S, motion.frame_rate), "1/s",
+               "frames per second, for keys in frames; auto: the file's own", positive),
+      choice<S>("motion", "positions", SINEW_AT(S, motion.positions), {"replace", "add"},
+                "positions in a BVH stand in place of a joint's offset or are added to it"),
+      choice<S>("motion", "extrapolation", SINEW_AT(S, motion.extrapolation),
+                {"hold", "loop", "ping_pong"},
+                "after the clip's end: stand still, begin again, or go back and forth"),
+      field<S>("motion", "preroll", SINEW_AT(S, motion.preroll), "s",
+               "time before the clip in which the bones go smoothly from rest to its first pose",
+               not_negative),
+  };
+}
+
 std::vector<Field<Settings>> make_binding() {
   using S = Settings;
   return {
@@ -272,8 +351,8 @@ std::vector<Field<Settings>> make_output() {
 
 std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
-  for (const auto& section :
-       {make_body(), make_material(), make_binding(), make_solver(), make_output()})
+  for (const auto& section : {make_body(), make_material(), make_skeleton_section(),
+                              make_motion_section(), make_binding(), make_solver(), make_output()})
     all.insert(all.end(), section.begin(), section.end());
   return all;
 }
@@ -283,8 +362,30 @@ std::vector<Field<BoneSettings>> make_bones() {
   return {
       required(field<B>("", "name", SINEW_AT(B, name), "", "unique name of the bone")),
       may_lack("none", field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone")),
-      field<B>("", "head", SINEW_AT(B, head), "m", "where it begins at rest; else parent's tail"),
-      required(field<B>("", "tail", SINEW_AT(B, tail), "m", "where it ends at rest")),
+      field<B>("", "head", SINEW_AT(B, head), "m",
+               "where it begins at rest; auto: at its parent's tail"),
+      field<B>("", "tail", SINEW_AT(B, tail), "m", "where it ends at rest; give this or length",
+               any, "none"),
+      field<B>("", "length", SINEW_AT(B, length), "m", "from head to tail, instead of tail",
+               positive, "none"),
+      field<B>("", "direction", SINEW_AT(B, direction), "",
+               "where it points, with length, of any size; auto: where its parent points"),
+      field<B>("", "connected", SINEW_AT(B, connected), "",
+               "whether it begins at its parent's tail; auto: where it has no head"),
+      field<B>("", "roll", SINEW_AT(B, roll), "degrees",
+               "turns its sides about it; at 0 the first side is across the bone and that axis of "
+               "x, y, z which is least along it"),
+  };
+}
+
+std::vector<Field<LimitSettings>> make_limits() {
+  using L = LimitSettings;
+  return {
+      field<L>("", "swing", SINEW_AT(L, swing), "degrees",
+               "how far the bone may lean from its direction at rest on its parent", {0, 180},
+               "none"),
+      field<L>("", "twist", SINEW_AT(L, twist), "degrees",
+               "least and greatest turn about the bone itself", any, "none"),
   };
 }
 
@@ -292,8 +393,9 @@ std::vector<Field<TrackSettings>> make_tracks() {
   using T = TrackSettings;
   return {
       required(field<T>("", "bone", SINEW_AT(T, bone), "", "name of the bone that moves")),
-      choice<T>("", "interpolation", SINEW_AT(T, interpolation), {"step", "linear", "smooth"},
-                "between keys; smooth starts and ends each part without speed"),
+      choice<T>("", "interpolation", SINEW_AT(T, interpolation),
+                {"step", "linear", "smooth", "cubic"},
+                "between keys; smooth rests at each, cubic passes them without a jump of speed"),
       field<T>("", "order", SINEW_AT(T, order), "", "order of euler angles, such as xyz or zyx"),
   };
 }
@@ -301,7 +403,10 @@ std::vector<Field<TrackSettings>> make_tracks() {
 std::vector<Field<KeySettings>> make_keys() {
   using K = KeySettings;
   return {
-      required(field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative)),
+      field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative, "none"),
+      field<K>("", "frame", SINEW_AT(K, frame), "",
+               "the same in frames, from 0, instead of time; motion.frame_rate has their rate",
+               not_negative, "none"),
       field<K>("", "axis", SINEW_AT(K, axis), "",
                "axis of the rotation, in the parent's directions", any, "none"),
       field<K>("", "angle", SINEW_AT(K, angle), "degrees",
@@ -310,10 +415,14 @@ std::vector<Field<KeySettings>> make_keys() {
       field<K>("", "euler", SINEW_AT(K, euler), "degrees",
                "rotation about x, y and z of the parent's directions, instead of axis and angle",
                any, "none"),
+      field<K>("", "quaternion", SINEW_AT(K, quaternion), "",
+               "rotation as [w, x, y, z] of length 1, instead of axis and angle", any, "none"),
       field<K>("", "twist", SINEW_AT(K, twist), "degrees",
                "turn about the bone itself, of any size, after the rotation"),
       field<K>("", "translation", SINEW_AT(K, translation), "m",
                "shift of the head from its place on the parent"),
+      field<K>("", "stretch", SINEW_AT(K, stretch), "",
+               "factor of the bone's length; what hangs on the bone moves with it", positive),
   };
 }
 
@@ -336,6 +445,11 @@ std::span<const Field<Settings>> settings_table() {
 
 std::span<const Field<BoneSettings>> bone_fields() {
   static const auto table = make_bones();
+  return table;
+}
+
+std::span<const Field<LimitSettings>> limit_fields() {
+  static const auto table = make_limits();
   return table;
 }
 

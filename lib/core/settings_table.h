@@ -16,10 +16,11 @@
 
 namespace sinew {
 
-enum class FieldKind { number, whole, text, path, choice, flag, vector };
+enum class FieldKind { number, whole, text, path, choice, flag, vector, numbers };
 
 /// A value on its way in or out. monostate: not given, written as the field's `absent` word.
-using FieldValue = std::variant<std::monostate, double, int, bool, std::string, Vec3>;
+using FieldValue =
+    std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>>;
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
@@ -46,10 +47,12 @@ struct Field {
   std::vector<std::string_view> choices = {};
   std::string_view absent = {};  ///< the word for "not given" where that is allowed: "auto", "none"
   bool required = false;
+  std::size_t count = 0;  ///< of a list of numbers
 };
 
 std::span<const Field<Settings>> settings_table();
 std::span<const Field<BoneSettings>> bone_fields();    ///< skeleton.bones[]
+std::span<const Field<LimitSettings>> limit_fields();  ///< skeleton.bones[].limits
 std::span<const Field<TrackSettings>> track_fields();  ///< motion.tracks[] (and its list `keys`)
 std::span<const Field<KeySettings>> key_fields();      ///< motion.tracks[].keys[]
 

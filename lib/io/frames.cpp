@@ -155,7 +155,7 @@ Dataset bones_dataset(const Skeleton& skeleton, const Pose& pose, Moment moment)
   std::vector<std::int32_t> axis, bone, parent;
   for (std::size_t b = 0; b < pose.size(); ++b) {
     const RigidFrame& frame = pose[b].frame;
-    const double length = skeleton.bones[b].length;
+    const double length = pose[b].stretch * skeleton.bones[b].length;
     const auto head = static_cast<std::int32_t>(data.points.size());
     data.points.push_back(frame.origin);
     for (int line = 0; line < 4; ++line) {
@@ -182,7 +182,7 @@ Dataset frames_dataset(const Skeleton& skeleton, const Pose& pose, const Reactio
   for (std::size_t b = 0; b < pose.size(); ++b) {
     data.points.push_back(pose[b].frame.origin);
     parent.push_back(skeleton.bones[b].parent);
-    length.push_back(skeleton.bones[b].length);
+    length.push_back(pose[b].stretch * skeleton.bones[b].length);
     twist.push_back(degrees(pose[b].twist));
   }
   const auto axis = [](int k) {

@@ -24,8 +24,8 @@ struct Carried {
 
 Carried carry(const Influence& influence, const Bone& bone, const BonePose& pose,
               const Vec3& rest) {
-  return {pose.frame.origin + influence.foot * (pose.turn * bone.axis()),
-          pose.frame.origin + pose.turn * (rest - bone.head())};
+  return {pose.frame.origin + pose.stretch * influence.foot * (pose.turn * bone.axis()),
+          pose.carried(rest, bone)};
 }
 
 Spring to_point(double k, const Vec3& offset) {
@@ -100,25 +100,32 @@ std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Mat
 BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
                    const BonePose& pose, const HeldParticle& particle) {
   const Carried carried = carry(influence, bone, pose, particle.rest);
+  const double level = bone.axis().dot(particle.rest - bone.head());
   BonePull pull;
-  const auto add = [&](const Spring& spring) {
+  double stretching = 0;  // N m: what the springs take from the bone as it grows
+  const auto add = [&](const Spring& spring, double along) {
     pull.spring += influence.weight * spring.force;
     pull.energy += influence.weight * spring.energy;
+    stretching += influence.weight * along * pose.axis().dot(spring.force);
   };
   const bool anchored = springs.form == BoneForce::anchor;
   if (anchored) {
-    add(to_point(springs.radial, particle.position - carried.target));
+    add(to_point(springs.radial, particle.position - carried.target), level);
   } else {
     add(radial(springs.radial, particle.position - carried.foot, influence.rest_distance,
-               particle.radius));
-    add(twist(springs, pose, carried, particle));
-    add(axial(springs.axial, pose.axis(), particle.position - carried.target));
+               particle.radius),
+        influence.foot);
+    add(twist(springs, pose, carried, particle), 0);
+    add(axial(springs.axial, pose.axis(), particle.position - carried.target), level);
   }
   const Vec3 carried_by = pose.velocity_at(anchored ? carried.target : particle.position);
   pull.damping = -influence.weight * springs.damping * (particle.velocity - carried_by);
   const Vec3 bone_velocity = pose.velocity_at(particle.position);
   pull.power = pull.force().dot(bone_velocity);
   pull.damping_power = pull.damping.dot(bone_velocity);
+  if (pose.stretch_rate != 0)  // springs hang where they did at rest, not where the particle is
+    pull.power += pose.stretch_rate * stretching +
+                  pull.spring.dot(pose.rigid_velocity_at(particle.position) - bone_velocity);
   return pull;
 }
 

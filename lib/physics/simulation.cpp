@@ -28,9 +28,11 @@ Stepping stepping_of(const SolverSettings& solver, double step) {
 }
 
 Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& body,
-                                             const Stepping& stepping, const Particles& particles,
+                                             const Motion& motion, const Stepping& stepping,
+                                             const Particles& particles,
                                              kernel::InstructionSet instructions) {
-  if (stepping.neighbour_search == NeighbourSearch::cells || !ListStepper<double>::serves(*body))
+  if (stepping.neighbour_search == NeighbourSearch::cells || !ListStepper<double>::serves(*body) ||
+      stretches(motion))
     return CellStepper(body, stepping, particles);
   if (stepping.precision == Precision::binary32)
     return ListStepper<float>(body, stepping, particles, instructions);
@@ -42,7 +44,7 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
     : body_(std::make_shared<const Body>(std::move(body))),
       motion_(std::move(motion)),
       stepping_(stepping),
-      stepper_(make_stepper(body_, stepping, checked(particles), instructions)),
+      stepper_(make_stepper(body_, motion_, stepping, checked(particles), instructions)),
       book_(stepping.step),
       particles_(std::move(particles)) {
   forget_read();

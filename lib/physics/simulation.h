@@ -61,8 +61,9 @@ class Simulation {
  private:
   using Stepper = std::variant<CellStepper, ListStepper<double>, ListStepper<float>>;
 
-  static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
-                              const Particles& particles, kernel::InstructionSet instructions);
+  static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Motion& motion,
+                              const Stepping& stepping, const Particles& particles,
+                              kernel::InstructionSet instructions);
   void evaluate();
   void forget_read();
   [[noreturn]] void fail(const Failure& failure) const;

@@ -3,207 +3,170 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "core/number_text.h"
+#include "rig/joint_limits.h"
+#include "rig/rotation_vector.h"
 
 namespace sinew {
 namespace {
 
-struct Eased {
-  double value, rate;  // of the way from one key to the next, 0 to 1, and per unit of time
+constexpr double least_stretch = 0.01;  // what a cubic between positive keys may go below
+
+/// A moment of the clip, and how fast it passes there: 1, 0 where it holds, -1 on the way back.
+struct ClipTime {
+  double time, speed;
 };
 
-Eased ease(Interpolation interpolation, double s, double duration) {
-  switch (interpolation) {
-    case Interpolation::step:
-      return {0, 0};
-    case Interpolation::linear:
-      return {s, 1 / duration};
-    case Interpolation::smooth:
-      return {s * s * (3 - 2 * s), 6 * s * (1 - s) / duration};
-  }
-  return {};
+/// `passed` s after the clip has begun; before that it holds its beginning.
+ClipTime clip_time(const Motion& motion, double passed) {
+  if (passed < 0) return {motion.start, 0};
+  const double length = clip_length(motion);
+  const bool within = passed < length;
+  if (within || motion.extrapolation == Extrapolation::hold || !(length > 0))
+    return {motion.start + std::min(passed, length), within ? 1.0 : 0.0};
+  if (motion.extrapolation == Extrapolation::loop)
+    return {motion.start + std::fmod(passed, length), 1};
+  const double way = std::fmod(passed, 2 * length);
+  if (way < length) return {motion.start + way, 1};
+  return {motion.start + 2 * length - way, -1};
 }
 
-LocalMotion held(const Key& key) {
+void slow_down(LocalMotion& motion, double speed) {
+  if (speed == 1) return;
+  motion.angular_velocity *= speed;
+  motion.twist_rate *= speed;
+  motion.velocity *= speed;
+  motion.stretch_rate *= speed;
+}
+
+/// On the way from rest to `goal`: a share `way` of it, which grows by `rate` per second.
+LocalMotion ramped(const LocalMotion& goal, double way, double rate) {
+  const Vec3 turn = rotation_vector(goal.rotation);
   LocalMotion motion;
-  motion.rotation = key.rotation;
-  motion.twist = key.twist;
-  motion.translation = key.translation;
+  motion.rotation = rotation_by(way * turn);
+  motion.angular_velocity = rate * turn;
+  motion.twist = way * goal.twist;
+  motion.twist_rate = rate * goal.twist;
+  motion.translation = way * goal.translation;
+  motion.velocity = rate * goal.translation;
+  motion.stretch = 1 + way * (goal.stretch - 1);
+  motion.stretch_rate = rate * (goal.stretch - 1);
   return motion;
 }
 
-/// The rotation vector of the short way from `from` to `to`, in the directions both are given in.
-Vec3 rotation_between(const Quat& from, const Quat& to) {
-  Quat step = to * from.conjugate();
-  if (step.w() < 0) step.coeffs() *= -1;
-  const double sine = step.vec().norm();
-  if (sine == 0) return Vec3::Zero();
-  return step.vec() * (2 * std::atan2(sine, step.w()) / sine);
+void place(RotationCurve& curve, const Mat3& turn) {
+  const Quat q(turn);
+  for (auto* values : {&curve.values, &curve.in, &curve.out})
+    for (Quat& value : *values) value = q * value * q.conjugate();
+  for (Vec3& vector : curve.turns) vector = turn * vector;
 }
 
-Quat rotation_by(const Vec3& vector) {
-  const double angle = vector.norm();
-  return angle == 0 ? Quat::Identity() : Quat(Eigen::AngleAxisd(angle, vector / angle));
-}
-
-LocalMotion between(const Key& from, const Key& to, const Eased& way) {
-  LocalMotion motion;
-  motion.rotation = rotation_by(way.value * to.turn) * from.rotation;
-  motion.angular_velocity = way.rate * to.turn;
-  motion.twist = from.twist + way.value * (to.twist - from.twist);
-  motion.twist_rate = way.rate * (to.twist - from.twist);
-  motion.translation = from.translation + way.value * (to.translation - from.translation);
-  motion.velocity = way.rate * (to.translation - from.translation);
-  return motion;
-}
-
-BonePose move(const Bone& bone, const LocalMotion& local, const BonePose& parent,
-              const Vec3& parent_head) {
-  const Mat3 rotation = parent.turn * local.rotation.toRotationMatrix();
-  const Vec3 offset = parent.turn * (bone.head() - parent_head + local.translation);
-  const Vec3 axis = rotation * bone.axis();
-  BonePose pose;
-  pose.turn = rotation * Eigen::AngleAxisd(local.twist, bone.axis()).toRotationMatrix();
-  pose.frame.rotation = pose.turn * bone.rest.rotation;
-  pose.frame.origin = parent.frame.origin + offset;
-  pose.velocity =
-      parent.velocity + parent.angular_velocity.cross(offset) + parent.turn * local.velocity;
-  pose.angular_velocity =
-      parent.angular_velocity + parent.turn * local.angular_velocity + local.twist_rate * axis;
-  pose.twist = local.twist;
-  return pose;
-}
-
-std::string path_of(std::size_t track) { return "motion.tracks[" + std::to_string(track) + "]"; }
-
-std::string path_of(std::size_t track, std::size_t key) {
-  return path_of(track) + ".keys[" + std::to_string(key) + "]";
-}
-
-Quat from_euler(const Vec3& angles, const std::string& order) {
-  Quat rotation = Quat::Identity();  // "xyz": about x first, then y, then z, in fixed directions
-  for (const char name : order) {
-    const int axis = name - 'x';
-    rotation = Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis)) * rotation;
-  }
-  return rotation;
-}
-
-Quat rotation_of(const KeySettings& key, const std::string& order, const Place& place) {
-  if (key.euler && (key.axis || key.angle))
-    throw bad_input(place, "a key gives its rotation twice", "keep either euler or axis and angle");
-  if (key.euler) return from_euler(*key.euler, order);
-  if (key.axis && !key.angle)
-    throw bad_input(place, "an axis without an angle", "give angle: DEGREES");
-  if (!key.angle) return Quat::Identity();
-  if (!key.axis || key.axis->norm() == 0)
-    throw bad_input(place, "an angle without an axis", "give axis: [x, y, z], not all zero");
-  return Quat(Eigen::AngleAxisd(radians(*key.angle), key.axis->normalized()));
-}
-
-/// The angle of a key about `axis`, if that is how it is given; no rotation is no angle.
-std::optional<double> angle_about(const Vec3& axis, const KeySettings& key) {
-  if (!key.angle && !key.euler) return 0;
-  if (!key.axis || (key.axis->normalized() - axis).norm() > 1e-12) return std::nullopt;
-  return radians(*key.angle);
-}
-
-/// From one key to the next: angles about one axis as they are given, of any size; else the short
-/// way.
-Vec3 turn_between(const KeySettings& from, const KeySettings& to, const Quat& start,
-                  const Quat& end) {
-  const auto given = to.axis ? to.axis : from.axis;
-  if (given) {
-    const Vec3 axis = given->normalized();
-    const auto before = angle_about(axis, from), after = angle_about(axis, to);
-    if (before && after) return (*after - *before) * axis;
-  }
-  return rotation_between(start, end);
-}
-
-void check_order(const TrackSettings& track, const Place& place) {
-  std::string sorted = track.order;
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted != "xyz")
-    throw bad_input(place, "'" + track.order + "' is no order of euler angles",
-                    "use xyz, xzy, yxz, yzx, zxy or zyx");
-}
-
-std::vector<Key> make_keys(const Settings& settings, std::size_t index) {
-  const TrackSettings& track = settings.tracks[index];
-  std::vector<Key> keys;
-  for (std::size_t i = 0; i < track.keys.size(); ++i) {
-    const KeySettings& given = track.keys[i];
-    const Place place = settings.place(path_of(index, i));
-    if (i > 0 && given.time <= keys.back().time)
-      throw bad_input(settings.place(path_of(index, i) + ".time"), "keys are not in ascending time",
-                      "sort them, each with its own time");
-    const Quat rotation = rotation_of(given, track.order, place);
-    const Vec3 turn = i > 0 ? turn_between(track.keys[i - 1], given, keys.back().rotation, rotation)
-                            : Vec3::Zero();
-    keys.push_back({given.time, rotation, turn, radians(given.twist), given.translation});
-  }
-  if (keys.empty())
-    throw bad_input(settings.place(path_of(index)), "a track without keys",
-                    "give it keys, or remove it");
-  return keys;
-}
-
-int bone_of(const Settings& settings, std::size_t index, const Skeleton& skeleton,
-            const Motion& earlier) {
-  const std::string& name = settings.tracks[index].bone;
-  const Place place = settings.place(path_of(index) + ".bone");
-  const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
-                                  [&](const Bone& bone) { return bone.name == name; });
-  if (found == skeleton.bones.end())
-    throw bad_input(place, "there is no bone '" + name + "'", "use a name from skeleton.bones");
-  const int bone = static_cast<int>(found - skeleton.bones.begin());
-  for (const Track& track : earlier.tracks)
-    if (track.bone == bone)
-      throw bad_input(place, "bone '" + name + "' has two tracks", "put all its keys into one");
-  return bone;
+void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
+  for (auto* values : {&curve.values, &curve.in, &curve.out})
+    for (Vec3& value : *values) value = scale * (turn * value);
 }
 
 }  // namespace
 
 LocalMotion Track::at(double time) const {
-  const auto next = std::upper_bound(keys.begin(), keys.end(), time,
-                                     [](double t, const Key& key) { return t < key.time; });
-  if (next == keys.begin()) return held(keys.front());
-  if (next == keys.end()) return held(keys.back());
-  const Key& from = *(next - 1);
-  const double duration = next->time - from.time;
-  return between(from, *next, ease(interpolation, (time - from.time) / duration, duration));
-}
-
-Motion make_motion(const Settings& settings, const Skeleton& skeleton) {
-  Motion motion;
-  for (std::size_t i = 0; i < settings.tracks.size(); ++i) {
-    check_order(settings.tracks[i], settings.place(path_of(i) + ".order"));
-    Track track;
-    track.bone = bone_of(settings, i, skeleton, motion);
-    track.interpolation = settings.tracks[i].interpolation;
-    track.keys = make_keys(settings, i);
-    motion.tracks.push_back(std::move(track));
+  LocalMotion motion;
+  if (!rotation.empty()) {
+    const auto sample = rotation.at(time);
+    motion.rotation = sample.value;
+    motion.angular_velocity = sample.angular_velocity;
+  }
+  if (!twist.empty()) {
+    const auto sample = twist.at(time);
+    motion.twist = sample.value;
+    motion.twist_rate = sample.rate;
+  }
+  if (!translation.empty()) {
+    const auto sample = translation.at(time);
+    motion.translation = sample.value;
+    motion.velocity = sample.rate;
+  }
+  if (!stretch.empty()) {
+    const auto sample = stretch.at(time);
+    const bool held = sample.value < least_stretch;
+    motion.stretch = held ? least_stretch : sample.value;
+    motion.stretch_rate = held ? 0 : sample.rate;
   }
   return motion;
 }
 
-Pose pose_at(const Skeleton& skeleton, const Motion& motion, double time) {
-  std::vector<LocalMotion> local(skeleton.size());
-  for (const Track& track : motion.tracks) local[track.bone] = track.at(time);
-  const BonePose scene;
-  Pose pose;
-  pose.reserve(skeleton.size());
-  for (std::size_t i = 0; i < skeleton.size(); ++i) {
-    const Bone& bone = skeleton.bones[i];
-    const bool root = bone.parent == no_bone;
-    pose.push_back(move(bone, local[i], root ? scene : pose[bone.parent],
-                        root ? Vec3::Zero() : skeleton.bones[bone.parent].head()));
-  }
-  return pose;
+double last_key(const Track& track) {
+  double last = 0;
+  for (const auto* times :
+       {&track.rotation.times, &track.twist.times, &track.translation.times, &track.stretch.times})
+    if (!times->empty()) last = std::max(last, times->back());
+  return last;
 }
 
-Pose rest_pose(const Skeleton& skeleton) { return pose_at(skeleton, {}, 0); }
+double last_key(const Motion& motion) {
+  double last = 0;
+  for (const Track& track : motion.tracks) last = std::max(last, last_key(track));
+  return last;
+}
+
+double clip_length(const Motion& motion) {
+  return std::max(0.0, (motion.end ? *motion.end : last_key(motion)) - motion.start);
+}
+
+bool stretches(const Motion& motion) {
+  return std::any_of(motion.tracks.begin(), motion.tracks.end(), [](const Track& track) {
+    const auto& values = track.stretch.values;
+    return std::any_of(values.begin(), values.end(), [](double value) { return value != 1; });
+  });
+}
+
+Motion played(Motion clip, const Settings& settings) {
+  const MotionSettings& asked = settings.motion;
+  clip.extrapolation = asked.extrapolation;
+  clip.start = asked.start;
+  clip.end = asked.end;
+  clip.preroll = asked.preroll;
+  const double last = last_key(clip);
+  if (!clip.tracks.empty() && clip.start > 0 && clip.start >= clip.end.value_or(last))
+    throw bad_input(settings.place("motion.start"),
+                    "the clip would start at " + number_text(clip.start) +
+                        " s, and its last key is at " + number_text(last) + " s",
+                    "give a start before that");
+  for (Track& track : clip.tracks) {
+    const bool cyclic = clip.extrapolation == Extrapolation::loop;
+    track.rotation.cyclic = track.twist.cyclic = cyclic;
+    track.translation.cyclic = track.stretch.cyclic = cyclic;
+    find_turns(track.rotation);
+  }
+  if (!clip.end) clip.end = last;
+  return clip;
+}
+
+Motion placed(Motion motion, double scale, const Mat3& turn) {
+  if (scale == 1 && turn == Mat3::Identity()) return motion;
+  for (Track& track : motion.tracks) {
+    place(track.rotation, turn);
+    place(track.translation, scale, turn);
+  }
+  return motion;
+}
+
+std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion,
+                                       double time) {
+  std::vector<LocalMotion> local(skeleton.size());
+  const ClipTime moment = clip_time(motion, time - motion.preroll);
+  const bool ramp = time < motion.preroll && motion.preroll > 0;
+  const double s = ramp ? std::max(0.0, time / motion.preroll) : 1;
+  for (const Track& track : motion.tracks) {
+    LocalMotion& its = local[static_cast<std::size_t>(track.bone)];
+    its = track.at(moment.time);
+    if (ramp)
+      its = ramped(its, s * s * (3 - 2 * s), 6 * s * (1 - s) / motion.preroll);
+    else
+      slow_down(its, moment.speed);
+    limit(skeleton.bones[static_cast<std::size_t>(track.bone)], its);
+  }
+  return local;
+}
 
 }  // namespace sinew

@@ -4,52 +4,80 @@
 // A bone's rotation turns it, and all that hangs on it, about its head; it is given in the
 // directions of its parent (of the scene for a root), which at rest are the scene's. Twist turns
 // the bone about its own axis before that rotation and is kept apart, so that it may pass 180
-// degrees.
+// degrees. Translation shifts the head in the parent's directions. Stretch is a factor of the
+// bone's length; it moves the heads of its children as far as they lie along it.
+//
+// A run begins at rest. Over the preroll the bones go smoothly (smoothstep) to the pose with which
+// the clip begins; then the clip runs from its start to its end and goes on as its extrapolation
+// says.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/settings.h"
+#include "rig/curve.h"
 #include "rig/pose.h"
 #include "rig/skeleton.h"
 
 namespace sinew {
 
-/// What a track says of one bone at one moment, relative to the parent, with its rate of change.
+/// What a motion says of one bone at one moment, relative to the parent, with its rate of change.
 struct LocalMotion {
   Quat rotation = Quat::Identity();
   Vec3 angular_velocity = Vec3::Zero();  ///< of rotation, in the parent's directions, rad/s
   double twist = 0, twist_rate = 0;      ///< rad, rad/s
   Vec3 translation = Vec3::Zero();       ///< m, in the parent's directions
   Vec3 velocity = Vec3::Zero();          ///< of translation, m/s
+  double stretch = 1, stretch_rate = 0;  ///< of the bone's length, 1/s
 };
 
-struct Key {
-  double time = 0;  ///< s
-  Quat rotation = Quat::Identity();
-  Vec3 turn = Vec3::Zero();         ///< rotation vector that leads here from the key before, rad
-  double twist = 0;                 ///< rad
-  Vec3 translation = Vec3::Zero();  ///< m
-};
-
-/// Keys of one bone in ascending time; before the first and after the last the motion holds.
+/// What moves of one bone; a curve without keys leaves its part at rest.
 struct Track {
   int bone = no_bone;
-  Interpolation interpolation = Interpolation::smooth;
-  std::vector<Key> keys;
+  RotationCurve rotation;
+  Curve<double> twist;      ///< rad
+  Curve<Vec3> translation;  ///< m
+  Curve<double> stretch;    ///< > 0
 
-  LocalMotion at(double time) const;
+  LocalMotion at(double time) const;  ///< time of the clip, s
 };
 
 struct Motion {
   std::vector<Track> tracks;  ///< at most one per bone
+  Extrapolation extrapolation = Extrapolation::hold;
+  double start = 0;                ///< s of the clip: what of it is used
+  std::optional<double> end = {};  ///< s of the clip; none: its last key
+  double preroll = 0;              ///< s before the clip begins
 };
 
+/// Time of the last key, s of the clip; 0 without keys.
+double last_key(const Track& track);
+double last_key(const Motion& motion);
+
+/// What of the clip is used, s.
+double clip_length(const Motion& motion);
+
+/// Whether any bone changes its length.
+bool stretches(const Motion& motion);
+
+/// A clip's motion with what a scene's section motion says of it: start, end, extrapolation and
+/// preroll; made ready to be asked for many poses. Throws bad input for a clip that would end
+/// before it starts.
+Motion played(Motion clip, const Settings& settings);
+
+/// The motion in a scene's directions and lengths, as the skeleton by its `placed`.
+Motion placed(Motion motion, double scale, const Mat3& turn);
+
 /// Builds the motion a scene describes. Throws bad input, naming the scene's line, for an unknown
-/// bone, two tracks of one bone, keys out of order, or a rotation given in two ways or by half.
+/// bone, two tracks of one bone, keys out of order, with no or two times, in frames of no known
+/// rate, or with a rotation given in two ways, by half, or by a quaternion that is no rotation.
 Motion make_motion(const Settings& settings, const Skeleton& skeleton);
 
-/// The pose at `time` (s), with the velocities of the moving bones.
+/// What each bone does at `time` (s of the scene), held within its limits.
+std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion, double time);
+
+/// The pose at `time` (s of the scene), with the velocities of the moving bones.
 Pose pose_at(const Skeleton& skeleton, const Motion& motion, double time);
 
 }  // namespace sinew

@@ -14,11 +14,23 @@ struct BonePose {
   Vec3 velocity = Vec3::Zero();          ///< of the head, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   double twist = 0;                      ///< turn about the bone itself asked by the motion, rad
+  double stretch = 1;                    ///< of the length: what was s along the axis is stretch s
+  double stretch_rate = 0;               ///< 1/s
 
   Vec3 axis() const { return frame.rotation.col(0); }
-  /// Velocity of the point of this rigid bone that is at `p` now, m/s.
-  Vec3 velocity_at(const Vec3& p) const {
+  /// Where the bone has carried a point that was at `point` when the bone was `bone` at rest.
+  Vec3 carried(const Vec3& point, const Bone& bone) const {
+    const Vec3 offset = point - bone.head();
+    const double longer = (stretch - 1) * bone.axis().dot(offset);
+    return frame.origin + turn * (offset + longer * bone.axis());
+  }
+  /// Velocity of the point of this bone that is at `p` now, m/s; rigid: without its stretching.
+  Vec3 rigid_velocity_at(const Vec3& p) const {
     return velocity + angular_velocity.cross(p - frame.origin);
+  }
+  Vec3 velocity_at(const Vec3& p) const {
+    if (stretch_rate == 0) return rigid_velocity_at(p);
+    return rigid_velocity_at(p) + stretch_rate / stretch * axis().dot(p - frame.origin) * axis();
   }
 };
 

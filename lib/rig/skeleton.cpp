@@ -3,11 +3,14 @@
 
 #include <cmath>
 
+#include "core/number_text.h"
+
 namespace sinew {
 namespace {
 
-std::string path_of(std::size_t bone, const char* key) {
-  return "skeleton.bones[" + std::to_string(bone) + "]." + key;
+std::string path_of(std::size_t bone, const std::string& key = "") {
+  const std::string path = "skeleton.bones[" + std::to_string(bone) + "]";
+  return key.empty() ? path : path + '.' + key;
 }
 
 int index_of(const Skeleton& skeleton, const std::string& name) {
@@ -27,13 +30,83 @@ int parent_of(const Settings& settings, std::size_t bone, const Skeleton& earlie
   return parent;
 }
 
+void check_connected(const Settings& settings, std::size_t bone, int parent) {
+  const BoneSettings& given = settings.bones[bone];
+  if (!given.connected.value_or(false)) return;
+  const Place place = settings.place(path_of(bone, "connected"));
+  if (given.head)
+    throw bad_input(place, "bone '" + given.name + "' is connected and has a head of its own",
+                    "take out one of them");
+  if (parent == no_bone)
+    throw bad_input(place, "bone '" + given.name + "' is connected and has no parent",
+                    "name its parent, or give it a head: [x, y, z]");
+}
+
 Vec3 head_of(const Settings& settings, std::size_t bone, const Skeleton& earlier, int parent) {
-  if (settings.bones[bone].head) return *settings.bones[bone].head;
+  const BoneSettings& given = settings.bones[bone];
+  check_connected(settings, bone, parent);
+  if (given.head) return *given.head;
   if (parent == no_bone)
     throw bad_input(settings.place(path_of(bone, "name")),
-                    "bone '" + settings.bones[bone].name + "' has neither a parent nor a head",
+                    "bone '" + given.name + "' has neither a parent nor a head",
                     "give it a head: [x, y, z]");
-  return earlier.bones[parent].tail();
+  if (!given.connected.value_or(true))
+    throw bad_input(settings.place(path_of(bone, "connected")),
+                    "bone '" + given.name + "' is not connected and has no head",
+                    "give it a head: [x, y, z]");
+  return earlier.bones[static_cast<std::size_t>(parent)].tail();
+}
+
+/// Of a bone with a length and no tail.
+Vec3 direction_of(const Settings& settings, std::size_t bone, const Skeleton& earlier, int parent) {
+  const BoneSettings& given = settings.bones[bone];
+  if (given.direction && given.direction->norm() > 0) return given.direction->normalized();
+  if (given.direction)
+    throw bad_input(settings.place(path_of(bone, "direction")),
+                    "bone '" + given.name + "' has a direction of no length",
+                    "give direction: [x, y, z], not all zero");
+  if (parent == no_bone)
+    throw bad_input(settings.place(path_of(bone, "length")),
+                    "bone '" + given.name + "' has a length and no direction",
+                    "give direction: [x, y, z], or a tail");
+  return earlier.bones[static_cast<std::size_t>(parent)].axis();
+}
+
+Vec3 tail_of(const Settings& settings, std::size_t bone, const Skeleton& earlier, int parent,
+             const Vec3& head) {
+  const BoneSettings& given = settings.bones[bone];
+  if (given.tail && (given.length || given.direction))
+    throw bad_input(settings.place(path_of(bone, given.length ? "length" : "direction")),
+                    "bone '" + given.name + "' has a tail already",
+                    "keep either tail or length and direction");
+  if (given.tail) return *given.tail;
+  if (!given.length)
+    throw bad_input(settings.place(path_of(bone)), path_of(bone, "tail") + " is missing",
+                    "add tail: [x, y, z], or length: and direction:");
+  return head + *given.length * direction_of(settings, bone, earlier, parent);
+}
+
+JointLimits limits_of(const Settings& settings, std::size_t bone) {
+  const LimitSettings& given = settings.bones[bone].limits;
+  JointLimits limits;
+  if (given.swing) limits.swing = radians(*given.swing);
+  if (!given.twist) return limits;
+  const auto [least, most] = *given.twist;
+  if (!(least <= most))
+    throw bad_input(settings.place(path_of(bone, "limits.twist")),
+                    "the twist of bone '" + settings.bones[bone].name +
+                        "' could be no number from " + number_text(least) + " to " +
+                        number_text(most),
+                    "give the smaller limit first");
+  limits.least_twist = radians(least);
+  limits.most_twist = radians(most);
+  return limits;
+}
+
+Mat3 frame_of(const Vec3& axis, double roll) {
+  const Mat3 frame = frame_along(axis);
+  if (roll == 0) return frame;
+  return Eigen::AngleAxisd(roll, frame.col(0)).toRotationMatrix() * frame;
 }
 
 Bone make_bone(const Settings& settings, std::size_t index, const Skeleton& earlier) {
@@ -45,12 +118,14 @@ Bone make_bone(const Settings& settings, std::size_t index, const Skeleton& earl
   bone.name = given.name;
   bone.parent = parent_of(settings, index, earlier);
   bone.rest.origin = head_of(settings, index, earlier, bone.parent);
-  const Vec3 along = given.tail - bone.rest.origin;
+  const Vec3 along =
+      tail_of(settings, index, earlier, bone.parent, bone.rest.origin) - bone.rest.origin;
   bone.length = along.norm();
   if (!(bone.length > 0))
     throw bad_input(settings.place(path_of(index, "tail")),
                     "bone '" + given.name + "' has no length", "move its tail away from its head");
-  bone.rest.rotation = frame_along(along);
+  bone.rest.rotation = frame_of(along, radians(given.roll));
+  bone.limits = limits_of(settings, index);
   return bone;
 }
 
@@ -63,6 +138,15 @@ Skeleton make_skeleton(const Settings& settings) {
   Skeleton skeleton;
   for (std::size_t i = 0; i < settings.bones.size(); ++i)
     skeleton.bones.push_back(make_bone(settings, i, skeleton));
+  return placed(std::move(skeleton), settings.skeleton.scale, to_scene(settings.skeleton));
+}
+
+Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn) {
+  for (Bone& bone : skeleton.bones) {
+    bone.length *= scale;
+    bone.rest.origin = scale * (turn * bone.rest.origin);
+    bone.rest.rotation = turn * bone.rest.rotation;
+  }
   return skeleton;
 }
 

@@ -2,6 +2,8 @@
 // The structure of a skeleton at rest. How it moves is motion.h, where it is now is pose.h.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,21 @@ namespace sinew {
 
 inline constexpr int no_bone = -1;
 
+/// How far a bone may turn on its parent, rad; see joint_limits.h.
+struct JointLimits {
+  double swing = pi;
+  double least_twist = -std::numeric_limits<double>::infinity();
+  double most_twist = std::numeric_limits<double>::infinity();
+
+  bool any() const { return swing < pi || std::isfinite(least_twist) || std::isfinite(most_twist); }
+};
+
 struct Bone {
   std::string name;
   int parent = no_bone;  ///< index of an earlier bone; no_bone for a root
   double length = 0;     ///< m, > 0
   RigidFrame rest;       ///< origin: the head; columns: axis towards the tail, and two sides
+  JointLimits limits = {};
 
   Vec3 head() const { return rest.origin; }
   Vec3 axis() const { return rest.rotation.col(0); }
@@ -32,11 +44,15 @@ struct Skeleton {
 };
 
 /// Builds the skeleton a scene describes. Throws bad input, naming the scene's line, for no
-/// bones, a name used twice, an unknown or later parent, a root without head, or a bone without
-/// length.
+/// bones, a name used twice, an unknown or later parent, a root without head, a bone without length
+/// or with two, connected to nothing, or with limits that allow nothing.
 Skeleton make_skeleton(const Settings& settings);
 
-/// A right-handed frame whose first column is `axis` (need not be unit, must not be zero).
+/// The rig in a scene's directions and lengths: turned about the origin, then times `scale`.
+Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn);
+
+/// A right-handed frame whose first column is `axis` (need not be unit, must not be zero). Its
+/// second is across the axis and that one of x, y, z which is least along it, the first of equals.
 Mat3 frame_along(const Vec3& axis);
 
 }  // namespace sinew

@@ -49,6 +49,11 @@ class Chance {
         return std::string(row.choices[index(row.choices)]);
       case FieldKind::vector:
         return Vec3(number({}), -0.0, number({}) * 1e-20);
+      case FieldKind::numbers: {
+        std::vector<double> list;
+        for (std::size_t i = 0; i < row.count; ++i) list.push_back(number({}));
+        return list;
+      }
       case FieldKind::path:
         return "../" + texts[index(texts)] + ".obj";
       case FieldKind::text:
@@ -67,7 +72,10 @@ class Chance {
   Settings settings() {
     Settings drawn = owner(settings_table());
     keep_the_peace(drawn);
-    for (int i = 0; i <= below(3); ++i) drawn.bones.push_back(owner(bone_fields()));
+    for (int i = 0; i <= below(3); ++i) {
+      drawn.bones.push_back(owner(bone_fields()));
+      drawn.bones.back().limits = owner(limit_fields());
+    }
     for (int i = 0; i < below(3); ++i) {
       drawn.tracks.push_back(owner(track_fields()));
       for (int k = 0; k <= below(3); ++k) drawn.tracks.back().keys.push_back(owner(key_fields()));
@@ -92,6 +100,11 @@ class Chance {
     if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
     drawn.material.a = 2;
+    drawn.skeleton.file.clear();
+    drawn.motion.file.clear();
+    drawn.skeleton.up = static_cast<Axis>(below(6));
+    drawn.skeleton.forward.reset();
+    drawn.motion.end = drawn.motion.start + 1;
     drawn.output.interval = std::min(drawn.output.interval, drawn.solver.duration);
   }
 
@@ -111,6 +124,8 @@ void expect_same(const Settings& one, const Settings& other) {
   ASSERT_EQ(one.bones.size(), other.bones.size());
   for (std::size_t i = 0; i < one.bones.size(); ++i)
     expect_same(bone_fields(), one.bones[i], other.bones[i]);
+  for (std::size_t i = 0; i < one.bones.size(); ++i)
+    expect_same(limit_fields(), one.bones[i].limits, other.bones[i].limits);
   ASSERT_EQ(one.tracks.size(), other.tracks.size());
   for (std::size_t i = 0; i < one.tracks.size(); ++i) {
     expect_same(track_fields(), one.tracks[i], other.tracks[i]);

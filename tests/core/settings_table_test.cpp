@@ -26,6 +26,11 @@ FieldValue sample(const Field<Owner>& field, int seed) {
       return seed % 2 == 0;
     case FieldKind::vector:
       return Vec3(seed, 0.1, -2.5);
+    case FieldKind::numbers: {
+      std::vector<double> list(field.count, -0.5);
+      list.front() = seed;
+      return list;
+    }
     case FieldKind::choice:
       return std::string(field.choices[seed % field.choices.size()]);
     case FieldKind::text:
@@ -66,6 +71,7 @@ void expect_well_formed(std::span<const Field<Owner>> table) {
     EXPECT_TRUE(names.insert(std::string(field.section) + '.' + std::string(field.name)).second);
     EXPECT_FALSE(field.help.empty()) << field.name;
     EXPECT_EQ(field.help.find('\n'), std::string_view::npos) << field.name;
+    EXPECT_EQ(field.kind == FieldKind::numbers, field.count > 0) << field.name;
     EXPECT_EQ(field.kind == FieldKind::choice, !field.choices.empty()) << field.name;
     const auto& sections = sinew::sections();
     const bool known = std::find(sections.begin(), sections.end(), field.section) != sections.end();
@@ -76,6 +82,7 @@ void expect_well_formed(std::span<const Field<Owner>> table) {
 TEST(SettingsTable, EveryRowGetsAndSetsItsOwnMember) {
   expect_round_trips(settings_table());
   expect_round_trips(bone_fields());
+  expect_round_trips(limit_fields());
   expect_round_trips(track_fields());
   expect_round_trips(key_fields());
 }
@@ -83,6 +90,7 @@ TEST(SettingsTable, EveryRowGetsAndSetsItsOwnMember) {
 TEST(SettingsTable, IsWellFormed) {
   expect_well_formed(settings_table());
   expect_well_formed(bone_fields());
+  expect_well_formed(limit_fields());
   expect_well_formed(track_fields());
   expect_well_formed(key_fields());
 }

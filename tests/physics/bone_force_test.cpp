@@ -170,6 +170,36 @@ TEST(BoneForce, TheAnchorIsDampedAgainstItsTarget) {
   EXPECT_LT(pull.at(beside + Vec3(0.3, 0, 0)).damping.norm(), 1e-15);
 }
 
+TEST(BoneForce, AStretchedBoneCarriesItsParticlesAlong) {
+  Pull pull(beside);
+  pull.pose.stretch = 1.5;
+  pull.particle.position = pull.pose.carried(beside, pull.skeleton.bones[0]);
+  EXPECT_NEAR(pull.particle.position.z(), 1.5 * beside.z(), 1e-15);
+  EXPECT_LT(pull.here().spring.norm(), 1e-14);
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 20; ++trial)
+    expect_gradient(pull, pull.particle.position + 0.2 * test::random_vector(random));
+}
+
+TEST(BoneForce, WhatAStretchingBonePutsInIsStored) {
+  std::mt19937 random(9);
+  for (const BoneForce form : {BoneForce::paper, BoneForce::anchor}) {
+    Pull pull(beside, form);
+    pull.springs.damping = 0;
+    pull.pose.stretch = 1.4;
+    pull.pose.stretch_rate = 3;
+    pull.particle.position = beside + 0.3 * test::random_vector(random);
+    const double power = pull.here().power, h = 1e-6;
+    const auto energy = [&](double time) {
+      Pull later = pull;
+      later.pose.stretch += time * later.pose.stretch_rate;
+      return later.here().energy;
+    };
+    EXPECT_NEAR(power, (energy(h) - energy(-h)) / (2 * h), 1e-7);
+    EXPECT_GT(std::abs(power), 0.01);
+  }
+}
+
 TEST(BoneForce, OpenLoopPushesInProportionToTheTwistAndStoresNothing) {
   Pull pull(beside);
   pull.springs = {0, 5, 0, 0, BoneForce::paper, TwistForm::open_loop};

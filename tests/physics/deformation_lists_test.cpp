@@ -173,7 +173,7 @@ Story moved(Story story, const Vec3& by, const std::string& name) {
   for (Vec3& point : story.rest) point += by;
   for (BoneSettings& bone : story.settings.bones) {
     if (bone.head) *bone.head += by;
-    bone.tail += by;
+    *bone.tail += by;
   }
   return story;
 }
@@ -185,10 +185,10 @@ Story scaled(Story story, double scale, const std::string& name) {
   for (Vec3& point : story.rest) point *= scale;
   for (BoneSettings& bone : story.settings.bones) {
     if (bone.head) *bone.head *= scale;
-    bone.tail *= scale;
+    *bone.tail *= scale;
   }
   for (TrackSettings& track : story.settings.tracks)
-    for (KeySettings& key : track.keys) key.time *= scale, key.translation *= scale;
+    for (KeySettings& key : track.keys) *key.time *= scale, key.translation *= scale;
   story.duration *= scale;
   return story;
 }

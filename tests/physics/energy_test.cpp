@@ -46,6 +46,12 @@ TEST(Energy, BalanceClosesWithTwistAnchorsJointZoneAndGravity) {
   EXPECT_LT(std::abs(residual(heavy, 0.6)), 0.005);
 }
 
+TEST(Energy, BalanceClosesWhereABoneStretches) {
+  Settings settings = bend_scene(Integrator::symplectic_euler);
+  settings.tracks[0].keys[1].stretch = 1.2;
+  EXPECT_LT(std::abs(residual(settings, 0.6)), 0.005);
+}
+
 TEST(Energy, BalanceClosesForEveryDampingForm) {
   for (const DampingForm form : {DampingForm::symmetric, DampingForm::central}) {
     Settings settings = bend_scene(Integrator::symplectic_euler);

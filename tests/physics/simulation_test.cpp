@@ -25,6 +25,27 @@ Settings bend_scene() {
   return settings;
 }
 
+TEST(Simulation, StretchingBonesGoByCellsAndTakeTheBodyAlong) {
+  Settings settings = test::box_scene(25);
+  KeySettings rest, longer;
+  rest.time = 0;
+  longer.time = 0.2;
+  longer.stretch = 1.1;
+  settings.tracks = {test::track("lower", {rest, longer}), test::track("upper", {rest, rest})};
+  settings.tracks[1].keys.pop_back();
+  const Points points = test::fcc_box(7, 7, 25, 0.01);
+  Simulation simulation = test::make_simulation(settings, points);
+  while (simulation.time() < 0.6) simulation.step();
+  EXPECT_EQ(simulation.list_counts().rebuilds, 0) << "the kernel knows rigid bones only";
+  const Bone& lower = simulation.body().skeleton.bones[0];
+  const Particles& now = simulation.particles();
+  double shift = 0;
+  int above = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].z() > 1.5 * lower.length) shift += now.position(i).z() - points[i].z(), ++above;
+  EXPECT_NEAR(shift / above, 0.1 * lower.length, 0.02 * lower.length);
+}
+
 TEST(FreeFall, HasTheClosedFormOfEachIntegrator) {
   const double dt = 1e-3;
   const Vec3 g(1, 2, -9.81);

@@ -16,7 +16,7 @@ struct LongBar {
     for (Vec3& point : rest) point += place;
     for (BoneSettings& bone : settings.bones) {
       if (bone.head) *bone.head += place;
-      bone.tail += place;
+      *bone.tail += place;
     }
   }
 };

@@ -15,6 +15,9 @@ using test::track;
 using test::turned;
 using test::twist_key;
 
+constexpr Interpolation every_way[] = {Interpolation::step, Interpolation::linear,
+                                       Interpolation::smooth, Interpolation::cubic};
+
 /// Bones b0, b1, b2 of length 1 along z from the origin, one on the other.
 Settings chain(int bones) {
   Settings settings;
@@ -101,7 +104,7 @@ TEST(Pose, TranslationShiftsTheHeadInTheParentsDirections) {
 }
 
 TEST(Pose, HoldsBeforeTheFirstKeyAndAfterTheLast) {
-  for (const auto kind : {Interpolation::step, Interpolation::linear, Interpolation::smooth}) {
+  for (const auto kind : every_way) {
     Settings settings = chain(2);
     settings.tracks = {track("b1", {bend_key(1, 20), bend_key(2, 70)})};
     settings.tracks[0].interpolation = kind;
@@ -148,6 +151,7 @@ Settings busy_chain(Interpolation kind) {
       key.axis = test::random_vector(random);
       key.twist = 700 * test::random_vector(random).x();
       key.translation = test::random_vector(random);
+      key.stretch = 1 + test::random_vector(random).x();
       keys.push_back(key);
     }
     settings.tracks.push_back(track(bone, keys));
@@ -169,7 +173,7 @@ void expect_derivatives(const Settings& settings, double time) {
 }
 
 TEST(Pose, VelocitiesAreTheDerivativesOfThePose) {
-  for (const auto kind : {Interpolation::step, Interpolation::linear, Interpolation::smooth})
+  for (const auto kind : every_way)
     for (const double time : {0.1, 0.35, 0.69, 0.9, 1.2, 1.7, 1.95})
       expect_derivatives(busy_chain(kind), time);
 }
@@ -177,6 +181,7 @@ TEST(Pose, VelocitiesAreTheDerivativesOfThePose) {
 TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
   Settings settings = chain(1);
   KeySettings start;  // no rotation counts as no angle
+  start.time = 0;
   settings.tracks = {track("b0", {start, bend_key(1, 270), bend_key(2, -90)})};
   settings.tracks[0].interpolation = Interpolation::linear;
   for (const double time : {0.3, 0.8, 1.0})
@@ -187,6 +192,7 @@ TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
 TEST(Pose, EulerAnglesBetweenKeysTakeTheShortWay) {
   Settings settings = chain(1);
   KeySettings quarter, three_quarters;
+  quarter.time = 0;
   quarter.euler = Vec3(0, 0, 0);
   three_quarters.time = 1;
   three_quarters.euler = Vec3(0, 270, 0);
@@ -204,6 +210,7 @@ TEST(Motion, EulerAnglesTurnAboutFixedAxesInTheOrderNamed) {
   for (const auto& [order, expected] : orders) {
     Settings settings = chain(1);
     KeySettings key;
+    key.time = 0;
     key.euler = Vec3(20, 35, -50);
     settings.tracks = {track("b0", {key})};
     settings.tracks[0].order = order;

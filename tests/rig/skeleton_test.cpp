@@ -53,6 +53,58 @@ TEST(Skeleton, FramesAreRightHandedForEveryDirection) {
   }
 }
 
+TEST(Skeleton, TakesLengthAndDirectionInPlaceOfATail) {
+  Settings settings = two_bones();
+  settings.bones[1].tail.reset();
+  settings.bones[1].length = 0.5;
+  EXPECT_EQ(make_skeleton(settings).bones[1].tail(), Vec3(0, 0, 1.5)) << "the parent's direction";
+  settings.bones[1].direction = Vec3(0, 8, 0);
+  EXPECT_EQ(make_skeleton(settings).bones[1].tail(), Vec3(0, 0.5, 1));
+}
+
+TEST(Skeleton, RollTurnsTheSidesAboutTheBone) {
+  for (const double roll : {-30.0, 90.0, 200.0}) {
+    Settings settings = two_bones();
+    const Mat3 flat = make_skeleton(settings).bones[1].rest.rotation;
+    settings.bones[1].roll = roll;
+    const Mat3 rolled = make_skeleton(settings).bones[1].rest.rotation;
+    EXPECT_LT((rolled - test::turned(Vec3::UnitZ(), roll) * flat).norm(), 1e-14);
+  }
+}
+
+TEST(Skeleton, RefusesTwoOrHalfTails) {
+  Settings both = two_bones(), none = both, half = both, flat = both;
+  both.bones[1].length = 1;
+  none.bones[1].tail.reset();
+  half.bones[0].tail.reset();
+  half.bones[0].length = 1;
+  flat.bones[1].tail.reset();
+  flat.bones[1].length = 1;
+  flat.bones[1].direction = Vec3::Zero();
+  expect_refused(both, {"'upper'", "tail already", "; "});
+  expect_refused(none, {"skeleton.bones[1].tail is missing", "; "});
+  expect_refused(half, {"'lower'", "no direction", "; "});
+  expect_refused(flat, {"'upper'", "direction of no length", "; "});
+}
+
+TEST(Skeleton, RefusesConnectionsThatContradict) {
+  Settings headed = two_bones(), orphan = headed, loose = headed;
+  headed.bones[1].connected = true;
+  headed.bones[1].head = Vec3(0, 0, 1);
+  orphan.bones[0].connected = true;
+  orphan.bones[0].head.reset();
+  loose.bones[1].connected = false;
+  expect_refused(headed, {"'upper'", "a head of its own", "; "});
+  expect_refused(orphan, {"'lower'", "no parent", "; "});
+  expect_refused(loose, {"'upper'", "not connected", "; "});
+}
+
+TEST(Skeleton, RefusesATwistLimitTheWrongWayRound) {
+  Settings settings = two_bones();
+  settings.bones[1].limits.twist = {10, -10};
+  expect_refused(settings, {"'upper'", "10", "-10", "; "});
+}
+
 TEST(Skeleton, RefusesANameUsedTwice) {
   Settings settings = two_bones();
   settings.bones[1].name = "lower";
