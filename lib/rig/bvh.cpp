@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rig/bvh.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/file.h"
+#include "core/number_text.h"
+#include "core/words.h"
+#include "rig/bvh_text.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::uint64_t most_bytes = 256 << 20;
+constexpr std::size_t most_joints = 10'000;
+constexpr std::size_t deepest = 200;
+constexpr double shortest_frame = 1e-9, longest_frame = 1e6;  // s
+
+constexpr std::array<std::string_view, 6> channel_names = {"Xposition", "Yposition", "Zposition",
+                                                           "Xrotation", "Yrotation", "Zrotation"};
+
+/// Reads the joints, each as it opens and closes; the open ones are a stack, not calls.
+class Hierarchy {
+ public:
+  explicit Hierarchy(BvhText& text) : text_(text) {}
+
+  std::vector<BvhJoint> read() {
+    text_.expect("HIERARCHY", "name a BVH file, which begins with HIERARCHY");
+    while (!open_.empty() || begins_root()) read_item();
+    return std::move(joints_);
+  }
+
+ private:
+  struct Open {
+    int joint;
+    std::size_t position;  // of its keyword
+    bool has_offset = false, has_channels = false, has_children = false;
+  };
+
+  /// Opens the next root; false where the hierarchy is over.
+  bool begins_root() {
+    if (text_.take("ROOT")) {
+      open_joint();
+      return true;
+    }
+    if (!joints_.empty()) return false;
+    text_.expect("ROOT", "begin the skeleton with ROOT name");
+    return false;
+  }
+
+  void read_item() {
+    if (text_.take("OFFSET")) return read_offset();
+    if (text_.take("CHANNELS")) return read_channels();
+    if (text_.take("JOINT")) return open_joint();
+    if (text_.take("End")) return read_end();
+    if (text_.take("}")) return close_joint();
+    refuse_item(text_.next());
+  }
+
+  void open_joint() {
+    const std::size_t position = text_.position();
+    if (open_.size() == deepest)
+      throw text_.wrong("more than 200 joints in each other", "check the braces");
+    if (joints_.size() == most_joints)
+      throw text_.wrong("more than 10000 joints", "leave out what does not move");
+    BvhJoint joint;
+    if (!open_.empty()) {
+      joint.parent = open_.back().joint;
+      open_.back().has_children = true;
+    }
+    joint.name = text_.name();
+    text_.expect("{", "open the joint with '{'");
+    open_.push_back({static_cast<int>(joints_.size()), position});
+    joints_.push_back(std::move(joint));
+  }
+
+  void close_joint() {
+    if (!open_.back().has_offset)
+      throw text_.wrong("joint " + shown(joint().name) + " has no OFFSET",
+                        "give it one; OFFSET 0 0 0 puts it at its parent");
+    open_.pop_back();
+  }
+
+  void read_offset() {
+    if (open_.back().has_offset)
+      throw text_.wrong("joint " + shown(joint().name) + " has two OFFSETs", "remove one");
+    joint().offset = vector();
+    open_.back().has_offset = true;
+  }
+
+  void read_channels() {
+    Open& open = open_.back();
+    if (open.has_channels)
+      throw text_.wrong("joint " + shown(joint().name) + " has CHANNELS twice", "remove one");
+    if (open.has_children)  // in which order would their values stand?
+      throw text_.wrong("CHANNELS after a joint within this one", "put them before it");
+    open.has_channels = true;
+    const std::int64_t count = text_.integer("the number of channels");
+    if (count < 0 || count > 6)
+      throw text_.wrong("a joint with " + std::to_string(count) + " channels",
+                        "give it at most 3 positions and 3 rotations");
+    for (int i = 0; i < count; ++i) read_channel();
+    if (channel_of(text_.peek()) < channel_names.size()) {
+      text_.next();
+      throw text_.wrong("more channels than the " + std::to_string(count) + " announced",
+                        "correct their number");
+    }
+  }
+
+  void read_channel() {
+    const std::string_view word = text_.next();
+    const std::size_t index = channel_of(word);
+    if (index == channel_names.size())
+      throw text_.wrong(shown(word) + " is not a channel", suggestion(word, channel_names));
+    const auto channel = static_cast<BvhChannel>(index);
+    auto& channels = joint().channels;
+    if (std::find(channels.begin(), channels.end(), channel) != channels.end())
+      throw text_.wrong(
+          "joint " + shown(joint().name) + " has the channel " + shown(word) + " twice",
+          "name three different axes");
+    channels.push_back(channel);
+  }
+
+  static std::size_t channel_of(std::string_view word) {
+    std::size_t index = 0;
+    while (index < channel_names.size() && !same_word(word, channel_names[index])) ++index;
+    return index;
+  }
+
+  void read_end() {
+    text_.expect("Site", "write End Site");
+    text_.expect("{", "open the End Site with '{'");
+    text_.expect("OFFSET", "give the End Site its OFFSET, and nothing else");
+    const Vec3 end = vector();
+    text_.expect("}", "close the End Site with '}'");
+    if (!joint().end) joint().end = end;
+  }
+
+  [[noreturn]] void refuse_item(std::string_view word) const {
+    constexpr std::array<std::string_view, 4> items = {"OFFSET", "CHANNELS", "JOINT", "End Site"};
+    const std::string& name = joints_[open_.back().joint].name;
+    if (word.empty())
+      throw text_.wrong("the file ends within joint " + shown(name) + ", opened in line " +
+                            std::to_string(text_.place(open_.back().position).line),
+                        "close it with '}', or export the file again");
+    if (same_word(word, "ROOT"))
+      throw text_.wrong("a ROOT within joint " + shown(name),
+                        "use JOINT, or close the joint first");
+    throw text_.wrong(shown(word) + " is no part of a joint", suggestion(word, items));
+  }
+
+  Vec3 vector() {
+    Vec3 vector;
+    for (double& value : vector) value = text_.number("an offset");
+    return vector;
+  }
+
+  BvhJoint& joint() { return joints_[open_.back().joint]; }
+
+  BvhText& text_;
+  std::vector<BvhJoint> joints_;
+  std::vector<Open> open_;
+};
+
+int read_frame_count(BvhText& text, std::size_t channels) {
+  text.expect("Frames", "give the number of frames: Frames: COUNT");
+  text.expect(":", "give the number of frames: Frames: COUNT");
+  const std::int64_t frames = text.integer("the number of frames");
+  if (frames < 1)
+    throw text.wrong("a clip of " + std::to_string(frames) + " frames",
+                     "give it at least one, or leave out MOTION");
+  // Each value takes a digit and a space, but for the last.
+  const std::uint64_t room = (text.rest().size() + 1) / 2;
+  if (static_cast<std::uint64_t>(frames) > room / channels)
+    throw text.wrong(std::to_string(frames) + " frames of " + std::to_string(channels) +
+                         " values do not fit into the " + std::to_string(text.rest().size()) +
+                         " bytes that follow",
+                     "correct the number, or export the file again");
+  return static_cast<int>(frames);
+}
+
+double read_frame_time(BvhText& text) {
+  const char* cure = "give the time between frames: Frame Time: SECONDS";
+  for (const char* word : {"Frame", "Time", ":"}) text.expect(word, cure);
+  const double time = text.number("the frame time");
+  if (!(time >= shortest_frame && time <= longest_frame))
+    throw text.wrong("a frame time of " + number_text(time) + " s",
+                     "give one between 1e-9 and 1e6 s: 1/30 s is 0.0333333");
+  return time;
+}
+
+std::size_t words_in(std::string_view line) {
+  BvhText words("", line);
+  std::size_t count = 0;
+  while (!words.next().empty()) ++count;
+  return count;
+}
+
+/// In a file with one frame per line, the first line that holds more or fewer values: the place
+/// where the count went wrong, long before it is noticed.
+void refuse_odd_line(const BvhText& text, const Bvh& bvh, std::string_view frames) {
+  const std::size_t channels = bvh.channels();
+  for (int frame = 0; frame < bvh.frames && !frames.empty();) {
+    const std::string_view line = frames.substr(0, frames.find_first_of("\r\n"));
+    const std::size_t count = words_in(line);
+    if (frame == 0 && count > 0 && count != channels) return;
+    if (count > 0 && count != channels)
+      throw bad_input(text.place_of(line),
+                      "frame " + std::to_string(frame) + " has " + std::to_string(count) +
+                          " values, and the joints have " + std::to_string(channels) + " channels",
+                      "complete the frame, or export the file again");
+    frame += count > 0;
+    frames.remove_prefix(std::min(line.size() + 1, frames.size()));
+  }
+}
+
+void refuse_end(BvhText& text, const Bvh& bvh, std::string_view frames) {
+  const std::size_t channels = bvh.channels(), count = bvh.values.size();
+  text.next();
+  refuse_odd_line(text, bvh, frames);
+  throw text.wrong("the file ends in frame " + std::to_string(count / channels) + " (of 0 to " +
+                       std::to_string(bvh.frames - 1) + "), after " +
+                       std::to_string(count % channels) + " of its " + std::to_string(channels) +
+                       " values",
+                   "correct the number of frames, or export the file again");
+}
+
+void refuse_rest(BvhText& text, const Bvh& bvh, std::string_view frames) {
+  const std::size_t channels = bvh.channels(), more = words_in(text.rest());
+  text.next();
+  refuse_odd_line(text, bvh, frames);
+  throw text.wrong("after the last of " + std::to_string(bvh.frames) + " frames stand " +
+                       std::to_string(more) + " more words, where a frame has " +
+                       std::to_string(channels) + " values",
+                   "correct the number of frames, or export the file again");
+}
+
+void read_motion(BvhText& text, Bvh& bvh) {
+  text.expect("MOTION", "close each '{' with one '}', and go on with MOTION or another ROOT");
+  const std::size_t channels = bvh.channels();
+  if (channels == 0)
+    throw text.wrong("a MOTION, and no joint has channels", "give the root CHANNELS");
+  bvh.frames = read_frame_count(text, channels);
+  bvh.frame_time = read_frame_time(text);
+  const std::string_view frames = text.rest();
+  const std::size_t count = bvh.frames * channels;
+  bvh.values.reserve(count);
+  while (bvh.values.size() < count) {
+    if (text.at_end()) refuse_end(text, bvh, frames);
+    bvh.values.push_back(text.number("a value of a frame"));
+  }
+  if (!text.at_end()) refuse_rest(text, bvh, frames);
+}
+
+}  // namespace
+
+std::size_t Bvh::channels() const {
+  std::size_t count = 0;
+  for (const BvhJoint& joint : joints) count += joint.channels.size();
+  return count;
+}
+
+Bvh parse_bvh(std::string_view text, const std::string& file) {
+  BvhText words(file, text);
+  Bvh bvh;
+  bvh.joints = Hierarchy(words).read();
+  if (!words.at_end()) read_motion(words, bvh);
+  return bvh;
+}
+
+Bvh read_bvh(const std::filesystem::path& path) {
+  return parse_bvh(read_file(path, most_bytes), path.string());
+}
+
+}  // namespace sinew
