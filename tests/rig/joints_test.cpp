@@ -17,7 +17,7 @@ using test::expect_bad_input;
 std::vector<Joint> star(const Points& places) {
   std::vector<Joint> joints = {{"root", no_bone, Vec3::Zero(), {}}};
   for (const Vec3& place : places)
-    joints.push_back({"j" + std::to_string(joints.size()), 0, place, place + Vec3(0, 0, 1)});
+    joints.push_back({std::to_string(joints.size()), 0, place, place + Vec3(0, 0, 1)});
   return joints;
 }
 
