@@ -79,7 +79,8 @@ def euler(q):
 
 
 def text(numbers):
-    return " ".join(f"{a + 0:.9g}" if abs(a) > 5e-13 else "0" for a in numbers)
+    """Nine digits; what is less than rounding is 0."""
+    return " ".join(f"{a:.9g}" if abs(a) > 5e-13 else "0" for a in numbers)
 
 
 class Joint:

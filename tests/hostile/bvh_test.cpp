@@ -136,6 +136,13 @@ TEST(HostileBvh, ValuesThatAreNoNumbers) {
     expect_refused(with("17.0", value), "larger than 1e9");
 }
 
+TEST(HostileBvh, LinesAreCountedHoweverTheyEnd) {
+  const std::string text = with("17.0", "nan");
+  for (const char* end : {"\n", "\r\n", "\r"})
+    expect_refused(replaced(text, "\n", end), "a.bvh:25:44: ");
+  expect_refused("\xEF\xBB\xBF?" + text, "a.bvh:1:1: ");
+}
+
 TEST(HostileBvh, Offsets) {
   for (const char* offset :
        {"OFFSET 0.0 -0.5", "OFFSET", "OFFSET 0 nan 0", "OFFSET 0 inf 0", "OFFSET 0 -0.5 0 0",

@@ -179,7 +179,7 @@ TEST(BvhRig, StartAndEndCutTheClipAndBeginAtZero) {
 
 TEST(BvhRig, NeighbouringQuaternionsLieOnTheSameSide) {
   std::string motion = "MOTION\nFrames: 100\nFrame Time: 1\n";
-  for (int i = 0; i < 100; ++i) motion += std::to_string(i * 47) + "\n";
+  for (int i = 0; i < 100; ++i) motion += std::to_string(i * 47 % 360 - 180) + "\n";
   const Rig rig = rig_from(arm("CHANNELS 1 Yrotation", "", motion));
   const auto& values = rig.clips.at(0).motion.tracks.at(0).rotation.values;
   for (std::size_t i = 1; i < values.size(); ++i)
