@@ -63,6 +63,18 @@ struct Gltf {
     return accessor(view(raw(points)), points.size(), "VEC3", 5126);
   }
 
+  int floats(const std::vector<float>& numbers, const std::string& type) {
+    const std::size_t parts = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
+    return accessor(view(raw(numbers)), numbers.size() / parts, type, 5126);
+  }
+
+  int matrices(const std::vector<Eigen::Affine3d>& all) {
+    std::vector<float> numbers;
+    for (const Eigen::Affine3d& one : all)
+      for (const double x : one.matrix().reshaped()) numbers.push_back(static_cast<float>(x));
+    return floats(numbers, "MAT4");
+  }
+
   template <class Number>
   int indices(const std::vector<Number>& corners) {
     return accessor(view(raw(corners)), corners.size(), "SCALAR", component_type<Number>());
