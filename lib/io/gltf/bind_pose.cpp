@@ -61,18 +61,6 @@ std::vector<GltfJoint> joints_of(const GltfDocument& document, const GltfTree& t
   return joints;
 }
 
-/// Where the joints of a skin are in the list of all.
-std::vector<int> places_in(const std::vector<GltfJoint>& joints, const GltfSkin& skin) {
-  std::vector<std::pair<int, int>> sorted;  // node, place
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    sorted.emplace_back(joints[i].node, static_cast<int>(i));
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<int> places;
-  for (const int node : skin.joints)
-    places.push_back(std::lower_bound(sorted.begin(), sorted.end(), std::pair(node, 0))->second);
-  return places;
-}
-
 void check_bind(const GltfDocument& document, const GltfJoint& joint) {
   const Mat3 linear = joint.bind.linear() * (joint.bind.linear().determinant() < 0 ? -1 : 1);
   if (!joint.bind.matrix().allFinite() || !(linear.determinant() > 0))
@@ -98,6 +86,9 @@ class Binder {
     pose_.meshes.assign(used.size(), Affine::Identity());
     pose_.places.resize(used.size());
     bound_by_.assign(pose_.joints.size(), -1);
+    place_of_node_.assign(document_.nodes.size(), -1);
+    for (std::size_t i = 0; i < pose_.joints.size(); ++i)
+      place_of_node_[static_cast<std::size_t>(pose_.joints[i].node)] = static_cast<int>(i);
     for (std::size_t i = 0; i < used.size(); ++i)
       if (used[i]) bind(gltf, i);
   }
@@ -119,7 +110,8 @@ class Binder {
   void bind(const GuardedGltf& gltf, std::size_t skin) {
     const std::vector<Affine> inverses = inverse_binds(gltf, skin);
     std::vector<int>& places = pose_.places[skin];
-    places = places_in(pose_.joints, document_.skins[skin]);
+    for (const int node : document_.skins[skin].joints)
+      places.push_back(place_of_node_[static_cast<std::size_t>(node)]);
     pose_.meshes[skin] = place_of_skin(places, inverses);
     std::vector<Affine> binds;
     Box box;
@@ -151,7 +143,8 @@ class Binder {
 
   const GltfDocument& document_;
   std::vector<Affine> global_;
-  std::vector<int> bound_by_;  // the first skin that binds each joint, -1 for none
+  std::vector<int> place_of_node_;  // in the list of joints, -1 for others
+  std::vector<int> bound_by_;       // the first skin that binds each joint, -1 for none
   GltfBindPose pose_;
 };
 
