@@ -2,6 +2,7 @@
 // glTF files of every form, made piece by piece.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -65,7 +66,12 @@ struct Gltf {
 
   int floats(const std::vector<float>& numbers, const std::string& type) {
     const std::size_t parts = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
-    return accessor(view(raw(numbers)), numbers.size() / parts, type, 5126);
+    const int index = accessor(view(raw(numbers)), numbers.size() / parts, type, 5126);
+    if (type == "SCALAR") {  // times: VTK wants to know how long they go on
+      json["accessors"][index]["min"] = {*std::min_element(numbers.begin(), numbers.end())};
+      json["accessors"][index]["max"] = {*std::max_element(numbers.begin(), numbers.end())};
+    }
+    return index;
   }
 
   int matrices(const std::vector<Eigen::Affine3d>& all) {

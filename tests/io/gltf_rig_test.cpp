@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/gltf/read_rig.h"
 
+#include "config/scene.h"
 #include "expect_error.h"
 #include "io/gltf/find_clip.h"
 #include "io/gltf/read_gltf.h"
@@ -267,6 +268,43 @@ TEST_F(ReadGltfRig, RefusesUnevenBinds) {
 
 TEST_F(ReadGltfRig, RefusesAFileWithoutASkin) {
   expect_bad_input([&] { read(one_tetrahedron()); }, {"it has no skin", "with its armature"});
+}
+
+TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
+  const std::filesystem::path source = SINEW_SOURCE_DIR;
+  const Settings settings = read_scene(source / "configs/box_bend.yaml");
+  const Skeleton skeleton = make_skeleton(settings);
+  const Motion motion = make_motion(settings, skeleton);
+  const GltfRig rig = read_gltf_rig(source / "data/motions/box_bend.glb");
+  ASSERT_EQ(rig.rig.skeleton.size(), 2u);
+  const Clip& clip = find_clip(rig.rig.clips, "bend");
+  EXPECT_EQ(clip.frames, 151);
+  for (const double time : clip.motion.tracks.at(0).rotation.times) {
+    const Pose expected = pose_at(skeleton, motion, time);
+    const Pose pose = pose_at(rig.rig.skeleton, clip.motion, time);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const RigidFrame &frame = pose[i].frame, &same = expected[i].frame;
+      EXPECT_EQ(rig.rig.skeleton.bones[i].name, skeleton.bones[i].name);
+      EXPECT_NEAR(rig.rig.skeleton.bones[i].length, skeleton.bones[i].length, single);
+      EXPECT_LT((frame.origin - same.origin).norm(), single) << time;
+      EXPECT_LT((frame.rotation - same.rotation).norm(), single) << time;
+    }
+  }
+}
+
+TEST(BoxBendGlb, HoldsTheBoxAndItsWeights) {
+  const std::filesystem::path file =
+      std::filesystem::path(SINEW_SOURCE_DIR) / "data/motions/box_bend.glb";
+  const GltfRig rig = read_gltf_rig(file);
+  EXPECT_EQ(rig.mesh.points.size(), 1062u);
+  EXPECT_EQ(rig.mesh.polygons.size(), 2120u);
+  EXPECT_EQ(read_gltf(file).points, rig.mesh.points);
+  for (std::size_t i = 0; i < rig.mesh.points.size(); ++i) {
+    double sum = 0;
+    for (const BoneWeight& weight : rig.weights.of(i)) sum += weight.weight;
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(rig.weights.of(i)[0].bone, rig.mesh.points[i].z() > 0.3465 ? 1 : 0);
+  }
 }
 
 }  // namespace
