@@ -61,11 +61,14 @@ std::vector<GltfJoint> joints_of(const GltfDocument& document, const GltfTree& t
   return joints;
 }
 
+Error not_invertible(const GltfDocument& document, int node) {
+  return damaged_gltf(joint_words(document, node) + " has a bind matrix that cannot be inverted");
+}
+
 void check_bind(const GltfDocument& document, const GltfJoint& joint) {
   const Mat3 linear = joint.bind.linear() * (joint.bind.linear().determinant() < 0 ? -1 : 1);
   if (!joint.bind.matrix().allFinite() || !(linear.determinant() > 0))
-    throw damaged_gltf(joint_words(document, joint.node) +
-                       " has a bind matrix that cannot be inverted");
+    throw not_invertible(document, joint.node);
   if (even_scale(linear, uneven) > 0) return;
   const Vec3 scales = linear.colwise().norm();
   throw bad_input(joint_words(document, joint.node) + " is bound with the uneven scale " +
@@ -115,8 +118,10 @@ class Binder {
     pose_.meshes[skin] = place_of_skin(places, inverses);
     std::vector<Affine> binds;
     Box box;
-    for (const Affine& inverse : inverses) {
-      binds.push_back(pose_.meshes[skin] * inverse.inverse());
+    for (std::size_t i = 0; i < inverses.size(); ++i) {
+      if (inverses[i].linear().determinant() == 0)
+        throw not_invertible(document_, document_.skins[skin].joints[i]);
+      binds.push_back(pose_.meshes[skin] * inverses[i].inverse());
       box.extend(binds.back().translation());
     }
     for (std::size_t i = 0; i < places.size(); ++i)
