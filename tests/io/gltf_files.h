@@ -2,6 +2,7 @@
 // glTF files of every form, made piece by piece.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -61,6 +62,23 @@ struct Gltf {
 
   int positions(const Points& points) {
     return accessor(view(raw(points)), points.size(), "VEC3", 5126);
+  }
+
+  int floats(const std::vector<float>& numbers, const std::string& type) {
+    const std::size_t parts = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
+    const int index = accessor(view(raw(numbers)), numbers.size() / parts, type, 5126);
+    if (type == "SCALAR") {  // times: VTK wants to know how long they go on
+      json["accessors"][index]["min"] = {*std::min_element(numbers.begin(), numbers.end())};
+      json["accessors"][index]["max"] = {*std::max_element(numbers.begin(), numbers.end())};
+    }
+    return index;
+  }
+
+  int matrices(const std::vector<Eigen::Affine3d>& all) {
+    std::vector<float> numbers;
+    for (const Eigen::Affine3d& one : all)
+      for (const double x : one.matrix().reshaped()) numbers.push_back(static_cast<float>(x));
+    return floats(numbers, "MAT4");
   }
 
   template <class Number>

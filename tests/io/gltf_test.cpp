@@ -189,17 +189,31 @@ TEST_F(ReadGltf, ShowsTheDefaultSceneAlone) {
   EXPECT_EQ(read(gltf).polygons.size(), 8u) << "every node when there is no scene";
 }
 
-TEST_F(ReadGltf, TakesASkinnedMeshInItsBindPose) {
+TEST_F(ReadGltf, PutsASkinnedMeshWhereItsTopmostJointWasBound) {
   Gltf gltf = one_tetrahedron();
-  gltf.json["skins"] = {{{"joints", {1}}}};
+  const Eigen::Affine3d inverse =
+      Eigen::Translation3d(0, 0, -2) * Eigen::AngleAxisd(pi, Vec3::UnitX());
+  gltf.json["skins"] = {{{"joints", {1}}, {"inverseBindMatrices", gltf.matrices({inverse})}}};
   gltf.json["nodes"][0].update({{"skin", 0}, {"translation", {3, 0, 0}}});
-  const int joint = gltf.node({{"rotation", {1, 0, 0, 0}}});
+  gltf.node({{"rotation", {1, 0, 0, 0}}, {"translation", {0, 0, -2}}});
   const int parent = gltf.node({{"scale", {-7, 7, 7}}, {"children", {0}}});
-  gltf.json["scenes"][0]["nodes"] = {joint, parent};
-  EXPECT_EQ(corners_of(read(gltf)), corners_of(tetrahedron()));
+  gltf.json["scenes"][0]["nodes"] = {1, parent};
+  expect_near(corners_of(read(gltf)), corners_of(tetrahedron()));
   gltf.json["nodes"][0].erase("translation");
   gltf.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 5, 5, 5, 1};
-  EXPECT_EQ(corners_of(read(gltf)), corners_of(tetrahedron()));
+  expect_near(corners_of(read(gltf)), corners_of(tetrahedron()));
+}
+
+TEST_F(ReadGltf, ScalesASkinnedMeshAsItsJointsAre) {
+  Gltf gltf = one_tetrahedron();  // in centimetres, below a node that makes them metres
+  gltf.json["skins"] = {{{"joints", {1}}}};
+  gltf.json["nodes"][0]["skin"] = 0;
+  const int joint = gltf.node({{"translation", {100, 0, 0}}});
+  gltf.json["scenes"][0]["nodes"] = {
+      0, gltf.node({{"scale", {0.01, 0.01, 0.01}}, {"children", {joint}}})};
+  expect_near(corners_of(read(gltf)),
+              moved(corners_of(tetrahedron()),
+                    Eigen::Translation3d(1, 0, 0) * Eigen::Affine3d(Eigen::Scaling(0.01))));
 }
 
 TEST_F(ReadGltf, LeavesOutPointsLinesAndVerticesOfNoTriangle) {

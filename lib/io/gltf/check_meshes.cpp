@@ -4,15 +4,6 @@
 namespace sinew {
 namespace {
 
-const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user) {
-  check_index(index, document.accessors, user, "accessor");
-  const GltfAccessor& accessor = document.accessors[static_cast<std::size_t>(index)];
-  if (accessor.view >= 0) return accessor;
-  if (accessor.sparse)
-    throw bad_input(user + " are sparse data over nothing", "export without sparse accessors");
-  throw bad_input(user + " have no data", "export without mesh compression");
-}
-
 void check_positions(const GltfAccessor& accessor, const std::string& user) {
   if (accessor.type != "VEC3" || accessor.number != GltfNumber::float32)
     throw bad_input(user + " are " + accessor.type + " of component type " +
@@ -53,6 +44,15 @@ void check_primitive(const GltfDocument& document, const GltfPrimitive& primitiv
 }
 
 }  // namespace
+
+const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user) {
+  check_index(index, document.accessors, user, "accessor");
+  const GltfAccessor& accessor = document.accessors[static_cast<std::size_t>(index)];
+  if (accessor.view >= 0) return accessor;
+  if (accessor.sparse)
+    throw bad_input(user + " are sparse data over nothing", "export without sparse accessors");
+  throw bad_input(user + " have no data", "export without mesh compression");
+}
 
 void check_gltf_meshes(const GltfDocument& document) {
   for (std::size_t i = 0; i < document.meshes.size(); ++i) {

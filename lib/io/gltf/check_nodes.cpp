@@ -45,9 +45,7 @@ void check_node(const GltfDocument& document, std::size_t index) {
   const GltfNode& node = document.nodes[index];
   const std::string user = nth("nodes", index);
   if (node.mesh >= 0) check_index(node.mesh, document.meshes, user, "mesh");
-  if (node.skin >= document.skins)
-    throw damaged_gltf(user + " names skin " + std::to_string(node.skin) + " of " +
-                       std::to_string(document.skins));
+  if (node.skin >= 0) check_index(node.skin, document.skins, user, "skin");
   const auto& m = node.matrix;  // column by column: these are the last row
   if (!m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
     throw damaged_gltf(user + "'s matrix does not end in the row 0 0 0 1");

@@ -31,6 +31,17 @@ void check_gltf_meshes(const GltfDocument& document);
 /// (all roots where there is none), holds roots, each once.
 void check_gltf_nodes(GltfDocument& document);
 
+/// Indices exist; joints are nodes, each once; inverse bind matrices are enough; surfaces have
+/// joints and weights of the right kind for every vertex. Accessors and meshes are checked before.
+void check_gltf_skins(const GltfDocument& document);
+
+/// Indices exist; times and values are of the right kind and as many as each other; no property of
+/// a node follows two samplers. Channels that move no node are dropped.
+void check_gltf_animations(GltfDocument& document);
+
+/// The accessor of that index, which must exist and have data. `user` is a plural: "its times".
+const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user);
+
 inline Error damaged_gltf(const std::string& what) { return bad_input(what, "export it again"); }
 
 /// nth("nodes", 3) is "nodes[3]".

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a glTF 2.0 file says about shapes and where they stand, as plain values. Names and defaults
-// are those of the glTF 2.0 Specification (Khronos Group); -1 is no index.
+// What a glTF 2.0 file says about shapes, where they stand and how they move, as plain values.
+// Names and defaults are those of the glTF 2.0 Specification (Khronos Group); -1 is no index.
 #pragma once
 
 #include <cstdint>
@@ -70,10 +70,41 @@ struct GltfMesh {
 };
 
 struct GltfNode {
+  std::string name;
   std::vector<int> children;
   int mesh = -1, skin = -1;
   std::vector<double> matrix;  ///< 16, column by column, or none: then the other three
   std::vector<double> translation, rotation, scale;  ///< 3, 4 (x y z w, unit length), 3, or none
+};
+
+/// The nodes that move a mesh.
+struct GltfSkin {
+  std::vector<int> joints;  ///< nodes; JOINTS_n of a mesh count in this list
+  int binds = -1;           ///< accessor of the inverse bind matrices; none: all are the identity
+  int root = -1;            ///< "skeleton", a node that no rule rests on
+};
+
+enum class GltfInterpolation { step, linear, cubic };
+
+/// Values over time.
+struct GltfSampler {
+  int times = -1, values = -1;  ///< accessors; cubic: in-tangent, value, out-tangent for each time
+  GltfInterpolation interpolation = GltfInterpolation::linear;
+};
+
+enum class GltfPath { translation, rotation, scale, other };
+
+/// One property of a node that follows a sampler.
+struct GltfChannel {
+  int sampler = -1;
+  int node = -1;
+  GltfPath path = GltfPath::other;
+};
+
+struct GltfAnimation {
+  std::string name;
+  std::vector<GltfSampler> samplers;
+  std::vector<GltfChannel> channels;  ///< those that move nodes
 };
 
 struct GltfDocument {
@@ -84,7 +115,8 @@ struct GltfDocument {
   std::vector<GltfAccessor> accessors;
   std::vector<GltfMesh> meshes;
   std::vector<GltfNode> nodes;
-  int skins = 0;                         ///< how many
+  std::vector<GltfSkin> skins;
+  std::vector<GltfAnimation> animations;
   std::vector<std::vector<int>> scenes;  ///< the topmost nodes of each
   int scene = -1;                        ///< the default one
 };

@@ -44,6 +44,8 @@ GuardedGltf guarded(const GltfContainer& container, const std::filesystem::path&
   check_gltf_sparse(gltf);
   check_gltf_meshes(gltf.document);
   check_gltf_nodes(gltf.document);
+  check_gltf_skins(gltf.document);
+  check_gltf_animations(gltf.document);
   gltf.shown = shown_nodes(gltf.document);
   drop_unseen(gltf);
   return gltf;

@@ -11,8 +11,9 @@ namespace sinew {
 
 /// A document that holds together. Every index points at something; every element lies in its
 /// view, every view in `bytes`; nodes form trees of moderate depth. Positions are VEC3 of floats,
-/// corners whole numbers, as many as their mode wants. What corners and coordinates are is not
-/// looked at.
+/// corners whole numbers, as many as their mode wants. Skins have a bind matrix for every joint and
+/// surfaces joints and weights for every vertex, if any; animations have values for every time.
+/// What the numbers are (corners, coordinates, times, weights) is not looked at.
 struct GuardedGltf {
   /// One scene is left, the default one, and of meshes the surfaces it shows; no buffers: the
   /// views' offsets count from the start of `bytes`.

@@ -14,7 +14,7 @@ namespace sinew {
 GltfDocument gltf_document(std::string_view json);
 
 /// The surfaces of a document whose buffers lie in one of `bytes` bytes, for a reader that believes
-/// everything. Indices stay what they were; skins are left out.
+/// everything. Indices stay what they were; skins and animations are left out.
 std::string gltf_json(const GltfDocument& document, std::int64_t bytes);
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/words.h"
 #include "io/gltf/checks.h"
@@ -79,6 +81,7 @@ std::vector<double> rotation_in(const Field& field) {
 
 GltfNode node_in(const Field& field) {
   GltfNode node;
+  node.name = field["name"].text_or_none();
   node.children = field["children"].indices();
   node.mesh = field["mesh"].index_or_none();
   node.skin = field["skin"].index_or_none();
@@ -92,11 +95,52 @@ GltfNode node_in(const Field& field) {
   return node;
 }
 
+GltfSkin skin_in(const Field& field) {
+  return {field["joints"].indices(), field["inverseBindMatrices"].index_or_none(),
+          field["skeleton"].index_or_none()};
+}
+
+/// The value that a word of the list stands for.
+template <class Value>
+Value word_in(const Field& field, std::initializer_list<std::pair<const char*, Value>> words) {
+  const std::string text = field.text();
+  const auto* found = std::find_if(words.begin(), words.end(),
+                                   [&](const auto& word) { return word.first == text; });
+  if (found == words.end()) throw damaged_gltf(field.name() + " is " + shown(text));
+  return found->second;
+}
+
+GltfSampler sampler_in(const Field& field) {
+  GltfSampler sampler{field["input"].index(), field["output"].index()};
+  if (const Field kind = field["interpolation"]; kind.given())
+    sampler.interpolation =
+        word_in<GltfInterpolation>(kind, {{"STEP", GltfInterpolation::step},
+                                          {"LINEAR", GltfInterpolation::linear},
+                                          {"CUBICSPLINE", GltfInterpolation::cubic}});
+  return sampler;
+}
+
+/// Weights are those of morph targets, pointers lead to things that are no nodes.
+GltfChannel channel_in(const Field& field) {
+  const Field target = field["target"];
+  const GltfPath path = word_in<GltfPath>(target["path"], {{"translation", GltfPath::translation},
+                                                           {"rotation", GltfPath::rotation},
+                                                           {"scale", GltfPath::scale},
+                                                           {"weights", GltfPath::other},
+                                                           {"pointer", GltfPath::other}});
+  return {field["sampler"].index(), target["node"].index_or_none(), path};
+}
+
 template <class Element>
 std::vector<Element> all(const Field& field, Element (*one)(const Field&)) {
   std::vector<Element> elements;
   for (const Field& item : field.items()) elements.push_back(one(item));
   return elements;
+}
+
+GltfAnimation animation_in(const Field& field) {
+  return {field["name"].text_or_none(), all(field["samplers"], sampler_in),
+          all(field["channels"], channel_in)};
 }
 
 }  // namespace
@@ -113,7 +157,8 @@ GltfDocument gltf_document(std::string_view json) {
   document.accessors = all(root["accessors"], accessor_in);
   document.meshes = all(root["meshes"], mesh_in);
   document.nodes = all(root["nodes"], node_in);
-  document.skins = static_cast<int>(root["skins"].items().size());
+  document.skins = all(root["skins"], skin_in);
+  document.animations = all(root["animations"], animation_in);
   for (const Field& scene : root["scenes"].items())
     document.scenes.push_back(scene["nodes"].indices());
   document.scene = root["scene"].index_or_none();

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/gltf/read_rig.h"
+
+#include "config/scene.h"
+#include "expect_error.h"
+#include "io/gltf/find_clip.h"
+#include "io/gltf/read_gltf.h"
+#include "io/gltf_rigs.h"
+
+namespace sinew {
+namespace {
+
+using namespace gltf_files;
+using test::expect_bad_input;
+
+constexpr double single = 1e-6;  // what single precision leaves of lengths of metres, and of turns
+
+class ReadGltfRig : public Scratch {
+ protected:
+  GltfRig read(const Gltf& gltf, Form form = Form::embedded) const {
+    return read_gltf_rig(write(folder, gltf, form));
+  }
+};
+
+Pose pose_of(const GltfRig& rig, double time, std::size_t clip = 0) {
+  return pose_at(rig.rig.skeleton, rig.rig.clips.at(clip).motion, time);
+}
+
+Mat3 about_y(double angle) { return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix(); }
+
+TEST_F(ReadGltfRig, GivesBonesAsBound) {
+  for (const Form form : forms) {
+    const Skeleton skeleton = read(bending_bar(), form).rig.skeleton;
+    ASSERT_EQ(skeleton.size(), 2u);
+    EXPECT_EQ(skeleton.bones[0].name, "lower");
+    EXPECT_EQ(skeleton.bones[1].name, "upper");
+    EXPECT_EQ(skeleton.bones[0].parent, no_bone);
+    EXPECT_EQ(skeleton.bones[1].parent, 0);
+    EXPECT_EQ(skeleton.bones[0].head(), Vec3(0, 0, 0));
+    EXPECT_EQ(skeleton.bones[0].tail(), Vec3(0, 0, 1));
+    EXPECT_EQ(skeleton.bones[1].tail(), Vec3(0, 0, 2)) << "the only child of a last joint ends it";
+  }
+}
+
+TEST_F(ReadGltfRig, GivesTheMeshThatReadGltfGives) {
+  const auto path = write(folder, bending_bar(), Form::packed);
+  const PolygonSoup mesh = read_gltf_rig(path).mesh, expected = read_gltf(path);
+  EXPECT_EQ(mesh.points, expected.points);
+  EXPECT_EQ(mesh.polygons, expected.polygons);
+}
+
+TEST_F(ReadGltfRig, LeavesMeshesWithoutASkinOut) {
+  Gltf gltf = bar();
+  const int other = gltf.mesh(tetrahedron());
+  gltf.json["scenes"][0]["nodes"].push_back(gltf.node({{"mesh", other}}));
+  EXPECT_EQ(read(gltf).mesh.polygons.size(), read(bar()).mesh.polygons.size());
+}
+
+TEST_F(ReadGltfRig, TakesARigWithoutAMesh) {
+  Gltf gltf = bending_bar();
+  gltf.json["nodes"][3] = Json::object();
+  const GltfRig rig = read(gltf);
+  EXPECT_EQ(rig.rig.skeleton.size(), 2u);
+  EXPECT_EQ(rig.rig.clips.size(), 1u);
+  EXPECT_TRUE(rig.mesh.points.empty());
+  EXPECT_EQ(rig.weights.first.size(), 1u);
+}
+
+TEST_F(ReadGltfRig, TurnsBonesAboutTheirHeads) {
+  const GltfRig rig = read(bending_bar());
+  for (const double time : {0.0, 0.3, 1.0, 7.0}) {
+    const Pose pose = pose_of(rig, time);
+    EXPECT_LT((pose[1].turn - about_y(pi / 2 * std::min(time, 1.0))).norm(), single) << time;
+    EXPECT_LT((pose[1].frame.origin - Vec3(0, 0, 1)).norm(), single) << time;
+    EXPECT_EQ(pose[0].turn, Mat3::Identity()) << time;
+  }
+}
+
+TEST_F(ReadGltfRig, KeepsKeysAndTheWaysBetween) {
+  const std::pair<const char*, Interpolation> kinds[] = {{"STEP", Interpolation::step},
+                                                         {"LINEAR", Interpolation::linear},
+                                                         {"CUBICSPLINE", Interpolation::cubic}};
+  for (const auto& [name, interpolation] : kinds) {
+    const GltfRig rig = read(bending_bar(name));
+    ASSERT_EQ(rig.rig.clips.at(0).motion.tracks.size(), 1u) << "a bone at rest has no track";
+    const Track& track = rig.rig.clips[0].motion.tracks[0];
+    EXPECT_EQ(track.bone, 1);
+    EXPECT_EQ(track.rotation.interpolation, interpolation);
+    EXPECT_EQ(track.rotation.times, (std::vector<double>{0, 1}));
+    EXPECT_EQ(track.rotation.in.size(), interpolation == Interpolation::cubic ? 2u : 0u);
+    EXPECT_TRUE(track.translation.empty());
+  }
+}
+
+TEST_F(ReadGltfRig, TakesRotationsInPartsOfWholeNumbers) {
+  const double turn = std::sqrt(0.5);
+  const auto with = [&](auto most, int component) {
+    using Number = decltype(most);
+    Gltf gltf = bar();
+    const auto part = static_cast<Number>(std::lround(turn * most));
+    const std::vector<Number> values = {0, 0, 0, most, 0, part, 0, part};
+    const int output = gltf.accessor(gltf.view(raw(values)), 2, "VEC4", component);
+    gltf.json["accessors"][output]["normalized"] = true;
+    add_channel(gltf, 0, 1, "rotation", "LINEAR", gltf.floats({0, 1}, "SCALAR"), output);
+    return pose_of(read(gltf), 1)[1].turn;
+  };
+  EXPECT_LT((with(std::int16_t{32767}, 5122) - about_y(pi / 2)).norm(), 1e-4);
+  EXPECT_LT((with(std::int8_t{127}, 5120) - about_y(pi / 2)).norm(), 0.02);
+  EXPECT_LT((with(std::uint16_t{65535}, 5123) - about_y(pi / 2)).norm(), 1e-4);
+  EXPECT_LT((with(std::uint8_t{255}, 5121) - about_y(pi / 2)).norm(), 0.01);
+}
+
+TEST_F(ReadGltfRig, FoldsStaticNodesIn) {
+  Gltf gltf = bending_bar();
+  Json& nodes = gltf.json["nodes"];
+  const Quat turn(Eigen::AngleAxisd(-pi / 2, Vec3::UnitX()));  // z up becomes y up
+  const int above = gltf.node({{"rotation", numbers(turn)},
+                               {"scale", {0.01, 0.01, 0.01}},
+                               {"translation", {5, 0, 0}},
+                               {"children", {0}}});
+  const int between = gltf.node({{"scale", {2, 2, 2}}, {"children", {1}}});
+  nodes[0]["children"] = {between};
+  nodes[1]["translation"] = {0, 0, 0.5};
+  nodes[1]["scale"] = {0.5, 0.5, 0.5};
+  gltf.json["scenes"][0]["nodes"] = {above, 3};
+  const GltfRig rig = read(gltf);
+  const Bone& upper = rig.rig.skeleton.bones[1];
+  EXPECT_LT((upper.head() - Vec3(5, 0.01, 0)).norm(), single) << upper.head().transpose();
+  EXPECT_LT((upper.tail() - Vec3(5, 0.02, 0)).norm(), single) << upper.tail().transpose();
+  EXPECT_EQ(rig.rig.clips[0].motion.tracks.size(), 1u);
+  EXPECT_EQ(rig.rig.clips[0].motion.tracks[0].rotation.times.size(), 2u) << "no samples";
+  EXPECT_LT((pose_of(rig, 1)[1].turn * Vec3::UnitY() - Vec3::UnitX()).norm(), single);
+  Box box;
+  for (const Vec3& point : rig.mesh.points) box.extend(point);
+  EXPECT_LT((box.sizes() - Vec3(0.002, 0.02, 0.002)).norm(), single) << box.sizes().transpose();
+}
+
+TEST_F(ReadGltfRig, GivesBonesThatStandOtherwiseThanBoundOneKey) {
+  Gltf gltf = bar();
+  gltf.json["nodes"][1]["rotation"] = numbers(Quat(Eigen::AngleAxisd(1, Vec3::UnitY())));
+  gltf.json["nodes"][1]["translation"] = {0.5, 0, 1};
+  gltf.json["animations"] = {Json::object()};
+  const GltfRig rig = read(gltf);
+  EXPECT_LT((rig.rig.skeleton.bones[1].head() - Vec3(0, 0, 1)).norm(), single);
+  ASSERT_EQ(rig.rig.clips[0].motion.tracks.size(), 1u);
+  const Pose pose = pose_of(rig, 3);
+  EXPECT_LT((pose[1].turn - about_y(1)).norm(), single);
+  EXPECT_LT((pose[1].frame.origin - Vec3(0.5, 0, 1)).norm(), single);
+}
+
+TEST_F(ReadGltfRig, TakesConstantScaleForNoMotion) {
+  Gltf gltf = bending_bar();
+  add_keys<Vec3>(gltf, 0, "scale", "LINEAR", {0, 1}, {{1, 1, 1}, {1, 1.000001, 1}});
+  EXPECT_EQ(read(gltf).rig.clips[0].motion.tracks.at(0).rotation.times.size(), 2u) << "no samples";
+}
+
+TEST_F(ReadGltfRig, MovesHeadsAsScaleThatChangesMovesThem) {
+  Gltf gltf = bending_bar();
+  add_keys<Vec3>(gltf, 0, "scale", "LINEAR", {0, 1}, {{1, 1, 1}, {1, 1, 2}});
+  const GltfRig rig = read(gltf);
+  for (const double time : {0.0, 0.5, 1.0})
+    EXPECT_LT((pose_of(rig, time)[1].frame.origin - Vec3(0, 0, 1 + time)).norm(), single);
+  EXPECT_GT(rig.rig.clips[0].motion.tracks.at(0).rotation.times.size(), 50u);
+}
+
+TEST_F(ReadGltfRig, NamesClipsOnceEach) {
+  Gltf gltf = bending_bar();
+  Json& animations = gltf.json["animations"];
+  animations.push_back(animations[0]);
+  animations.push_back(animations[0]);
+  animations[2].erase("name");
+  const auto clips = read(gltf).rig.clips;
+  ASSERT_EQ(clips.size(), 3u);
+  EXPECT_EQ(clips[0].name, "clip");
+  EXPECT_EQ(clips[1].name, "clip_2");
+  EXPECT_EQ(clips[2].name, "animation_2");
+}
+
+TEST_F(ReadGltfRig, KnowsDurationAndFrames) {
+  const GltfRig even = read(bending_bar());
+  EXPECT_EQ(even.rig.clips[0].duration, 1);
+  EXPECT_EQ(even.rig.clips[0].frames, 2);
+  EXPECT_EQ(even.rig.clips[0].frame_time, 1);
+  Gltf gltf = bending_bar();
+  add_keys<Vec3>(gltf, 0, "translation", "LINEAR", {0.5, 2}, {{0, 0, 0}, {0, 1, 0}});
+  EXPECT_EQ(read(gltf).rig.clips[0].duration, 2);
+  add_keys<Vec3>(gltf, 1, "translation", "LINEAR", {0.1}, {{0, 0, 1}});
+  EXPECT_EQ(read(gltf).rig.clips[0].frames, 0);
+}
+
+TEST_F(ReadGltfRig, FindsClipsByName) {
+  const auto clips = read(bending_bar()).rig.clips;
+  EXPECT_EQ(&find_clip(clips, "clip"), &clips[0]);
+  expect_bad_input([&] { find_clip(clips, "clp"); }, {"no clip 'clp'", "did you mean clip?"});
+  expect_bad_input([&] { find_clip({}, "run"); }, {"no clip 'run'", "with an animation"});
+}
+
+TEST_F(ReadGltfRig, NormalisesWeights) {
+  Gltf gltf = bar();
+  Json& attributes = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  std::vector<float> weights;
+  for (int i = 0; i < 15; ++i) weights.insert(weights.end(), {1, 3, 0, 0});
+  weights[4] = weights[5] = 0;
+  attributes["WEIGHTS_0"] = gltf.floats(weights, "VEC4");
+  const GltfRig rig = read(gltf);
+  ASSERT_EQ(rig.weights.of(0).size(), 2u);
+  EXPECT_EQ(rig.weights.of(0)[0].bone, 1);
+  EXPECT_EQ(rig.weights.of(0)[0].weight, 0.75);
+  EXPECT_EQ(rig.weights.of(0)[1].weight, 0.25);
+  EXPECT_TRUE(rig.weights.of(1).empty()) << "a vertex without weights";
+}
+
+TEST_F(ReadGltfRig, AddsWeightsOfOneBone) {
+  Gltf gltf = bar();
+  Json& attributes = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  std::vector<std::uint16_t> joints, parts;
+  for (int i = 0; i < 15; ++i) {
+    joints.insert(joints.end(), {1, 0, 1, 0});
+    parts.insert(parts.end(), {16384, 32767, 16384, 0});
+  }
+  attributes["JOINTS_0"] = gltf.accessor(gltf.view(raw(joints)), 15, "VEC4", 5123);
+  attributes["WEIGHTS_0"] = gltf.accessor(gltf.view(raw(parts)), 15, "VEC4", 5123);
+  gltf.json["accessors"][attributes["WEIGHTS_0"].get<int>()]["normalized"] = true;
+  attributes["JOINTS_1"] = attributes["JOINTS_0"];
+  attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
+  const GltfRig rig = read(gltf);
+  ASSERT_EQ(rig.weights.of(3).size(), 2u);
+  EXPECT_NEAR(rig.weights.of(3)[0].weight, 32768.0 / 65535, 1e-12);
+  EXPECT_EQ(rig.weights.of(3)[0].bone, 1);
+}
+
+TEST_F(ReadGltfRig, UnitesSkins) {
+  Gltf gltf = bending_bar();
+  Json& nodes = gltf.json["nodes"];
+  nodes[2]["children"] = {gltf.node({{"name", "tip"}, {"translation", {0, 0, 1}}})};
+  // The same mesh in a space of its own, 10 m away, with joints in another order.
+  const Affine away(Eigen::Translation3d(-10, 0, 0));
+  const Affine end = Eigen::Translation3d(0, 0, -2) * away,
+               upper = Eigen::Translation3d(0, 0, -1) * away;
+  const int skin =
+      gltf.add("skins", {{"joints", {2, 1}}, {"inverseBindMatrices", gltf.matrices({end, upper})}});
+  gltf.json["scenes"][0]["nodes"].push_back(gltf.node({{"mesh", 0}, {"skin", skin}}));
+  const GltfRig rig = read(gltf);
+  ASSERT_EQ(rig.rig.skeleton.size(), 3u);
+  EXPECT_EQ(rig.rig.skeleton.bones[2].parent, 1);
+  EXPECT_LT((rig.rig.skeleton.bones[2].tail() - Vec3(0, 0, 3)).norm(), single);
+  const std::size_t half = rig.mesh.points.size() / 2;
+  EXPECT_LT((rig.mesh.points[half] - rig.mesh.points[0] + Vec3(10, 0, 0)).norm(), single);
+  EXPECT_EQ(rig.weights.of(half)[0].bone, 2) << "joint 0 of the second skin";
+}
+
+TEST_F(ReadGltfRig, RefusesSkinsBoundApart) {
+  Gltf gltf = bar();
+  const Affine lower = Affine::Identity(), upper(Eigen::Translation3d(0, 0, -1.5));
+  const int skin = gltf.add(
+      "skins", {{"joints", {0, 1}}, {"inverseBindMatrices", gltf.matrices({lower, upper})}});
+  gltf.json["scenes"][0]["nodes"].push_back(gltf.node({{"mesh", 0}, {"skin", skin}}));
+  expect_bad_input(
+      [&] { read(gltf); },
+      {"skins 0 and 1 bind joint 'upper' (node 1) at places 0.500000 m apart", "in the same pose"});
+}
+
+TEST_F(ReadGltfRig, RefusesUnevenBinds) {
+  Gltf gltf = bar();
+  gltf.json["nodes"][0]["scale"] = {1, 1, 1.2};
+  expect_bad_input([&] { read(gltf); }, {"uneven scale", "joint 'lower' (node 0)"});
+}
+
+TEST_F(ReadGltfRig, RefusesAFileWithoutASkin) {
+  expect_bad_input([&] { read(one_tetrahedron()); }, {"it has no skin", "with its armature"});
+}
+
+TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
+  const std::filesystem::path source = SINEW_SOURCE_DIR;
+  const Settings settings = read_scene(source / "configs/box_bend.yaml");
+  const Skeleton skeleton = make_skeleton(settings);
+  const Motion motion = make_motion(settings, skeleton);
+  const GltfRig rig = read_gltf_rig(source / "data/motions/box_bend.glb");
+  ASSERT_EQ(rig.rig.skeleton.size(), 2u);
+  const Clip& clip = find_clip(rig.rig.clips, "bend");
+  EXPECT_EQ(clip.frames, 151);
+  for (const double time : clip.motion.tracks.at(0).rotation.times) {
+    const Pose expected = pose_at(skeleton, motion, time);
+    const Pose pose = pose_at(rig.rig.skeleton, clip.motion, time);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const RigidFrame &frame = pose[i].frame, &same = expected[i].frame;
+      EXPECT_EQ(rig.rig.skeleton.bones[i].name, skeleton.bones[i].name);
+      EXPECT_NEAR(rig.rig.skeleton.bones[i].length, skeleton.bones[i].length, single);
+      EXPECT_LT((frame.origin - same.origin).norm(), single) << time;
+      EXPECT_LT((frame.rotation - same.rotation).norm(), single) << time;
+    }
+  }
+}
+
+TEST(BoxBendGlb, HoldsTheBoxAndItsWeights) {
+  const std::filesystem::path file =
+      std::filesystem::path(SINEW_SOURCE_DIR) / "data/motions/box_bend.glb";
+  const GltfRig rig = read_gltf_rig(file);
+  EXPECT_EQ(rig.mesh.points.size(), 1062u);
+  EXPECT_EQ(rig.mesh.polygons.size(), 2120u);
+  EXPECT_EQ(read_gltf(file).points, rig.mesh.points);
+  for (std::size_t i = 0; i < rig.mesh.points.size(); ++i) {
+    double sum = 0;
+    for (const BoneWeight& weight : rig.weights.of(i)) sum += weight.weight;
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(rig.weights.of(i)[0].bone, rig.mesh.points[i].z() > 0.3465 ? 1 : 0);
+  }
+}
+
+}  // namespace
+}  // namespace sinew

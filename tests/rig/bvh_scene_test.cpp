@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The clips of data/motions move the bones as the scenes they were made from do.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "config/scene.h"
+#include "rig/bvh.h"
+#include "rig/motion.h"
+
+namespace sinew {
+namespace {
+
+const std::string source = SINEW_SOURCE_DIR;
+
+std::map<std::string, RigidFrame> frames_of(const Skeleton& skeleton, const Pose& pose) {
+  std::map<std::string, RigidFrame> frames;
+  for (std::size_t i = 0; i < skeleton.size(); ++i) frames[skeleton.bones[i].name] = pose[i].frame;
+  return frames;
+}
+
+void expect_same_motion(const std::string& scene, const std::string& file) {
+  const Settings settings = read_scene(source + "/configs/" + scene);
+  const Skeleton skeleton = make_skeleton(settings);
+  const Motion motion = make_motion(settings, skeleton);
+  const Rig rig = rig_of(read_bvh(source + "/data/motions/" + file));
+  const Clip& clip = rig.clips.at(0);
+  EXPECT_EQ(rig.skeleton.size(), skeleton.size());
+  for (int i = 0; i < clip.frames; ++i) {
+    const double time = i * clip.frame_time;
+    const auto expected = frames_of(skeleton, pose_at(skeleton, motion, time));
+    for (const auto& [name, frame] :
+         frames_of(rig.skeleton, pose_at(rig.skeleton, clip.motion, time))) {
+      ASSERT_TRUE(expected.contains(name)) << name;
+      EXPECT_LT((frame.origin - expected.at(name).origin).norm(), 1e-6) << name << ", frame " << i;
+      EXPECT_LT((frame.rotation - expected.at(name).rotation).norm(), 1e-6) << name << ", " << i;
+    }
+  }
+}
+
+void expect_same_bones(const std::string& scene, const std::string& file) {
+  const Skeleton skeleton = make_skeleton(read_scene(source + "/configs/" + scene));
+  for (const Bone& bone : rig_of(read_bvh(source + "/data/motions/" + file)).skeleton.bones)
+    for (const Bone& other : skeleton.bones) {
+      if (bone.name != other.name) continue;
+      EXPECT_LT((bone.head() - other.head()).norm(), 1e-9) << bone.name;
+      EXPECT_LT((bone.tail() - other.tail()).norm(), 1e-9) << bone.name;
+    }
+}
+
+TEST(BvhScene, BoxBendMovesAsItsScene) {
+  expect_same_bones("box_bend.yaml", "box_bend.bvh");
+  expect_same_motion("box_bend.yaml", "box_bend.bvh");
+}
+
+TEST(BvhScene, TheWalkMovesAsItsScene) {
+  expect_same_bones("creature_walk.yaml", "walk.bvh");
+  expect_same_motion("creature_walk.yaml", "walk.bvh");
+}
+
+}  // namespace
+}  // namespace sinew
