@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-info: what is in a mesh or a scene, and what is wrong with it.
+// sinew-info: what is in a mesh, a rig, a clip or a scene, and what is wrong with it.
 #include "body_options.h"
 #include "command.h"
 #include "config/scene.h"
 #include "mesh_info.h"
 #include "mesh_input.h"
 #include "rig/motion.h"
+#include "rig_info.h"
 #include "scene_body.h"
+#include "scene_rig.h"
 
 namespace {
 
@@ -15,18 +17,16 @@ using namespace sinew;
 struct Options {
   std::string path, drawing;
   BodyOptions body;
+  std::optional<double> radius;
 };
 
 void add_scene(const Settings& settings, Results& results) {
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  SceneRig scene = rig_of(settings);
   results.add("mesh", settings.body.mesh);
-  results.add("bones", skeleton.size());
-  for (const Bone& bone : skeleton.bones)
-    results.add("bone_" + bone.name, bone.length,
-                bone.parent == no_bone ? "m" : "m, on " + skeleton.bones[bone.parent].name);
-  results.add("tracks", motion.tracks.size());
-  results.add("duration", last_key(motion), "s");
+  results.add("tracks", scene.motion.tracks.size());
+  Clip clip{"scene", std::move(scene.motion)};
+  clip.duration = clip_length(clip.motion);
+  add_rig_info({std::move(scene.skeleton), {std::move(clip)}}, settings.body.radius, results);
 }
 
 BodySettings body_of_mesh(const Options& options, const Common& common) {
@@ -39,6 +39,11 @@ BodySettings body_of_mesh(const Options& options, const Common& common) {
 Exit info(const Options& options, const Common& common) {
   Results results;
   results.add("file", options.path);
+  if (holds_rig(options.path)) add_rig_info(read_rig(options.path, {}), options.radius, results);
+  if (!holds_mesh(options.path)) {
+    results.print(common.json);
+    return Exit::done;
+  }
   BodySettings body;
   if (is_scene(options.path)) {
     const Settings settings = read_scene(options.path, common.overrides);
@@ -62,15 +67,19 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv,
       {"info",
-       "Says what is in a mesh or a scene, and what is wrong with it.",
+       "Says what is in a mesh, a rig, a clip or a scene, and what is wrong with it.",
        {"sinew info data/meshes/box.obj", "sinew info part.stl --unit mm -o defects.vtu",
-        "sinew info configs/box_bend.yaml"}},
+        "sinew info configs/box_bend.yaml", "sinew info data/motions/walk.bvh --radius 0.01"}},
       [&](CLI::App& app) {
         app.add_option("FILE", options.path,
-                       std::string("Mesh (").append(mesh_formats) + ") or scene (YAML)")
+                       std::string("Mesh (").append(mesh_formats) + "), rig (" + rig_formats +
+                           ") or scene (YAML)")
             ->required();
         app.add_option("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
             ->type_name("FILE.vtu");
+        app.add_option("--radius", options.radius,
+                       "Of particles, m: how fast would the rig move them?")
+            ->check(CLI::PositiveNumber);
         options.body.declare(app, BodyOptions::Kind::mesh);
       },
       [&](const Common& common) { return info(options, common); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_files.h"
+#include "scene_rig.h"
 
 #include <algorithm>
 
@@ -107,7 +108,7 @@ RunFiles open_run(const RunFolder& folder) {
   run.folder = folder;
   run.scene_text = read_file(folder.scene());
   run.settings = read_scene(folder.scene());
-  run.skeleton = make_skeleton(run.settings);
+  run.skeleton = rig_of(run.settings).skeleton;
   run.body = read_body(folder.body());
   if (!run.body.bone)
     throw bad_input(Place{folder.body().string()}, "has no array 'bone'",

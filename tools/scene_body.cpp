@@ -16,19 +16,6 @@ namespace {
 
 constexpr std::uint64_t largest_mesh = std::uint64_t{4} << 30;  // bytes
 
-/// Runs `job`; what it throws is told as reached through a line of the scene.
-template <class Job>
-auto told_at(const Settings& settings, const char* key, Job&& job) {
-  try {
-    return job();
-  } catch (const Error& error) {
-    const Place place = settings.place(key);
-    if (place.file == settings.body.mesh) throw;  // a mesh without a scene: it names itself
-    throw error.within(place);
-  }
-}
-
-/// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
 }  // namespace
 
 bool is_scene(const std::filesystem::path& path) {
@@ -45,6 +32,7 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
                       "give another name with -o");
 }
 
+/// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
 Mat3 lattice_axes(const BodySettings& body) {
   const Vec3& angles = body.lattice_rotation;
   if (angles.isZero(0)) return Mat3::Identity();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <initializer_list>
 
+#include "core/error.h"
 #include "core/settings.h"
 #include "fill/pack.h"
 #include "io/body.h"
@@ -13,6 +14,18 @@ namespace sinew {
 
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
+
+/// Runs `job`; what it throws is told as reached through a line of the scene.
+template <class Job>
+auto told_at(const Settings& settings, const char* key, Job&& job) {
+  try {
+    return job();
+  } catch (const Error& error) {
+    const Place place = settings.place(key);
+    if (place.file == settings.body.mesh) throw;  // a mesh without a scene: it names itself
+    throw error.within(place);
+  }
+}
 
 /// Throws Error (bad input) where an output is no .vtu, or one of the inputs.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);

@@ -7,6 +7,7 @@
 #include "core/closest_packing.h"
 #include "core/error.h"
 #include "scene_body.h"
+#include "scene_rig.h"
 
 namespace sinew {
 namespace {
@@ -27,10 +28,10 @@ BodyShape shape_of(const Settings& settings, const Points& rest, const Particles
   return shape;
 }
 
-Body make_body(const Settings& settings, const Particles& particles) {
+Body make_body(const Settings& settings, const Skeleton& skeleton, const Particles& particles) {
   Body body;
   body.rest = positions_of(particles);
-  body.skeleton = make_skeleton(settings);
+  body.skeleton = skeleton;
   body.binding = bind_to_bones(body.rest, body.skeleton, volume_per_particle(particles.radius),
                                settings.binding.joint_zone);
   body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
@@ -52,9 +53,10 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
 Setup set_up(const Settings& settings, const Particles& particles) {
   Setup setup;
   setup.frames = frames_of(settings);
-  setup.body = make_body(settings, particles);
+  SceneRig rig = rig_of(settings);
+  setup.body = make_body(settings, rig.skeleton, particles);
+  setup.motion = std::move(rig.motion);
   setup.joint_zone = settings.binding.joint_zone;
-  setup.motion = make_motion(settings, setup.body.skeleton);
   setup.steps = steps_of(settings, setup.body);
   if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",

@@ -100,4 +100,11 @@ std::string listed(std::span<const std::string_view> words) {
   return out;
 }
 
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 }  // namespace sinew

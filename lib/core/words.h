@@ -19,6 +19,9 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 /// 'text' in quotes on one line, unprintable characters replaced, cut after 40 characters.
 std::string shown(std::string_view text);
 
+/// Capital letters of ASCII made small.
+std::string lower(std::string_view text);
+
 /// "a, b, c"
 std::string listed(std::span<const std::string_view> words);
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <optional>
 
+#include "core/words.h"
 #include "core/available_memory.h"
 #include "mesh/mesh_text.h"
 

@@ -46,6 +46,4 @@ class Lines {
 std::optional<double> number_in(std::string_view word);
 std::optional<std::int64_t> integer_in(std::string_view word);
 
-std::string lower(std::string_view text);
-
 }  // namespace sinew

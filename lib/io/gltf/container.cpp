@@ -60,11 +60,6 @@ GltfContainer chunks_of(std::string_view file) {
   return container;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 }  // namespace
 
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension) {

@@ -147,4 +147,8 @@ GltfRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& o
   }
 }
 
+bool has_skin(const std::filesystem::path& path) {
+  return !guarded_gltf(path).document.skins.empty();
+}
+
 }  // namespace sinew

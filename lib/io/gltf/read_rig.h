@@ -36,4 +36,7 @@ struct GltfRig {
 /// that are damaged; not written where the system's temporary folder takes no file.
 GltfRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options = {});
 
+/// Whether the file has a skin, and so a rig. Throws bad input for a damaged file.
+bool has_skin(const std::filesystem::path& path);
+
 }  // namespace sinew
