@@ -68,29 +68,33 @@ double log_length(double squared) {
   return (std::log(least) + squared / least - 1) / 2;
 }
 
-/// What the fibres of one particle do: V0 P A^-1, so that force = (it) X, and their energy.
-struct Pull {
-  Mat3 by_offset;
-  FibreEnergy energy;
-};
-
-Pull pull_of(const Muscles& all, const Activations& activations, std::size_t row, const Mat3& F,
-             double volume) {
+/// P of one particle's fibres at the deformation gradient F, Pa.
+Mat3 nominal_stress(const Muscles& all, const Activations& now, std::size_t row, const Mat3& F) {
   Mat3 P = Mat3::Zero();
-  FibreEnergy energy;
   for (std::size_t k = all.first[row]; k < all.first[row + 1]; ++k) {
     const Muscles::Fibre& fibre = all.fibres[k];
     const Muscle& muscle = all.muscles[fibre.muscle];
     const Vec3 along = F * muscle.direction;
-    const double full = muscle.strength * fibre.weight;
-    const double squared = along.squaredNorm();
-    const double level = activations.level[fibre.muscle];
-    P += level * full / std::max(squared, crushed * crushed) * along * muscle.direction.transpose();
-    const double per_level = volume * full * log_length(squared);
-    energy.stored += level * per_level;
-    energy.power += activations.rate[fibre.muscle] * per_level;
+    const double squared = std::max(along.squaredNorm(), crushed * crushed);
+    const double pull = now.level[fibre.muscle] * muscle.strength * fibre.weight / squared;
+    P += pull * along * muscle.direction.transpose();
   }
-  return {volume * P * all.rest.inverse[all.active[row]], energy};
+  return P;
+}
+
+/// Energies per volume at rest, J/m^3 and W/m^3.
+FibreEnergy energy_density(const Muscles& all, const Activations& now, std::size_t row,
+                           const Mat3& F) {
+  FibreEnergy energy;
+  for (std::size_t k = all.first[row]; k < all.first[row + 1]; ++k) {
+    const Muscles::Fibre& fibre = all.fibres[k];
+    const Muscle& muscle = all.muscles[fibre.muscle];
+    const double at_full =
+        muscle.strength * fibre.weight * log_length((F * muscle.direction).squaredNorm());
+    energy.stored += now.level[fibre.muscle] * at_full;
+    energy.power += now.rate[fibre.muscle] * at_full;
+  }
+  return energy;
 }
 
 Points by_id(const Particles& particles) {
@@ -100,26 +104,38 @@ Points by_id(const Particles& particles) {
   return points;
 }
 
-/// The pulls of all active particles, and their energies added in a fixed order.
-std::vector<Mat3> pulls(const Muscles& all, const Activations& activations,
-                        const Particles& particles, FibreEnergy& sum) {
+/// F of every particle with fibres.
+std::vector<Mat3> active_gradients(const Muscles& all, const Particles& particles) {
   const Points now = by_id(particles);
-  const double volume = volume_per_particle(particles.radius);
-  std::vector<Mat3> by_offset(all.active.size());
-  std::vector<FibreEnergy> energies(all.active.size());
-  parallel_for(all.active.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const Mat3 F = deformation_gradient(all.rest, now, all.active[row]);
-      const Pull pull = pull_of(all, activations, row, F, volume);
-      by_offset[row] = pull.by_offset;
-      energies[row] = pull.energy;
-    }
+  std::vector<Mat3> F(all.active.size());
+  parallel_for(F.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      F[row] = deformation_gradient(all.rest, now, all.active[row]);
   });
-  for (const FibreEnergy& energy : energies) {
-    sum.stored += energy.stored;
-    sum.power += energy.power;
-  }
+  return F;
+}
+
+/// V0 P A^-1 of every particle with fibres: times an offset at rest it is a force, N.
+std::vector<Mat3> pulls(const Muscles& all, const Activations& activations,
+                        const std::vector<Mat3>& F, double volume) {
+  std::vector<Mat3> by_offset(F.size());
+  parallel_for(F.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      by_offset[row] = volume * nominal_stress(all, activations, row, F[row]) *
+                       all.rest.inverse[all.active[row]];
+  });
   return by_offset;
+}
+
+FibreEnergy energy_of(const Muscles& all, const Activations& activations,
+                      const std::vector<Mat3>& F, double volume) {
+  FibreEnergy sum;
+  for (std::size_t row = 0; row < F.size(); ++row) {
+    const FibreEnergy density = energy_density(all, activations, row, F[row]);
+    sum.stored += volume * density.stored;
+    sum.power += volume * density.power;
+  }
+  return sum;
 }
 
 /// (M_i + M_j) X_ij over the neighbours: what i pulls itself with, and what each of them pulls i
@@ -215,15 +231,32 @@ Activations activations_at(const Muscles& muscles, double time) {
 
 FibreEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
                           const Particles& particles, Points& forces) {
-  FibreEnergy energy;
   forces.assign(particles.size(), Vec3::Zero());
-  if (muscles.active.empty()) return energy;
-  const auto by_offset = pulls(muscles, activations, particles, energy);
+  if (muscles.active.empty()) return {};
+  const double volume = volume_per_particle(particles.radius);
+  const auto F = active_gradients(muscles, particles);
+  const auto by_offset = pulls(muscles, activations, F, volume);
   parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       forces[i] = force_on(muscles, by_offset, static_cast<std::uint32_t>(particles.id[i]));
   });
-  return energy;
+  return energy_of(muscles, activations, F, volume);
+}
+
+std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activations,
+                                const Particles& particles) {
+  std::vector<Mat3> stress(particles.size(), Mat3::Zero());
+  if (muscles.active.empty()) return stress;
+  const auto F = active_gradients(muscles, particles);
+  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::int32_t row = muscles.row[static_cast<std::size_t>(particles.id[i])];
+      if (row < 0) continue;
+      const auto k = static_cast<std::size_t>(row);
+      stress[i] = nominal_stress(muscles, activations, k, F[k]) * F[k].transpose();
+    }
+  });
+  return stress;
 }
 
 double muscle_stiffness(const Muscles& muscles, double radius) {

@@ -84,6 +84,11 @@ struct FibreEnergy {
 FibreEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
                           const Particles& particles, Points& forces);
 
+/// Kirchhoff stress of the fibres at each particle (n, in the order of `particles`), Pa. In
+/// parallel.
+std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activations,
+                                const Particles& particles);
+
 /// A bound on the stiffness that muscles at their strongest add to any motion of the body near
 /// rest, N/m; fibres shortened to lambda add 1 / lambda^2 times as much.
 double muscle_stiffness(const Muscles& muscles, double radius);

@@ -12,6 +12,8 @@ namespace {
 
 // Axes given with rounded digits pass; the distance is then wrong by no more than this share.
 constexpr double square_enough = 1e-6;
+// So near to a capsule's segment, in its radii, a direction is rounding.
+constexpr double on_axis = 1e-9;
 
 SignedDistance from_point(const Vec3& offset, double radius, const Vec3& otherwise) {
   const double length = offset.norm();
@@ -33,7 +35,9 @@ SignedDistance distance_to(const CapsuleShape& capsule, const Vec3& point) {
   if (!(squared > 0)) return from_point(point - capsule.a, capsule.radius, Vec3::UnitZ());
   const double share = std::clamp((point - capsule.a).dot(along) / squared, 0.0, 1.0);
   const Vec3 offset = point - (capsule.a + share * along);
-  if (offset.isZero(0)) return {-capsule.radius, frame_along(along).col(1)};
+  // On the axis rounding alone would choose the direction, and might choose that of the axis.
+  if (offset.norm() < on_axis * capsule.radius)
+    return {offset.norm() - capsule.radius, frame_along(along).col(1)};
   return from_point(offset, capsule.radius, Vec3::UnitZ());
 }
 
