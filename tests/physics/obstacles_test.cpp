@@ -129,6 +129,39 @@ TEST(Obstacles, FrictionOpposesSlidingAndIsMuTimesTheNormalForce) {
   }
 }
 
+TEST(Obstacles, FrictionOfAnApproachIsTangentAndCountsItsDamping) {
+  Obstacle floor = floor_of(Vec3::UnitZ());
+  floor.friction = 0.5;
+  floor.stick = 100;
+  const Vec3 touching(0, 0, 0.9 * r);
+  const Contact touch = contact(floor, {}, touching, {0.3, 0.4, -2}, r);
+  const double normal = 200 * 0.1 * r + 2 * floor.damping;
+  EXPECT_NEAR((touch.friction + 0.5 * normal * Vec3(0.6, 0.8, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR(touch.force().z(), normal, 1e-12);
+  const Contact leaving = contact(floor, {}, touching, {0.3, 0.4, 2}, r);
+  EXPECT_NEAR((leaving.friction + 0.1 * r * 100 * Vec3(0.6, 0.8, 0)).norm(), 0, 1e-12);
+}
+
+TEST(Obstacles, OnlyMotionRelativeToTheObstacleIsBraked) {
+  Obstacle ball = floor_of(Vec3::UnitZ());
+  ball.shape = SphereShape{{0, 0, 0}, 0.3};
+  ball.friction = 0.5;
+  ball.stick = 2;
+  ObstaclePose pose;
+  pose.velocity = {1, -2, 3};
+  pose.angular_velocity = {4, 0, -5};
+  pose.frame.origin = {0.1, 0.2, 0.3};
+  const Vec3 touching = pose.frame.origin + (0.3 + 0.5 * r) * Vec3(1, 2, 2) / 3;
+  const Vec3 riding_along = pose.velocity_at(touching), slip(0.1, -0.2, -0.1);
+  EXPECT_NEAR(contact(ball, pose, touching, riding_along, r).losing().norm(), 0, 1e-15);
+  ObstaclePose resting;
+  resting.frame = pose.frame;
+  const Contact moved = contact(ball, pose, touching, riding_along + slip, r);
+  const Contact still_one = contact(ball, resting, touching, slip, r);
+  EXPECT_GT(still_one.losing().norm(), 0.01);
+  EXPECT_NEAR((moved.losing() - still_one.losing()).norm(), 0, 1e-14);
+}
+
 TEST(Obstacles, AParticleDeepInsideIsPushedOutByTheNearestFace) {
   Obstacle box = floor_of(Vec3::UnitZ());
   box.shape = BoxShape{{0, 0, 0}, {1, 2, 3}};
