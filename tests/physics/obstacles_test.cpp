@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "physics/forces.h"
 #include "physics/world/world.h"
 #include "world.h"
 
@@ -44,6 +45,23 @@ TEST(Obstacles, ABallRestsOnAPlaneByItsWeightOverTheStiffness) {
   EXPECT_NEAR(one.w[0], 0, 1e-12);
 }
 
+/// The same, with friction that stops sliding within the step.
+Particles stopped(const World& world, const Vec3& position, const Vec3& velocity, int steps,
+                  double dt) {
+  Particles one = particles_at({position}, r, mass);
+  one.set_velocity(0, velocity);
+  const WorldNow now = world_at(world, 0, {});
+  const Vec3 weight = -mass * g * Vec3::UnitZ();
+  WorldForces forces;
+  for (int step = 0; step < steps; ++step) {
+    world_forces(one, world, now, forces);
+    stop_sliding(one, world, now, {forces.total(0) + weight}, dt, forces);
+    one.set_velocity(0, one.velocity(0) + dt / mass * (forces.total(0) + weight));
+    one.set_position(0, one.position(0) + dt * one.velocity(0));
+  }
+  return one;
+}
+
 /// Slope of an incline of `angle` degrees: downhill direction, and the floor.
 struct Incline {
   Vec3 normal, downhill;
@@ -80,6 +98,91 @@ TEST(Obstacles, ABlockSticksBelowTheAngleOfFrictionButForTheCreepStated) {
   const double creep = mass * g * std::sin(radians(angle)) / stick;
   EXPECT_NEAR(one.velocity(0).dot(incline.downhill), creep, 1e-12);
   EXPECT_LT(creep, 2e-3);
+}
+
+TEST(Obstacles, WithStopSlidingABlockSlidesAsCoulombSays) {
+  const double angle = 35, mu = 0.4, dt = 2e-4;
+  const Incline incline(angle, mu, 0);
+  const double expected = g * (std::sin(radians(angle)) - mu * std::cos(radians(angle)));
+  const Particles one = stopped(incline.world, incline.resting(angle), Vec3::Zero(), 1000, dt);
+  EXPECT_NEAR(one.velocity(0).dot(incline.downhill) / (1000 * dt), expected, 1e-9);
+}
+
+TEST(Obstacles, WithStopSlidingABlockHoldsFastBelowTheAngleOfFriction) {
+  const double angle = 20, mu = 0.4, dt = 2e-4, speed = 0.05;
+  const Incline incline(angle, mu, 0);
+  const Vec3 start = incline.resting(angle);
+  const Particles one = stopped(incline.world, start, speed * incline.downhill, 5000, dt);
+  EXPECT_LT(one.velocity(0).norm(), 1e-12);
+  const double brake = g * (mu * std::cos(radians(angle)) - std::sin(radians(angle)));
+  const double way = speed * speed / (2 * brake);
+  EXPECT_NEAR((one.position(0) - start).dot(incline.downhill), way, speed * dt);
+  const Particles later = stopped(incline.world, one.position(0), Vec3::Zero(), 5000, dt);
+  EXPECT_NEAR((later.position(0) - one.position(0)).norm(), 0, 1e-12);
+}
+
+TEST(Obstacles, WithStopSlidingABeltCarriesABlock) {
+  World world;
+  world.obstacles = {floor_of(Vec3::UnitZ())};
+  world.obstacles[0].friction = 0.3;
+  world.obstacles[0].motion = [](double, const Pose&) {
+    ObstaclePose pose;
+    pose.velocity = {0.2, 0.1, 0};
+    return pose;
+  };
+  const Vec3 resting(0, 0, r - mass * g / 200);
+  const double dt = 2e-4;
+  const Particles early = stopped(world, resting, Vec3::Zero(), 100, dt);
+  EXPECT_NEAR(early.velocity(0).norm(), 0.3 * g * 100 * dt, 1e-9);
+  const Particles late = stopped(world, resting, Vec3::Zero(), 1000, dt);
+  EXPECT_NEAR((late.velocity(0) - Vec3(0.2, 0.1, 0)).norm(), 0, 1e-12);
+}
+
+/// A block of the scene's material on an incline of `angle` degrees with friction 0.5: its mean
+/// velocity downhill after `steps` steps.
+double block_on_incline(double angle, double stick, int steps) {
+  const Material material = test::material_of(test::box_scene());
+  const double dt = 0.3 * std::sqrt(material.mass / material.stiffness());
+  World world;
+  world.obstacles = {floor_of(Vec3::UnitZ())};
+  world.obstacles[0].stiffness = material.stiffness();
+  world.obstacles[0].friction = 0.5;
+  world.obstacles[0].stick = stick * material.mass / dt;
+  world.drag.rate = 4;
+  world.fields = {{"weight",
+                   UniformAcceleration{test::turned(Vec3::UnitY(), -angle) * Vec3(0, 0, -g)},
+                   {},
+                   {{0, 0.2}, {0, 1}}}};
+  Points rest = test::fcc_box(7, 7, 7, r);
+  for (Vec3& point : rest) point.z() += r - half_plane_spacing(r) / 2;
+  Particles block = particles_at(rest, r, material.mass);
+  Forces forces;
+  WorldForces outer;
+  Points all(block.size());
+  for (int step = 0; step < steps; ++step) {
+    const WorldNow now = world_at(world, step * dt, {});
+    pair_forces(block, material, forces);
+    world_forces(block, world, now, outer);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = forces.pair[i] + forces.damping[i] + outer.total(i);
+    stop_sliding(block, world, now, all, dt, outer);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Vec3 force = forces.pair[i] + forces.damping[i] + outer.total(i);
+      block.set_velocity(i, block.velocity(i) + dt / block.mass * force);
+      block.set_position(i, block.position(i) + dt * block.velocity(i));
+    }
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < block.size(); ++i) sum += block.u[i];
+  return sum / static_cast<double>(block.size());
+}
+
+TEST(Obstacles, ABodyHoldsFastBelowTheAngleOfFriction) {
+  const double creep = block_on_incline(20, 0.5, 3000), held = block_on_incline(20, 0, 3000);
+  std::printf("a block at rest moves at %.2e m/s; with stick, at %.2e m/s\n", held, creep);
+  EXPECT_LT(std::abs(held), 1e-6);
+  EXPECT_LT(std::abs(creep), 0.1);
+  EXPECT_GT(std::abs(block_on_incline(35, 0, 3000)), 0.1);
 }
 
 TEST(Obstacles, TheSpringIsMinusTheGradientOfItsEnergy) {

@@ -28,6 +28,7 @@ World busy_world(const Points& rest) {
   World world;
   world.obstacles = {rubbing(PlaneShape{{0, 0, -4 * r}, {0, 0, 1}}),
                      rubbing(SphereShape{{5 * r, 0, 0}, 3 * r})};
+  world.obstacles[1].stick = 0;  // left to stop_sliding
   world.obstacles[1].motion = [](double time, const Pose&) {
     ObstaclePose pose;
     pose.velocity = {-0.3, 0.1, 0};
@@ -52,6 +53,15 @@ World busy_world(const Points& rest) {
   return world;
 }
 
+/// All forces of the world in a step of dt (s) that nothing else acts in.
+void all_forces(const Particles& particles, const World& world, const WorldNow& now, double dt,
+                WorldForces& forces) {
+  world_forces(particles, world, now, forces);
+  Points others(particles.size());
+  for (std::size_t i = 0; i < others.size(); ++i) others[i] = forces.total(i);
+  stop_sliding(particles, world, now, others, dt, forces);
+}
+
 Points velocities_of(const Particles& particles) {
   Points velocities(particles.size());
   for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = particles.velocity(i);
@@ -73,11 +83,11 @@ TEST(World, BitsDoNotDependOnThreads) {
   WorldForces one, many;
   WorldPowers one_power, many_power;
   with_threads(1, [&] {
-    world_forces(particles, world, now, one);
+    all_forces(particles, world, now, 1e-3, one);
     one_power = world_powers(one, velocities_of(particles));
   });
   with_threads(7, [&] {
-    world_forces(particles, world, now, many);
+    all_forces(particles, world, now, 1e-3, many);
     many_power = world_powers(many, velocities_of(particles));
   });
   for (const auto part : {&WorldForces::contact, &WorldForces::drag, &WorldForces::field,
@@ -149,7 +159,7 @@ Book followed(double duration, int steps) {
   const double at_start = kinetic() + forces.contact_energy;
   for (int step = 0; step < steps; ++step) {
     drift();
-    world_forces(swarm, world, world_at(world, (step + 0.5) * dt, {}), forces);
+    all_forces(swarm, world, world_at(world, (step + 0.5) * dt, {}), dt, forces);
     Points middle = velocities_of(swarm);
     for (std::size_t i = 0; i < swarm.size(); ++i) {
       const Vec3 half = dt / 2 / swarm.mass * forces.total(i);

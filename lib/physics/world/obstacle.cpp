@@ -62,12 +62,20 @@ Contact contact(const Obstacle& obstacle, const ObstaclePose& pose, const Vec3& 
   const double spring = obstacle.stiffness * depth;
   const double brake = obstacle.damping * std::max(0.0, -leaving);
   Contact touch;
+  touch.normal = normal;
+  touch.pressing = spring + brake;
   touch.spring = spring * normal;
   touch.damping = brake * normal;
   touch.friction =
-      rub(obstacle.friction * (spring + brake), obstacle.stick, relative - leaving * normal);
+      rub(obstacle.friction * touch.pressing, obstacle.stick, relative - leaving * normal);
   touch.energy = spring * depth / 2;
   return touch;
+}
+
+Vec3 stopping_friction(const Obstacle& obstacle, const Contact& touch, const Vec3& relative,
+                       double mass, double step) {
+  const Vec3 sliding = relative - touch.normal.dot(relative) * touch.normal;
+  return rub(obstacle.friction * touch.pressing, mass / step, sliding);
 }
 
 void check_obstacle(const Obstacle& obstacle) {

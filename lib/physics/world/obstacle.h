@@ -6,10 +6,11 @@
 // feels, with the velocity v relative to the obstacle's point at its centre, n the outward normal:
 //   f_n = k (r - d) + c max(0, -v.n)       never pulls
 //   f_t = -min(mu f_n / |v_t|, s) v_t      Coulomb's law, made regular
-// Below the slip speed mu f_n / s a contact sticks with a creep of its load over s instead of
-// holding fast. s is a damping (kg/s), so a step limit follows from it whatever the load is: the
-// rate is s / m, and s = m / (2 step) keeps the usual half of the limit. Thinner than about 2r, an
-// obstacle pushes a particle that passed its middle out on the far side.
+// A damping s (kg/s, "stick") makes sliding below the speed mu f_n / s viscous: the force depends
+// on the state alone and adds a rate s / m to what the step must resolve (s = m / (2 step) keeps
+// the usual half of the limit), but a load creeps at load / s. Without s contacts rub only through
+// stop_sliding of world.h, which knows the step: they hold fast and ask for no shorter step.
+// An obstacle thinner than about 2r pushes a particle that passed its middle out on the far side.
 #pragma once
 
 #include <functional>
@@ -43,7 +44,7 @@ struct Obstacle {
   double stiffness = 0;   ///< k, N/m
   double damping = 0;     ///< c, kg/s
   double friction = 0;    ///< mu
-  double stick = 0;       ///< s, kg/s; without it nothing rubs
+  double stick = 0;       ///< s, kg/s; 0: left to stop_sliding
 
   ObstaclePose at(double time, const Pose& pose) const;
 };
@@ -59,6 +60,8 @@ ObstacleMotion riding(int bone, const Bone& rest, const RigidFrame& frame);
 struct Contact {
   Vec3 spring = Vec3::Zero(), damping = Vec3::Zero(), friction = Vec3::Zero();
   double energy = 0;
+  Vec3 normal = Vec3::Zero();  ///< outward; zero without contact
+  double pressing = 0;         ///< f_n, N
 
   Vec3 force() const { return spring + damping + friction; }
   Vec3 losing() const { return damping + friction; }
@@ -67,6 +70,12 @@ struct Contact {
 /// The contact of a particle of `radius` (m) with an obstacle at `pose`.
 Contact contact(const Obstacle& obstacle, const ObstaclePose& pose, const Vec3& position,
                 const Vec3& velocity, double radius);
+
+/// The friction, N, that stops the sliding of a particle of `mass` (kg) within a step (s), or mu
+/// f_n where that is less. `relative` (m/s) is its velocity at the end of that step without
+/// friction, relative to the obstacle's point there.
+Vec3 stopping_friction(const Obstacle& obstacle, const Contact& touch, const Vec3& relative,
+                       double mass, double step);
 
 /// Throws bad input for a bad shape, and for constants that are negative or not finite.
 void check_obstacle(const Obstacle& obstacle);

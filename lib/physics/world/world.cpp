@@ -34,19 +34,47 @@ void book(WorldForces& forces, std::size_t i, const Vec3& force, const Vec3& los
   forces.losing_power[i] += losing.dot(velocity);
 }
 
+/// Adds what obstacle k does to particle i, and its reaction; `losing` is part of `force`.
+void add_contact(const Particles& particles, std::size_t i, const ObstaclePose& pose,
+                 const Vec3& force, const Vec3& losing, WorldForces& forces, Reaction& reaction) {
+  const Vec3 position = particles.position(i);
+  forces.contact[i] += force;
+  book(forces, i, force, losing, pose.velocity_at(position));
+  reaction.force -= force;
+  reaction.moment -= (position - pose.frame.origin).cross(force);
+}
+
+Contact contact_of(const Particles& particles, std::size_t i, const Obstacle& obstacle,
+                   const ObstaclePose& pose) {
+  return contact(obstacle, pose, particles.position(i), particles.velocity(i), particles.radius);
+}
+
 void add_contacts(const Particles& particles, const World& world, const WorldNow& now,
                   std::size_t i, WorldForces& forces, PieceSums& sums) {
-  const Vec3 position = particles.position(i), velocity = particles.velocity(i);
   for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
     const ObstaclePose& pose = now.obstacles[k];
-    const Contact touch = contact(world.obstacles[k], pose, position, velocity, particles.radius);
-    const Vec3 force = touch.force();
-    if (force.isZero(0)) continue;
-    forces.contact[i] += force;
-    book(forces, i, force, touch.losing(), pose.velocity_at(position));
+    const Contact touch = contact_of(particles, i, world.obstacles[k], pose);
+    if (!(touch.pressing > 0)) continue;
+    add_contact(particles, i, pose, touch.force(), touch.losing(), forces, sums.reactions[k]);
     sums.energy += touch.energy;
-    sums.reactions[k].force -= force;
-    sums.reactions[k].moment -= (position - pose.frame.origin).cross(force);
+  }
+}
+
+void add_stopping(const Particles& particles, const World& world, const WorldNow& now,
+                  const Vec3& others, double step, std::size_t i, WorldForces& forces,
+                  PieceSums& sums) {
+  const double mass = particles.mass;
+  Vec3 velocity = particles.velocity(i) + step / mass * others;
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    const Obstacle& obstacle = world.obstacles[k];
+    if (obstacle.stick > 0 || obstacle.friction == 0) continue;
+    const ObstaclePose& pose = now.obstacles[k];
+    const Contact touch = contact_of(particles, i, obstacle, pose);
+    if (!(touch.pressing > 0)) continue;
+    const Vec3 relative = velocity - pose.velocity_at(particles.position(i));
+    const Vec3 friction = stopping_friction(obstacle, touch, relative, mass, step);
+    add_contact(particles, i, pose, friction, friction, forces, sums.reactions[k]);
+    velocity += step / mass * friction;
   }
 }
 
@@ -63,7 +91,7 @@ void add_fields(const Particles& particles, const World& world, const WorldNow& 
     forces.field[i] += field_force(world.fields[k], now.scales[k], particles.position(i), grain);
 }
 
-/// In the order of the pieces, whichever thread made them.
+/// Adds the sums of the pieces, in their order, whichever thread made them.
 void add_up(const std::vector<PieceSums>& pieces, WorldForces& forces) {
   for (const PieceSums& piece : pieces) {
     forces.contact_energy += piece.energy;
@@ -72,6 +100,18 @@ void add_up(const std::vector<PieceSums>& pieces, WorldForces& forces) {
       forces.reactions[k].moment += piece.reactions[k].moment;
     }
   }
+}
+
+/// Calls act(i, sums of its piece) for all particles and adds up.
+template <class Act>
+void for_each_particle(std::size_t n, WorldForces& forces, const Act& act) {
+  std::vector<PieceSums> pieces((n + particles_per_piece - 1) / particles_per_piece);
+  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    PieceSums& sums = pieces[begin / particles_per_piece];
+    sums.reactions.resize(forces.reactions.size());
+    for (std::size_t i = begin; i < end; ++i) act(i, sums);
+  });
+  add_up(pieces, forces);
 }
 
 double sum_of_products(const Points& a, const Points& b) {
@@ -111,22 +151,23 @@ WorldNow world_at(const World& world, double time, const Pose& pose) {
 
 void world_forces(const Particles& particles, const World& world, const WorldNow& now,
                   WorldForces& forces) {
-  const std::size_t n = particles.size();
-  resize(forces, n);
-  std::vector<PieceSums> pieces((n + particles_per_piece - 1) / particles_per_piece);
-  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    PieceSums& sums = pieces[begin / particles_per_piece];
-    sums.reactions.resize(world.obstacles.size());
-    for (std::size_t i = begin; i < end; ++i) {
-      add_contacts(particles, world, now, i, forces, sums);
-      add_drag(particles, world.drag, i, forces);
-      add_fields(particles, world, now, i, forces);
-    }
-  });
+  resize(forces, particles.size());
   forces.contact_energy = 0;
   forces.reactions.assign(world.obstacles.size(), {});
-  add_up(pieces, forces);
+  for_each_particle(particles.size(), forces, [&](std::size_t i, PieceSums& sums) {
+    add_contacts(particles, world, now, i, forces, sums);
+    add_drag(particles, world.drag, i, forces);
+    add_fields(particles, world, now, i, forces);
+  });
   forces.muscle_energy = muscle_forces(world.muscles, now.activations, particles, forces.muscle);
+}
+
+void stop_sliding(const Particles& particles, const World& world, const WorldNow& now,
+                  const Points& others, double step, WorldForces& forces) {
+  for_each_particle(particles.size(), forces, [&](std::size_t i, PieceSums& sums) {
+    if (forces.contact[i].isZero(0)) return;
+    add_stopping(particles, world, now, others[i], step, i, forces, sums);
+  });
 }
 
 WorldPowers world_powers(const WorldForces& forces, const Points& velocities) {

@@ -49,18 +49,25 @@ struct WorldForces {
 void world_forces(const Particles& particles, const World& world, const WorldNow& now,
                   WorldForces& forces);
 
+/// Adds the dry friction of obstacles without `stick`, given all other forces on each particle (n,
+/// in the order of the particles, N; those of the world as well) and the step (s) they will be used
+/// for: a particle that slides stops at the step's end, or feels mu f_n where that is less. Between
+/// several obstacles each acts on what the ones before it leave. In parallel.
+void stop_sliding(const Particles& particles, const World& world, const WorldNow& now,
+                  const Points& others, double step, WorldForces& forces);
+
 /// What is put in and lost, W.
 struct WorldPowers {
   double obstacles = 0;  ///< put in by obstacles that move, and by the medium
   double fields = 0;     ///< put in
   double muscles = 0;    ///< put in: force times velocity
-  double lost = 0;       ///< to drag, friction and contact damping, >= 0 at the forces' velocities
+  double lost = 0;       ///< to drag, friction and contact damping
 };
 
 /// Powers of `forces` while the particles move at `velocities` (n x 3, m/s, in the order of the
-/// particles; a book at mid-step passes other velocities than the forces had). Kinetic and contact
-/// energy grow by obstacles + fields + muscles - lost. Who counts muscle_energy.stored as energy of
-/// the body counts muscle_energy.power instead of muscles.
+/// particles; a book passes those of mid-step, which differ from those the forces had). Kinetic and
+/// contact energy grow by obstacles + fields + muscles - lost. Who counts muscle_energy.stored as
+/// energy of the body counts muscle_energy.power instead of muscles.
 WorldPowers world_powers(const WorldForces& forces, const Points& velocities);
 
 /// A bound on the stiffness that the world adds to a particle of `particles`' radius and mass, N/m:
