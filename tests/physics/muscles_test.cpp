@@ -204,8 +204,6 @@ TEST(Muscles, AFreeBarShortensByTheActiveStressOverItsModulus) {
   const double modulus = bulk * 3 * q * q / (1 + 2 * q), strength = 0.002 * bulk;
   const Vec3 stretch = stretches_of_pulled_bar(n, 17, strength);
   const double strain = stretch.z() - 1;
-  std::printf("strain / (S / E of the bar) = %.4f, / (S / E[100]) = %.4f, Poisson %.3f\n",
-              -strain * modulus / strength, -strain * bulk / strength, -(stretch.x() - 1) / strain);
   EXPECT_NEAR(-strain * modulus / strength, 1, 0.03);
   EXPECT_NEAR(-(stretch.x() - 1) / strain, 1 / (1 + 2 * q), 0.02);
 }
@@ -251,7 +249,6 @@ TEST(Muscles, TheirStiffnessAtRestIsBounded) {
     const Points rest = test::fcc_ball(6, r);
     const Muscles muscles = make_muscles(rest, r, {everywhere(rest, direction)});
     const double bound = muscle_stiffness(muscles, r), measured = measured_stiffness(muscles, rest);
-    std::printf("stiffness: %.3f S r, bound %.3f\n", measured / (S * r), bound / (S * r));
     EXPECT_LE(measured, bound);
     EXPECT_GT(measured, 0.1 * bound);  // the outermost particles set the bound
   }

@@ -121,6 +121,31 @@ TEST(Obstacles, WithStopSlidingABlockHoldsFastBelowTheAngleOfFriction) {
   EXPECT_NEAR((later.position(0) - one.position(0)).norm(), 0, 1e-12);
 }
 
+TEST(Obstacles, StoppingFrictionIsTangentAndNoMoreThanItMustAndCanBe) {
+  Obstacle floor = floor_of(Vec3::UnitZ());
+  floor.friction = 0.5;
+  const Contact touch = contact(floor, {}, {0, 0, 0.9 * r}, Vec3::Zero(), r);
+  const double most = 0.5 * 200 * 0.1 * r, dt = 1e-3, slow = 0.5 * most * dt / mass;
+  const auto friction = [&](const Vec3& relative) {
+    return stopping_friction(floor, touch, relative, mass, dt);
+  };
+  EXPECT_NEAR((friction({0, slow, 7}) - mass / dt * Vec3(0, -slow, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((friction({9 * slow, 0, 7}) - Vec3(-most, 0, 0)).norm(), 0, 1e-15);
+  EXPECT_EQ(friction({0, 0, 7}), Vec3(0, 0, 0));
+}
+
+TEST(Obstacles, StopSlidingLeavesThoseWithStickAlone) {
+  const Incline incline(20, 0.4, 2);
+  Particles one = particles_at({incline.resting(20)}, r, mass);
+  one.set_velocity(0, incline.downhill);
+  const WorldNow now = world_at(incline.world, 0, {});
+  WorldForces forces;
+  world_forces(one, incline.world, now, forces);
+  const Vec3 before = forces.total(0);
+  stop_sliding(one, incline.world, now, {before}, 1e-3, forces);
+  EXPECT_EQ(forces.total(0), before);
+}
+
 TEST(Obstacles, WithStopSlidingABeltCarriesABlock) {
   World world;
   world.obstacles = {floor_of(Vec3::UnitZ())};
@@ -179,7 +204,6 @@ double block_on_incline(double angle, double stick, int steps) {
 
 TEST(Obstacles, ABodyHoldsFastBelowTheAngleOfFriction) {
   const double creep = block_on_incline(20, 0.5, 3000), held = block_on_incline(20, 0, 3000);
-  std::printf("a block at rest moves at %.2e m/s; with stick, at %.2e m/s\n", held, creep);
   EXPECT_LT(std::abs(held), 1e-6);
   EXPECT_LT(std::abs(creep), 0.1);
   EXPECT_GT(std::abs(block_on_incline(35, 0, 3000)), 0.1);

@@ -179,8 +179,6 @@ Book followed(double duration, int steps) {
 
 TEST(World, WorkIsKineticEnergyContactEnergyAndLoss) {
   const Book book = followed(0.1, 4000);
-  std::printf("work %.5f lost %.5f kinetic %.5f contact %.5f residual %.2e\n", book.work, book.lost,
-              book.kinetic, book.contact, book.kinetic + book.contact + book.lost - book.work);
   EXPECT_GT(book.lost, 0.01);
   EXPECT_GT(book.contact, 1e-4);
   EXPECT_NEAR(book.kinetic + book.contact + book.lost, book.work, 2e-4 * book.lost);
