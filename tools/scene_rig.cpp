@@ -47,8 +47,8 @@ const Clip& clip_of(const Rig& rig, const Settings& settings) {
   if (rig.clips.empty())
     throw bad_input("the file holds no motion", "name one that does in motion.file");
   if (rig.clips.size() > 1)
-    throw bad_input("the file holds " + std::to_string(rig.clips.size()) + " clips",
-                    "name one of them in motion.clip: " + names_of(rig.clips));
+    throw bad_input("the file holds several clips",
+                    std::string("name one in motion.clip: ").append(names_of(rig.clips)));
   return rig.clips.front();
 }
 
