@@ -89,8 +89,7 @@ void add_material(const Material& material, Results& results) {
 
 void add_steps(const Settings& settings, const Setup& setup, double speed, Results& results) {
   const auto limit_of = [&](Integrator integrator) {
-    return step_limit(integrator, setup.body.material, setup.body.springs,
-                      load_of(setup.body));
+    return step_limit(integrator, setup.body.material, setup.body.springs, load_of(setup.body));
   };
   results.add("time_step_limit_symplectic_euler", limit_of(Integrator::symplectic_euler), "s");
   results.add("time_step_limit_explicit_euler", limit_of(Integrator::explicit_euler), "s");

@@ -118,17 +118,18 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
 }
 
 void Recorder::write(const Moved& frame) {
-  const Dataset particles =
-      particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
-                         frame.force_damping, frame.force_bone, frame.neighbours, frame.energies,
-                         frame.force_world},
-                        frame.moment);
+  const Dataset particles = particles_dataset(
+      {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
+       frame.force_bone, frame.neighbours, frame.energies, frame.force_world},
+      frame.moment);
   particles_.add(particles);
   surface_.points = follow(skin_, particles.points);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
   bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
   frames_.add(frames_of_bones(skeleton_, frame.pose, frame.reactions, frame.moment));
-  if (obstacle_series_) obstacle_series_->add(obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
+  if (obstacle_series_)
+    obstacle_series_->add(
+        obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
   ++written_;
 }
 

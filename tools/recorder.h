@@ -21,7 +21,8 @@ namespace sinew {
 
 class Recorder {
  public:
-  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame. Throws not written.
+  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame.
+  /// Throws not written.
   Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
            const Triangles& surface, std::vector<Triangles> obstacles);
 

@@ -62,7 +62,7 @@ Placed placed_mesh(const ObstacleSettings& given, const BodySettings& body) {
   Placed placed;
   placed.surface = surface.triangles;
   const Box box = bounds(placed.surface.points);
-  placed.middle = box.centre();
+  placed.middle = box.center();
   for (Vec3& point : placed.surface.points) point -= placed.middle;
   MeshShape shape;
   shape.bounds = bounds(placed.surface.points);
@@ -101,9 +101,8 @@ Placed placed_shape(const ObstacleSettings& given, const BodySettings& body, dou
       break;
     }
     case ObstacleShape::box:
-      placed = {BoxShape{zero, *given.size / 2, rotation_about_axes(given.rotation)},
-                *given.centre,
-                {}};
+      placed = {
+          BoxShape{zero, *given.size / 2, rotation_about_axes(given.rotation)}, *given.centre, {}};
       break;
   }
   placed.surface = surface_of(placed.shape, size);

@@ -41,8 +41,8 @@ Body make_body(const Settings& settings, const Skeleton& skeleton, const Particl
 }
 
 StepChoice steps_of(const Settings& settings, const Body& body) {
-  const double limit = step_limit(settings.solver.integrator, body.material, body.springs,
-                                  load_of(body));
+  const double limit =
+      step_limit(settings.solver.integrator, body.material, body.springs, load_of(body));
   try {
     return choose_step(settings.solver, limit, settings.output.interval);
   } catch (const Error& error) {

@@ -15,8 +15,8 @@ struct Setup {
   Motion motion;
   StepChoice steps;
   std::vector<Triangles> obstacles;  ///< of the world, as surfaces about their own middle
-  double joint_zone = 0;  ///< in square roots of the bones' cross-section
-  int frames = 0;         ///< after the first; the last is at solver.duration or just beyond
+  double joint_zone = 0;             ///< in square roots of the bones' cross-section
+  int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
 
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.

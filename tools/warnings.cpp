@@ -18,8 +18,8 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_stable_b = 2.75;
 constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
 constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
-constexpr double least_shift = 0.1;   // radii that a bone may jump unnoticed
-constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
+constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
+constexpr double steepest_joint = 5;   // degrees between two planes: more, and bonds break
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
   if (pair.b > largest_stable_b * pair.r)

@@ -57,8 +57,7 @@ void check_names(const std::vector<Owner>& owners, std::string_view list,
                       "give each a name of its own");
 }
 
-void check_region(const RegionSettings& region, const std::string& path,
-                  const Settings& settings) {
+void check_region(const RegionSettings& region, const std::string& path, const Settings& settings) {
   const bool box = region.low || region.high, ball = region.centre || region.radius;
   const Place place = settings.place(path);
   if (box && ball)
@@ -123,8 +122,7 @@ void read_obstacle(const YamlNode& item, const std::string& path, ObstacleSettin
                     "keep one of them");
 }
 
-void read_pin(const YamlNode& item, const std::string& path, PinSettings& pin,
-              Settings& settings) {
+void read_pin(const YamlNode& item, const std::string& path, PinSettings& pin, Settings& settings) {
   read_fields(item, path, pin_fields(), "", pin, settings.places);
   check_region(pin.region, path, settings);
   if (!has_region(pin.region))
@@ -204,8 +202,7 @@ std::string world_text(const Settings& settings, const std::filesystem::path& fo
     return entry_text(pin_fields(), pin, 4, first);
   });
   text += list_text("fields", world.fields, [](const FieldSettings& field, bool first) {
-    return entry_text(field_fields(), field, 4, first) +
-           with_keys(strength_fields(), field, first);
+    return entry_text(field_fields(), field, 4, first) + with_keys(strength_fields(), field, first);
   });
   text += list_text("muscles", world.muscles, [](const MuscleSettings& muscle, bool first) {
     return entry_text(muscle_fields(), muscle, 4, first) +

@@ -359,9 +359,9 @@ std::vector<Field<Settings>> make_output() {
 
 std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
-  for (const auto& section : {make_body(), make_material(), make_skeleton_section(),
-                              make_motion_section(), make_binding(), make_world(), make_solver(),
-                              make_output()})
+  for (const auto& section :
+       {make_body(), make_material(), make_skeleton_section(), make_motion_section(),
+        make_binding(), make_world(), make_solver(), make_output()})
     all.insert(all.end(), section.begin(), section.end());
   return all;
 }
@@ -534,8 +534,8 @@ std::vector<Field<MuscleSettings>> make_muscles() {
       required(field<M>("", "strength", SINEW_AT(M, strength), "Pa",
                         "active stress along the fibres at activation 1", not_negative)),
   };
-  for (auto& row : make_region<M>("lies in a box at rest: its least corner",
-                                  "or in a ball: its centre"))
+  for (auto& row :
+       make_region<M>("lies in a box at rest: its least corner", "or in a ball: its centre"))
     rows.push_back(std::move(row));
   rows.push_back(falloff<M>());
   return rows;

@@ -41,10 +41,10 @@ Dataset surface_dataset(const Triangles& surface, const Points& rest,
 
 /// An obstacle at one moment.
 struct ObstacleFrame {
-  const Triangles& surface;  ///< about the obstacle's own frame, m
-  RigidFrame frame;          ///< where that is
-  Vec3 velocity, angular_velocity;        ///< of the frame, m/s and rad/s
-  Vec3 reaction_force, reaction_moment;   ///< of the body on it, N and N m about the frame's origin
+  const Triangles& surface;              ///< about the obstacle's own frame, m
+  RigidFrame frame;                      ///< where that is
+  Vec3 velocity, angular_velocity;       ///< of the frame, m/s and rad/s
+  Vec3 reaction_force, reaction_moment;  ///< of the body on it, N and N m about the frame's origin
 };
 
 /// The surfaces of all obstacles in one.

@@ -58,8 +58,9 @@ struct SurfaceDistance::Tree {
 
 SurfaceDistance::SurfaceDistance(const Surface& surface) {
   if (!surface.closed())
-    throw bad_input("the surface is not closed (holes: " + std::to_string(surface.border.holes) + ")",
-                    "close them, or use a closed mesh");
+    throw bad_input(
+        "the surface is not closed (holes: " + std::to_string(surface.border.holes) + ")",
+        "close them, or use a closed mesh");
   tree_ = std::make_unique<Tree>(corners_of(surface.triangles));
   if (tree_->faces.empty())
     throw bad_input("the surface has no face with an area", "use a mesh that encloses a volume");

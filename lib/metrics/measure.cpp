@@ -68,8 +68,7 @@ void add_energies(FrameMetrics& out, const Energies& start, const Energies& now)
   out.dissipation = now.dissipation;
   out.contact_energy = now.contact;
   out.work_of_world = now.work_of_world;
-  out.energy_residual = (now.stored() - start.stored()) -
-                        (now.work() - start.work()) +
+  out.energy_residual = (now.stored() - start.stored()) - (now.work() - start.work()) +
                         (now.dissipation - start.dissipation);
 }
 

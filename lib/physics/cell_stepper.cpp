@@ -175,12 +175,9 @@ Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   forces.bone = forces_.bone;
   forces.world = forces_.world;
   forces.neighbours = forces_.neighbours;
-  return {now.power,
-          now.lost,
-          stored_in_pairs(),
-          bone_energy(particles_, *body_, pose),
-          now.world_power,
-          world_.contact_energy,
+  return {now.power,         now.lost,
+          stored_in_pairs(), bone_energy(particles_, *body_, pose),
+          now.world_power,   world_.contact_energy,
           now.held_kinetic};
 }
 

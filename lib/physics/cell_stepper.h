@@ -50,7 +50,7 @@ class CellStepper {
   WorldForces world_;
   std::vector<std::size_t> held_;  ///< place of each pin of the world
   std::vector<bool> is_held_;      ///< empty where nothing is
-  bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
+  bool kicked_ = false;            ///< velocities are half a step ahead (velocity Verlet)
 };
 
 }  // namespace sinew

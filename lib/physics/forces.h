@@ -20,7 +20,7 @@ struct World;
 /// Forces in the order of the particles, N.
 struct Forces {
   Points pair, damping, bone;
-  Points world;  ///< obstacles, drag, fields, muscles; empty where there is no world
+  Points world;                 ///< obstacles, drag, fields, muscles; empty where there is no world
   std::vector<int> neighbours;  ///< partners nearer than b
 
   // Of bone_forces only: a simulation's own forces leave them out.
@@ -40,7 +40,7 @@ struct Body {
   Skeleton skeleton;
   Binding binding;  ///< by particle id
   Material material;
-  std::vector<BoneSprings> springs;  ///< per bone
+  std::vector<BoneSprings> springs;         ///< per bone
   std::shared_ptr<const World> world = {};  ///< none: nothing is around it
 };
 

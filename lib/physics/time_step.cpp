@@ -51,8 +51,8 @@ double semi_implicit_limit(const Material& material, const std::vector<BoneSprin
   for (const Mode& mode : worst_modes(material)) {
     const double k = mode.w2 * material.stiffness() + stiffest_spring(springs) + world.stiffness;
     const double w2 = k / material.mass;
-    const double g = (mode.rate * material.damping + largest_damping(springs)) / material.mass +
-                     world.damping;
+    const double g =
+        (mode.rate * material.damping + largest_damping(springs)) / material.mass + world.damping;
     limit = std::min(limit, 4 / (std::sqrt(g * g + 4 * w2) + g));  // (sqrt(g^2 + 4 w^2) - g) / w^2
   }
   return limit;
@@ -65,8 +65,9 @@ double explicit_limit(const Material& material, const std::vector<BoneSprings>& 
   double limit = C / (share * lattice_factor(material) * k + share * world.stiffness);
   for (const Mode& mode : worst_modes(material))
     if (C > 0)
-      limit = std::min(limit, 2 * material.mass / (mode.rate * C + largest_damping(springs) +
-                                                   material.mass * world.damping));
+      limit = std::min(
+          limit, 2 * material.mass /
+                     (mode.rate * C + largest_damping(springs) + material.mass * world.damping));
   for (const BoneSprings& bone : springs)
     if (bone.stiffest() > 0) limit = std::min(limit, bone.damping / bone.stiffest());
   return limit;

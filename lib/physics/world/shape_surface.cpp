@@ -28,7 +28,8 @@ Triangles rounded(const Vec3& a, const Vec3& b, double radius) {
       const double turn = 2 * pi * k / meridians;
       const Vec3 across = std::cos(turn) * frame.col(1) + std::sin(turn) * frame.col(2);
       surface.points.push_back((ring <= parallels ? b : a) +
-                               radius * (std::cos(polar) * frame.col(0) + std::sin(polar) * across));
+                               radius *
+                                   (std::cos(polar) * frame.col(0) + std::sin(polar) * across));
     }
   }
   surface.points.push_back(a - radius * frame.col(0));
