@@ -15,7 +15,10 @@ namespace sinew {
 namespace {
 
 std::string entry(const char* list, std::size_t index) {
-  return "world." + std::string(list) + '[' + std::to_string(index) + ']';
+  std::string path = "world.";
+  path += list;
+  path += '[' + std::to_string(index) + ']';
+  return path;
 }
 
 int bone_named(const std::string& name, const std::string& path, const Settings& settings,
