@@ -89,7 +89,8 @@ TEST(WorldSection, IsRead) {
   EXPECT_EQ(world.obstacles[1].keys[1].angle, 720);
   EXPECT_EQ(world.obstacles[2].bone, "lower");
   EXPECT_EQ(world.obstacles[3].rotation, Vec3(0, 45, 0));
-  EXPECT_EQ(world.obstacles[4].mesh, (folder.path() / "hand.obj").string());
+  const auto mesh = std::filesystem::absolute(world.obstacles[4].mesh).lexically_normal();
+  EXPECT_EQ(mesh, folder.path() / "hand.obj");
   ASSERT_EQ(world.pins.size(), 2U);
   EXPECT_EQ(world.pins[0].region.high, Vec3(1, 1, 0.1));
   EXPECT_EQ(world.pins[1].region.radius, 0.2);
