@@ -55,6 +55,44 @@ def paper_box():
     write_obj(MESHES / "box.obj", comment, points, faces)
 
 
+def skin_of_cells(cells, edge):
+    """The surface of cubes (i, j, k) from k = 0 up, centred on 0 in x and y: points shared, outward."""
+    half = [max(cell[axis] for cell in cells) / 2 + 0.5 if axis < 2 else 0 for axis in range(3)]
+    points, number, faces = [], {}, []
+    for cell in sorted(cells):
+        for axis in range(3):
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            for side in (0, 1):
+                beyond = list(cell)
+                beyond[axis] += 2 * side - 1
+                if tuple(beyond) in cells:
+                    continue
+                quad = []
+                for p, q in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    corner = list(cell)
+                    corner[axis] += side
+                    corner[u] += p
+                    corner[v] += q
+                    corner = tuple(corner)
+                    if corner not in number:
+                        number[corner] = len(points)
+                        points.append([edge * (c - h) for c, h in zip(corner, half)])
+                    quad.append(number[corner])
+                if side == 0:
+                    quad.reverse()
+                faces += [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
+    return points, faces
+
+
+def two_fingers():
+    """A palm 0.16 m wide with two fingers on it, 0.06 m thick and 0.22 m long, 0.04 m apart."""
+    cells = {(i, j, k) for i in range(8) for j in range(3) for k in range(14)
+             if k < 3 or i not in (3, 4)}
+    points, faces = skin_of_cells(cells, 0.02)
+    comment = [f"Two fingers on a palm: {len(points)} points, lengths in metres.", *ORIGIN]
+    write_obj(MESHES / "two_fingers.obj", comment, points, faces)
+
+
 def smooth_body(name, body, cell):
     points, faces = polygonise(body, cell)
     comment = [f"{body.title}: {len(points)} points, lengths in metres.", *ORIGIN]
@@ -64,6 +102,7 @@ def smooth_body(name, body, cell):
 if __name__ == "__main__":
     MESHES.mkdir(exist_ok=True)
     paper_box()
+    two_fingers()
     smooth_body("arm.ply", bodies.arm(), 0.005)
     smooth_body("creature.ply", bodies.creature(), 0.0066)
     smooth_body("tentacle.ply", bodies.tentacle(), 0.005)

@@ -9,9 +9,11 @@
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "estimate.h"
+#include "physics/rest_stability.h"
 #include "results.h"
 #include "run_folder.h"
 #include "scene_body.h"
+#include "scene_world.h"
 #include "setup.h"
 #include "step_way.h"
 #include "warnings.h"
@@ -80,13 +82,14 @@ void add_material(const Material& material, Results& results) {
   results.add("contact_stiffness", k, "N/m");
   results.add("tension_stiffness", pair.tension_stiffness(), "N/m");
   results.add("lambda", pair.lambda());
+  results.add("rest", rests_stably(material) ? "stable" : "unstable");
   results.add("damping_constant", material.damping, "kg/s");
   results.add("wave_speed_100", 2 * pair.r * std::sqrt(k / material.mass), "m/s");
 }
 
 void add_steps(const Settings& settings, const Setup& setup, double speed, Results& results) {
   const auto limit_of = [&](Integrator integrator) {
-    return step_limit(integrator, setup.body.material, setup.body.springs);
+    return step_limit(integrator, setup.body.material, setup.body.springs, load_of(setup.body));
   };
   results.add("time_step_limit_symplectic_euler", limit_of(Integrator::symplectic_euler), "s");
   results.add("time_step_limit_explicit_euler", limit_of(Integrator::explicit_euler), "s");

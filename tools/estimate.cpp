@@ -39,7 +39,8 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const auto particles = static_cast<double>(setup.body.rest.size());
   const auto points = static_cast<double>(surface_points);
   const auto faces = static_cast<double>(surface_faces);
-  const double reals = particles * reals_per_particle + points * reals_per_point;
+  const double reals_of_world = setup.body.world ? 3 : 0;  // one more force
+  const double reals = particles * (reals_per_particle + reals_of_world) + points * reals_per_point;
   const double wholes =
       particles * wholes_per_particle + points * wholes_per_point + faces * wholes_per_face;
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;

@@ -54,6 +54,15 @@ Dataset frames_of_bones(const Skeleton& skeleton, const Pose& pose,
   return frames_dataset(skeleton, pose, {force, moment_of_force}, moment);
 }
 
+Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<ObstaclePose>& poses,
+                     const std::vector<Reaction>& reactions, Moment moment) {
+  std::vector<ObstacleFrame> frames;
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    frames.push_back({surfaces[k], poses[k].frame, poses[k].velocity, poses[k].angular_velocity,
+                      reactions[k].force, reactions[k].moment});
+  return obstacles_dataset(frames, moment);
+}
+
 }  // namespace
 
 std::vector<std::int32_t> bones_of_particles(const Body& body) {
@@ -63,18 +72,22 @@ std::vector<std::int32_t> bones_of_particles(const Body& body) {
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
-                   const Body& body, const Triangles& surface)
+                   const Body& body, const Triangles& surface, std::vector<Triangles> obstacles)
     : skeleton_(body.skeleton),
       rest_(body.rest),
       skin_(make_skin(surface.points, rest_, body.material.pair.r)),
       surface_(surface),
       particle_bone_(bones_of_particles(body)),
       surface_bone_(bones_of_vertices(skin_, particle_bone_)),
+      obstacles_(std::move(obstacles)),
       particles_(folder, format_of(output, "particles", body.material.pair.r)),
       skins_(folder, format_of(output, "surface", body.material.pair.r)),
       bones_(folder, format_of(output, "bones", body.material.pair.r)),
       frames_(folder, format_of(output, "frames", body.material.pair.r)),
-      writer_(moved_.size()) {}
+      writer_(moved_.size()) {
+  if (!obstacles_.empty())
+    obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r));
+}
 
 void Recorder::add(Simulation& simulation, double time) {
   writer_.hand([&] {
@@ -93,28 +106,37 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
   copy(forces.pair, frame.force_pair);
   copy(forces.damping, frame.force_damping);
   copy(forces.bone, frame.force_bone);
+  copy(forces.world, frame.force_world);
   copy(forces.neighbours, frame.neighbours);
   frame.energies = simulation.energies();
   frame.pose = simulation.pose();
   frame.reactions = reactions(simulation.particles(), simulation.body(), frame.pose);
+  if (!simulation.body().world) return;
+  frame.obstacles = world_at(*simulation.body().world, time, frame.pose).obstacles;
+  const auto on = simulation.reactions_of_obstacles();
+  frame.on_obstacles.assign(on.begin(), on.end());
 }
 
 void Recorder::write(const Moved& frame) {
-  const Dataset particles =
-      particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
-                         frame.force_damping, frame.force_bone, frame.neighbours, frame.energies},
-                        frame.moment);
+  const Dataset particles = particles_dataset(
+      {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
+       frame.force_bone, frame.neighbours, frame.energies, frame.force_world},
+      frame.moment);
   particles_.add(particles);
   surface_.points = follow(skin_, particles.points);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
   bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
   frames_.add(frames_of_bones(skeleton_, frame.pose, frame.reactions, frame.moment));
+  if (obstacle_series_)
+    obstacle_series_->add(
+        obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
   ++written_;
 }
 
 void Recorder::close() {
   writer_.finish();
   for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
+  if (obstacle_series_) obstacle_series_->close();
 }
 
 }  // namespace sinew

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <optional>
 
 #include "core/background.h"
 #include "core/settings.h"
@@ -13,15 +14,17 @@
 #include "io/frames.h"
 #include "io/series.h"
 #include "physics/simulation.h"
+#include "physics/world/world.h"
 #include "rig/skin.h"
 
 namespace sinew {
 
 class Recorder {
  public:
-  /// `surface`: the body's skin at rest. Throws not written.
+  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame.
+  /// Throws not written.
   Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
-           const Triangles& surface);
+           const Triangles& surface, std::vector<Triangles> obstacles);
 
   /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
   /// not written, of a frame before it too: then nothing more is written.
@@ -37,11 +40,13 @@ class Recorder {
   struct Moved {
     Moment moment;
     Particles particles;
-    Points force_pair, force_damping, force_bone;
+    Points force_pair, force_damping, force_bone, force_world;
     std::vector<std::int32_t> neighbours;
     Energies energies;
     Pose pose;
     std::vector<Reaction> reactions;
+    std::vector<ObstaclePose> obstacles;
+    std::vector<Reaction> on_obstacles;
   };
 
   static void take(Simulation& simulation, double time, Moved& frame);
@@ -52,7 +57,9 @@ class Recorder {
   Skin skin_;
   Triangles surface_;  ///< its points as they are in the frame being written
   std::vector<std::int32_t> particle_bone_, surface_bone_;
+  std::vector<Triangles> obstacles_;
   Series particles_, skins_, bones_, frames_;
+  std::optional<Series> obstacle_series_;  ///< where the scene has some
   std::array<Moved, 2> moved_;  ///< one being written, one waiting; their room is used again
   std::size_t taken_ = 0;
   std::atomic<int> written_ = 0;

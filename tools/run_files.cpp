@@ -56,7 +56,8 @@ double field(const Dataset& data, const char* name) {
 
 Energies energies_of(const Dataset& data) {
   return {field(data, "kinetic_energy"), field(data, "pair_energy"),   field(data, "bone_energy"),
-          field(data, "gravity_energy"), field(data, "work_of_bones"), field(data, "dissipation")};
+          field(data, "gravity_energy"), field(data, "work_of_bones"), field(data, "dissipation"),
+          field(data, "contact_energy"), field(data, "work_of_world")};
 }
 
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {

@@ -26,8 +26,8 @@ bool is_gltf(const std::filesystem::path& path) {
 Rig read_bvh_rig(const std::filesystem::path& path, const MotionSettings& motion) {
   BvhOptions options;
   options.name = path.stem().string();
-  options.up = "z";
-  options.forward = "x";
+  options.up = std::string("z");
+  options.forward = std::string("x");
   options.rate = motion.frame_rate.value_or(0);
   options.positions =
       motion.positions == Positions::add ? BvhPositions::add : BvhPositions::replace;

@@ -55,6 +55,16 @@ Group section_group(std::string_view section) {
   return group;
 }
 
+void add_world(std::vector<Group>& all) {
+  all.push_back(entries("world.obstacles[]", obstacle_fields()));
+  all.push_back(entries("world.obstacles[].keys[]", place_key_fields()));
+  all.push_back(entries("world.pins[]", pin_fields()));
+  all.push_back(entries("world.fields[]", field_fields()));
+  all.push_back(entries("world.fields[].keys[]", strength_fields()));
+  all.push_back(entries("world.muscles[]", muscle_fields()));
+  all.push_back(entries("world.muscles[].keys[]", activation_fields()));
+}
+
 std::vector<Group> groups() {
   std::vector<Group> all;
   for (const std::string_view section : sections()) {
@@ -67,6 +77,7 @@ std::vector<Group> groups() {
       all.push_back(entries("motion.tracks[]", track_fields()));
       all.push_back(entries("motion.tracks[].keys[]", key_fields()));
     }
+    if (section == "world") add_world(all);
   }
   return all;
 }

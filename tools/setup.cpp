@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "scene_body.h"
 #include "scene_rig.h"
+#include "scene_world.h"
 
 namespace sinew {
 namespace {
@@ -40,7 +41,8 @@ Body make_body(const Settings& settings, const Skeleton& skeleton, const Particl
 }
 
 StepChoice steps_of(const Settings& settings, const Body& body) {
-  const double limit = step_limit(settings.solver.integrator, body.material, body.springs);
+  const double limit =
+      step_limit(settings.solver.integrator, body.material, body.springs, load_of(body));
   try {
     return choose_step(settings.solver, limit, settings.output.interval);
   } catch (const Error& error) {
@@ -55,6 +57,9 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings);
   setup.body = make_body(settings, rig.skeleton, particles);
+  SceneWorld around = world_of(settings, setup.body);
+  setup.body.world = std::move(around.world);
+  setup.obstacles = std::move(around.obstacles);
   setup.motion = std::move(rig.motion);
   setup.joint_zone = settings.binding.joint_zone;
   setup.steps = steps_of(settings, setup.body);

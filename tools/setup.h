@@ -4,6 +4,7 @@
 
 #include "core/particles.h"
 #include "core/settings.h"
+#include "core/triangles.h"
 #include "physics/simulation.h"
 #include "physics/time_step.h"
 
@@ -13,8 +14,9 @@ struct Setup {
   Body body;
   Motion motion;
   StepChoice steps;
-  double joint_zone = 0;  ///< in square roots of the bones' cross-section
-  int frames = 0;         ///< after the first; the last is at solver.duration or just beyond
+  std::vector<Triangles> obstacles;  ///< of the world, as surfaces about their own middle
+  double joint_zone = 0;             ///< in square roots of the bones' cross-section
+  int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
 
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.

@@ -132,9 +132,11 @@ Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder
     write_beginning(settings, made, folder);
     journal.spend("writing", watch.lap());
     const Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
+    std::vector<Triangles> obstacles = std::move(made.setup.obstacles);
     Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
     made.body = {};  // millions of numbers that nobody needs any more
-    Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles);
+    Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles,
+                      std::move(obstacles));
     simulation.forces();  // finds the first partners: no part of what writing costs
     journal.spend("binding", watch.lap());
     const Exit exit = record_run(simulation, course, recorder, journal, quiet);

@@ -28,6 +28,7 @@ Unserved unserved_by_lists(const Body& body, const Motion& motion) {
             body.material.model == MaterialModel::bonded ? "bonded" : "bonded_volume", "paper"};
   if (body.material.cohesion != Cohesion::all)
     return {"material.cohesion", "initial_neighbours", "all"};
+  if (body.world) return {"the section world", "not empty", "without entries"};
   if (stretches(motion)) return {"a key's stretch", "not 1", "1"};
   if (body.material.damping_form != DampingForm::paper)
     return {"material.damping_form",

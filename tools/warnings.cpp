@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/number_text.h"
+#include "physics/world/world.h"
 #include "rig/motion_warnings.h"
 
 namespace sinew {
@@ -16,8 +17,9 @@ using Warnings = std::vector<std::string>;
 // Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
 constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
-constexpr double least_shift = 0.1;   // radii that a bone may jump unnoticed
-constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
+constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
+constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
+constexpr double steepest_joint = 5;   // degrees between two planes: more, and bonds break
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
   if (pair.b > largest_stable_b * pair.r)
@@ -99,6 +101,27 @@ void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& w
   warnings.push_back(warning);
 }
 
+/// A body that begins within an obstacle is thrown out of it.
+void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
+  if (!setup.body.world) return;
+  const World& world = *setup.body.world;
+  const WorldNow start = world_at(world, 0, pose_at(setup.body.skeleton, setup.motion, 0));
+  const double r = setup.body.material.pair.r;
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    std::size_t count = 0;
+    for (const Vec3& place : setup.body.rest) {
+      const double pressing =
+          contact(world.obstacles[k], start.obstacles[k], place, Vec3::Zero(), r).pressing;
+      count += pressing > deepest_start * r * world.obstacles[k].stiffness;
+    }
+    if (count > 0)
+      warnings.push_back(std::to_string(count) + " particles begin over " +
+                         three_digits(deepest_start) + " radii within obstacle '" +
+                         world.obstacles[k].name +
+                         "', which throws them out; move it away from the body");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
@@ -114,6 +137,7 @@ std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& s
     warnings.push_back(std::move(warning));
   warn_of_idle_bones(setup.body, warnings);
   warn_of_cells(setup, solver, warnings);
+  warn_of_overlaps(setup, warnings);
   return warnings;
 }
 

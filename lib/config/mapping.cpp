@@ -22,6 +22,12 @@ std::vector<std::string> homes_of(std::string_view name) {
   look(limit_fields(), "skeleton.bones[].limits");
   look(track_fields(), "motion.tracks");
   look(key_fields(), "motion.tracks[].keys");
+  look(obstacle_fields(), "world.obstacles");
+  look(pin_fields(), "world.pins");
+  look(field_fields(), "world.fields");
+  look(strength_fields(), "world.fields[].keys");
+  look(muscle_fields(), "world.muscles");
+  look(activation_fields(), "world.muscles[].keys");
   return homes;
 }
 

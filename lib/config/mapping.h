@@ -2,6 +2,7 @@
 // Reads the keys of one mapping into the value they describe, by the rows of the table of settings.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,14 +31,10 @@ std::span<const YamlNode> list_below(const YamlNode& node, const std::string& pa
 /// "PATH is missing; add KEY: VALUES"
 Error missing_key(const YamlNode& node, const std::string& path, const Rules& rules);
 
-/// Sets what `rows` describe in `owner`. `own` is the key of a list in the same mapping, or "".
+/// Sets what `rows` describe in `owner`; other keys are left alone.
 template <class Owner>
-void read_fields(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
-                 std::string_view own, Owner& owner, Places& places) {
-  std::vector<std::string_view> known;
-  for (const auto& row : rows) known.push_back(row.name);
-  if (!own.empty()) known.push_back(own);
-  check_keys(node, path, known);
+void read_rows(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
+               Owner& owner, Places& places) {
   for (const auto& row : rows) {
     const std::string below = path_below(path, row.name);
     const YamlNode* value = node.find(row.name);
@@ -46,6 +43,25 @@ void read_fields(const YamlNode& node, const std::string& path, std::span<const 
     row.set(owner, read_value(*value, below, rules_of(row)));
     places[below] = value->place;
   }
+}
+
+/// The same where no keys are allowed but the rows' and `own`, keys of lists in the same mapping.
+template <class Owner>
+void read_fields(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
+                 std::span<const std::string_view> own, Owner& owner, Places& places) {
+  std::vector<std::string_view> known;
+  for (const auto& row : rows) known.push_back(row.name);
+  known.insert(known.end(), own.begin(), own.end());
+  check_keys(node, path, known);
+  read_rows(node, path, rows, owner, places);
+}
+
+/// With one such list, or none: "".
+template <class Owner>
+void read_fields(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
+                 std::string_view own, Owner& owner, Places& places) {
+  const std::array<std::string_view, 1> list = {own};
+  read_fields(node, path, rows, std::span(list).first(own.empty() ? 0 : 1), owner, places);
 }
 
 }  // namespace sinew

@@ -18,6 +18,10 @@ fs::path seen_from(const fs::path& folder, const fs::path& path) {
   return way == here ? path.filename() : way / path.filename();
 }
 
+std::string path_in(const fs::path& folder, const std::string& path) {
+  return path.empty() || fs::path(path).is_absolute() ? path : seen_from(folder, path).string();
+}
+
 void open_paths_from_here(Settings& settings, const fs::path& folder) {
   const std::string scene = settings.place("").file;
   for (const auto& row : settings_table()) {
@@ -29,6 +33,9 @@ void open_paths_from_here(Settings& settings, const fs::path& folder) {
       continue;
     row.set(settings, seen_from("", folder / *path).string());
   }
+  for (ObstacleSettings& obstacle : settings.world.obstacles)
+    if (!obstacle.mesh.empty() && !fs::path(obstacle.mesh).is_absolute())
+      obstacle.mesh = seen_from("", folder / obstacle.mesh).string();
 }
 
 }  // namespace sinew

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/settings.h"
 
@@ -12,6 +13,9 @@ namespace sinew {
 /// itself is not.
 std::filesystem::path seen_from(const std::filesystem::path& folder,
                                 const std::filesystem::path& path);
+
+/// A path as the scene in `folder` writes it: relative ones from there. "" stays.
+std::string path_in(const std::filesystem::path& folder, const std::string& path);
 
 /// Turns the relative paths that the scene in `folder` gives into paths from the current directory.
 /// Those given elsewhere (on the command line) are such paths already.

@@ -8,6 +8,7 @@
 #include "config/paths.h"
 #include "config/rig.h"
 #include "config/text_file.h"
+#include "config/world.h"
 #include "core/settings_table.h"
 #include "core/words.h"
 
@@ -21,6 +22,15 @@ std::vector<Field<Settings>> rows_of(std::string_view section) {
   for (const auto& row : settings_table())
     if (row.section == section) rows.push_back(row);
   return rows;
+}
+
+/// The keys of a section that hold lists.
+std::span<const std::string_view> lists_of(std::string_view section) {
+  static constexpr std::array<std::string_view, 2> lists = {"bones", "tracks"};
+  if (section == "skeleton") return std::span(lists).first(1);
+  if (section == "motion") return std::span(lists).last(1);
+  if (section == "world") return world_lists;
+  return {};
 }
 
 /// A section that is not there has all its defaults, and is missed where it must not be.
@@ -46,14 +56,12 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
   check_keys(scene, "", known);
   for (const std::string_view name : known) {
     const YamlNode section = section_of(scene, name, settings);
-    const bool skeleton = name == "skeleton", motion = name == "motion";
-    read_fields<Settings>(section, std::string(name), rows_of(name),
-                          skeleton ? "bones"
-                          : motion ? "tracks"
-                                   : "",
-                          settings, settings.places);
-    if (skeleton) read_bones(section, settings);
-    if (motion) read_tracks(section, settings);
+    const auto rows = rows_of(name);
+    read_fields<Settings>(section, std::string(name), rows, lists_of(name), settings,
+                          settings.places);
+    if (name == "skeleton") read_bones(section, settings);
+    if (name == "motion") read_tracks(section, settings);
+    if (name == "world") read_world(section, settings);
   }
   return settings;
 }

@@ -10,9 +10,12 @@ struct Energies {
   double bone = 0;           ///< in the bones' springs
   double gravity = 0;        ///< -m g.x
   double work_of_bones = 0;  ///< put in since the start
-  double dissipation = 0;    ///< lost to both dampings since the start
+  double dissipation = 0;    ///< lost to damping, drag and friction since the start
+  double contact = 0;        ///< in the springs of obstacles
+  double work_of_world = 0;  ///< put in since the start: moving obstacles, pins, fields, muscles
 
-  double stored() const { return kinetic + pair + bone + gravity; }
+  double stored() const { return kinetic + pair + bone + gravity + contact; }
+  double work() const { return work_of_bones + work_of_world; }
 };
 
 }  // namespace sinew

@@ -143,6 +143,81 @@ struct BindingSettings {
   double joint_zone = 0;
 };
 
+/// A box (low, high) or a ball (centre, radius) of the scene; none of them: everywhere.
+struct RegionSettings {
+  std::optional<Vec3> low = {}, high = {};
+  std::optional<Vec3> centre = {};
+  std::optional<double> radius = {};
+  double falloff = 0;
+};
+
+/// A number at a time.
+struct ValueKeySettings {
+  double time = 0;
+  double value = 1;
+};
+
+struct PlaceKeySettings {
+  double time = 0;
+  Vec3 translation = Vec3::Zero();
+  Vec3 axis = Vec3::UnitZ();
+  double angle = 0;
+};
+
+enum class ObstacleShape { plane, sphere, capsule, box, mesh };
+
+struct ObstacleSettings {
+  std::string name;
+  ObstacleShape shape = ObstacleShape::plane;
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< of a plane
+  std::optional<Vec3> centre = {};
+  std::optional<double> radius = {};
+  std::optional<Vec3> from = {}, to = {};
+  std::optional<Vec3> size = {};
+  Vec3 rotation = Vec3::Zero();
+  std::string mesh;  ///< a path, as body.mesh
+  std::string bone;
+  double friction = 0;
+  double stiffness = 1;
+  double damping = 0.5;
+  Interpolation interpolation = Interpolation::smooth;
+  std::vector<PlaceKeySettings> keys = {};
+};
+
+struct PinSettings {
+  RegionSettings region = {};
+  std::string bone;
+};
+
+struct FieldSettings {
+  std::string name;
+  Vec3 acceleration = Vec3::Zero();
+  RegionSettings region = {};
+  std::vector<ValueKeySettings> keys = {};  ///< of strength
+};
+
+struct MuscleSettings {
+  std::string name;
+  std::string bone;
+  std::optional<Vec3> direction = {};
+  double strength = 0;
+  RegionSettings region = {};
+  std::vector<ValueKeySettings> keys = {};  ///< of activation
+};
+
+struct WorldSettings {
+  double drag = 0;
+  std::vector<ObstacleSettings> obstacles = {};
+  std::vector<PinSettings> pins = {};
+  std::vector<FieldSettings> fields = {};
+  std::vector<MuscleSettings> muscles = {};
+
+  /// Whether nothing is in it.
+  bool empty() const {
+    return drag == 0 && obstacles.empty() && pins.empty() && fields.empty() && muscles.empty();
+  }
+};
+
 enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
 enum class Precision { binary64, binary32 };
 enum class NeighbourSearch { lists, cells };
@@ -173,6 +248,7 @@ struct Settings {
   MotionSettings motion;
   std::vector<TrackSettings> tracks;  ///< section motion
   BindingSettings binding;
+  WorldSettings world;
   SolverSettings solver;
   OutputSettings output;
 

@@ -56,6 +56,15 @@ std::span<const Field<LimitSettings>> limit_fields();  ///< skeleton.bones[].lim
 std::span<const Field<TrackSettings>> track_fields();  ///< motion.tracks[] (and its list `keys`)
 std::span<const Field<KeySettings>> key_fields();      ///< motion.tracks[].keys[]
 
+// Of the section world: its lists, and the keys of their entries.
+std::span<const Field<ObstacleSettings>> obstacle_fields();    ///< world.obstacles[]
+std::span<const Field<PlaceKeySettings>> place_key_fields();   ///< world.obstacles[].keys[]
+std::span<const Field<PinSettings>> pin_fields();              ///< world.pins[]
+std::span<const Field<FieldSettings>> field_fields();          ///< world.fields[]
+std::span<const Field<ValueKeySettings>> strength_fields();    ///< world.fields[].keys[]
+std::span<const Field<MuscleSettings>> muscle_fields();        ///< world.muscles[]
+std::span<const Field<ValueKeySettings>> activation_fields();  ///< world.muscles[].keys[]
+
 /// The order of sections in a scene.
 std::span<const std::string_view> sections();
 

@@ -46,6 +46,8 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", point, "force_pair", "N", xyz, real, plain, "elastic force of its partners"},
       {"particles", point, "force_damping", "N", xyz, real, plain, "damping force of its partners"},
       {"particles", point, "force_bone", "N", xyz, real, plain, "force of its bone"},
+      {"particles", point, "force_world", "N", xyz, real, plain,
+       "force of obstacles, drag, fields, muscles and pins, where a scene has some"},
       {"particles", point, "neighbours", "1", one, whole, plain, "partners within the range b"},
       {"particles", field, "kinetic_energy", "J", one, exact, plain, "energy of motion"},
       {"particles", field, "pair_energy", "J", one, exact, plain, "elastic energy of all pairs"},
@@ -54,7 +56,12 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", field, "gravity_energy", "J", one, exact, plain, "potential energy of gravity"},
       {"particles", field, "work_of_bones", "J", one, exact, plain,
        "work the bones have done so far"},
-      {"particles", field, "dissipation", "J", one, exact, plain, "energy lost to damping so far"},
+      {"particles", field, "dissipation", "J", one, exact, plain,
+       "energy lost to damping, drag and friction so far"},
+      {"particles", field, "contact_energy", "J", one, exact, plain,
+       "elastic energy of contacts with obstacles"},
+      {"particles", field, "work_of_world", "J", one, exact, plain,
+       "work that moving obstacles, pins, fields and muscles have done so far"},
   };
 }
 
@@ -94,6 +101,19 @@ std::vector<WrittenArray> table_of_frames() {
   };
 }
 
+std::vector<WrittenArray> table_of_obstacles() {
+  return {
+      {"obstacles", point, "Points", "m", xyz, real, plain, "point of an obstacle's surface"},
+      {"obstacles", point, "obstacle", "1", one, whole, scalars, "number of the obstacle, from 0"},
+      {"obstacles", point, "velocity", "m/s", xyz, real, vectors, "velocity of that point"},
+      {"obstacles", point, "normal", "1", xyz, real, plain, "outward unit normal"},
+      {"obstacles", point, "reaction_force", "N", xyz, real, plain,
+       "force of the body on the obstacle"},
+      {"obstacles", point, "reaction_moment", "N m", xyz, real, plain,
+       "its moment about the obstacle's middle"},
+  };
+}
+
 std::vector<WrittenArray> table_of_defects() {
   return {
       {"defects", point, "Points", "m", xyz, exact, plain, "point of the cleaned mesh"},
@@ -109,7 +129,7 @@ std::vector<WrittenArray> table_of_defects() {
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
   for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_surface,
-                    table_of_bones, table_of_frames, table_of_defects})
+                    table_of_bones, table_of_frames, table_of_obstacles, table_of_defects})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

@@ -83,7 +83,9 @@ std::vector<Column> columns_of(const Energies& energies) {
           single("bone_energy", energies.bone),
           single("gravity_energy", energies.gravity),
           single("work_of_bones", energies.work_of_bones),
-          single("dissipation", energies.dissipation)};
+          single("dissipation", energies.dissipation),
+          single("contact_energy", energies.contact),
+          single("work_of_world", energies.work_of_world)};
 }
 
 /// W X Y Z, with W >= 0: of the two quaternions of a rotation always the same one.
@@ -113,7 +115,8 @@ Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
     return written_column(name, now, [values](std::size_t i) { return values[i]; });
   };
   const auto force = [&](std::size_t i) -> Vec3 {
-    return frame.force_pair[i] + frame.force_damping[i] + frame.force_bone[i];
+    const Vec3 own = frame.force_pair[i] + frame.force_damping[i] + frame.force_bone[i];
+    return frame.force_world.empty() ? own : Vec3(own + frame.force_world[i]);
   };
   Dataset data = dataset_at(moment);
   data.points = written_positions(now);
@@ -130,6 +133,8 @@ Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
       forces("force_bone", frame.force_bone),
       column("neighbours", in_written_order(frame.neighbours, now.id)),
   };
+  if (!frame.force_world.empty())
+    data.point_columns.push_back(forces("force_world", frame.force_world));
   data.field_columns = columns_of(frame.energies);
   return data;
 }
@@ -145,6 +150,35 @@ Dataset surface_dataset(const Triangles& surface, const Points& rest,
   data.point_columns = {displacement_column(surface.points, rest),
                         column("normal", point_normals(surface)),
                         column("bone", copied(bone, surface.points.size()))};
+  return data;
+}
+
+Dataset obstacles_dataset(std::span<const ObstacleFrame> obstacles, Moment moment) {
+  Triangles all;
+  std::vector<std::int32_t> number;
+  Points velocity, force, moment_of_force;
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const ObstacleFrame& now = obstacles[k];
+    const int first = static_cast<int>(all.points.size());
+    for (const Vec3& point : now.surface.points) {
+      const Vec3 offset = now.frame.rotation * point;
+      all.points.push_back(now.frame.origin + offset);
+      velocity.push_back(now.velocity + now.angular_velocity.cross(offset));
+    }
+    for (const auto& [a, b, c] : now.surface.faces)
+      all.faces.push_back({first + a, first + b, first + c});
+    number.resize(all.points.size(), static_cast<std::int32_t>(k));
+    force.resize(all.points.size(), now.reaction_force);
+    moment_of_force.resize(all.points.size(), now.reaction_moment);
+  }
+  Dataset data = dataset_at(moment);
+  data.points = all.points;
+  data.kind = CellKind::triangle;
+  for (const auto& face : all.faces)
+    data.connectivity.insert(data.connectivity.end(), face.begin(), face.end());
+  data.point_columns = {column("obstacle", number), column("velocity", velocity),
+                        column("normal", point_normals(all)), column("reaction_force", force),
+                        column("reaction_moment", moment_of_force)};
   return data;
 }
 

@@ -29,14 +29,26 @@ struct ParticleFrame {
   std::span<const Vec3> force_bone;          ///< N
   std::span<const std::int32_t> neighbours;  ///< partners within b
   Energies energies;
+  std::span<const Vec3> force_world = {};  ///< N, as the others; empty where there is no world
 };
 
-/// In parallel. The force written is the sum of the three.
+/// In parallel. The force written is the sum of all.
 Dataset particles_dataset(const ParticleFrame& frame, Moment moment);
 
 /// `rest` are the points of the input surface (n x 3, m); `bone` the one that moves each most.
 Dataset surface_dataset(const Triangles& surface, const Points& rest,
                         std::span<const std::int32_t> bone, Moment moment);
+
+/// An obstacle at one moment.
+struct ObstacleFrame {
+  const Triangles& surface;              ///< about the obstacle's own frame, m
+  RigidFrame frame;                      ///< where that is
+  Vec3 velocity, angular_velocity;       ///< of the frame, m/s and rad/s
+  Vec3 reaction_force, reaction_moment;  ///< of the body on it, N and N m about the frame's origin
+};
+
+/// The surfaces of all obstacles in one.
+Dataset obstacles_dataset(std::span<const ObstacleFrame> obstacles, Moment moment);
 
 /// Four lines per bone: head to tail, and its x, y, z axes, a quarter of the bone long.
 Dataset bones_dataset(const Skeleton& skeleton, const Pose& pose, Moment moment);

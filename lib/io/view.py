@@ -26,6 +26,7 @@ PAPER = [0.98, 0.98, 0.99]
 SKIN = [0.55, 0.71, 0.86]
 EDGE = [0.20, 0.33, 0.47]
 BONE = [0.98, 0.93, 0.80]
+OBSTACLE = [0.62, 0.60, 0.58]
 RED_GREEN_BLUE = [0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92]
 # Lightness grows with the value, and the lowest is still light enough to see the spheres' shading.
 COLOURS = [(0.0, 0.27, 0.33, 0.62), (0.25, 0.17, 0.52, 0.70), (0.5, 0.25, 0.71, 0.60),
@@ -150,6 +151,15 @@ def show_surface(source, view):
     lines.AmbientColor = lines.DiffuseColor = EDGE
     lines.LineWidth = 2
     lines.Opacity = 0.8
+
+
+def show_obstacles(source, view):
+    shown = Show(source, view)
+    shown.SetRepresentationType("Surface")
+    ColorBy(shown, None)
+    shown.AmbientColor = shown.DiffuseColor = OBSTACLE
+    shown.Opacity = 0.6
+    shown.SelectNormalArray = "None"
 
 
 def tubes(bones, name, first, last, radius):
@@ -299,6 +309,10 @@ def main():
     show_surface(surface, right)
     show_bones(bones, right, 0.009 * size)
     show_heads(heads, right, 0.009 * size)
+    if os.path.exists(os.path.join(folder, "obstacles.pvd")):
+        obstacles = open_series(folder, "obstacles")
+        for view in (left, right):
+            show_obstacles(obstacles, view)
     width, height = options.size
     look_at(left, corners, width / 2 / height)
     look_at(right, corners, width / 2 / height)

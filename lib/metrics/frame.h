@@ -40,6 +40,7 @@ struct FrameMetrics {
   double speed_max = not_measured;
   double kinetic_energy = not_measured, pair_energy = not_measured, bone_energy = not_measured;
   double gravity_energy = not_measured, work_of_bones = not_measured, dissipation = not_measured;
+  double contact_energy = not_measured, work_of_world = not_measured;
   double energy_residual = not_measured;
   double adherence_rms = not_measured, adherence_max = not_measured;
   double pose_error_rms = not_measured, pose_error_max = not_measured;

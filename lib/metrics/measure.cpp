@@ -66,8 +66,9 @@ void add_energies(FrameMetrics& out, const Energies& start, const Energies& now)
   out.gravity_energy = now.gravity;
   out.work_of_bones = now.work_of_bones;
   out.dissipation = now.dissipation;
-  out.energy_residual = (now.stored() - start.stored()) -
-                        (now.work_of_bones - start.work_of_bones) +
+  out.contact_energy = now.contact;
+  out.work_of_world = now.work_of_world;
+  out.energy_residual = (now.stored() - start.stored()) - (now.work() - start.work()) +
                         (now.dissipation - start.dissipation);
 }
 

@@ -25,14 +25,50 @@ CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepp
                          Particles particles)
     : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {
   solid_ = solid_of(*body_, particles_);
+  if (!body_->world || body_->world->pins.empty()) return;
+  std::vector<std::size_t> place(particles_.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[particles_.id[i]] = i;
+  is_held_.resize(particles_.size());
+  for (const Pinned& pin : body_->world->pins) {
+    held_.push_back(place[pin.particle]);
+    is_held_[held_.back()] = true;
+  }
+}
+
+/// Puts what pins hold where it belongs, exactly: no error adds up from step to step.
+void CellStepper::hold(const Pose& pose) {
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const Pinned& pin = body_->world->pins[k];
+    const PinPose place = pin_pose(pin, body_->rest[pin.particle], body_->skeleton, pose);
+    particles_.set_position(held_[k], place.position);
+    particles_.set_velocity(held_[k], place.velocity);
+  }
+}
+
+/// After all others: dry friction answers them, and a pin bears whatever is left.
+void CellStepper::find_world_forces(const Pose& pose) {
+  const World& world = *body_->world;
+  const WorldNow now = world_at(world, time_, pose);
+  const Vec3 weight = particles_.mass * stepping_.gravity;
+  world_forces(particles_, world, now, world_);
+  forces_.world.clear();
+  Points others(particles_.size());
+  for (std::size_t i = 0; i < others.size(); ++i)
+    others[i] = forces_.total(i) + world_.total(i) + weight;
+  stop_sliding(particles_, world, now, others, stepping_.step, world_);
+  forces_.world.resize(particles_.size());
+  for (std::size_t i = 0; i < others.size(); ++i) forces_.world[i] = world_.total(i);
+  for (const std::size_t i : held_) forces_.world[i] -= forces_.total(i) + weight;
 }
 
 void CellStepper::find_forces(const Pose& pose) {
+  hold(pose);
   if (solid_)
     solid_->forces(particles_, forces_);
   else
     pair_forces(particles_, body_->material, forces_);
   bone_forces(particles_, *body_, pose, forces_);
+  if (body_->world) find_world_forces(pose);
 }
 
 double CellStepper::stored_in_pairs() {
@@ -48,6 +84,23 @@ Vec3 CellStepper::acceleration(std::size_t i) const {
   return forces_.total(i) / particles_.mass + stepping_.gravity;
 }
 
+/// Velocities are half a step behind the forces, for velocity Verlet as well.
+Vec3 CellStepper::velocity_now(std::size_t i) const {
+  return particles_.velocity(i) + stepping_.step / 2 * acceleration(i);
+}
+
+void CellStepper::add_world(StepSums& sums) const {
+  Points velocities(particles_.size());
+  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = velocity_now(i);
+  const WorldPowers powers = world_powers(world_, velocities);
+  sums.lost += powers.lost;
+  sums.world_power = powers.obstacles + powers.fields + powers.muscles;
+  for (const std::size_t i : held_) {
+    sums.world_power += (forces_.world[i] - world_.total(i)).dot(velocities[i]);
+    sums.held_kinetic += particles_.mass / 2 * velocities[i].squaredNorm();
+  }
+}
+
 StepSums CellStepper::sums() const {
   const std::size_t n = particles_.size();
   StepSums sums;
@@ -59,13 +112,13 @@ StepSums CellStepper::sums() const {
   sums.lost = parallel_sum(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      // Velocities are half a step behind the forces here, for velocity Verlet as well.
-      const Vec3 velocity = particles_.velocity(i) + stepping_.step / 2 * acceleration(i);
+      const Vec3 velocity = velocity_now(i);
       sum += forces_.bone_damping_power[i] - forces_.bone_damping[i].dot(velocity) -
              forces_.damping[i].dot(velocity);
     }
     return sum;
   });
+  if (body_->world) add_world(sums);
   return sums;
 }
 
@@ -78,6 +131,7 @@ void CellStepper::advance(std::size_t i, double kick) {
 }
 
 bool CellStepper::sound(std::size_t i, const Vec3& before, const Pose& pose) const {
+  if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
   const auto bones = body_->binding.of(particles_.id[i]);
   const Vec3 moved = particles_.position(i) - before;
   const Vec3 ridden = bones.empty()
@@ -119,11 +173,16 @@ Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   forces.pair = forces_.pair;
   forces.damping = forces_.damping;
   forces.bone = forces_.bone;
+  forces.world = forces_.world;
   forces.neighbours = forces_.neighbours;
-  return {now.power, now.lost, stored_in_pairs(), bone_energy(particles_, *body_, pose)};
+  return {now.power,         now.lost,
+          stored_in_pairs(), bone_energy(particles_, *body_, pose),
+          now.world_power,   world_.contact_energy,
+          now.held_kinetic};
 }
 
 void CellStepper::read(const Pose& pose, Particles& particles) {
+  hold(pose);
   particles = particles_;
   if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
   Forces forces;

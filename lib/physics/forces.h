@@ -3,6 +3,7 @@
 // sums are made by one thread in a fixed order: the bits do not depend on the number of threads.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,9 +15,12 @@
 
 namespace sinew {
 
+struct World;
+
 /// Forces in the order of the particles, N.
 struct Forces {
   Points pair, damping, bone;
+  Points world;                 ///< obstacles, drag, fields, muscles; empty where there is no world
   std::vector<int> neighbours;  ///< partners nearer than b
 
   // Of bone_forces only: a simulation's own forces leave them out.
@@ -24,7 +28,10 @@ struct Forces {
   std::vector<double> bone_power;          ///< that the bones put in, W
   std::vector<double> bone_damping_power;  ///< the damping's part of it, W
 
-  Vec3 total(std::size_t i) const { return pair[i] + damping[i] + bone[i]; }
+  Vec3 total(std::size_t i) const {
+    const Vec3 own = pair[i] + damping[i] + bone[i];
+    return world.empty() ? own : Vec3(own + world[i]);
+  }
 };
 
 /// A body, how it is held and what it is made of: all that stays the same during a run.
@@ -33,7 +40,8 @@ struct Body {
   Skeleton skeleton;
   Binding binding;  ///< by particle id
   Material material;
-  std::vector<BoneSprings> springs;  ///< per bone
+  std::vector<BoneSprings> springs;         ///< per bone
+  std::shared_ptr<const World> world = {};  ///< none: nothing is around it
 };
 
 /// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbours.

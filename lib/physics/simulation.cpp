@@ -46,18 +46,27 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
       stepping_(stepping),
       stepper_(make_stepper(body_, motion_, stepping, checked(particles), instructions)),
       book_(stepping.step),
+      world_book_(stepping.step),
       particles_(std::move(particles)) {
   forget_read();
 }
 
 void Simulation::step() {
   const Pose now = pose();
+  tell_time();
   const StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
   if (sums.failure) fail(*sums.failure);
   book_.add_step(sums.power, sums.lost);
+  world_book_.add_step(sums.world_power, 0);
+  if (steps_ == 0) held_at_start_ = sums.held_kinetic;
   ++steps_;
   evaluated_ = false;
   if (read_) forget_read();
+}
+
+/// Only cells know of surroundings that change with time.
+void Simulation::tell_time() const {
+  if (auto* cells = std::get_if<CellStepper>(&stepper_)) cells->set_time(time());
 }
 
 /// What was read last is of no use any more, and takes as much memory as half of the state.
@@ -85,6 +94,7 @@ void Simulation::fail(const Failure& failure) const {
 const Particles& Simulation::particles() const {
   if (!read_) {
     const Pose now = pose();
+    tell_time();
     std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
     read_ = true;
   }
@@ -94,6 +104,7 @@ const Particles& Simulation::particles() const {
 void Simulation::evaluate() {
   if (evaluated_) return;
   const Pose now = pose();
+  tell_time();
   balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
   evaluated_ = true;
 }
@@ -131,12 +142,22 @@ Energies Simulation::energies() {
   energies.bone = balance_.bone_energy;
   energies.work_of_bones = book_.work_until(balance_.power);
   energies.dissipation = book_.dissipation_until(balance_.lost);
+  energies.contact = balance_.contact_energy;
+  // What pins hold moves as it is told: they give it its kinetic energy.
+  energies.work_of_world = world_book_.work_until(balance_.world_power) + balance_.held_kinetic -
+                           (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
   return energies;
 }
 
 std::span<const std::int32_t> Simulation::broken_bonds() const {
   const auto* cells = std::get_if<CellStepper>(&stepper_);
   return cells != nullptr ? cells->broken_bonds() : std::span<const std::int32_t>();
+}
+
+std::span<const Reaction> Simulation::reactions_of_obstacles() {
+  evaluate();
+  const auto* cells = std::get_if<CellStepper>(&stepper_);
+  return cells != nullptr ? cells->reactions_of_obstacles() : std::span<const Reaction>();
 }
 
 ListCounts Simulation::list_counts() const {

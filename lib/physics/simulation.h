@@ -55,6 +55,9 @@ class Simulation {
   /// model, which has no bonds.
   std::span<const std::int32_t> broken_bonds() const;
 
+  /// What the body does to each obstacle of its world at the present moment, about its frame.
+  std::span<const Reaction> reactions_of_obstacles();
+
   /// How often lists of partners were made; none for cells.
   ListCounts list_counts() const;
 
@@ -66,6 +69,7 @@ class Simulation {
                               kernel::InstructionSet instructions);
   void evaluate();
   void forget_read();
+  void tell_time() const;
   [[noreturn]] void fail(const Failure& failure) const;
 
   std::shared_ptr<const Body> body_;
@@ -73,7 +77,8 @@ class Simulation {
   Stepping stepping_;
   std::int64_t steps_ = 0;
   mutable Stepper stepper_;
-  EnergyBook book_;
+  EnergyBook book_, world_book_;
+  double held_at_start_ = 0;  ///< kinetic energy of what pins hold, J
 
   mutable Particles particles_;  ///< as read last; radius, mass and ids always
   mutable bool read_ = false;    ///< whether they are those of the present moment

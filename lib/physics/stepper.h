@@ -33,14 +33,19 @@ struct Failure {
 /// What a step adds to the book, at the moment of the positions it began with.
 struct StepSums {
   double power = 0;  ///< of the bones, W
-  double lost = 0;   ///< to both dampings, W
+  double lost = 0;   ///< to damping, drag and friction, W
   std::optional<Failure> failure;
+  double world_power = 0;   ///< of moving obstacles, fields, muscles and pins, W
+  double held_kinetic = 0;  ///< of particles that pins hold, J
 };
 
 /// The book at one moment.
 struct Balance {
   double power = 0, lost = 0;               ///< W
   double pair_energy = 0, bone_energy = 0;  ///< J
+  double world_power = 0;                   ///< W
+  double contact_energy = 0;                ///< in the springs of obstacles, J
+  double held_kinetic = 0;                  ///< of particles that pins hold, J
 };
 
 /// How often lists were made, and how long they are.

@@ -45,22 +45,29 @@ double stiffest_spring(const std::vector<BoneSprings>& springs) {
   return most;
 }
 
-double semi_implicit_limit(const Material& material, const std::vector<BoneSprings>& springs) {
+double semi_implicit_limit(const Material& material, const std::vector<BoneSprings>& springs,
+                           const WorldLoad& world) {
   double limit = std::numeric_limits<double>::infinity();
   for (const Mode& mode : worst_modes(material)) {
-    const double w2 = (mode.w2 * material.stiffness() + stiffest_spring(springs)) / material.mass;
-    const double g = (mode.rate * material.damping + largest_damping(springs)) / material.mass;
+    const double k = mode.w2 * material.stiffness() + stiffest_spring(springs) + world.stiffness;
+    const double w2 = k / material.mass;
+    const double g =
+        (mode.rate * material.damping + largest_damping(springs)) / material.mass + world.damping;
     limit = std::min(limit, 4 / (std::sqrt(g * g + 4 * w2) + g));  // (sqrt(g^2 + 4 w^2) - g) / w^2
   }
   return limit;
 }
 
-double explicit_limit(const Material& material, const std::vector<BoneSprings>& springs) {
-  const double C = material.damping, k = material.stiffness();
-  double limit = C / ((is_central(material) ? 1.5 : 1) * lattice_factor(material) * k);
+double explicit_limit(const Material& material, const std::vector<BoneSprings>& springs,
+                      const WorldLoad& world) {
+  const double C = material.damping;
+  const double share = is_central(material) ? 1.5 : 1, k = material.stiffness();
+  double limit = C / (share * lattice_factor(material) * k + share * world.stiffness);
   for (const Mode& mode : worst_modes(material))
     if (C > 0)
-      limit = std::min(limit, 2 * material.mass / (mode.rate * C + largest_damping(springs)));
+      limit = std::min(
+          limit, 2 * material.mass /
+                     (mode.rate * C + largest_damping(springs) + material.mass * world.damping));
   for (const BoneSprings& bone : springs)
     if (bone.stiffest() > 0) limit = std::min(limit, bone.damping / bone.stiffest());
   return limit;
@@ -75,9 +82,9 @@ double highest_frequency_squared(const Material& material,
 }
 
 double step_limit(Integrator integrator, const Material& material,
-                  const std::vector<BoneSprings>& springs) {
-  return integrator == Integrator::explicit_euler ? explicit_limit(material, springs)
-                                                  : semi_implicit_limit(material, springs);
+                  const std::vector<BoneSprings>& springs, const WorldLoad& world) {
+  return integrator == Integrator::explicit_euler ? explicit_limit(material, springs, world)
+                                                  : semi_implicit_limit(material, springs, world);
 }
 
 StepChoice choose_step(const SolverSettings& settings, double limit, double interval) {

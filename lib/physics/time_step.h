@@ -10,6 +10,12 @@
 
 namespace sinew {
 
+/// What surrounds a body adds at most to one particle; see added_stiffness of world/world.h.
+struct WorldLoad {
+  double stiffness = 0;  ///< N/m
+  double damping = 0;    ///< 1/s
+};
+
 /// Highest frequency of the packed body on its bones: w^2 = 8 k / m (more where volumes are kept) +
 /// (stiffest bone spring) / m, in 1/s^2. (A body cut from the packing is no stiffer than the
 /// packing.)
@@ -20,7 +26,7 @@ double highest_frequency_squared(const Material& material, const std::vector<Bon
 /// at g = (4/3) C/m, central (2/3) C/m) and those at its surface allow. Explicit Euler: the least
 /// of what lattice, damping and bones allow; 0 when no step is stable.
 double step_limit(Integrator integrator, const Material& material,
-                  const std::vector<BoneSprings>& springs);
+                  const std::vector<BoneSprings>& springs, const WorldLoad& world = {});
 
 struct StepChoice {
   double limit = 0;   ///< of the integrator chosen, s

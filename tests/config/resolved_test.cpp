@@ -100,6 +100,12 @@ class Chance {
     if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
     drawn.material.a = 2;
+    if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;
+    if (drawn.material.model != MaterialModel::paper) drawn.material.cohesion = Cohesion::all;
+    if (drawn.material.model == MaterialModel::paper)
+      drawn.material.breaking_strain = drawn.material.yield_strain = std::nullopt;
+    if (drawn.body.packing != Packing::fcc) drawn.material.modulus_direction.reset();
+    drawn.material.preset = MaterialPresetName::none;
     drawn.skeleton.file.clear();
     drawn.motion.file.clear();
     drawn.skeleton.up = static_cast<Axis>(below(6));

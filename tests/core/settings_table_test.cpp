@@ -85,6 +85,13 @@ TEST(SettingsTable, EveryRowGetsAndSetsItsOwnMember) {
   expect_round_trips(limit_fields());
   expect_round_trips(track_fields());
   expect_round_trips(key_fields());
+  expect_round_trips(obstacle_fields());
+  expect_round_trips(place_key_fields());
+  expect_round_trips(pin_fields());
+  expect_round_trips(field_fields());
+  expect_round_trips(strength_fields());
+  expect_round_trips(muscle_fields());
+  expect_round_trips(activation_fields());
 }
 
 TEST(SettingsTable, IsWellFormed) {
@@ -93,6 +100,13 @@ TEST(SettingsTable, IsWellFormed) {
   expect_well_formed(limit_fields());
   expect_well_formed(track_fields());
   expect_well_formed(key_fields());
+  expect_well_formed(obstacle_fields());
+  expect_well_formed(place_key_fields());
+  expect_well_formed(pin_fields());
+  expect_well_formed(field_fields());
+  expect_well_formed(strength_fields());
+  expect_well_formed(muscle_fields());
+  expect_well_formed(activation_fields());
 }
 
 TEST(SettingsTable, DefaultsLieInTheirRanges) {

@@ -42,6 +42,7 @@ TEST(WrittenArrays, AreExactlyThoseThatTheSeriesHold) {
   expect_listed("surface", run.surface({}));
   expect_listed("bones", run.bones({}));
   expect_listed("frames", run.frames({}));
+  expect_listed("obstacles", run.obstacles({}));
   expect_listed("body", body_dataset(run.body()));
 }
 

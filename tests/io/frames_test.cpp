@@ -30,6 +30,32 @@ TEST(ParticlesDataset, PutsShuffledParticlesIntoTheWrittenOrder) {
   EXPECT_EQ(data.cycle, 4);
 }
 
+TEST(ParticlesDataset, AddsTheForceOfTheWorldWhereThereIsOne) {
+  const Particles now = particles_at({{0, 0, 0}}, 0.5, 1);
+  const Points rest(1, Vec3::Zero()), force = {{1, 0, 0}}, world = {{0, 5, 0}};
+  const std::vector<std::int32_t> zero(1, 0);
+  const Dataset with =
+      particles_dataset({now, rest, zero, force, force, force, zero, {}, world}, {});
+  EXPECT_EQ(vectors(with.point_columns, "force"), (Points{{3, 5, 0}}));
+  EXPECT_EQ(vectors(with.point_columns, "force_world"), world);
+  const Dataset without = particles_dataset({now, rest, zero, force, force, force, zero, {}}, {});
+  EXPECT_EQ(vectors(without.point_columns, "force"), (Points{{3, 0, 0}}));
+  EXPECT_EQ(without.point_columns.size() + 1, with.point_columns.size());
+}
+
+TEST(ObstaclesDataset, MovesEachSurfaceWithItsFrame) {
+  const Dataset data = SyntheticRun().obstacles({0.5, 0});
+  ASSERT_EQ(data.points.size(), 8U);
+  EXPECT_EQ(data.points[0], Vec3(-1, -1, 0));
+  EXPECT_EQ(data.points[4], Vec3(-1, -1, 0.5));
+  EXPECT_EQ(data.connectivity[6], 4);
+  EXPECT_EQ(integers(data.point_columns, "obstacle"),
+            (std::vector<std::int32_t>{0, 0, 0, 0, 1, 1, 1, 1}));
+  EXPECT_EQ(vectors(data.point_columns, "velocity")[4], Vec3(2, -2, 1));
+  EXPECT_EQ(vectors(data.point_columns, "normal")[4], Vec3(0, 0, 1));
+  EXPECT_EQ(vectors(data.point_columns, "reaction_force")[7], Vec3(0, 0, -2));
+}
+
 TEST(ParticlesDataset, TakesTheDisplacementInDouble) {
   const Points rest = {{1000, 0, 0}};
   const Particles now = particles_at({{1000 + 1e-9, 0, 0}}, 0.5, 1);

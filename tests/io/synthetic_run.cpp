@@ -108,7 +108,7 @@ Dataset SyntheticRun::particles(Moment moment) const {
   const Pose pose = pose_at(skeleton, motion, moment.time);
   const std::size_t n = count();
   Particles now = particles_at(rest, radius, 0.001);
-  Points pair(n), damping(n), pull(n);
+  Points pair(n), damping(n), pull(n), world(n, Vec3(0, 1e-4, 0));
   std::vector<std::int32_t> neighbours(n);
   // The physics may keep its particles in any order; here it is backwards.
   for (std::size_t i = 0; i < n; ++i) {
@@ -122,7 +122,8 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbours[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies}, moment);
+  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies, world},
+                           moment);
 }
 
 Dataset SyntheticRun::surface(Moment moment) const {
@@ -140,6 +141,16 @@ Dataset SyntheticRun::frames(Moment moment) const {
   const Points force = {Vec3(0, 0, -1), Vec3(0, 0, 1)};
   const Points turning = {Vec3(0, -2, 0), Vec3(0, 2, 0)};
   return frames_dataset(skeleton, pose_at(skeleton, motion, moment.time), {force, turning}, moment);
+}
+
+Dataset SyntheticRun::obstacles(Moment moment) const {
+  const Triangles floor = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                           {{0, 1, 2}, {0, 2, 3}}};
+  const Vec3 up = moment.time * Vec3::UnitZ();
+  const std::vector<ObstacleFrame> all = {
+      {floor, {}, {0, 0, 0}, {0, 0, 0}, {0, 0, -1}, {0, 0, 0}},
+      {floor, {up, Mat3::Identity()}, {0, 0, 1}, {0, 0, 2}, {0, 0, -2}, {0, 3, 0}}};
+  return obstacles_dataset(all, moment);
 }
 
 BodyFile SyntheticRun::body() const {

@@ -18,6 +18,8 @@ class SyntheticRun {
   Dataset surface(Moment moment) const;
   Dataset bones(Moment moment) const;
   Dataset frames(Moment moment) const;
+  /// Two squares, one rising and turning about z.
+  Dataset obstacles(Moment moment) const;
   BodyFile body() const;
 
   std::size_t count() const { return rest.size(); }

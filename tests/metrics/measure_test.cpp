@@ -101,7 +101,7 @@ TEST(Measure, EnergiesPassThroughAndTheResidualClosesTheirBalance) {
   input.start = {1, -20, 3, 4, 5, 6};
   const RestBody body = rest_body(input);
   FrameState state = at_rest(body);
-  state.energies = {1.5, -18, 3.25, 4, 9, 7};
+  state.energies = {1.5, -18, 3.25, 4, 9, 7, 0.5, 2};
   const FrameMetrics m = measure(body, state);
   EXPECT_EQ(m.kinetic_energy, 1.5);
   EXPECT_EQ(m.pair_energy, -18);
@@ -109,8 +109,10 @@ TEST(Measure, EnergiesPassThroughAndTheResidualClosesTheirBalance) {
   EXPECT_EQ(m.gravity_energy, 4);
   EXPECT_EQ(m.work_of_bones, 9);
   EXPECT_EQ(m.dissipation, 7);
-  // stored grew by 0.5 + 2 + 0.25, the bones gave 4, damping took 1
-  EXPECT_NEAR(m.energy_residual, 2.75 - 4 + 1, exact);
+  EXPECT_EQ(m.contact_energy, 0.5);
+  EXPECT_EQ(m.work_of_world, 2);
+  // stored grew by 0.5 + 2 + 0.25 + 0.5, bones gave 4 and the world 2, damping took 1
+  EXPECT_NEAR(m.energy_residual, 3.25 - 4 - 2 + 1, exact);
 }
 
 TEST(Measure, PullingTheHalvesApartBreaksTheCrossingPairs) {

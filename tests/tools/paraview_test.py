@@ -26,7 +26,8 @@ SERIES = {
         "neighbours": ("point", "1", ""),
         "kinetic_energy": ("field", "J", ""), "pair_energy": ("field", "J", ""),
         "bone_energy": ("field", "J", ""), "gravity_energy": ("field", "J", ""),
-        "work_of_bones": ("field", "J", ""), "dissipation": ("field", "J", "")}),
+        "work_of_bones": ("field", "J", ""), "dissipation": ("field", "J", ""),
+        "contact_energy": ("field", "J", ""), "work_of_world": ("field", "J", "")}),
     "surface": (5, {
         "displacement": ("point", "m", X), "normal": ("point", "1", X),
         "bone": ("point", "1", "")}),

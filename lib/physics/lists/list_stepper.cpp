@@ -40,7 +40,7 @@ Box box_of(const BlockState<Real>& state, const Measure& measure) {
 
 template <class Real>
 bool ListStepper<Real>::serves(const Body& body) {
-  return !remembers_neighbours(body.material) &&
+  return !body.world && !remembers_neighbours(body.material) &&
          body.material.damping_form == DampingForm::paper &&
          std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
            return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;

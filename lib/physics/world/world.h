@@ -11,6 +11,7 @@
 #include "physics/world/force_field.h"
 #include "physics/world/muscles.h"
 #include "physics/world/obstacle.h"
+#include "physics/world/pins.h"
 
 namespace sinew {
 
@@ -20,6 +21,7 @@ struct World {
   Drag drag;
   std::vector<ForceField> fields;
   Muscles muscles;
+  std::vector<Pinned> pins;  ///< held by whoever steps, ascending particles
 };
 
 /// The world at one moment.

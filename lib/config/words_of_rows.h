@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of the table of settings as lines of a scene, with their comments.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "config/values.h"
+#include "core/scene_text.h"
+#include "core/settings_table.h"
+
+namespace sinew {
+
+/// "  # [unit] help (what may be given)"
+template <class Owner>
+std::string comment_of(const Field<Owner>& row) {
+  std::string text = "  # ";
+  if (!row.unit.empty()) text += '[' + std::string(row.unit) + "] ";
+  text += row.help;
+  if (row.choices.size() > 1) text += " (" + values_text(rules_of(row)) + ')';
+  return text;
+}
+
+/// "name: value", with a comment where it is to be explained.
+template <class Owner>
+std::string line_text(const Field<Owner>& row, const FieldValue& value, bool explained) {
+  const std::string text = std::string(row.name) + ": " + scene_text(value, row.absent);
+  return text + (explained ? comment_of(row) : "") + '\n';
+}
+
+/// The keys of a list's entry, `indent` spaces in.
+template <class Owner>
+std::string entry_text(std::span<const Field<Owner>> rows, const Owner& owner, std::size_t indent,
+                       bool explained) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += std::string(indent, ' ') + (text.empty() ? "- " : "  ");
+    text += line_text(row, row.get(owner), explained);
+  }
+  return text;
+}
+
+}  // namespace sinew
