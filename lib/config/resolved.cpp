@@ -61,6 +61,14 @@ std::string tracks_text(const Settings& settings) {
   return text;
 }
 
+std::string bound_text(const Settings& settings) {
+  if (settings.bound.empty()) return "";
+  std::string text = "  explicit:\n";
+  for (const BoundSettings& bound : settings.bound)
+    text += entry(bound_fields(), bound, 4, &bound == &settings.bound.front());
+  return text;
+}
+
 /// Whether a key with a default must stay out because its rival is given.
 bool is_replaced(const Settings& settings, const Field<Settings>& row) {
   const std::string name = std::string(row.section) + '.' + std::string(row.name);
@@ -99,6 +107,7 @@ std::string resolved_scene(const Settings& settings, const std::filesystem::path
     text += '\n' + std::string(section) + ":\n" + section_text(settings, section, folder);
     if (section == "skeleton") text += bones_text(settings);
     if (section == "motion") text += tracks_text(settings);
+    if (section == "binding") text += bound_text(settings);
   }
   return text;
 }

@@ -46,14 +46,17 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
   check_keys(scene, "", known);
   for (const std::string_view name : known) {
     const YamlNode section = section_of(scene, name, settings);
-    const bool skeleton = name == "skeleton", motion = name == "motion";
+    const bool skeleton = name == "skeleton", motion = name == "motion",
+               binding = name == "binding";
     read_fields<Settings>(section, std::string(name), rows_of(name),
-                          skeleton ? "bones"
-                          : motion ? "tracks"
-                                   : "",
+                          skeleton  ? "bones"
+                          : motion  ? "tracks"
+                          : binding ? "explicit"
+                                    : "",
                           settings, settings.places);
     if (skeleton) read_bones(section, settings);
     if (motion) read_tracks(section, settings);
+    if (binding) read_bound(section, settings);
   }
   return settings;
 }

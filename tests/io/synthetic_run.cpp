@@ -122,7 +122,9 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbours[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies}, moment);
+  return particles_dataset(
+      {now, rest, bone, pair, damping, pull, neighbours, energies, std::vector<double>(n, 1)},
+      moment);
 }
 
 Dataset SyntheticRun::surface(Moment moment) const {
@@ -148,6 +150,7 @@ BodyFile SyntheticRun::body() const {
   body.neighbours.assign(count(), 12);
   body.component.assign(count(), 0);
   body.bone = bone;
+  body.weight.emplace(count(), 1.0);
   body.meta = "{\"packing\": \"fcc\"}";
   return body;
 }
