@@ -72,19 +72,19 @@ struct Choice {
 /// The nearest bones by the ways inside; the particles no way reaches have the nearest of all.
 std::size_t choose_inside(Choice& choice, double particle_volume) {
   const InsideWays ways = inside_ways(choice.rest, choice.skeleton, choice.options.radius);
-  const auto found = nearest_inside(ways, choice.skeleton);
-  std::size_t unreached = 0;
+  choice.inside = near_inside(ways, choice.skeleton, 0);
   choice.nearest = ways.straight_nearest;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (found[i].bone != no_bone)
-      choice.nearest[i] = found[i].bone;
-    else
-      ++unreached;
+  std::size_t unreached = 0;
+  for (std::size_t i = 0; i < choice.inside.size(); ++i) {
+    const int bone = nearest_of(choice.inside[i]).bone;
+    if (bone != no_bone) choice.nearest[i] = bone;
+    unreached += bone == no_bone;
+  }
   choice.zones = joint_zones(choice.skeleton,
                              sections_by_nearest(choice.nearest, choice.skeleton, particle_volume),
                              choice.options.joint_zone);
   if (const double reach = choice.zones.longest(); reach > 0)
-    choice.inside = near_inside(ways, choice.skeleton, found, reach);
+    choice.inside = near_inside(ways, choice.skeleton, reach);
   return unreached;
 }
 

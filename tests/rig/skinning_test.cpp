@@ -106,7 +106,7 @@ TEST(LinearBlendSkinning, LosesTheVolumeOfABend) {
 TEST(DualQuaternionSkinning, KeepsTheVolumeOfTwistsAndBends) {
   const Prism prism;
   for (const double angle : angles)
-    for (const Vec3& axis : {Vec3::UnitZ(), Vec3::UnitY()}) {
+    for (const Vec3& axis : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitY())}) {
       const Points points = prism.dual(prism.turned(axis, angle));
       EXPECT_NEAR(prism.share(points), 1, discrete) << angle;
       EXPECT_NEAR(middle_section(points), 1, 1e-9) << angle;
