@@ -109,9 +109,9 @@ TEST(InsideDistance, IsTheStraightOneInTheOpen) {
     for (std::size_t i = 0; i < rest.size(); ++i)
       for (const BoneDistance& one : near[i]) {
         const double straight = distance_to(skeleton.bones[one.bone], rest[i]);
-        // Ways begin at particles, not on the bone itself.
+        // Ways begin at particles, not on the bone itself; along the surface they lack a side.
         EXPECT_GE(one.distance, straight);
-        EXPECT_LE(one.distance, 1.02 * straight + 0.2 * r);
+        EXPECT_LE(one.distance, 1.08 * straight + 0.2 * r);
       }
   }
 }
