@@ -101,6 +101,14 @@ class Chance {
       drawn.body.count = 1000;
     if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
+    if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;
+    if (drawn.material.model == MaterialModel::paper) {
+      drawn.material.breaking_strain.reset();
+      drawn.material.yield_strain.reset();
+    } else {
+      drawn.material.cohesion = Cohesion::all;
+    }
+    if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
     drawn.material.a = 2;
     drawn.skeleton.file.clear();
     drawn.motion.file.clear();
