@@ -107,6 +107,7 @@ class Chance {
       drawn.material.yield_strain.reset();
     } else {
       drawn.material.cohesion = Cohesion::all;
+      if (!drawn.material.yield_strain) drawn.material.preset = MaterialPresetName::none;
     }
     if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
     drawn.material.a = 2;
