@@ -12,12 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Real numbers written per particle (position, displacement, velocity, four forces, radius) and per
+// Real numbers per particle (position, displacement, velocity, four forces, radius, weight) and per
 // point of the surface (position, displacement, normal), and whole numbers beside them.
-constexpr double reals_per_particle = 22, wholes_per_particle = 6;
+constexpr double reals_per_particle = 23, wholes_per_particle = 6;
 constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
+constexpr double exported_per_point = 12;        // bytes in surface.pc2
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 // Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
 // disk (two copies, and one as numbers in double) with the rest shape and its binding; lists take
@@ -39,16 +40,20 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const auto particles = static_cast<double>(setup.body.rest.size());
   const auto points = static_cast<double>(surface_points);
   const auto faces = static_cast<double>(surface_faces);
+  const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = setup.body.world ? 3 : 0;  // one more force
-  const double reals = particles * (reals_per_particle + reals_of_world) + points * reals_per_point;
-  const double wholes =
-      particles * wholes_per_particle + points * wholes_per_point + faces * wholes_per_face;
+  const double reals =
+      particles * (reals_per_particle + reals_of_world) + surfaces * points * reals_per_point;
+  const double wholes = particles * wholes_per_particle +
+                        surfaces * (points * wholes_per_point + faces * wholes_per_face);
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
   const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;
   const double coded =
       raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
+  const double exported = output.export_surface ? points * exported_per_point : 0;
   Needs needs;
-  needs.disk = static_cast<std::uint64_t>((coded + bytes_per_frame_beside) * (setup.frames + 1));
+  needs.disk =
+      static_cast<std::uint64_t>((coded + exported + bytes_per_frame_beside) * (setup.frames + 1));
   const StepWay way = step_way(settings.solver, setup.body, setup.motion);
   needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
                                             points * memory_per_point + memory_beside);

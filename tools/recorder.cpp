@@ -44,14 +44,12 @@ void copy(const Particles& from, Particles& to) {
   copy(from.id, to.id);
 }
 
-Dataset frames_of_bones(const Skeleton& skeleton, const Pose& pose,
-                        const std::vector<Reaction>& reactions, Moment moment) {
-  Points force, moment_of_force;
-  for (const Reaction& on : reactions) {
-    force.push_back(on.force);
-    moment_of_force.push_back(on.moment);
-  }
-  return frames_dataset(skeleton, pose, {force, moment_of_force}, moment);
+BoneWeights weights_of_vertices(const Body& body, const Points& vertices) {
+  BoneWeights weights;
+  weights.first = body.binding.first;
+  for (const Influence& influence : body.binding.influences)
+    weights.weights.push_back({influence.bone, influence.weight});
+  return carried_weights(body.rest, weights, vertices);
 }
 
 Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<ObstaclePose>& poses,
@@ -63,6 +61,25 @@ Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<O
   return obstacles_dataset(frames, moment);
 }
 
+std::vector<double> powers_of(const std::vector<Reaction>& reactions) {
+  std::vector<double> powers;
+  for (const Reaction& on : reactions) powers.push_back(on.power);
+  return powers;
+}
+
+/// Force and moment on each bone, kept apart.
+struct ReactionColumns {
+  Points force, moment;
+
+  explicit ReactionColumns(const std::vector<Reaction>& reactions) {
+    for (const Reaction& on : reactions) {
+      force.push_back(on.force);
+      moment.push_back(on.moment);
+    }
+  }
+  operator Reactions() const { return {force, moment}; }
+};
+
 }  // namespace
 
 std::vector<std::int32_t> bones_of_particles(const Body& body) {
@@ -71,22 +88,48 @@ std::vector<std::int32_t> bones_of_particles(const Body& body) {
   return bones;
 }
 
+std::vector<double> weights_of_particles(const Body& body) {
+  std::vector<double> weights(body.rest.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = body.binding.weight(i);
+  return weights;
+}
+
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
                    const Body& body, const Triangles& surface, std::vector<Triangles> obstacles)
     : skeleton_(body.skeleton),
       rest_(body.rest),
-      skin_(make_skin(surface.points, rest_, body.material.pair.r)),
+      skin_(make_skin(surface.points, rest_, body.material.pair.r, body.skeleton, body.binding)),
       surface_(surface),
       particle_bone_(bones_of_particles(body)),
       surface_bone_(bones_of_vertices(skin_, particle_bone_)),
       obstacles_(std::move(obstacles)),
+      particle_weight_(weights_of_particles(body)),
       particles_(folder, format_of(output, "particles", body.material.pair.r)),
       skins_(folder, format_of(output, "surface", body.material.pair.r)),
       bones_(folder, format_of(output, "bones", body.material.pair.r)),
       frames_(folder, format_of(output, "frames", body.material.pair.r)),
+      bone_table_(folder / "bones.csv"),
       writer_(moved_.size()) {
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r));
+  begin_skinned(folder, output, body);
+  if (output.export_surface) begin_export(folder);
+}
+
+void Recorder::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
+                             const Body& body) {
+  if (output.skin_lbs || output.skin_dqs) vertex_weights_ = weights_of_vertices(body, skin_.rest);
+  const auto begin = [&](auto* method, const char* name) {
+    skinned_.push_back(
+        {method, std::make_unique<Series>(folder, format_of(output, name, body.material.pair.r))});
+  };
+  if (output.skin_lbs) begin(linear_blend_skinned, "skin_lbs");
+  if (output.skin_dqs) begin(dual_quaternion_skinned, "skin_dqs");
+}
+
+void Recorder::begin_export(const std::filesystem::path& folder) {
+  write_obj(folder / "surface.obj", surface_);
+  export_ = std::make_unique<PointCache>(folder / "surface.pc2", skin_.rest.size());
 }
 
 void Recorder::add(Simulation& simulation, double time) {
@@ -120,23 +163,38 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
 void Recorder::write(const Moved& frame) {
   const Dataset particles = particles_dataset(
       {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
-       frame.force_bone, frame.neighbours, frame.energies, frame.force_world},
+       frame.force_bone, frame.neighbours, frame.energies, particle_weight_, frame.force_world},
       frame.moment);
   particles_.add(particles);
-  surface_.points = follow(skin_, particles.points);
-  skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
+  write_surfaces(frame, particles.points);
   bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
-  frames_.add(frames_of_bones(skeleton_, frame.pose, frame.reactions, frame.moment));
+  const ReactionColumns reactions(frame.reactions);
+  frames_.add(frames_dataset(skeleton_, frame.pose, reactions, frame.moment));
+  bone_table_.add(frame.moment.time, skeleton_, reactions, powers_of(frame.reactions));
   if (obstacle_series_)
     obstacle_series_->add(
         obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
   ++written_;
 }
 
+void Recorder::write_surfaces(const Moved& frame, const Points& particles) {
+  surface_.points = follow(skin_, particles);
+  skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
+  if (export_) export_->add(surface_.points);
+  for (const Skinned& skinned : skinned_) {
+    const Triangles moved{skinned.method(skin_.rest, vertex_weights_, skeleton_, frame.pose),
+                          surface_.faces};
+    skinned.series->add(surface_dataset(moved, skin_.rest, surface_bone_, frame.moment));
+  }
+}
+
 void Recorder::close() {
   writer_.finish();
   for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
   if (obstacle_series_) obstacle_series_->close();
+  for (const Skinned& skinned : skinned_) skinned.series->close();
+  bone_table_.close();
+  if (export_) export_->close();
 }
 
 }  // namespace sinew

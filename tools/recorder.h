@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes what a simulation is at this moment as one frame of each series, while it goes on
-// stepping: a frame is copied and handed to a thread of its own.
+// stepping: a frame is copied and handed to a thread of its own. Beside the series: bones.csv and,
+// where the scene asks for them, the surface by skinning alone and its export for animators.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/background.h"
 #include "core/settings.h"
 #include "core/triangles.h"
+#include "io/bone_table.h"
 #include "io/frames.h"
+#include "io/point_cache.h"
 #include "io/series.h"
 #include "physics/simulation.h"
 #include "physics/world/world.h"
 #include "rig/skin.h"
+#include "rig/skinning.h"
 
 namespace sinew {
 
@@ -49,6 +55,16 @@ class Recorder {
     std::vector<Reaction> on_obstacles;
   };
 
+  /// The surface moved by skinning alone, in a series of its own.
+  struct Skinned {
+    Points (*method)(const Points&, const BoneWeights&, const Skeleton&, const Pose&);
+    std::unique_ptr<Series> series;
+  };
+
+  void begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
+                     const Body& body);
+  void begin_export(const std::filesystem::path& folder);
+  void write_surfaces(const Moved& frame, const Points& particles);
   static void take(Simulation& simulation, double time, Moved& frame);
   void write(const Moved& frame);
 
@@ -58,8 +74,13 @@ class Recorder {
   Triangles surface_;  ///< its points as they are in the frame being written
   std::vector<std::int32_t> particle_bone_, surface_bone_;
   std::vector<Triangles> obstacles_;
+  std::vector<double> particle_weight_;
   Series particles_, skins_, bones_, frames_;
   std::optional<Series> obstacle_series_;  ///< where the scene has some
+  BoneTable bone_table_;
+  BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not asked for
+  std::vector<Skinned> skinned_;
+  std::unique_ptr<PointCache> export_;
   std::array<Moved, 2> moved_;  ///< one being written, one waiting; their room is used again
   std::size_t taken_ = 0;
   std::atomic<int> written_ = 0;
@@ -68,5 +89,7 @@ class Recorder {
 
 /// The bone that holds each particle most, in the written order.
 std::vector<std::int32_t> bones_of_particles(const Body& body);
+/// That bone's share in it.
+std::vector<double> weights_of_particles(const Body& body);
 
 }  // namespace sinew

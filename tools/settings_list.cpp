@@ -73,6 +73,7 @@ std::vector<Group> groups() {
       all.push_back(entries("skeleton.bones[]", bone_fields()));
       all.push_back(entries("skeleton.bones[].limits", limit_fields()));
     }
+    if (section == "binding") all.push_back(entries("binding.explicit[]", bound_fields()));
     if (section == "motion") {
       all.push_back(entries("motion.tracks[]", track_fields()));
       all.push_back(entries("motion.tracks[].keys[]", key_fields()));

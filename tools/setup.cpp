@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/closest_packing.h"
 #include "core/error.h"
+#include "scene_binding.h"
 #include "scene_body.h"
 #include "scene_rig.h"
 #include "scene_world.h"
@@ -33,10 +33,9 @@ Body make_body(const Settings& settings, const Skeleton& skeleton, const Particl
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = skeleton;
-  body.binding = bind_to_bones(body.rest, body.skeleton, volume_per_particle(particles.radius),
-                               settings.binding.joint_zone);
+  body.binding = bind_scene(settings, body.skeleton, body.rest, particles.radius);
   body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
-  body.springs = bone_springs(settings.binding, body.material, body.binding);
+  body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   return body;
 }
 

@@ -61,6 +61,7 @@ Prepared prepare(const Settings& settings, const RunFolder& folder) {
   made.seconds_filling = watch.lap();
   made.setup = set_up(settings, made.body.particles);
   made.body.bone = bones_of_particles(made.setup.body);
+  made.body.weight = weights_of_particles(made.setup.body);
   made.seconds_binding = watch.lap();
   const Triangles& skin = made.surface.triangles;
   check_space(folder.path, needs_of(settings, made.setup, skin.points.size(), skin.faces.size()),

@@ -18,8 +18,10 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_stable_b = 2.75;
 constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
 constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
-constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
-constexpr double steepest_joint = 5;   // degrees between two planes: more, and bonds break
+constexpr double least_shift = 0.1;   // radii that a bone may jump unnoticed
+// In square roots of what a bone holds of the cross-section: 0.6 is the rim of a round limb.
+constexpr double far_from_bone = 3;
+constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
   if (pair.b > largest_stable_b * pair.r)
@@ -89,6 +91,42 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
                          "'; move it into the body");
 }
 
+/// Particles farther from their bone than this are held by a long arm, m.
+double longest_arm(const Body& body, int bone) {
+  Box box;
+  for (const Vec3& point : body.rest) box.extend(point);
+  return std::min(box.diagonal().norm() / 2,
+                  far_from_bone * std::sqrt(body.binding.cross_section[bone]));
+}
+
+void warn_of_far_particles(const Body& body, Warnings& warnings) {
+  const std::size_t bones = body.skeleton.size();
+  std::vector<double> limit, farthest(bones, 0.0);
+  for (std::size_t b = 0; b < bones; ++b) limit.push_back(longest_arm(body, static_cast<int>(b)));
+  std::vector<std::size_t> count(bones, 0);
+  for (std::size_t i = 0; i < body.rest.size(); ++i) {
+    const int bone = body.binding.bone(i);
+    if (bone == no_bone) continue;
+    const double distance = distance_to(body.skeleton.bones[bone], body.rest[i]);
+    if (distance > limit[bone]) ++count[bone];
+    farthest[bone] = std::max(farthest[bone], distance);
+  }
+  for (std::size_t b = 0; b < bones; ++b)
+    if (count[b] > 0)
+      warnings.push_back(std::to_string(count[b]) + " particles of bone '" +
+                         body.skeleton.bones[b].name + "' are farther from it than " +
+                         three_digits(limit[b]) + " m, up to " + three_digits(farthest[b]) +
+                         " m; add a bone there, or let them follow the others by "
+                         "binding.core_radius");
+}
+
+void warn_of_unreached(const Binding& binding, Warnings& warnings) {
+  if (binding.unreached > 0)
+    warnings.push_back(std::to_string(binding.unreached) +
+                       " particles are reached from no bone inside the body and follow the nearest "
+                       "through the air; close the body's gaps, or give it a bone in each piece");
+}
+
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
   const StepWay way = step_way(solver, setup.body, setup.motion);
   if (!way.unserved || setup.body.material.model != MaterialModel::paper) return;
@@ -136,6 +174,8 @@ std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& s
        motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
     warnings.push_back(std::move(warning));
   warn_of_idle_bones(setup.body, warnings);
+  warn_of_far_particles(setup.body, warnings);
+  warn_of_unreached(setup.body.binding, warnings);
   warn_of_cells(setup, solver, warnings);
   warn_of_overlaps(setup, warnings);
   return warnings;

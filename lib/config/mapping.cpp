@@ -20,6 +20,7 @@ std::vector<std::string> homes_of(std::string_view name) {
   look(settings_table(), "");
   look(bone_fields(), "skeleton.bones");
   look(limit_fields(), "skeleton.bones[].limits");
+  look(bound_fields(), "binding.explicit");
   look(track_fields(), "motion.tracks");
   look(key_fields(), "motion.tracks[].keys");
   look(obstacle_fields(), "world.obstacles");

@@ -33,6 +33,14 @@ std::string tracks_text(const Settings& settings) {
   return text;
 }
 
+std::string bound_text(const Settings& settings) {
+  if (settings.bound.empty()) return "";
+  std::string text = "  explicit:\n";
+  for (const BoundSettings& bound : settings.bound)
+    text += entry(bound_fields(), bound, 4, &bound == &settings.bound.front());
+  return text;
+}
+
 /// Whether a key with a default must stay out because its rival is given.
 bool is_replaced(const Settings& settings, const Field<Settings>& row) {
   const std::string name = std::string(row.section) + '.' + std::string(row.name);
@@ -71,6 +79,7 @@ std::string resolved_scene(const Settings& settings, const std::filesystem::path
     if (section == "skeleton") text += bones_text(settings);
     if (section == "motion") text += tracks_text(settings);
     if (section == "world") text += world_text(settings, folder);
+    if (section == "binding") text += bound_text(settings);
   }
   return text;
 }

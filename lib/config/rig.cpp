@@ -107,6 +107,15 @@ void read_tracks(const YamlNode& motion, Settings& settings) {
   read_track_list(motion, settings);
 }
 
+void read_bound(const YamlNode& binding, Settings& settings) {
+  const YamlNode* list = binding.find("explicit");
+  if (list == nullptr || (list->kind != Kind::scalar && list->items.empty())) return;
+  const auto items = list_below(binding, "binding", "explicit", settings.places);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    read_fields(items[i], entry("binding", "explicit", i), bound_fields(), "",
+                settings.bound.emplace_back(), settings.places);
+}
+
 void read_rig_files(Settings& settings) {
   static constexpr std::array<std::string_view, 1> of_rig = {"bones"};
   static constexpr std::array<std::string_view, 2> of_clip = {"tracks", "frame_rate"};

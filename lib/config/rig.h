@@ -12,6 +12,7 @@ namespace sinew {
 /// for a list and a file at once, and as read_fields does.
 void read_bones(const YamlNode& skeleton, Settings& settings);
 void read_tracks(const YamlNode& motion, Settings& settings);
+void read_bound(const YamlNode& binding, Settings& settings);
 
 /// Reads what skeleton.file and motion.file name when it is YAML, and takes the name out: the
 /// settings then hold all there is. Other files stay for their readers. The scene's own frame_rate

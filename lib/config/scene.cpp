@@ -26,9 +26,10 @@ std::vector<Field<Settings>> rows_of(std::string_view section) {
 
 /// The keys of a section that hold lists.
 std::span<const std::string_view> lists_of(std::string_view section) {
-  static constexpr std::array<std::string_view, 2> lists = {"bones", "tracks"};
+  static constexpr std::array<std::string_view, 3> lists = {"bones", "tracks", "explicit"};
   if (section == "skeleton") return std::span(lists).first(1);
-  if (section == "motion") return std::span(lists).last(1);
+  if (section == "motion") return std::span(lists).subspan(1, 1);
+  if (section == "binding") return std::span(lists).last(1);
   if (section == "world") return world_lists;
   return {};
 }
@@ -62,6 +63,7 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
     if (name == "skeleton") read_bones(section, settings);
     if (name == "motion") read_tracks(section, settings);
     if (name == "world") read_world(section, settings);
+    if (name == "binding") read_bound(section, settings);
   }
   return settings;
 }

@@ -118,16 +118,17 @@ FieldValue read_choice(const Given& given) {
   return word;
 }
 
-/// `count` numbers; `words` names that count.
+/// `count` numbers, or any but none for 0; `words` names that count.
 std::vector<double> read_list(const Given& given, std::size_t count, const std::string& words) {
   const YamlNode& node = given.node;
   if (node.kind == Kind::empty) throw wrong(given, "");
   if (node.kind != Kind::list) throw wrong(given, ", not a list of " + words + " numbers");
-  if (node.items.size() != count)
+  if (count == 0 && node.items.empty()) throw wrong(given, " without values");
+  if (count > 0 && node.items.size() != count)
     throw wrong(given, " of " + std::to_string(node.items.size()) + " values, not of " + words);
   const Rules number = {FieldKind::number, given.rules.unit, given.rules.range, {}, {}};
   std::vector<double> values;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
     const std::string path = given.path + '[' + std::to_string(i) + ']';
     values.push_back(std::get<double>(read_bounded({node.items[i], path, number})));
   }
@@ -156,7 +157,8 @@ std::string kind_text(const Rules& rules) {
     case FieldKind::vector:
       return "[x, y, z]";
     case FieldKind::numbers:
-      return "a list of " + std::to_string(rules.count) + " numbers";
+      return rules.count == 0 ? "a list of numbers"
+                              : "a list of " + std::to_string(rules.count) + " numbers";
   }
   return "";
 }
@@ -196,7 +198,7 @@ FieldValue read_value(const YamlNode& node, const std::string& path, const Rules
     case FieldKind::vector:
       return read_vector(given);
     case FieldKind::numbers:
-      return read_list(given, rules.count, std::to_string(rules.count));
+      return read_list(given, rules.count, rules.count == 0 ? "any" : std::to_string(rules.count));
     case FieldKind::text:
     case FieldKind::path:
       break;

@@ -65,6 +65,18 @@ void NewFile::write(const void* bytes, std::size_t count) {
   }
 }
 
+void NewFile::write_at(std::size_t place, const void* bytes, std::size_t count) {
+  const char* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = ::pwrite(file_, next, count, static_cast<off_t>(place));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw refused(path_, errno);
+    next += written;
+    place += static_cast<std::size_t>(written);
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
 void NewFile::finish() {
   // The close itself may report that the data did not arrive (network file systems).
   if (::close(std::exchange(file_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0)

@@ -23,7 +23,9 @@ class NewFile {
   /// Where to write: by write(), or by others under this name.
   const std::filesystem::path& temporary() const { return temporary_; }
   void write(const void* bytes, std::size_t count);  ///< throws not written
-  void finish();                                     ///< puts it in place; throws not written
+  /// Over what has been written before, `place` bytes from the beginning. Throws not written.
+  void write_at(std::size_t place, const void* bytes, std::size_t count);
+  void finish();  ///< puts it in place; throws not written
 
  private:
   std::filesystem::path path_, temporary_;

@@ -92,6 +92,9 @@ struct BoneSettings {
   std::optional<Vec3> direction = {};  ///< with length; the parent's when not given
   std::optional<bool> connected = {};
   double roll = 0;
+  double stiffness = 1;  ///< these three: factors on the binding's
+  double twist_stiffness = 1;
+  double axial_stiffness = 1;
   LimitSettings limits = {};
 };
 
@@ -132,8 +135,11 @@ struct TrackSettings {
 
 enum class BoneForce { paper, anchor };
 enum class TwistForm { servo, open_loop };
+enum class BindMethod { nearest, inside, file };
 
 struct BindingSettings {
+  BindMethod method = BindMethod::nearest;
+  std::optional<double> core_radius;
   BoneForce force = BoneForce::paper;
   TwistForm twist_form = TwistForm::servo;
   double stiffness = 1.6;
@@ -218,6 +224,15 @@ struct WorldSettings {
   }
 };
 
+/// Particles that belong to a bone, whatever is near: by number, in a box, or in a ball.
+struct BoundSettings {
+  std::string bone;  ///< "": to none
+  std::optional<std::vector<double>> ids = {};
+  std::optional<Vec3> low = {}, high = {};  ///< corners of the box
+  std::optional<Vec3> centre = {};          ///< of the ball
+  std::optional<double> radius = {};        ///< of the ball
+};
+
 enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
 enum class Precision { binary64, binary32 };
 enum class NeighbourSearch { lists, cells };
@@ -238,6 +253,9 @@ struct OutputSettings {
   double interval = 1.0 / 30;
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;
+  bool skin_lbs = false;
+  bool skin_dqs = false;
+  bool export_surface = false;
 };
 
 struct Settings {
@@ -249,6 +267,7 @@ struct Settings {
   std::vector<TrackSettings> tracks;  ///< section motion
   BindingSettings binding;
   WorldSettings world;
+  std::vector<BoundSettings> bound;  ///< section binding, list explicit
   SolverSettings solver;
   OutputSettings output;
 

@@ -30,6 +30,9 @@ constexpr std::size_t count_of = 0;
 template <std::size_t n>
 constexpr std::size_t count_of<std::array<double, n>> = n;
 
+template <class T>
+constexpr bool is_list = count_of<T> > 0 || std::is_same_v<T, std::vector<double>>;
+
 /// Members as they lie in a FieldValue: arrays become lists.
 template <class T>
 FieldValue stored_as_field(const T& value) {
@@ -61,7 +64,7 @@ constexpr FieldKind kind_of() {
     return FieldKind::flag;
   else if constexpr (std::is_same_v<T, Vec3>)
     return FieldKind::vector;
-  else if constexpr (count_of<T> > 0)
+  else if constexpr (is_list<T>)
     return FieldKind::numbers;
   else
     return FieldKind::text;
@@ -295,6 +298,12 @@ std::vector<Field<Settings>> make_motion_section() {
 std::vector<Field<Settings>> make_binding() {
   using S = Settings;
   return {
+      choice<S>("binding", "method", SINEW_AT(S, binding.method), {"nearest", "inside", "file"},
+                "bone of a particle: of the nearest segment; nearest by a way inside the body; by "
+                "the weights of the glTF file in skeleton.file"),
+      field<S>("binding", "core_radius", SINEW_AT(S, binding.core_radius), "m",
+               "particles farther from their bone have none and follow their neighbours", positive,
+               "none"),
       choice<S>("binding", "force", SINEW_AT(S, binding.force), {"paper", "anchor"},
                 "paper: radial, twist and axial springs; anchor: a spring to the rigid pose"),
       choice<S>("binding", "twist_form", SINEW_AT(S, binding.twist_form), {"servo", "open_loop"},
@@ -354,6 +363,12 @@ std::vector<Field<Settings>> make_output() {
                 "VTK before 9.3"),
       field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
                "write Float64 instead of Float32"),
+      field<S>("output", "skin_lbs", SINEW_AT(S, output.skin_lbs), "",
+               "write the surface moved by linear-blend skinning too, for comparison"),
+      field<S>("output", "skin_dqs", SINEW_AT(S, output.skin_dqs), "",
+               "write the surface moved by dual-quaternion skinning too, for comparison"),
+      field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
+               "write surface.obj (rest) and surface.pc2 (its motion) for Blender, 3ds Max, Maya"),
   };
 }
 
@@ -384,6 +399,12 @@ std::vector<Field<BoneSettings>> make_bones() {
       field<B>("", "roll", SINEW_AT(B, roll), "degrees",
                "turns its sides about it; at 0 the first side is across the bone and that axis of "
                "x, y, z which is least along it"),
+      field<B>("", "stiffness", SINEW_AT(B, stiffness), "", "factor on binding.stiffness",
+               not_negative),
+      field<B>("", "twist_stiffness", SINEW_AT(B, twist_stiffness), "",
+               "factor on binding.twist_stiffness", not_negative),
+      field<B>("", "axial_stiffness", SINEW_AT(B, axial_stiffness), "",
+               "factor on binding.axial_stiffness", not_negative),
   };
 }
 
@@ -395,6 +416,21 @@ std::vector<Field<LimitSettings>> make_limits() {
                "none"),
       field<L>("", "twist", SINEW_AT(L, twist), "degrees",
                "least and greatest turn about the bone itself", any, "none"),
+  };
+}
+
+std::vector<Field<BoundSettings>> make_bound() {
+  using B = BoundSettings;
+  return {
+      may_lack("none", field<B>("", "bone", SINEW_AT(B, bone), "",
+                                "name of the bone that holds these particles, and no other")),
+      field<B>("", "ids", SINEW_AT(B, ids), "", "numbers of the particles, as in body.vtu",
+               not_negative, "none"),
+      field<B>("", "low", SINEW_AT(B, low), "m", "least corner of the box that they lie in", any,
+               "none"),
+      field<B>("", "high", SINEW_AT(B, high), "m", "greatest corner of that box", any, "none"),
+      field<B>("", "centre", SINEW_AT(B, centre), "m", "of the ball that they lie in", any, "none"),
+      field<B>("", "radius", SINEW_AT(B, radius), "m", "of that ball", positive, "none"),
   };
 }
 
@@ -574,6 +610,11 @@ std::span<const Field<BoneSettings>> bone_fields() {
 
 std::span<const Field<LimitSettings>> limit_fields() {
   static const auto table = make_limits();
+  return table;
+}
+
+std::span<const Field<BoundSettings>> bound_fields() {
+  static const auto table = make_bound();
   return table;
 }
 

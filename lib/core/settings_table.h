@@ -47,13 +47,14 @@ struct Field {
   std::vector<std::string_view> choices = {};
   std::string_view absent = {};  ///< the word for "not given" where that is allowed: "auto", "none"
   bool required = false;
-  std::size_t count = 0;  ///< of a list of numbers
+  std::size_t count = 0;  ///< of a list of numbers; 0: any but none
 };
 
 std::span<const Field<Settings>> settings_table();
 std::span<const Field<BoneSettings>> bone_fields();    ///< skeleton.bones[]
 std::span<const Field<LimitSettings>> limit_fields();  ///< skeleton.bones[].limits
 std::span<const Field<TrackSettings>> track_fields();  ///< motion.tracks[] (and its list `keys`)
+std::span<const Field<BoundSettings>> bound_fields();  ///< binding.explicit[]
 std::span<const Field<KeySettings>> key_fields();      ///< motion.tracks[].keys[]
 
 // Of the section world: its lists, and the keys of their entries.

@@ -31,6 +31,7 @@ std::vector<WrittenArray> table_of_body() {
       {"body", point, "neighbours", "1", one, whole, plain, "touching particles at rest"},
       {"body", point, "component", "1", one, whole, plain, "connected piece it belongs to, from 0"},
       {"body", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
+      {"body", point, "weight", "1", one, exact, plain, "share that bone has in it, 0 for none"},
   };
 }
 
@@ -39,6 +40,8 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", point, "Points", "m", xyz, real, plain, "where the particle is"},
       {"particles", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
       {"particles", point, "bone", "1", one, whole, scalars, "bone it is bound to, -1 for none"},
+      {"particles", point, "weight", "1", one, real, plain,
+       "share that bone has in it, 0 for none"},
       {"particles", point, "radius", "m", one, real, plain, "radius of the particle"},
       {"particles", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
       {"particles", point, "velocity", "m/s", xyz, real, plain, "velocity"},
@@ -65,13 +68,25 @@ std::vector<WrittenArray> table_of_particles() {
   };
 }
 
-std::vector<WrittenArray> table_of_surface() {
+std::vector<WrittenArray> table_of_surface_in(const char* series, const char* of_points) {
   return {
-      {"surface", point, "Points", "m", xyz, real, plain, "point of the input surface, deformed"},
-      {"surface", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
-      {"surface", point, "normal", "1", xyz, real, plain, "outward unit normal"},
-      {"surface", point, "bone", "1", one, whole, scalars, "bone that moves it most, -1 for none"},
+      {series, point, "Points", "m", xyz, real, plain, of_points},
+      {series, point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {series, point, "normal", "1", xyz, real, plain, "outward unit normal"},
+      {series, point, "bone", "1", one, whole, scalars, "bone that moves it most, -1 for none"},
   };
+}
+
+std::vector<WrittenArray> table_of_surface() {
+  return table_of_surface_in("surface", "point of the input surface, deformed");
+}
+
+std::vector<WrittenArray> table_of_skin_lbs() {
+  return table_of_surface_in("skin_lbs", "the same point by linear-blend skinning");
+}
+
+std::vector<WrittenArray> table_of_skin_dqs() {
+  return table_of_surface_in("skin_dqs", "the same point by dual-quaternion skinning");
 }
 
 std::vector<WrittenArray> table_of_bones() {
@@ -129,7 +144,8 @@ std::vector<WrittenArray> table_of_defects() {
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
   for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_surface,
-                    table_of_bones, table_of_frames, table_of_obstacles, table_of_defects})
+                    table_of_skin_lbs, table_of_skin_dqs, table_of_bones, table_of_frames,
+                    table_of_obstacles, table_of_defects})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

@@ -41,6 +41,7 @@ BodyFile body_of(const Dataset& data) {
   body.neighbours = integers(data.point_columns, "neighbours");
   body.component = integers(data.point_columns, "component");
   if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
+  if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
   body.meta = data.meta;
   return body;
 }
@@ -61,6 +62,7 @@ Dataset body_dataset(BodyFile body) {
   data.point_columns.push_back(column("neighbours", std::move(body.neighbours)));
   data.point_columns.push_back(column("component", std::move(body.component)));
   if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
+  if (body.weight) data.point_columns.push_back(column("weight", std::move(*body.weight)));
   data.meta = std::move(body.meta);
   return data;
 }

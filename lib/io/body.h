@@ -19,6 +19,7 @@ struct BodyFile {
   std::vector<std::int32_t> neighbours;           ///< touching particles of each
   std::vector<std::int32_t> component;            ///< connected piece of each, from 0
   std::optional<std::vector<std::int32_t>> bone;  ///< of each, once bound
+  std::optional<std::vector<double>> weight;      ///< that bone's share in it, once bound
   std::string meta;                               ///< UTF-8 JSON, or empty
 };
 

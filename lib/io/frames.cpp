@@ -68,6 +68,12 @@ std::vector<std::int32_t> copied(std::span<const std::int32_t> values, std::size
   return {values.begin(), values.end()};
 }
 
+std::vector<double> copied(std::span<const double> values, std::size_t count) {
+  assert(values.size() == count);
+  (void)count;
+  return {values.begin(), values.end()};
+}
+
 Points copied(std::span<const Vec3> values, std::size_t count) {
   assert(values.size() == count);
   (void)count;
@@ -124,6 +130,7 @@ Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
   data.point_columns = {
       column("id", vertex_cells(now.size())),
       column("bone", copied(frame.bone, now.size())),
+      column("weight", copied(frame.weight, now.size())),
       column("radius", std::vector<double>(now.size(), now.radius)),
       displacement_column(data.points, frame.rest),
       written_column("velocity", now, [&](std::size_t i) { return now.velocity(i); }),

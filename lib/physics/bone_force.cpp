@@ -73,6 +73,20 @@ Spring axial(double k, const Vec3& axis, const Vec3& offset) {
   return {-k * slide * axis, k * slide * slide / 2};
 }
 
+BoneSprings springs_of(const BindingSettings& settings, const Material& material, double section,
+                       const BoneStrength& strength) {
+  const double unit =
+      section > 0 ? material.young_modulus() * volume_per_particle(material.pair.r) / section : 0;
+  BoneSprings bone;
+  bone.radial = settings.stiffness * unit * strength.radial;
+  bone.twist = settings.twist_stiffness * unit * strength.twist;
+  bone.axial = settings.axial_stiffness * unit * strength.axial;
+  bone.damping = 2 * settings.bone_damping * std::sqrt(bone.radial * material.mass);
+  bone.form = settings.force;
+  bone.twist_form = settings.twist_form;
+  return bone;
+}
+
 }  // namespace
 
 double BoneSprings::stiffest() const {
@@ -82,18 +96,17 @@ double BoneSprings::stiffest() const {
 std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
                                       const Binding& binding) {
   std::vector<BoneSprings> springs;
-  for (const double section : binding.cross_section) {
-    const double unit =
-        section > 0 ? material.young_modulus() * volume_per_particle(material.pair.r) / section : 0;
-    BoneSprings bone;
-    bone.radial = settings.stiffness * unit;
-    bone.twist = settings.twist_stiffness * unit;
-    bone.axial = settings.axial_stiffness * unit;
-    bone.damping = 2 * settings.bone_damping * std::sqrt(bone.radial * material.mass);
-    bone.form = settings.force;
-    bone.twist_form = settings.twist_form;
-    springs.push_back(bone);
-  }
+  for (const double section : binding.cross_section)
+    springs.push_back(springs_of(settings, material, section, {}));
+  return springs;
+}
+
+std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+                                      const Binding& binding, const Skeleton& skeleton) {
+  std::vector<BoneSprings> springs;
+  for (std::size_t b = 0; b < skeleton.size(); ++b)
+    springs.push_back(
+        springs_of(settings, material, binding.cross_section[b], skeleton.bones[b].strength));
   return springs;
 }
 

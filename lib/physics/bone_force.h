@@ -30,6 +30,10 @@ struct BoneSprings {
 std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
                                       const Binding& binding);
 
+/// The same, times each bone's own strength.
+std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+                                      const Binding& binding, const Skeleton& skeleton);
+
 /// What one bone does to one particle.
 struct BonePull {
   Vec3 spring = Vec3::Zero();   ///< N

@@ -49,6 +49,7 @@ std::vector<Reaction> reactions(const Particles& particles, const Body& body, co
       for_each_pull(particles, body, pose, i, [&](int b, const BonePull& pull) {
         part[b].force -= pull.force();
         part[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(pull.force());
+        part[b].power += pull.power;
       });
   });
   std::vector<Reaction> on(pose.size());
@@ -56,6 +57,7 @@ std::vector<Reaction> reactions(const Particles& particles, const Body& body, co
     for (std::size_t b = 0; b < on.size(); ++b) {
       on[b].force += part[b].force;
       on[b].moment += part[b].moment;
+      on[b].power += part[b].power;
     }
   return on;
 }

@@ -54,9 +54,10 @@ void bone_forces(const Particles& particles, const Body& body, const Pose& pose,
 struct Reaction {
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N m
+  double power = 0;            ///< that the bone puts into the body, W
 };
 
-/// Per bone: F = -sum f, M = -sum (x - head) x f.
+/// Per bone: F = -sum f, M = -sum (x - head) x f; the power of a rigid bone is -(F.o' + M.omega).
 std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose);
 
 /// Stored energies, J.

@@ -126,6 +126,7 @@ Bone make_bone(const Settings& settings, std::size_t index, const Skeleton& earl
                     "bone '" + given.name + "' has no length", "move its tail away from its head");
   bone.rest.rotation = frame_of(along, radians(given.roll));
   bone.limits = limits_of(settings, index);
+  bone.strength = {given.stiffness, given.twist_stiffness, given.axial_stiffness};
   return bone;
 }
 

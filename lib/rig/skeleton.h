@@ -24,12 +24,18 @@ struct JointLimits {
   bool any() const { return swing < pi || std::isfinite(least_twist) || std::isfinite(most_twist); }
 };
 
+/// Of one bone's springs, as factors on the binding's.
+struct BoneStrength {
+  double radial = 1, twist = 1, axial = 1;
+};
+
 struct Bone {
   std::string name;
   int parent = no_bone;  ///< index of an earlier bone; no_bone for a root
   double length = 0;     ///< m, > 0
   RigidFrame rest;       ///< origin: the head; columns: axis towards the tail, and two sides
   JointLimits limits = {};
+  BoneStrength strength = {};
 
   Vec3 head() const { return rest.origin; }
   Vec3 axis() const { return rest.rotation.col(0); }

@@ -148,16 +148,66 @@ Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
   return reliable ? F : rotation_part(F);
 }
 
-}  // namespace
+/// Whether two particles follow bones that share no joint.
+bool strangers(const Skeleton& skeleton, const Binding& binding, std::uint32_t i, std::uint32_t j) {
+  const int a = binding.bone(i), b = binding.bone(j);
+  if (a == no_bone || b == no_bone || a == b) return false;
+  return skeleton.bones[a].parent != b && skeleton.bones[b].parent != a;
+}
 
-Skin make_skin(const Points& vertices, const Points& points, double radius) {
+/// Which of the particles around a vertex touching ones lead to from the nearest.
+std::vector<char> reached_from_nearest(const Support& support, const Points& points, double range) {
+  const std::vector<Near>& near = support.near;
+  std::vector<char> reached(near.size());
+  std::vector<std::size_t> next = {0};
+  reached[0] = 1;
+  while (!next.empty()) {
+    const Vec3& from = points[near[next.back()].particle];
+    next.pop_back();
+    for (std::size_t k = 0; k < near.size(); ++k)
+      if (!reached[k] && (points[near[k].particle] - from).squaredNorm() < range * range)
+        reached[k] = 1, next.push_back(k);
+  }
+  return reached;
+}
+
+void drop_strangers(const Points& points, double radius, const Skeleton& skeleton,
+                    const Binding& binding, Support& support) {
+  if (support.near.empty()) return;
+  const std::uint32_t nearest = support.near.front().particle;
+  const auto is_stranger = [&](const Near& one) {
+    return strangers(skeleton, binding, nearest, one.particle);
+  };
+  if (std::none_of(support.near.begin(), support.near.end(), is_stranger)) return;
+  const auto reached = reached_from_nearest(support, points, rest_neighbour_range(radius));
+  std::size_t k = 0;
+  std::erase_if(support.near, [&](const Near& one) { return !reached[k++] && is_stranger(one); });
+}
+
+Skin skin_of(const Points& vertices, const Points& points, double radius,
+             const std::vector<Support>& supports) {
   Skin skin;
   skin.rest = vertices;
   skin.first.push_back(0);
-  for (const Support& support : supports_of(vertices, points, reach_in_radii * radius))
-    add_weights(skin, support);
+  for (const Support& support : supports) add_weights(skin, support);
   add_body(skin, points, radius);
   return skin;
+}
+
+}  // namespace
+
+Skin make_skin(const Points& vertices, const Points& points, double radius) {
+  return skin_of(vertices, points, radius, supports_of(vertices, points, reach_in_radii * radius));
+}
+
+Skin make_skin(const Points& vertices, const Points& points, double radius,
+               const Skeleton& skeleton, const Binding& binding) {
+  std::vector<Support> supports = supports_of(vertices, points, reach_in_radii * radius);
+  parallel_for(supports.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      drop_strangers(points, radius, skeleton, binding, supports[i]);
+  });
+  return skin_of(vertices, points, radius, supports);
 }
 
 Points follow(const Skin& skin, const Points& now) {

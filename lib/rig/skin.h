@@ -9,6 +9,7 @@
 
 #include "core/deformation.h"
 #include "core/vector.h"
+#include "rig/binding.h"
 
 namespace sinew {
 
@@ -28,6 +29,12 @@ struct Skin {
 /// Ties vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m) within
 /// h = max(6 radius, 1.05 times the distance of the 20th particle). In parallel.
 Skin make_skin(const Points& vertices, const Points& points, double radius);
+
+/// The same, but a vertex follows no particles of bones that are strangers to that of its nearest
+/// particle (neither the same nor parent and child), where no way of touching particles within h
+/// leads to them: fingers do not bleed into each other.
+Skin make_skin(const Points& vertices, const Points& points, double radius,
+               const Skeleton& skeleton, const Binding& binding);
 
 /// The vertices when the particles are at `now` (m, in the order of the body's points). In
 /// parallel.

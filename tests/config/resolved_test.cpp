@@ -51,7 +51,8 @@ class Chance {
         return Vec3(number({}), -0.0, number({}) * 1e-20);
       case FieldKind::numbers: {
         std::vector<double> list;
-        for (std::size_t i = 0; i < row.count; ++i) list.push_back(number({}));
+        for (std::size_t i = 0; i < std::max<std::size_t>(row.count, 1); ++i)
+          list.push_back(number(row.range));
         return list;
       }
       case FieldKind::path:
@@ -76,6 +77,7 @@ class Chance {
       drawn.bones.push_back(owner(bone_fields()));
       drawn.bones.back().limits = owner(limit_fields());
     }
+    for (int i = 0; i < below(3); ++i) drawn.bound.push_back(owner(bound_fields()));
     for (int i = 0; i < below(3); ++i) {
       drawn.tracks.push_back(owner(track_fields()));
       for (int k = 0; k <= below(3); ++k) drawn.tracks.back().keys.push_back(owner(key_fields()));
@@ -99,6 +101,15 @@ class Chance {
       drawn.body.count = 1000;
     if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
+    if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;
+    if (drawn.material.model == MaterialModel::paper) {
+      drawn.material.breaking_strain.reset();
+      drawn.material.yield_strain.reset();
+    } else {
+      drawn.material.cohesion = Cohesion::all;
+      if (!drawn.material.yield_strain) drawn.material.preset = MaterialPresetName::none;
+    }
+    if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
     drawn.material.a = 2;
     if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;
     if (drawn.material.model != MaterialModel::paper) drawn.material.cohesion = Cohesion::all;
@@ -132,6 +143,9 @@ void expect_same(const Settings& one, const Settings& other) {
     expect_same(bone_fields(), one.bones[i], other.bones[i]);
   for (std::size_t i = 0; i < one.bones.size(); ++i)
     expect_same(limit_fields(), one.bones[i].limits, other.bones[i].limits);
+  ASSERT_EQ(one.bound.size(), other.bound.size());
+  for (std::size_t i = 0; i < one.bound.size(); ++i)
+    expect_same(bound_fields(), one.bound[i], other.bound[i]);
   ASSERT_EQ(one.tracks.size(), other.tracks.size());
   for (std::size_t i = 0; i < one.tracks.size(); ++i) {
     expect_same(track_fields(), one.tracks[i], other.tracks[i]);

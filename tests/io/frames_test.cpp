@@ -17,14 +17,16 @@ TEST(ParticlesDataset, PutsShuffledParticlesIntoTheWrittenOrder) {
   const Points rest = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   const Points force = {{0, 2, 0}, {0, 0, 0}, {0, 1, 0}};
   const std::vector<std::int32_t> bone = {5, 6, 7}, neighbours = {12, 10, 11};
+  const std::vector<double> weight = {1, 0.5, 0.25};
   const Dataset data =
-      particles_dataset({now, rest, bone, force, force, force, neighbours, {}}, {3, 4});
+      particles_dataset({now, rest, bone, force, force, force, neighbours, {}, weight}, {3, 4});
   EXPECT_EQ(data.points, (Points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
   EXPECT_EQ(vectors(data.point_columns, "velocity"), (Points{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}}));
   EXPECT_EQ(vectors(data.point_columns, "force_bone"), (Points{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}));
   EXPECT_EQ(vectors(data.point_columns, "force"), (Points{{0, 0, 0}, {0, 3, 0}, {0, 6, 0}}));
   EXPECT_EQ(integers(data.point_columns, "neighbours"), (std::vector<std::int32_t>{10, 11, 12}));
   EXPECT_EQ(integers(data.point_columns, "bone"), bone);
+  EXPECT_EQ(numbers(data.point_columns, "weight"), weight);
   EXPECT_EQ(integers(data.point_columns, "id"), (std::vector<std::int32_t>{0, 1, 2}));
   EXPECT_EQ(data.time, 3);
   EXPECT_EQ(data.cycle, 4);
@@ -61,7 +63,8 @@ TEST(ParticlesDataset, TakesTheDisplacementInDouble) {
   const Particles now = particles_at({{1000 + 1e-9, 0, 0}}, 0.5, 1);
   const Points force(1, Vec3::Zero());
   const std::vector<std::int32_t> zero(1, 0);
-  const Dataset data = particles_dataset({now, rest, zero, force, force, force, zero, {}}, {});
+  const Dataset data = particles_dataset(
+      {now, rest, zero, force, force, force, zero, {}, std::vector<double>{1}}, {});
   EXPECT_NEAR(vectors(data.point_columns, "displacement")[0].x(), 1e-9, 1e-12);
 }
 

@@ -122,7 +122,8 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbours[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies, world},
+  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies,
+                            std::vector<double>(n, 1), world},
                            moment);
 }
 
@@ -159,6 +160,7 @@ BodyFile SyntheticRun::body() const {
   body.neighbours.assign(count(), 12);
   body.component.assign(count(), 0);
   body.bone = bone;
+  body.weight.emplace(count(), 1.0);
   body.meta = "{\"packing\": \"fcc\"}";
   return body;
 }

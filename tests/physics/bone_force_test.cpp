@@ -240,5 +240,21 @@ TEST(BoneSprings, AreRelativeToTheBody) {
   }
 }
 
+TEST(BoneSprings, TakeTheStrengthOfTheirBone) {
+  Settings settings = test::box_scene(25);
+  settings.bones[1].stiffness = 4;
+  settings.bones[1].twist_stiffness = 3;
+  settings.bones[1].axial_stiffness = 0;
+  const Body body = test::make_body(settings, test::fcc_box(7, 7, 25, r));
+  const auto own =
+      bone_springs(settings.binding, body.material, body.binding, make_skeleton(settings));
+  EXPECT_EQ(own[0].radial, body.springs[0].radial);
+  EXPECT_EQ(own[0].damping, body.springs[0].damping);
+  EXPECT_DOUBLE_EQ(own[1].radial, 4 * body.springs[1].radial);
+  EXPECT_DOUBLE_EQ(own[1].twist, 3 * body.springs[1].twist);
+  EXPECT_EQ(own[1].axial, 0);
+  EXPECT_DOUBLE_EQ(own[1].damping, 2 * body.springs[1].damping);  // critical still
+}
+
 }  // namespace
 }  // namespace sinew

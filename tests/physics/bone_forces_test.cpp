@@ -2,6 +2,8 @@
 // Bone forces on a whole body whose particles may have several bones, and what the bones feel.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "core/parallel.h"
 #include "physics/forces.h"
 #include "world.h"
@@ -84,7 +86,7 @@ TEST(Reactions, BalanceForceMomentAndPowerOfTheBody) {
     Forces forces;
     bone_forces(scene.particles, scene.body, scene.pose, forces);
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    double power = 0, scale = 0;
+    double power = 0, scale = 0, of_bones = 0;
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
       force += forces.bone[i];
       moment += scene.particles.position(i).cross(forces.bone[i]);
@@ -95,13 +97,19 @@ TEST(Reactions, BalanceForceMomentAndPowerOfTheBody) {
     for (std::size_t b = 0; b < on.size(); ++b) {
       force += on[b].force;
       moment += on[b].moment + scene.pose[b].frame.origin.cross(on[b].force);
-      power += on[b].force.dot(scene.pose[b].velocity) +
-               on[b].moment.dot(scene.pose[b].angular_velocity);
+      const double taken = on[b].force.dot(scene.pose[b].velocity) +
+                           on[b].moment.dot(scene.pose[b].angular_velocity);
+      EXPECT_NEAR(on[b].power, -taken, 1e-13 * scale);
+      power += taken;
+      of_bones += on[b].power;
     }
     ASSERT_GT(scale, 0.1);
     EXPECT_LT(force.norm(), 1e-13 * scale);
     EXPECT_LT(moment.norm(), 1e-13 * scale);
     EXPECT_NEAR(power, 0, 1e-13 * scale);
+    const double booked =  // what the energy book adds up
+        std::accumulate(forces.bone_power.begin(), forces.bone_power.end(), 0.0);
+    EXPECT_NEAR(of_bones, booked, 1e-13 * scale);
   }
 }
 

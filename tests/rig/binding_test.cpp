@@ -149,6 +149,62 @@ TEST(Binding, BonesThatDoNotTouchShareNoParticle) {
   }
 }
 
+BindOptions options_of(double joint_zone = 0) {
+  BindOptions options;
+  options.radius = r;
+  options.joint_zone = joint_zone;
+  return options;
+}
+
+TEST(Binding, OfACoreLeavesFartherParticlesFree) {
+  const Points rest = box();
+  BindOptions options = options_of(1);
+  options.core_radius = 3 * r;
+  const Skeleton skeleton = two_bones();
+  const Binding binding = bind_to_bones(rest, skeleton, options);
+  double held = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const bool core = std::hypot(rest[i].x(), rest[i].y()) <= 3 * r;
+    EXPECT_EQ(binding.bone(i) != no_bone, core);
+    EXPECT_EQ(binding.weight(i) > 0, core);
+    held += core;
+  }
+  ASSERT_GT(held, 0);
+  const double volume = binding.cross_section[0] * skeleton.bones[0].length +
+                        binding.cross_section[1] * skeleton.bones[1].length;
+  EXPECT_NEAR(volume, held * V0, 1e-12);
+}
+
+TEST(Binding, OfRegionsGoesBeforeAllElseAndTheLastCounts) {
+  const Points rest = box();
+  BindOptions options = options_of();
+  BoundRegion by_number, in_box, in_ball;
+  by_number.bone = 1;
+  by_number.ids = {0, 5};
+  in_box.bone = 0;
+  in_box.box = Box(Vec3(-1, -1, 0.5), Vec3(1, 1, 1));
+  in_ball.centre = rest[5];
+  in_ball.radius = r;
+  options.regions = {by_number, in_box, in_ball};
+  const Binding binding = bind_to_bones(rest, two_bones(), options);
+  EXPECT_EQ(binding.bone(0), 1);
+  EXPECT_EQ(binding.bone(5), no_bone);  // the ball's
+  for (std::size_t i = 6; i < rest.size(); ++i) {
+    const int nearest = nearest_bone(two_bones(), rest[i]);
+    EXPECT_EQ(binding.bone(i), rest[i].z() >= 0.5 ? 0 : nearest);
+  }
+}
+
+TEST(Binding, TakesGivenWeights) {
+  const Points rest = {{0.1, 0, 0.1}, {0.1, 0, 0.5}};
+  BindOptions options = options_of(1);
+  options.weights = BoneWeights{{0, 2, 2}, {{1, 0.75}, {0, 0.25}}};
+  const Binding binding = bind_to_bones(rest, two_bones(), options);
+  EXPECT_EQ(weight_of(binding, 0, 1), 0.75);
+  EXPECT_EQ(weight_of(binding, 0, 0), 0.25);
+  EXPECT_EQ(binding.bone(1), nearest_bone(two_bones(), rest[1]));  // it has none
+}
+
 TEST(Binding, HasTheSameBitsForEveryThreadCount) {
   const Points rest = test::fcc_box(21, 21, 49, r);  // several pieces
   const Binding expected = bind_to_bones(rest, two_bones(), V0, 1);

@@ -142,6 +142,55 @@ TEST(Skin, KeepsOnlyTheParticlesNearItAndFollowsAsWithAll) {
   }
 }
 
+/// Two fingers 2.4 radii apart, or touching, each along a bone of its own.
+struct Fingers {
+  Points points;
+  std::size_t right = 0;  // where the second begins
+  Skeleton skeleton;
+  Binding binding;
+
+  explicit Fingers(double gap) {
+    const double shift = 2 * half_plane_spacing(r) + gap / 2;
+    for (const double x : {-shift, shift}) {
+      right = points.size();
+      for (const Vec3& point : test::fcc_box(5, 5, 15, r)) points.push_back(point + Vec3(x, 0, 0));
+    }
+    Settings settings;
+    settings.bones = {{"left", "", Vec3(-shift, 0, 0), Vec3(-shift, 0, 0.2)},
+                      {"right", "", Vec3(shift, 0, 0), Vec3(shift, 0, 0.2)}};
+    skeleton = make_skeleton(settings);
+    binding = bind_to_bones(points, skeleton, volume_per_particle(r), 0);
+  }
+
+  /// How far vertices left of the gap go when the right finger alone moves by one.
+  double bleeding(const Skin& skin) const {
+    Points now = points;
+    for (std::size_t j = right; j < now.size(); ++j) now[j].y() += 1;
+    const Points moved = follow(skin, now);
+    double most = 0;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      if (skin.rest[i].x() < -r) most = std::max(most, (moved[i] - skin.rest[i]).norm());
+    return most;
+  }
+};
+
+TEST(Skin, OfOneFingerDoesNotFollowTheNext) {
+  const Fingers fingers(2.4 * r);
+  const Points vertices = vertices_around(fingers.points, r);
+  EXPECT_GT(fingers.bleeding(make_skin(vertices, fingers.points, r)), 0.1);
+  const Skin apart = make_skin(vertices, fingers.points, r, fingers.skeleton, fingers.binding);
+  EXPECT_LT(fingers.bleeding(apart), 1e-12);
+}
+
+TEST(Skin, OfTouchingPartsIsOne) {
+  const Fingers grown(2 * r);
+  const Points vertices = vertices_around(grown.points, r);
+  const Skin all = make_skin(vertices, grown.points, r);
+  const Skin apart = make_skin(vertices, grown.points, r, grown.skeleton, grown.binding);
+  EXPECT_EQ(apart.particle, all.particle);
+  EXPECT_EQ(apart.weight, all.weight);
+}
+
 TEST(Skin, HasTheSameBitsForEveryThreadCount) {
   const Points points = test::fcc_box(11, 11, 25, r);
   const Points vertices = vertices_around(points, 12 * r, 3000);

@@ -11,6 +11,7 @@ import pty
 import re
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -123,6 +124,67 @@ class Commands(unittest.TestCase):
         self.assertEqual(record["status"], "finished")
         self.assertEqual(record["frames"], 13)
         self.assertEqual(list(self.folder.rglob("*.tmp")), [])
+
+    def test_bones_csv_has_a_row_per_bone_and_frame(self):
+        self.simulate()
+        rows = list(csv.DictReader((self.out / "bones.csv").open()))
+        self.assertEqual([row["bone"] for row in rows], 13 * ["lower", "upper"])
+        self.assertEqual(list(rows[0]), ["time", "bone"] + [f"{what}_{axis}" for what in ("force", "moment")
+                                                            for axis in "xyz"] + ["power"])
+        self.assertEqual(float(rows[0]["power"]), 0)
+        self.assertGreater(max(float(row["power"]) for row in rows if row["bone"] == "upper"), 0)
+        self.assertEqual({float(row["power"]) for row in rows if row["bone"] == "lower"}, {0})  # it rests
+
+    def test_skinning_and_export_are_written_on_request(self):
+        asked = [f"--set=output.{key}=true" for key in ("skin_lbs", "skin_dqs", "export")]
+        self.simulate(*asked)
+        for name in ("skin_lbs", "skin_dqs"):
+            self.assertEqual(len(list((self.out / name).glob("*.vtu"))), 13)
+            self.assertIn(f"{name}_000012.vtu", (self.out / f"{name}.pvd").read_text())
+        cache = (self.out / "surface.pc2").read_bytes()
+        version, points, start, rate, samples = struct.unpack("<iiffi", cache[12:32])
+        self.assertEqual((cache[:12], version, start, rate, samples), (b"POINTCACHE2\0", 1, 0, 1, 13))
+        self.assertEqual(len(cache), 32 + 12 * points * samples)
+        vertices = [line.split()[1:] for line in (self.out / "surface.obj").read_text().splitlines()
+                    if line.startswith("v ")]
+        self.assertEqual(len(vertices), points)
+        rest = struct.unpack(f"<{3 * points}f", cache[32:32 + 12 * points])
+        for found, expected in zip(rest, [float(x) for vertex in vertices for x in vertex]):
+            self.assertAlmostEqual(found, expected, 6)
+        self.simulate("--force")
+        for name in ("skin_lbs.pvd", "skin_dqs.pvd", "surface.pc2", "surface.obj"):
+            self.assertFalse((self.out / name).exists(), name)
+
+    def test_bindings_are_all_of_the_scenes_choice(self):
+        text = self.scene.read_text()
+        hashes = set()
+        for binding in ["{}", "{method: inside}", "{core_radius: 0.06}", "{joint_zone: 1, method: inside}",
+                        "{explicit: [{bone: upper, low: [-1, -1, 0.3], high: [1, 1, 1]}]}",
+                        "{explicit: [{bone: lower, ids: [0, 1]}, {centre: [0, 0, 0.6], radius: 0.1}]}"]:
+            self.scene.write_text(text + "binding: " + binding + "\n")
+            self.simulate("--force")
+            self.assertEqual(self.record()["status"], "finished")
+            hashes.add(self.record()["state_hash"])
+            again = self.folder / "again"
+            sinew("simulate", self.out / "scene.yaml", "-o", again, "--force", check=0)
+            self.assertEqual(self.record(again)["state_hash"], self.record()["state_hash"])
+            sinew("measure", self.out, check=0)
+        self.assertGreaterEqual(len(hashes), 5)  # inside a bar the nearest bone is the nearest
+
+    def test_mistakes_of_bindings_name_their_line(self):
+        bad = self.folder / "bad.yaml"
+        for binding, *parts in [("explicit: [{bone: uper, ids: [0]}]", "uper", "did you mean upper"),
+                                ("explicit: [{bone: upper, ids: [123456789]}]", "no particle 123456789"),
+                                ("explicit: [{bone: upper, ids: [0.5]}]", "no particle 0.5"),
+                                ("explicit: [{bone: upper, ids: []}]", "without values"),
+                                ("explicit: [{bone: upper, low: [0, 0, 0]}]", "one corner"),
+                                ("explicit: [{bone: upper, radius: 1}]", "centre"),
+                                ("explicit: [{bone: upper}]", "names no particles"),
+                                ("explicit: {bone: upper}", "must be a list"),
+                                ("method: file", "no glTF file"), ("method: near", "nearest")]:
+            bad.write_text(self.scene.read_text() + f"binding:\n  {binding}\n")
+            line = len(self.scene.read_text().splitlines()) + 2
+            self.assert_one_line(sinew("simulate", bad, "-o", self.out), 2, f"{bad}:{line}:", *parts)
 
     def test_default_folder_is_out_and_the_scenes_name(self):
         sinew("simulate", self.scene, "--set", "solver.duration=0", check=0, cwd=self.folder)
@@ -350,6 +412,7 @@ class Commands(unittest.TestCase):
         for old, new, word in [("angle: 30", "twist: 30", "cuts the body"),
                                ("axis: [0, 1, 0]\n          angle: 30", "axis: [0, 0, 1]\n          angle: 30",
                                 "cuts the body"),
+                               ("tail: [0, 0, 0.69296]", "tail: [0, 0, 0.36]", "farther from it than"),
                                ("time: 0.2", "time: 0.02", "cannot follow"),
                                ("- time: 0\n", "- time: 0\n          twist: 9\n", "begin at rest"),
                                ("- bone: upper", "- bone: upper\n      interpolation: step", "jumps"),

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// bones.csv: what the body does to each bone over time, one row per bone and frame.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/file.h"
+#include "io/frames.h"
+
+namespace sinew {
+
+/// Columns: time (s), bone (its name), force_x, force_y, force_z (N), moment_x, moment_y, moment_z
+/// (N m, about the head), power (W, that the bone puts into the body). There once close() returned.
+class BoneTable {
+ public:
+  /// Throws not written.
+  explicit BoneTable(const std::filesystem::path& path);
+
+  /// One frame; `power` in W. Throws not written.
+  void add(double time, const Skeleton& skeleton, const Reactions& reactions,
+           std::span<const double> power);
+  void close();  ///< throws not written
+
+ private:
+  NewFile file_;
+};
+
+}  // namespace sinew

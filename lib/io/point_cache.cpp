@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/point_cache.h"
+
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "core/number_text.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t place_of_samples = 28;  // bytes from the file's beginning
+
+void add_bytes(std::uint32_t value, std::string& text) {
+  for (int byte = 0; byte < 4; ++byte) text += static_cast<char>((value >> (8 * byte)) & 0xff);
+}
+
+std::uint32_t bits_of(double value) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+}  // namespace
+
+void write_obj(const std::filesystem::path& path, const Triangles& surface) {
+  NewFile file(path);
+  std::string text = "# surface at rest, m\n";
+  for (const Vec3& point : surface.points) {
+    text += "v " + number_text(point.x());
+    text += ' ' + number_text(point.y());
+    text += ' ' + number_text(point.z()) + '\n';
+  }
+  for (const auto& face : surface.faces) {
+    text += 'f';
+    for (const int corner : face) text += ' ' + std::to_string(corner + 1);
+    text += '\n';
+  }
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+PointCache::PointCache(const std::filesystem::path& path, std::size_t points)
+    : file_(path), points_(points) {
+  std::string header("POINTCACHE2\0", 12);
+  add_bytes(1, header);
+  add_bytes(static_cast<std::uint32_t>(points), header);
+  add_bytes(bits_of(0), header);  // first frame
+  add_bytes(bits_of(1), header);  // frames from sample to sample
+  add_bytes(0, header);           // samples, told at the end
+  file_.write(header.data(), header.size());
+}
+
+void PointCache::add(const Points& points) {
+  assert(points.size() == points_);
+  std::string bytes;
+  bytes.reserve(12 * points_);
+  for (const Vec3& point : points)
+    for (const double coordinate : point) add_bytes(bits_of(coordinate), bytes);
+  file_.write(bytes.data(), bytes.size());
+  ++samples_;
+}
+
+void PointCache::close() {
+  std::string count;
+  add_bytes(static_cast<std::uint32_t>(samples_), count);
+  file_.write_at(place_of_samples, count.data(), count.size());
+  file_.finish();
+}
+
+}  // namespace sinew

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A moving surface for animators: Wavefront OBJ at rest, and a point cache (PC2) of its motion,
+// which Blender (Mesh Cache), 3ds Max and Maya put on it. Coordinates and units of the scene.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/file.h"
+#include "core/triangles.h"
+
+namespace sinew {
+
+/// Points and faces, in the order of `surface`. Throws not written.
+void write_obj(const std::filesystem::path& path, const Triangles& surface);
+
+/// PC2: "POINTCACHE2\0", int32 version 1, int32 points, float start, float rate, int32 samples,
+/// then float32 x y z of every point of every sample; little endian. There once close() has
+/// returned.
+class PointCache {
+ public:
+  /// Throws not written.
+  PointCache(const std::filesystem::path& path, std::size_t points);
+
+  /// One sample; as many points each time. Throws not written.
+  void add(const Points& points);
+  void close();  ///< throws not written
+
+ private:
+  NewFile file_;
+  std::size_t points_;
+  std::int32_t samples_ = 0;
+};
+
+}  // namespace sinew

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/point_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "scratch.h"
+
+namespace sinew {
+namespace {
+
+using PointCacheFile = Scratch;
+
+std::uint32_t word_at(const std::string& bytes, std::size_t place) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes.at(place + i))) << (8 * i);
+  return word;
+}
+
+float number_at(const std::string& bytes, std::size_t place) {
+  return std::bit_cast<float>(word_at(bytes, place));
+}
+
+TEST_F(PointCacheFile, ReadsBackAsWritten) {
+  const auto path = folder / "surface.pc2";
+  const Points samples[] = {
+      {{1, 2, 3}, {-4, 0.1, 1e-3}}, {{5, 6, 7}, {0, 0, 0}}, {{8, 9, 1}, {2, 3, 4}}};
+  PointCache cache(path, 2);
+  for (const Points& points : samples) cache.add(points);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  cache.close();
+  const std::string bytes = read_file(path);
+  ASSERT_EQ(bytes.size(), 32 + 3 * 2 * 12u);
+  EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2\0", 12));
+  EXPECT_EQ(word_at(bytes, 12), 1u);
+  EXPECT_EQ(word_at(bytes, 16), 2u);
+  EXPECT_EQ(number_at(bytes, 20), 0.f);
+  EXPECT_EQ(number_at(bytes, 24), 1.f);
+  EXPECT_EQ(word_at(bytes, 28), 3u);
+  std::size_t place = 32;
+  for (const Points& points : samples)
+    for (const Vec3& point : points)
+      for (const double coordinate : point) {
+        EXPECT_EQ(number_at(bytes, place), static_cast<float>(coordinate));
+        place += 4;
+      }
+}
+
+TEST_F(PointCacheFile, ThatIsNotClosedLeavesNothing) {
+  { PointCache(folder / "surface.pc2", 1).add({{1, 2, 3}}); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST_F(PointCacheFile, HoldsPointsAndFacesInOrder) {
+  const auto path = folder / "surface.obj";
+  write_obj(path, {{{0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}}, {{0, 1, 2}}});
+  EXPECT_EQ(read_file(path), "# surface at rest, m\nv 0 0 0\nv 1 0 0.1\nv 0 1 0\nf 1 2 3\n");
+}
+
+}  // namespace
+}  // namespace sinew
