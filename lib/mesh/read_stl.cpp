@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/words.h"
 #include "mesh/mesh_readers.h"
 
 namespace sinew {
