@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_input.h"
 
+#include "core/words.h"
+
 #include <algorithm>
 #include <filesystem>
 
