@@ -63,10 +63,12 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
     track.bone = static_cast<int>(found - to.bones.begin());
     tracks.push_back(std::move(track));
   }
-  if (tracks.empty())
-    throw bad_input("no bone of the clip has the name of a bone of the skeleton",
-                    "give the bones the clip's names: '" + from.bones.front().name +
-                        (from.size() > 1 ? "', '" + from.bones[1].name + "' ..." : "'"));
+  if (tracks.empty()) {
+    std::string cure("name a bone of the skeleton as the clip does: ");
+    cure += from.bones.front().name;
+    if (from.size() > 1) (cure += ", ") += from.bones[1].name;
+    throw bad_input("no bone of the clip has the name of a bone of the skeleton", cure);
+  }
   motion.tracks = std::move(tracks);
   return motion;
 }
