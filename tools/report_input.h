@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "metrics/limits.h"
-#include "metrics/report.h"
+#include "metrics/report/report.h"
 #include "run_files.h"
 
 namespace sinew {
@@ -14,9 +14,10 @@ struct Measured {
   std::vector<FrameMetrics> frames;
   Summary summary;
   std::vector<Check> checks;
+  Film film;
 };
 
-/// Throws Error (bad input) where the run's record is none.
-ReportInput report_input(const RunFiles& run, const Measured& measured);
+/// Takes what was measured. Throws Error (bad input) where the run's record is none.
+ReportInput report_input(const RunFiles& run, Measured measured);
 
 }  // namespace sinew

@@ -118,6 +118,8 @@ RestBody rest_body(RestInput input) {
   body.radius = input.radius;
   body.interaction_range = input.interaction_range;
   body.start = input.start;
+  body.pair_force = std::move(input.pair_force);
+  body.mass = input.mass;
   return body;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "core/cell_grid.h"
 #include "core/closest_packing.h"
 #include "core/error.h"
 #include "core/settings_table.h"
@@ -49,14 +48,15 @@ void add_volume(FrameMetrics& out, const RestBody& rest, const FrameState& state
   out.volume_error = std::abs(out.volume_ratio - 1);
 }
 
-void add_motion(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
-  const Statistics moved = statistics(rest.particles(), [&](std::size_t i) {
-    return (state.positions[i] - rest.shape.points[i]).norm();
-  });
+Statistics statistics_of(const std::vector<double>& values) {
+  return statistics(values.size(), [&](std::size_t i) { return values[i]; });
+}
+
+void add_motion(FrameMetrics& out, const ParticleValues& particles) {
+  const Statistics moved = statistics_of(particles.displacement);
   out.displacement_max = moved.max();
   out.displacement_rms = moved.rms();
-  out.speed_max =
-      statistics(rest.particles(), [&](std::size_t i) { return state.velocities[i].norm(); }).max();
+  out.speed_max = statistics_of(particles.speed).max();
 }
 
 void add_energies(FrameMetrics& out, const Energies& start, const Energies& now) {
@@ -103,7 +103,8 @@ double pairs(std::size_t particles, const Count& count) {
   return statistics(particles, count).sum / 2;
 }
 
-void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& state,
+                    const ParticleValues& particles) {
   if (rest.rest_pairs() == 0) return;
   const Points& now = state.positions;
   const auto rest_pairs_within = [&](double range) {
@@ -114,31 +115,20 @@ void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& s
       return count;
     });
   };
-  const double near = rest_neighbour_range(rest.radius);
-  const CellGrid grid(now, near);
-  const double all_near = pairs(now.size(), [&](std::size_t i) {
-    double count = -1;  // the grid offers i itself too
-    grid.for_each_near(
-        now[i], [&](std::uint32_t j) { count += (now[j] - now[i]).squaredNorm() < near * near; });
-    return count;
-  });
+  const double all_near = statistics_of(particles.near).sum / 2;
   const double total = rest.rest_pairs();
   out.broken_neighbours = (total - rest_pairs_within(rest.interaction_range)) / total;
-  out.new_neighbours = (all_near - rest_pairs_within(near)) / total;
+  out.new_neighbours =
+      (all_near - rest_pairs_within(rest_neighbour_range(rest.radius))) / total;
 }
 
-void add_gradients(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
-  std::vector<double> J(rest.particles());
-  parallel_for(J.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      J[i] = deformation_gradient(rest.shape, state.positions, i).determinant();
-  });
+void add_gradients(FrameMetrics& out, const ParticleValues& particles) {
   Statistics defined;
   double inverted = 0;
-  for (std::size_t i = 0; i < J.size(); ++i) {
-    if (!rest.shape.defined(i)) continue;
-    defined.add(J[i]);
-    inverted += J[i] <= 0;
+  for (const double J : particles.J) {
+    if (std::isnan(J)) continue;
+    defined.add(J);
+    inverted += J <= 0;
   }
   if (defined.count > 0) out.inverted = inverted;
   out.J_min = defined.min();
@@ -157,21 +147,26 @@ PoseChange pose_change(std::span<const RigidFrame> from, std::span<const RigidFr
   return change;
 }
 
-FrameMetrics measure(const RestBody& rest, const FrameState& state) {
+MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   check(rest, state);
-  FrameMetrics out;
+  MeasuredFrame frame{{}, particle_values(rest, state)};
+  FrameMetrics& out = frame.metrics;
   out.time = state.time;
   add_pose(out, rest, state);
   add_volume(out, rest, state);
-  add_motion(out, rest, state);
+  add_motion(out, frame.particles);
   add_energies(out, rest.start, state.energies);
   add_adherence(out, rest, state);
   add_pose_error(out, rest, state);
-  add_neighbours(out, rest, state);
-  add_gradients(out, rest, state);
+  add_neighbours(out, rest, state, frame.particles);
+  add_gradients(out, frame.particles);
   out.tip_angle = degrees(tip_turn(rest.slices, rest.shape.points, state.positions));
   out.twist_jump_max = degrees(largest_twist_jump(rest.slices, rest.shape.points, state.positions));
-  return out;
+  return frame;
+}
+
+FrameMetrics measure(const RestBody& rest, const FrameState& state) {
+  return measure_frame(rest, state).metrics;
 }
 
 }  // namespace sinew

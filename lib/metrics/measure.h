@@ -6,6 +6,7 @@
 
 #include "metrics/body.h"
 #include "metrics/frame.h"
+#include "metrics/particle_values.h"
 
 namespace sinew {
 
@@ -14,6 +15,13 @@ namespace sinew {
 /// without bones) is not-a-number. Throws bad input for a frame of another body or with a number
 /// that is not finite.
 FrameMetrics measure(const RestBody& rest, const FrameState& state);
+
+/// The same, with what it rests on.
+struct MeasuredFrame {
+  FrameMetrics metrics;
+  ParticleValues particles;
+};
+MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state);
 
 /// The largest turn (rad) and shift of a head (m) of any bone from one pose to another.
 struct PoseChange {

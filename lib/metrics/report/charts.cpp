@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report_charts.h"
+#include "metrics/report/charts.h"
+
+#include <array>
 
 #include "metrics/table.h"
 
@@ -77,6 +79,13 @@ double shown_value(const ChartPlan& plan, double value, double start, double rad
 std::span<const ChartPlan> chart_plans() {
   static const auto plans = make_plans();
   return plans;
+}
+
+std::span<const std::string_view> telling_metrics() {
+  static constexpr std::array<std::string_view, 7> names = {
+      "pose_error_far_rms", "volume_error", "broken_neighbours", "J_min",
+      "displacement_max",   "speed_max",    "twist_jump_max"};
+  return names;
 }
 
 Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames, double radius) {
