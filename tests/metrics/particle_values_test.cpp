@@ -47,16 +47,14 @@ TEST(ParticleValues, ARigidMotionStrainsNothing) {
   }
 }
 
-TEST(ParticleValues, ANoiseOfOneParticleIsNotAffine) {
+TEST(ParticleValues, AParticleThatLeavesItsCageIsNotAffine) {
   const RestBody body = rest_body(box_input());
   FrameState state = at_rest(body);
-  const std::size_t middle = body.particles() / 2;
-  const auto partners = body.shape.neighbours.of(middle);
-  state.positions[middle] += Vec3(0, 0, 0.1 * r);
-  // All neighbours seem to move the other way: no F explains that where they lie symmetrically.
-  if (partners.size() == 12)
-    EXPECT_NEAR(particle_values(body, state).D2min[middle], 0.01 * r * r, 1e-16);
-  EXPECT_GT(particle_values(body, state).D2min[partners[0]], 0);
+  std::size_t inner = 0;
+  while (body.shape.neighbours.of(inner).size() < 12) ++inner;
+  // All twelve seem to shift alike; as they lie in opposite pairs, no F explains any of it.
+  state.positions[inner] += Vec3(0, 0, 0.1 * r);
+  EXPECT_NEAR(particle_values(body, state).D2min[inner], 0.01 * r * r, 1e-16);
 }
 
 /// A linear spring of one unit around the distance at rest.

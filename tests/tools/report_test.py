@@ -40,7 +40,7 @@ function drag(from, to) {
     canvas.dispatchEvent(new PointerEvent(kind, { button: 0, pointerId: 1,
       clientX: box.left + share * box.width, clientY: box.top + 50 }));
 }
-requestAnimationFrame(() => requestAnimationFrame(() => {
+setTimeout(() => {
   try {
     keep("start");
     if (states.start.webgl) {
@@ -58,7 +58,7 @@ requestAnimationFrame(() => requestAnimationFrame(() => {
   } catch (error) { states.error = String(error); }
   document.body.append(Object.assign(document.createElement("pre"),
     { id: "states", textContent: JSON.stringify(states) }));
-}));
+}, 500);
 </script>
 """
 

@@ -106,16 +106,19 @@ function listen(chart) {
 const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, callback: readable },
   grid: {}, title: { display: Boolean(text), text } });
 
+/** The bones' angle lies in a strip beneath; its one text hangs below the line that parts them. */
+const angleScale = () => ({ ...plainScale("bones"), axis: "y", position: "left", stack: "all",
+  stackWeight: 1, min: 0, ticks: { maxTicksLimit: 2, labelOffset: 7,
+    callback: (value) => (value > 0 ? `${readable(value)}°` : "") } });
+
 function timeScales(chart, [low, high]) {
   const ends = (chart.baselines.length ? chart.baselines : [NaN]);
-  const scales = {
-    x: { ...plainScale("s"), type: "linear", min: low, max: high },
-    y: { ...plainScale(chart.unit), stack: "all", stackWeight: 5,
-      suggestedMin: Math.min(...ends), suggestedMax: Math.max(...ends) },
-  };
-  if (data.angles.length)
-    scales.angle = { ...plainScale("bones"), stack: "all", stackWeight: 1, min: 0,
-      ticks: { maxTicksLimit: 2, callback: (value) => `${readable(value)}°` } };
+  const scales = data.angles.length ? { angle: angleScale() } : {};
+  scales.y = { ...plainScale(chart.unit), axis: "y", position: "left", stack: "all", stackWeight: 5,
+    suggestedMin: Math.min(...ends), suggestedMax: Math.max(...ends) };
+  scales.x = { ...plainScale(""), type: "linear", min: low, max: high };
+  scales.x.ticks.callback = (value, i, ticks) =>
+    readable(value) + (i === ticks.length - 1 ? " s" : "");
   return scales;
 }
 
