@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-measure: metrics.csv, metrics.json and report.html of a run.
+// sinew-measure: metrics.csv, metrics_bones.csv, metrics.json and report.html of a run.
 #include "metrics/measure.h"
 #include "command.h"
 #include "core/file.h"
@@ -78,6 +78,8 @@ void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& 
 struct Course {
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<double> times;
+  std::vector<BoneMetrics> bones;
+  std::vector<std::vector<std::int64_t>> worst_particles;
 };
 
 Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& run, bool ahead) {
@@ -85,9 +87,11 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   FramesInOrder frames(run, ahead);
   for (std::size_t i = 0; i < run.frames(); ++i) {
     const FrameState state = state_of(frames.next());
-    const MeasuredFrame frame = measure_frame(rest, state);
+    MeasuredFrame frame = measure_frame(rest, state);
     measured.frames.push_back(frame.metrics);
+    for (const BoneMetrics& bone : measure_bones(rest, state)) course.bones.push_back(bone);
     if (measured.film.wants(i)) add_frame(measured.film, i, rest, state, frame.particles);
+    course.worst_particles.push_back(std::move(frame.worst_particles));
     course.poses.push_back(state.bones);
     course.times.push_back(state.time);
   }
@@ -98,15 +102,17 @@ Measured measure_run(const RunFiles& run, const std::vector<Limit>& limits, int 
   const RestBody rest = rest_of(run);
   Measured measured;
   measured.film = plan_film(rest, run.frames());
-  const Course course = measure_frames(measured, rest, run, threads != 1);
+  Course course = measure_frames(measured, rest, run, threads != 1);
   const double radius = run.body.particles.radius;
   std::vector<Hold> stills = holds(course.poses, radius);
   for (Hold& hold : stills)
     hold.settled = settling_time(hold, course.times, radius,
                                  [&](std::size_t i) { return read_frame(run, i).positions; });
   measured.summary = summarize(measured.frames, radius, std::move(stills));
+  add_worst_particles(measured.summary, course.worst_particles);
   for (const Limit& limit : limits)
     measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
+  measured.bones = std::move(course.bones);
   add_worst_frames(measured, rest, run);
   return measured;
 }
@@ -146,6 +152,7 @@ Exit measure_folder(const Options& options, const Common& common) {
   const RunFiles run = open_run({options.folder});
   Measured measured = measure_run(run, limits, common.threads);
   write_file(run.folder.path / "metrics.csv", metrics_csv(measured.frames));
+  write_file(run.folder.path / "metrics_bones.csv", bone_metrics_csv(measured.bones));
   write_file(run.folder.path / "metrics.json",
              metrics_json(measured.frames, measured.summary, measured.checks));
   record_stage(run.folder, "measuring", watch.lap());
@@ -161,7 +168,7 @@ int main(int argc, char** argv) {
   Options options;
   About about{
       "measure",
-      "Measures a run: metrics.csv, metrics.json, report.html.",
+      "Measures a run: metrics.csv, metrics_bones.csv, metrics.json, report.html.",
       {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'"}};
   about.takes_scene = false;
   return run_command(

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "metrics/bone_metrics.h"
 #include "metrics/limits.h"
 #include "metrics/report/report.h"
 #include "run_files.h"
@@ -15,6 +16,7 @@ struct Measured {
   Summary summary;
   std::vector<Check> checks;
   Film film;
+  std::vector<BoneMetrics> bones;  ///< of every frame
 };
 
 /// Takes what was measured. Throws Error (bad input) where the run's record is none.

@@ -109,6 +109,7 @@ RestBody rest_body(RestInput input) {
   check(input);
   RestBody body;
   body.volume = volume(input.surface);
+  body.area = area(input.surface);
   require(body.volume > 0, "the surface at rest encloses no volume");
   body.bound = bound_particles(input);
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);

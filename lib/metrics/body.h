@@ -45,6 +45,7 @@ struct RestBody {
   RestShape shape;  ///< neighbours: pairs closer than 2.2 r
   Triangles surface;
   double volume = 0;  ///< enclosed by the surface, m^3
+  double area = 0;    ///< of the surface, m^2
   std::vector<MeasuredBone> bones;
   std::vector<Bound> bound;
   Slices slices;

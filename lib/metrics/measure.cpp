@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/measure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/closest_packing.h"
 #include "core/error.h"
 #include "core/settings_table.h"
+#include "metrics/surface_measures.h"
+#include "metrics/table.h"
 
 namespace sinew {
 namespace {
@@ -57,6 +60,54 @@ void add_motion(FrameMetrics& out, const ParticleValues& particles) {
   out.displacement_max = moved.max();
   out.displacement_rms = moved.rms();
   out.speed_max = statistics_of(particles.speed).max();
+}
+
+/// The sum of value(i), a vector, over the particles; added in the order of pieces.
+template <class Value>
+Vec3 vector_sum(std::size_t count, const Value& value) {
+  Vec3 sum;
+  for (int k = 0; k < 3; ++k)
+    sum[k] = statistics(count, [&](std::size_t i) { return value(i)[k]; }).sum;
+  return sum;
+}
+
+void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  const std::size_t n = rest.particles();
+  const Vec3 centre = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
+  const Vec3 linear =
+      rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
+  const Vec3 angular = rest.mass * vector_sum(n, [&](std::size_t i) -> Vec3 {
+                         return state.positions[i].cross(state.velocities[i]);
+                       });
+  out.centre_x = centre.x(), out.centre_y = centre.y(), out.centre_z = centre.z();
+  out.momentum_x = linear.x(), out.momentum_y = linear.y(), out.momentum_z = linear.z();
+  out.angular_momentum_x = angular.x();
+  out.angular_momentum_y = angular.y();
+  out.angular_momentum_z = angular.z();
+}
+
+void add_surface(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  const SurfaceDistortion skin = surface_distortion(rest.surface, state.surface_points);
+  out.area = skin.area;
+  out.area_ratio = skin.area / rest.area;
+  out.edge_stretch_max = skin.edge_stretch;
+  out.area_stretch_max = skin.area_stretch;
+  out.conformal_max = skin.conformal;
+  out.symmetric_dirichlet = skin.dirichlet;
+  out.flipped_faces = skin.flipped;
+}
+
+double percentile_of(std::vector<double> values, double percent) {
+  return percentile(values, percent);
+}
+
+void add_strain(FrameMetrics& out, const ParticleValues& particles) {
+  out.strain_50 = percentile_of(particles.strain, 50);
+  out.strain_95 = percentile_of(particles.strain, 95);
+  out.strain_99 = percentile_of(particles.strain, 99);
+  out.stretch_max = percentile_of(particles.stretch, 100);
+  out.D2min_95 = percentile_of(particles.D2min, 95);
+  out.von_mises_95 = percentile_of(particles.von_mises, 95);
 }
 
 void add_energies(FrameMetrics& out, const Energies& start, const Energies& now) {
@@ -122,7 +173,7 @@ void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& s
       (all_near - rest_pairs_within(rest_neighbour_range(rest.radius))) / total;
 }
 
-void add_gradients(FrameMetrics& out, const ParticleValues& particles) {
+void add_gradients(FrameMetrics& out, const ParticleValues& particles, double radius) {
   Statistics defined;
   double inverted = 0;
   for (const double J : particles.J) {
@@ -133,6 +184,20 @@ void add_gradients(FrameMetrics& out, const ParticleValues& particles) {
   if (defined.count > 0) out.inverted = inverted;
   out.J_min = defined.min();
   out.J_mean = defined.mean();
+  if (defined.count > 0) out.particle_volume = volume_per_particle(radius) * defined.sum;
+}
+
+std::vector<std::int64_t> worst_particles(const FrameMetrics& metrics,
+                                          const ParticleValues& particles) {
+  std::vector<std::int64_t> worst;
+  for (const Metric& metric : metrics_table()) {
+    worst.push_back(-1);
+    if (!metric.of_particles) continue;
+    const std::vector<double>& values = particles.*metric.of_particles;
+    const auto found = std::find(values.begin(), values.end(), metrics.*metric.value);
+    if (found != values.end()) worst.back() = found - values.begin();
+  }
+  return worst;
 }
 
 }  // namespace
@@ -149,7 +214,7 @@ PoseChange pose_change(std::span<const RigidFrame> from, std::span<const RigidFr
 
 MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   check(rest, state);
-  MeasuredFrame frame{{}, particle_values(rest, state)};
+  MeasuredFrame frame{{}, particle_values(rest, state), {}};
   FrameMetrics& out = frame.metrics;
   out.time = state.time;
   add_pose(out, rest, state);
@@ -159,9 +224,13 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_adherence(out, rest, state);
   add_pose_error(out, rest, state);
   add_neighbours(out, rest, state, frame.particles);
-  add_gradients(out, frame.particles);
+  add_gradients(out, frame.particles, rest.radius);
+  add_strain(out, frame.particles);
+  add_surface(out, rest, state);
+  add_momentum(out, rest, state);
   out.tip_angle = degrees(tip_turn(rest.slices, rest.shape.points, state.positions));
   out.twist_jump_max = degrees(largest_twist_jump(rest.slices, rest.shape.points, state.positions));
+  frame.worst_particles = worst_particles(out, frame.particles);
   return frame;
 }
 

@@ -2,7 +2,9 @@
 // Measures one frame against the body at rest. What each number means stands in table.cpp.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "metrics/body.h"
 #include "metrics/frame.h"
@@ -20,6 +22,9 @@ FrameMetrics measure(const RestBody& rest, const FrameState& state);
 struct MeasuredFrame {
   FrameMetrics metrics;
   ParticleValues particles;
+  /// For each of metrics_table() the particle (written order) that has its value, the first of
+  /// several; -1 where it belongs to no one particle.
+  std::vector<std::int64_t> worst_particles;
 };
 MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state);
 
