@@ -31,7 +31,8 @@ std::string number(const char* name, double value, const char* unit) {
 
 Curve pair_curve(const Material& material) {
   const PairForce pair = material.pair;
-  Curve curve{"Force between two particles", "", "distance d in r", "f in N, repulsion positive", {}};
+  Curve curve{
+      "Force between two particles", "", "distance d in r", "f in N, repulsion positive", {}};
   curve.note = "f = k1 (4r² − d²) below 2r, −k2 (d − a)(b − d) from a to b, nothing beyond; " +
                number("k1", pair.k1, "Pa, ") + number("k2", pair.k2, "Pa, ") +
                number("a", pair.a / pair.r, "r, ") + number("b", pair.b / pair.r, "r.");
@@ -80,9 +81,9 @@ Curve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skele
 }  // namespace
 
 Material material_of(const RunFiles& run) {
-  return make_material(run.settings.material, shape_of(positions_of(run.body.particles),
-                                                       run.body.particles.radius,
-                                                       run.body.particles.mass));
+  return make_material(run.settings.material,
+                       shape_of(positions_of(run.body.particles), run.body.particles.radius,
+                                run.body.particles.mass));
 }
 
 std::vector<Curve> law_curves(const RunFiles& run) {
@@ -91,9 +92,8 @@ std::vector<Curve> law_curves(const RunFiles& run) {
   if (material.model == MaterialModel::paper) curves.push_back(energy_curve(material.pair));
   if (run.skeleton.size() == 0) return curves;
   const double r = run.body.particles.radius;
-  const Binding binding =
-      bind_to_bones(positions_of(run.body.particles), run.skeleton, volume_per_particle(r),
-                    run.settings.binding.joint_zone);
+  const Binding binding = bind_to_bones(positions_of(run.body.particles), run.skeleton,
+                                        volume_per_particle(r), run.settings.binding.joint_zone);
   const std::vector<BoneSprings> springs = bone_springs(run.settings.binding, material, binding);
   curves.push_back(bone_curve(springs, run.skeleton, r));
   if (springs.front().form == BoneForce::paper && springs.front().twist_form == TwistForm::servo)

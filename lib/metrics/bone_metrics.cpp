@@ -37,8 +37,8 @@ constexpr std::array table = {
 
 /// What is wrong with the place of one particle.
 struct Miss {
-  double radial = 0, pose = 0;   ///< m
-  double twist = not_measured;   ///< rad; not about the axis itself
+  double radial = 0, pose = 0;  ///< m
+  double twist = not_measured;  ///< rad; not about the axis itself
 };
 
 constexpr double on_axis = 1e-9;  // of l0: nearer than that a particle has no direction to turn

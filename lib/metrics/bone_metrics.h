@@ -23,7 +23,7 @@ struct BoneMetrics {
 
 struct BoneMetric {
   std::string_view name, unit, help, formula;
-  double BoneMetrics::* value;
+  double BoneMetrics::*value;
 };
 
 std::span<const BoneMetric> bone_metrics_table();

@@ -74,8 +74,7 @@ Vec3 vector_sum(std::size_t count, const Value& value) {
 void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   const std::size_t n = rest.particles();
   const Vec3 centre = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
-  const Vec3 linear =
-      rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
+  const Vec3 linear = rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
   const Vec3 angular = rest.mass * vector_sum(n, [&](std::size_t i) -> Vec3 {
                          return state.positions[i].cross(state.velocities[i]);
                        });
@@ -169,8 +168,7 @@ void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& s
   const double all_near = statistics_of(particles.near).sum / 2;
   const double total = rest.rest_pairs();
   out.broken_neighbours = (total - rest_pairs_within(rest.interaction_range)) / total;
-  out.new_neighbours =
-      (all_near - rest_pairs_within(rest_neighbour_range(rest.radius))) / total;
+  out.new_neighbours = (all_near - rest_pairs_within(rest_neighbour_range(rest.radius))) / total;
 }
 
 void add_gradients(FrameMetrics& out, const ParticleValues& particles, double radius) {

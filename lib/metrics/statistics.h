@@ -36,8 +36,8 @@ struct Statistics {
   double max() const { return count > 0 ? high : not_measured; }
 };
 
-/// The smallest of the values that `percent` of them do not exceed (nearest rank); those that are not
-/// measured do not count. Reorders them.
+/// The smallest of the values that `percent` of them do not exceed (nearest rank); those that are
+/// not measured do not count. Reorders them.
 inline double percentile(std::vector<double>& values, double percent) {
   const auto end = std::remove_if(values.begin(), values.end(), [](double v) { return v != v; });
   const double count = static_cast<double>(end - values.begin());

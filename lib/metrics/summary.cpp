@@ -91,9 +91,8 @@ Summary summarize(std::span<const FrameMetrics> frames, double radius, std::vect
     if (!std::isnan(hold.settled)) settled.add(hold.settled);
   summary.settling_time = settled.max();
   summary.overshoot = largest_overshoot(holds, frames);
-  summary.momentum_drift = drift(frames, [](const FrameMetrics& m) {
-    return Vec3(m.momentum_x, m.momentum_y, m.momentum_z);
-  });
+  summary.momentum_drift = drift(
+      frames, [](const FrameMetrics& m) { return Vec3(m.momentum_x, m.momentum_y, m.momentum_z); });
   summary.angular_momentum_drift = drift(frames, [](const FrameMetrics& m) {
     return Vec3(m.angular_momentum_x, m.angular_momentum_y, m.angular_momentum_z);
   });

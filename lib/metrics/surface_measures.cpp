@@ -32,7 +32,8 @@ double edge_stretch(const Corners& rest, const Corners& now) {
   double worst = 1;
   for (int k = 0; k < 3; ++k) {
     const double before = (rest[(k + 1) % 3] - rest[k]).norm();
-    if (before > 0) worst = std::max(worst, either_way((now[(k + 1) % 3] - now[k]).norm() / before));
+    if (before > 0)
+      worst = std::max(worst, either_way((now[(k + 1) % 3] - now[k]).norm() / before));
   }
   return worst;
 }
@@ -55,11 +56,13 @@ Statistics over_faces(const Triangles& rest, const Points& now, const Value& val
 
 double flipped_faces(const Triangles& surface) {
   const Points normals = point_normals(surface);
-  return statistics(surface.faces.size(), [&](std::size_t f) {
-           const auto& face = surface.faces[f];
-           const Vec3 around = normals[face[0]] + normals[face[1]] + normals[face[2]];
-           return area_vector(corners(surface.points, face)).dot(around) < 0 ? 1.0 : 0.0;
-         }).sum;
+  return statistics(surface.faces.size(),
+                    [&](std::size_t f) {
+                      const auto& face = surface.faces[f];
+                      const Vec3 around = normals[face[0]] + normals[face[1]] + normals[face[2]];
+                      return area_vector(corners(surface.points, face)).dot(around) < 0 ? 1.0 : 0.0;
+                    })
+      .sum;
 }
 
 double dirichlet(const Corners& rest, const Corners& now) {
@@ -92,9 +95,12 @@ SurfaceDistortion surface_distortion(const Triangles& rest, const Points& now) {
   const double whole = over_faces(rest, now, [](const Corners& a, const Corners&) {
                          return area_vector(a).norm();
                        }).sum;
-  out.dirichlet = over_faces(rest, now, [](const Corners& a, const Corners& b) {
-                    return area_vector(a).norm() * dirichlet(a, b);
-                  }).sum / whole;
+  out.dirichlet = over_faces(rest, now,
+                             [](const Corners& a, const Corners& b) {
+                               return area_vector(a).norm() * dirichlet(a, b);
+                             })
+                      .sum /
+                  whole;
   out.flipped = flipped_faces(moved);
   return out;
 }

@@ -24,7 +24,7 @@ struct Metric {
   double FrameMetrics::*value;
   Worse worse = Worse::larger;
   /// Of which the metric is the worst over all particles; none where it belongs to no one particle.
-  std::vector<double> ParticleValues::* of_particles = nullptr;
+  std::vector<double> ParticleValues::*of_particles = nullptr;
 };
 
 /// What is measured once in a run.

@@ -167,9 +167,9 @@ TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {
   const FrameMetrics m = measure(body, state);
   EXPECT_NEAR((Vec3(m.centre_x, m.centre_y, m.centre_z) - centre).norm(), 0, exact);
   EXPECT_NEAR((Vec3(m.momentum_x, m.momentum_y, m.momentum_z) - mass * drift).norm(), 0, 1e-10);
-  EXPECT_NEAR((Vec3(m.angular_momentum_x, m.angular_momentum_y, m.angular_momentum_z) - angular)
-                  .norm(),
-              0, 1e-10);
+  EXPECT_NEAR(
+      (Vec3(m.angular_momentum_x, m.angular_momentum_y, m.angular_momentum_z) - angular).norm(), 0,
+      1e-10);
 }
 
 TEST(Measure, PullingTheHalvesApartBreaksTheCrossingPairs) {

@@ -25,10 +25,10 @@ Triangles sheet(int n) {
 TEST(SurfaceDistortion, AStretchedSheetHasItsStretches) {
   const Triangles flat = sheet(3);
   const Mat3 turn = turned(50, {1, 1, 2});
-  const SurfaceDistortion d = surface_distortion(
-      flat, mapped(flat.points, [&](const Vec3& p) -> Vec3 {
-        return turn * Vec3(2 * p.x(), 0.5 * p.y(), 0) + Vec3(1, 2, 3);
-      }));
+  const SurfaceDistortion d =
+      surface_distortion(flat, mapped(flat.points, [&](const Vec3& p) -> Vec3 {
+                           return turn * Vec3(2 * p.x(), 0.5 * p.y(), 0) + Vec3(1, 2, 3);
+                         }));
   EXPECT_NEAR(d.area, 9, 1e-12);
   EXPECT_NEAR(d.edge_stretch, 2, 1e-12);
   EXPECT_NEAR(d.area_stretch, 1, 1e-12);

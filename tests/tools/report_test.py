@@ -105,6 +105,14 @@ class Report(unittest.TestCase):
         self.assertGreaterEqual(figures, 10)
         self.assertEqual(self.states["start"]["charts"], figures)
 
+    def test_charts_are_as_high_as_their_lines(self):
+        data = json.loads(re.search(r'id="data">(.*?)</script>', (RUN / "report.html").read_text(), re.DOTALL)[1])
+        for chart, (low, high) in zip(data["charts"], self.states["start"]["heights"]):
+            values = [y for line in chart["lines"] for _, y in line["points"] if y is not None]
+            values += chart["baselines"]
+            self.assertTrue(low <= min(values) and max(values) <= high, chart["title"])
+            self.assertLessEqual(high - low, max(4 * (max(values) - min(values)), 2), chart["title"])
+
     def test_the_slider_moves_the_particles(self):
         start, middle = self.states["start"], self.states["middle"]
         self.assertTrue(start["webgl"])

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "metrics/report/chart.h"
 #include "metrics/frame.h"
+#include "metrics/report/chart.h"
 
 namespace sinew {
 

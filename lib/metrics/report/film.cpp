@@ -12,7 +12,7 @@ namespace {
 
 // What base64 makes of these is below 8 MB: with the libraries and the charts, a page of 10.
 constexpr std::size_t particle_bytes = 4'000'000, surface_bytes = 1'400'000;
-constexpr std::size_t most_frames = 120;      // four seconds at thirty a second
+constexpr std::size_t most_frames = 120;          // four seconds at thirty a second
 constexpr std::size_t fewest_particles = 12'000;  // as many as still look like a body
 
 /// A number without pattern for each particle, for picking among them (splitmix64).
@@ -119,8 +119,12 @@ Film plan_film(const RestBody& rest, std::size_t frames) {
 
 void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles) {
-  FilmFrame shot{frame, state.time, coordinates(state.positions, film.particles),
-                 coordinates(state.surface_points, film.points), {}, {}};
+  FilmFrame shot{frame,
+                 state.time,
+                 coordinates(state.positions, film.particles),
+                 coordinates(state.surface_points, film.points),
+                 {},
+                 {}};
   for (std::size_t b = 0; b < rest.bones.size(); ++b) {
     const RigidFrame& bone = state.bones[b];
     append(shot.bones, bone.origin);

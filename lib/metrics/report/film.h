@@ -19,25 +19,25 @@ namespace sinew {
 /// A value that particles can be coloured by.
 struct FilmField {
   std::string_view name, unit, help;
-  std::vector<double> ParticleValues::* values;
+  std::vector<double> ParticleValues::*values;
 };
 
 /// All that a film keeps, in the order of FilmFrame::values.
 std::span<const FilmField> film_fields();
 
 struct FilmFrame {
-  std::size_t frame = 0;                  ///< of the run
-  double time = 0;                        ///< s
-  std::vector<float> particles, surface;  ///< x y z each, m
-  std::vector<float> bones;               ///< head and tail, x y z each, m
+  std::size_t frame = 0;                   ///< of the run
+  double time = 0;                         ///< s
+  std::vector<float> particles, surface;   ///< x y z each, m
+  std::vector<float> bones;                ///< head and tail, x y z each, m
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
 };
 
 struct Film {
   std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
   double radius = 0;                                              ///< of a particle, m
-  std::vector<std::size_t> wanted;        ///< frames of the run, ascending
-  std::vector<std::uint32_t> particles;   ///< of the run, ascending
+  std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
+  std::vector<std::uint32_t> particles;                           ///< of the run, ascending
   std::vector<int> bone;                  ///< that each of them follows, -1 for none
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points

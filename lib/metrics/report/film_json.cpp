@@ -114,21 +114,22 @@ std::string corners_of(const Film& film) {
 std::string film_json(const Film& film) {
   const Cube cube = cube_of(film);
   const std::vector<std::int16_t> bone(film.bone.begin(), film.bone.end());
-  const Json json = {
-      {"run", {{"frames", film.run_frames}, {"particles", film.run_particles},
-               {"points", film.run_points}}},
-      {"radius", film.radius},
-      {"low", {cube.low.x(), cube.low.y(), cube.low.z()}},
-      {"edge", cube.edge},
-      {"shots", shots_of(film)},
-      {"particles", places_of(film, cube, &FilmFrame::particles)},
-      {"ids", base64_of(film.particles)},
-      {"bone", base64_of(bone)},
-      {"boneNames", film.bone_names},
-      {"surface", places_of(film, cube, &FilmFrame::surface)},
-      {"corners", corners_of(film)},
-      {"bones", places_of(film, cube, &FilmFrame::bones)},
-      {"fields", fields_of(film)}};
+  const Json json = {{"run",
+                      {{"frames", film.run_frames},
+                       {"particles", film.run_particles},
+                       {"points", film.run_points}}},
+                     {"radius", film.radius},
+                     {"low", {cube.low.x(), cube.low.y(), cube.low.z()}},
+                     {"edge", cube.edge},
+                     {"shots", shots_of(film)},
+                     {"particles", places_of(film, cube, &FilmFrame::particles)},
+                     {"ids", base64_of(film.particles)},
+                     {"bone", base64_of(bone)},
+                     {"boneNames", film.bone_names},
+                     {"surface", places_of(film, cube, &FilmFrame::surface)},
+                     {"corners", corners_of(film)},
+                     {"bones", places_of(film, cube, &FilmFrame::bones)},
+                     {"fields", fields_of(film)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

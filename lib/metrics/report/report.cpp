@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "metrics/report/charts.h"
 #include "metrics/report/embedded.h"
 #include "metrics/report/markup.h"
 #include "metrics/report/page_data.h"
-#include "metrics/report/charts.h"
 #include "metrics/report/tables.h"
 #include "metrics/verdict.h"
 

@@ -12,6 +12,7 @@ function lineSet(line, i) {
   return {
     label: line.name,
     data: asXY(line.points),
+    yAxisID: "y",
     slot: i % 6,
     borderWidth: 2,
     borderDash: dashes[i % 6],
@@ -106,9 +107,9 @@ function listen(chart) {
 const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, callback: readable },
   grid: {}, title: { display: Boolean(text), text } });
 
-/** The bones' angle lies in a strip beneath; its one text hangs below the line that parts them. */
+/** The bones' angle lies in a strip beneath; its one text stands within it. */
 const angleScale = () => ({ ...plainScale("bones"), axis: "y", position: "left", stack: "all",
-  stackWeight: 1, min: 0, ticks: { maxTicksLimit: 2, labelOffset: 7,
+  stackWeight: 1, min: 0, ticks: { maxTicksLimit: 2, mirror: true, labelOffset: 9,
     callback: (value) => (value > 0 ? `${readable(value)}°` : "") } });
 
 function timeScales(chart, [low, high]) {

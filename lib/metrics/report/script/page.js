@@ -23,6 +23,7 @@ function begin() {
   window.sinewState = () => ({
     charts: charts.length,
     timeRange: timeCharts.length ? [timeCharts[0].scales.x.min, timeCharts[0].scales.x.max] : null,
+    heights: timeCharts.map((chart) => [chart.scales.y.min, chart.scales.y.max]),
     webgl: film !== null,
     shot: film?.player.shot ?? null,
     places: film ? [...film.view.spheres.geometry.attributes.position.array] : [],

@@ -24,7 +24,7 @@ const sphereFragment = `
     float outside = dot(at, at);
     if (outside > 1.0) discard;
     vec3 normal = vec3(at, sqrt(1.0 - outside));
-    float light = 0.42 + 0.58 * max(0.0, dot(normal, normalize(vec3(0.35, 0.55, 0.8))));
+    float light = 0.5 + 0.55 * max(0.0, dot(normal, normalize(vec3(0.35, 0.55, 0.8))));
     gl_FragColor = vec4(colour * light * (0.75 + 0.25 * normal.z), 1.0);
     vec4 clip = projectionMatrix * vec4(centre + radius * normal, 1.0);
     gl_FragDepthEXT = 0.5 * clip.z / clip.w + 0.5;
