@@ -57,7 +57,7 @@ double overshoot_of(const Hold& hold, std::span<const FrameMetrics> frames) {
   Statistics beyond;
   for (std::size_t i = hold.first; i <= hold.last; ++i)
     if (!std::isnan(tip(i) - before)) beyond.add(way * (tip(i) - end));
-  return std::max(0.0, beyond.max());  // 0 first: never -0
+  return beyond.count > 0 ? std::max(0.0, beyond.max()) : not_measured;
 }
 
 double largest_overshoot(std::span<const Hold> holds, std::span<const FrameMetrics> frames) {

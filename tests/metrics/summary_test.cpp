@@ -76,6 +76,8 @@ TEST(Summary, OvershootIsWhatTheTipTurnsBeyondItsRest) {
   for (FrameMetrics& m : frames) m.tip_angle = 100 - m.tip_angle;  // the other way round
   EXPECT_EQ(summarize(frames, r, {{2, 5}}).overshoot, 5);
   EXPECT_TRUE(std::isnan(summarize(frames, r, {{0, 5}}).overshoot));
+  for (FrameMetrics& m : frames) m.tip_angle = not_measured;
+  EXPECT_TRUE(std::isnan(summarize(frames, r, {{2, 5}}).overshoot));
 }
 
 TEST(Summary, DriftIsTheLargestChangeOfMomentum) {

@@ -108,9 +108,9 @@ const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, callb
   grid: {}, title: { display: Boolean(text), text } });
 
 /** The bones' angle lies in a strip beneath; its one text stands within it. */
-const angleScale = () => ({ ...plainScale("bones"), axis: "y", position: "left", stack: "all",
+const angleScale = () => ({ ...plainScale(""), axis: "y", position: "left", stack: "all",
   stackWeight: 1, min: 0, ticks: { maxTicksLimit: 2, mirror: true, labelOffset: 9,
-    callback: (value) => (value > 0 ? `${readable(value)}°` : "") } });
+    callback: (value) => (value > 0 ? `bones ${readable(value)}°` : "") } });
 
 function timeScales(chart, [low, high]) {
   const ends = (chart.baselines.length ? chart.baselines : [NaN]);
