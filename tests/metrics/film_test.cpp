@@ -43,7 +43,11 @@ TEST(Film, ThinsALargeBodyToAPageOfTenMegabytes) {
   input.positions = fcc_box(81, 41);
   input.bone.assign(input.positions.size(), 0);
   const RestBody body = rest_body(input);
-  const Film film = whole_film(body, 100);
+  Film film = whole_film(body, 100);
+  const FrameState state = at_rest(body);
+  const ParticleValues values = particle_values(body, state);
+  for (std::size_t frame = 0, more = 8; more > 0; ++frame)  // as many worst frames as may come
+    if (!film.has(frame)) add_frame(film, frame, body, state, values), --more;
   EXPECT_LT(film.particles.size(), body.particles() / 2);
   EXPECT_TRUE(std::is_sorted(film.particles.begin(), film.particles.end()));
   EXPECT_LT(film_json(film).size(), 8u << 20);

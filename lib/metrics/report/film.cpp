@@ -11,7 +11,8 @@ namespace sinew {
 namespace {
 
 // What base64 makes of these is below 8 MB: with the libraries and the charts, a page of 10.
-constexpr std::size_t particle_bytes = 4'000'000, surface_bytes = 1'400'000;
+constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
+constexpr std::size_t worst_frames = 8;           // that may come on top of the planned ones
 constexpr std::size_t most_frames = 120;          // four seconds at thirty a second
 constexpr std::size_t fewest_particles = 12'000;  // as many as still look like a body
 
@@ -42,13 +43,23 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
   return frames;
 }
 
+/// All of the run's frames where they can be paid for, else as many as leave room for worst ones.
+std::size_t frames_paid(std::size_t run_frames, std::size_t frame_bytes) {
+  const std::size_t paid = std::min(most_frames, particle_bytes / frame_bytes);
+  if (paid >= run_frames) return run_frames;
+  return paid > worst_frames ? paid - worst_frames : 1;
+}
+
+std::size_t most_shots(const Film& film) {
+  return std::min(film.run_frames, film.wanted.size() + worst_frames);
+}
+
 void plan_particles(Film& film, const RestBody& rest) {
   const std::size_t each = 6 + film_fields().size();
-  std::size_t frames = std::min(film.run_frames, most_frames);
   const std::size_t fewest = std::min(film.run_particles, fewest_particles);
-  frames = std::clamp<std::size_t>(particle_bytes / (each * fewest), 1, frames);
-  film.wanted = evenly(film.run_frames, frames);
-  film.particles = picked(film.run_particles, particle_bytes / (each * frames));
+  film.wanted = evenly(film.run_frames, frames_paid(film.run_frames, each * fewest));
+  film.particles = picked(film.run_particles,
+                          particle_bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
   std::vector<int> bone(film.run_particles, -1);
   for (const Bound& bound : rest.bound) bone[bound.particle] = bound.bone;
   for (const auto i : film.particles) film.bone.push_back(bone[i]);
@@ -110,7 +121,7 @@ Film plan_film(const RestBody& rest, std::size_t frames) {
   film.run_points = rest.surface.points.size();
   film.radius = rest.radius;
   plan_particles(film, rest);
-  ThinSurface skin = thin_surface(rest.surface, surface_bytes / (6 * film.wanted.size()));
+  ThinSurface skin = thin_surface(rest.surface, surface_bytes / (6 * most_shots(film)));
   film.points = std::move(skin.points);
   film.faces = std::move(skin.faces);
   for (const MeasuredBone& bone : rest.bones) film.bone_names.push_back(bone.name);
