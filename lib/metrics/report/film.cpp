@@ -12,9 +12,9 @@ namespace {
 
 // What base64 makes of these is below 8 MB: with the libraries and the charts, a page of 10.
 constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
-constexpr std::size_t worst_frames = 8;           // that may come on top of the planned ones
-constexpr std::size_t most_frames = 120;          // four seconds at thirty a second
-constexpr std::size_t fewest_particles = 12'000;  // as many as still look like a body
+constexpr std::size_t worst_frames = 8;          // that may come on top of the planned ones
+constexpr std::size_t most_frames = 120;         // four seconds at thirty a second
+constexpr std::size_t fewest_particles = 6'000;  // as many as still look like a body
 
 /// A number without pattern for each particle, for picking among them (splitmix64).
 std::uint64_t mixed(std::uint64_t i) {
