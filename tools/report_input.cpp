@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "core/number_text.h"
+#include "law_curves.h"
 #include "run_record.h"
 
 namespace sinew {
@@ -109,7 +110,7 @@ std::string title_of(const RunFolder& folder) {
 
 }  // namespace
 
-ReportInput report_input(const RunFiles& run, const Measured& measured) {
+ReportInput report_input(const RunFiles& run, Measured measured) {
   ReportInput input;
   input.title = title_of(run.folder);
   input.version = version();
@@ -120,10 +121,12 @@ ReportInput report_input(const RunFiles& run, const Measured& measured) {
     throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
                     "run the scene again with --force");
   }
-  input.frames = measured.frames;
-  input.summary = measured.summary;
-  input.checks = measured.checks;
   input.pictures = pictures_in(run.folder, measured);
+  input.frames = std::move(measured.frames);
+  input.summary = std::move(measured.summary);
+  input.checks = std::move(measured.checks);
+  input.film = std::move(measured.film);
+  input.curves = law_curves(run);
   if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;

@@ -4,8 +4,9 @@
 
 #include <vector>
 
+#include "metrics/bone_metrics.h"
 #include "metrics/limits.h"
-#include "metrics/report.h"
+#include "metrics/report/report.h"
 #include "run_files.h"
 
 namespace sinew {
@@ -14,9 +15,11 @@ struct Measured {
   std::vector<FrameMetrics> frames;
   Summary summary;
   std::vector<Check> checks;
+  Film film;
+  std::vector<BoneMetrics> bones;  ///< of every frame
 };
 
-/// Throws Error (bad input) where the run's record is none.
-ReportInput report_input(const RunFiles& run, const Measured& measured);
+/// Takes what was measured. Throws Error (bad input) where the run's record is none.
+ReportInput report_input(const RunFiles& run, Measured measured);
 
 }  // namespace sinew

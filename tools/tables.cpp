@@ -5,6 +5,7 @@
 #include "command.h"
 #include "io/arrays.h"
 #include "markdown.h"
+#include "metrics/bone_metrics.h"
 #include "metrics/table.h"
 #include "results.h"
 #include "settings_list.h"
@@ -39,12 +40,19 @@ std::string metrics_markdown() {
   return text;
 }
 
+std::string bones_markdown() {
+  std::string text = "| metric | unit | meaning | formula |\n|---|---|---|---|\n";
+  for (const BoneMetric& metric : bone_metrics_table()) text += metric_row(metric);
+  return text;
+}
+
 std::string table_named(const std::string& name) {
   if (name == "settings") return settings_markdown();
   if (name == "arrays") return arrays_markdown();
   if (name == "metrics") return metrics_markdown();
+  if (name == "bones") return bones_markdown();
   throw bad_input("no table is named '" + name + "'",
-                  "write sinew-tables settings, arrays or metrics");
+                  "write sinew-tables settings, arrays, metrics or bones");
 }
 
 }  // namespace

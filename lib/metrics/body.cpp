@@ -109,6 +109,7 @@ RestBody rest_body(RestInput input) {
   check(input);
   RestBody body;
   body.volume = volume(input.surface);
+  body.area = area(input.surface);
   require(body.volume > 0, "the surface at rest encloses no volume");
   body.bound = bound_particles(input);
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
@@ -118,6 +119,8 @@ RestBody rest_body(RestInput input) {
   body.radius = input.radius;
   body.interaction_range = input.interaction_range;
   body.start = input.start;
+  body.pair_force = std::move(input.pair_force);
+  body.mass = input.mass;
   return body;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct RestInput {
   double radius = 0;             ///< of a particle, r, m
   double interaction_range = 0;  ///< b, m: pairs farther apart than this do not feel each other
   Energies start;                ///< of the first frame: where the balance of energies begins
+  /// Force between any two particles at a distance (m), N, positive repels; empty where it depends
+  /// on more than that. Called from several threads.
+  std::function<double(double)> pair_force;
+  double mass = not_measured;  ///< of a particle, kg
 };
 
 /// A particle that follows a bone: its point of attachment at rest, and whether a joint is near.
@@ -40,11 +45,14 @@ struct RestBody {
   RestShape shape;  ///< neighbours: pairs closer than 2.2 r
   Triangles surface;
   double volume = 0;  ///< enclosed by the surface, m^3
+  double area = 0;    ///< of the surface, m^2
   std::vector<MeasuredBone> bones;
   std::vector<Bound> bound;
   Slices slices;
   double radius = 0, interaction_range = 0;  ///< m
   Energies start;
+  std::function<double(double)> pair_force;  ///< N at a distance (m), or empty
+  double mass = not_measured;                ///< of a particle, kg
 
   std::size_t particles() const { return shape.points.size(); }
   double rest_pairs() const { return static_cast<double>(shape.neighbours.partner.size()) / 2; }

@@ -36,6 +36,11 @@ struct FrameMetrics {
   double time = not_measured;
   double bone_angle = not_measured, bone_shift = not_measured;
   double volume = not_measured, volume_ratio = not_measured, volume_error = not_measured;
+  double area = not_measured, area_ratio = not_measured, particle_volume = not_measured;
+  double centre_x = not_measured, centre_y = not_measured, centre_z = not_measured;
+  double momentum_x = not_measured, momentum_y = not_measured, momentum_z = not_measured;
+  double angular_momentum_x = not_measured, angular_momentum_y = not_measured,
+         angular_momentum_z = not_measured;
   double displacement_max = not_measured, displacement_rms = not_measured;
   double speed_max = not_measured;
   double kinetic_energy = not_measured, pair_energy = not_measured, bone_energy = not_measured;
@@ -47,6 +52,12 @@ struct FrameMetrics {
   double pose_error_far_rms = not_measured;
   double broken_neighbours = not_measured, new_neighbours = not_measured;
   double inverted = not_measured, J_min = not_measured, J_mean = not_measured;
+  double stretch_max = not_measured;
+  double strain_50 = not_measured, strain_95 = not_measured, strain_99 = not_measured;
+  double D2min_95 = not_measured, von_mises_95 = not_measured;
+  double edge_stretch_max = not_measured, area_stretch_max = not_measured;
+  double conformal_max = not_measured, symmetric_dirichlet = not_measured;
+  double flipped_faces = not_measured;
   double tip_angle = not_measured, twist_jump_max = not_measured;
 };
 

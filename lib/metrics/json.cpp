@@ -26,6 +26,7 @@ Json metrics_of(std::span<const FrameMetrics> frames, const Summary& summary) {
     one["final"] = values.final;
     one["worst_frame"] = values.worst_frame ? Json(*values.worst_frame) : Json();
     one["worst_time"] = values.worst_frame ? Json(frames[*values.worst_frame].time) : Json();
+    one["worst_particle"] = values.worst_particle ? Json(*values.worst_particle) : Json();
     all[std::string(metrics_table()[i].name)] = std::move(one);
   }
   return all;

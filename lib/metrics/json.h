@@ -3,7 +3,8 @@
 //
 // - schema_version: 1; grows when a key changes its meaning or goes
 // - frames, duration
-// - metrics, by name: unit, meaning, formula, min, max, mean, final, worst_frame, worst_time
+// - metrics, by name: unit, meaning, formula, min, max, mean, final, worst_frame, worst_time,
+//   worst_particle
 // - run, by name, once per run: unit, meaning, formula, value
 // - holds: from, to, settled_after (s)
 // - checks: name, expression, value, limit, frame, pass

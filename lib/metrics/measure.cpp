@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/measure.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "core/cell_grid.h"
 #include "core/closest_packing.h"
 #include "core/error.h"
 #include "core/settings_table.h"
+#include "metrics/surface_measures.h"
+#include "metrics/table.h"
 
 namespace sinew {
 namespace {
@@ -49,14 +51,62 @@ void add_volume(FrameMetrics& out, const RestBody& rest, const FrameState& state
   out.volume_error = std::abs(out.volume_ratio - 1);
 }
 
-void add_motion(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
-  const Statistics moved = statistics(rest.particles(), [&](std::size_t i) {
-    return (state.positions[i] - rest.shape.points[i]).norm();
-  });
+Statistics statistics_of(const std::vector<double>& values) {
+  return statistics(values.size(), [&](std::size_t i) { return values[i]; });
+}
+
+void add_motion(FrameMetrics& out, const ParticleValues& particles) {
+  const Statistics moved = statistics_of(particles.displacement);
   out.displacement_max = moved.max();
   out.displacement_rms = moved.rms();
-  out.speed_max =
-      statistics(rest.particles(), [&](std::size_t i) { return state.velocities[i].norm(); }).max();
+  out.speed_max = statistics_of(particles.speed).max();
+}
+
+/// The sum of value(i), a vector, over the particles; added in the order of pieces.
+template <class Value>
+Vec3 vector_sum(std::size_t count, const Value& value) {
+  Vec3 sum;
+  for (int k = 0; k < 3; ++k)
+    sum[k] = statistics(count, [&](std::size_t i) { return value(i)[k]; }).sum;
+  return sum;
+}
+
+void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  const std::size_t n = rest.particles();
+  const Vec3 centre = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
+  const Vec3 linear = rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
+  const Vec3 angular = rest.mass * vector_sum(n, [&](std::size_t i) -> Vec3 {
+                         return state.positions[i].cross(state.velocities[i]);
+                       });
+  out.centre_x = centre.x(), out.centre_y = centre.y(), out.centre_z = centre.z();
+  out.momentum_x = linear.x(), out.momentum_y = linear.y(), out.momentum_z = linear.z();
+  out.angular_momentum_x = angular.x();
+  out.angular_momentum_y = angular.y();
+  out.angular_momentum_z = angular.z();
+}
+
+void add_surface(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  const SurfaceDistortion skin = surface_distortion(rest.surface, state.surface_points);
+  out.area = skin.area;
+  out.area_ratio = skin.area / rest.area;
+  out.edge_stretch_max = skin.edge_stretch;
+  out.area_stretch_max = skin.area_stretch;
+  out.conformal_max = skin.conformal;
+  out.symmetric_dirichlet = skin.dirichlet;
+  out.flipped_faces = skin.flipped;
+}
+
+double percentile_of(std::vector<double> values, double percent) {
+  return percentile(values, percent);
+}
+
+void add_strain(FrameMetrics& out, const ParticleValues& particles) {
+  out.strain_50 = percentile_of(particles.strain, 50);
+  out.strain_95 = percentile_of(particles.strain, 95);
+  out.strain_99 = percentile_of(particles.strain, 99);
+  out.stretch_max = percentile_of(particles.stretch, 100);
+  out.D2min_95 = percentile_of(particles.D2min, 95);
+  out.von_mises_95 = percentile_of(particles.von_mises, 95);
 }
 
 void add_energies(FrameMetrics& out, const Energies& start, const Energies& now) {
@@ -104,7 +154,8 @@ double pairs(std::size_t particles, const Count& count) {
   return statistics(particles, count).sum / 2;
 }
 
-void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& state,
+                    const ParticleValues& particles) {
   if (rest.rest_pairs() == 0) return;
   const Points& now = state.positions;
   const auto rest_pairs_within = [&](double range) {
@@ -115,35 +166,37 @@ void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& s
       return count;
     });
   };
-  const double near = rest_neighbour_range(rest.radius);
-  const CellGrid grid(now, near);
-  const double all_near = pairs(now.size(), [&](std::size_t i) {
-    double count = -1;  // the grid offers i itself too
-    grid.for_each_near(
-        now[i], [&](std::uint32_t j) { count += (now[j] - now[i]).squaredNorm() < near * near; });
-    return count;
-  });
+  const double all_near = statistics_of(particles.near).sum / 2;
   const double total = rest.rest_pairs();
   out.broken_neighbours = (total - rest_pairs_within(rest.interaction_range)) / total;
-  out.new_neighbours = (all_near - rest_pairs_within(near)) / total;
+  out.new_neighbours = (all_near - rest_pairs_within(rest_neighbour_range(rest.radius))) / total;
 }
 
-void add_gradients(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
-  std::vector<double> J(rest.particles());
-  parallel_for(J.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      J[i] = deformation_gradient(rest.shape, state.positions, i).determinant();
-  });
+void add_gradients(FrameMetrics& out, const ParticleValues& particles, double radius) {
   Statistics defined;
   double inverted = 0;
-  for (std::size_t i = 0; i < J.size(); ++i) {
-    if (!rest.shape.defined(i)) continue;
-    defined.add(J[i]);
-    inverted += J[i] <= 0;
+  for (const double J : particles.J) {
+    if (std::isnan(J)) continue;
+    defined.add(J);
+    inverted += J <= 0;
   }
   if (defined.count > 0) out.inverted = inverted;
   out.J_min = defined.min();
   out.J_mean = defined.mean();
+  if (defined.count > 0) out.particle_volume = volume_per_particle(radius) * defined.sum;
+}
+
+std::vector<std::int64_t> worst_particles(const FrameMetrics& metrics,
+                                          const ParticleValues& particles) {
+  std::vector<std::int64_t> worst;
+  for (const Metric& metric : metrics_table()) {
+    worst.push_back(-1);
+    if (!metric.of_particles) continue;
+    const std::vector<double>& values = particles.*metric.of_particles;
+    const auto found = std::find(values.begin(), values.end(), metrics.*metric.value);
+    if (found != values.end()) worst.back() = found - values.begin();
+  }
+  return worst;
 }
 
 }  // namespace
@@ -158,21 +211,30 @@ PoseChange pose_change(std::span<const RigidFrame> from, std::span<const RigidFr
   return change;
 }
 
-FrameMetrics measure(const RestBody& rest, const FrameState& state) {
+MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   check(rest, state);
-  FrameMetrics out;
+  MeasuredFrame frame{{}, particle_values(rest, state), {}};
+  FrameMetrics& out = frame.metrics;
   out.time = state.time;
   add_pose(out, rest, state);
   add_volume(out, rest, state);
-  add_motion(out, rest, state);
+  add_motion(out, frame.particles);
   add_energies(out, rest.start, state.energies);
   add_adherence(out, rest, state);
   add_pose_error(out, rest, state);
-  add_neighbours(out, rest, state);
-  add_gradients(out, rest, state);
+  add_neighbours(out, rest, state, frame.particles);
+  add_gradients(out, frame.particles, rest.radius);
+  add_strain(out, frame.particles);
+  add_surface(out, rest, state);
+  add_momentum(out, rest, state);
   out.tip_angle = degrees(tip_turn(rest.slices, rest.shape.points, state.positions));
   out.twist_jump_max = degrees(largest_twist_jump(rest.slices, rest.shape.points, state.positions));
-  return out;
+  frame.worst_particles = worst_particles(out, frame.particles);
+  return frame;
+}
+
+FrameMetrics measure(const RestBody& rest, const FrameState& state) {
+  return measure_frame(rest, state).metrics;
 }
 
 }  // namespace sinew

@@ -2,10 +2,13 @@
 // Measures one frame against the body at rest. What each number means stands in table.cpp.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "metrics/body.h"
 #include "metrics/frame.h"
+#include "metrics/particle_values.h"
 
 namespace sinew {
 
@@ -14,6 +17,16 @@ namespace sinew {
 /// without bones) is not-a-number. Throws bad input for a frame of another body or with a number
 /// that is not finite.
 FrameMetrics measure(const RestBody& rest, const FrameState& state);
+
+/// The same, with what it rests on.
+struct MeasuredFrame {
+  FrameMetrics metrics;
+  ParticleValues particles;
+  /// For each of metrics_table() the particle (written order) that has its value, the first of
+  /// several; -1 where it belongs to no one particle.
+  std::vector<std::int64_t> worst_particles;
+};
+MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state);
 
 /// The largest turn (rad) and shift of a head (m) of any bone from one pose to another.
 struct PoseChange {

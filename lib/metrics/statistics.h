@@ -36,6 +36,18 @@ struct Statistics {
   double max() const { return count > 0 ? high : not_measured; }
 };
 
+/// The smallest of the values that `percent` of them do not exceed (nearest rank); those that are
+/// not measured do not count. Reorders them.
+inline double percentile(std::vector<double>& values, double percent) {
+  const auto end = std::remove_if(values.begin(), values.end(), [](double v) { return v != v; });
+  const double count = static_cast<double>(end - values.begin());
+  if (count == 0) return not_measured;
+  const double rank = std::clamp(std::ceil(percent / 100 * count), 1.0, count);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::nth_element(values.begin(), place, end);
+  return *place;
+}
+
 /// Of value(i) for all i < count; value is called from several threads.
 template <class Value>
 Statistics statistics(std::size_t count, const Value& value) {

@@ -48,6 +48,34 @@ double residual_after_return(std::span<const FrameMetrics> frames, double radius
   return left && at_rest(frames.back(), radius) ? frames.back().displacement_rms : not_measured;
 }
 
+/// How far the tip's turn goes beyond its last value in a hold, on the side it did not come from.
+double overshoot_of(const Hold& hold, std::span<const FrameMetrics> frames) {
+  if (hold.first == 0) return not_measured;  // it came from nowhere
+  const auto tip = [&](std::size_t i) { return frames[i].tip_angle; };
+  const double end = tip(hold.last), before = tip(hold.first - 1);
+  const double way = end > before ? 1 : -1;
+  Statistics beyond;
+  for (std::size_t i = hold.first; i <= hold.last; ++i)
+    if (!std::isnan(tip(i) - before)) beyond.add(way * (tip(i) - end));
+  return beyond.count > 0 ? std::max(0.0, beyond.max()) : not_measured;
+}
+
+double largest_overshoot(std::span<const Hold> holds, std::span<const FrameMetrics> frames) {
+  Statistics all;
+  for (const Hold& hold : holds)
+    if (const double over = overshoot_of(hold, frames); !std::isnan(over)) all.add(over);
+  return all.max();
+}
+
+/// The largest distance of value(frame), a vector, from that of the first frame.
+template <class Value>
+double drift(std::span<const FrameMetrics> frames, const Value& value) {
+  Statistics away;
+  for (const FrameMetrics& frame : frames)
+    if (const double d = (value(frame) - value(frames.front())).norm(); !std::isnan(d)) away.add(d);
+  return away.max();
+}
+
 }  // namespace
 
 Summary summarize(std::span<const FrameMetrics> frames, double radius, std::vector<Hold> holds) {
@@ -62,8 +90,23 @@ Summary summarize(std::span<const FrameMetrics> frames, double radius, std::vect
   for (const Hold& hold : holds)
     if (!std::isnan(hold.settled)) settled.add(hold.settled);
   summary.settling_time = settled.max();
+  summary.overshoot = largest_overshoot(holds, frames);
+  summary.momentum_drift = drift(
+      frames, [](const FrameMetrics& m) { return Vec3(m.momentum_x, m.momentum_y, m.momentum_z); });
+  summary.angular_momentum_drift = drift(frames, [](const FrameMetrics& m) {
+    return Vec3(m.angular_momentum_x, m.angular_momentum_y, m.angular_momentum_z);
+  });
   summary.holds = std::move(holds);
   return summary;
+}
+
+void add_worst_particles(Summary& summary,
+                         std::span<const std::vector<std::int64_t>> worst_particles) {
+  for (std::size_t i = 0; i < summary.metrics.size(); ++i) {
+    MetricSummary& metric = summary.metrics[i];
+    if (!metric.worst_frame || worst_particles[*metric.worst_frame][i] < 0) continue;
+    metric.worst_particle = static_cast<std::size_t>(worst_particles[*metric.worst_frame][i]);
+  }
 }
 
 }  // namespace sinew

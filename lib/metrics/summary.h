@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,7 @@ struct MetricSummary {
   double final = not_measured;  ///< in the last frame
   std::optional<std::size_t>
       worst_frame;  ///< the first with the worst value; Metric::worse says which
+  std::optional<std::size_t> worst_particle;  ///< that has it, in the written order
 };
 
 /// A time in which no bone moves.
@@ -30,6 +32,8 @@ struct Summary {
   std::vector<MetricSummary> metrics;   ///< in the order of metrics_table()
   double residual_rms = not_measured;   ///< m; unit, meaning and formula in run_metrics_table()
   double settling_time = not_measured;  ///< s
+  double overshoot = not_measured;      ///< degrees
+  double momentum_drift = not_measured, angular_momentum_drift = not_measured;  ///< SI
   std::vector<Hold> holds;
 };
 
@@ -37,5 +41,9 @@ struct Summary {
 /// times come from settling.h where the positions are at hand. `radius`: of a particle, m.
 Summary summarize(std::span<const FrameMetrics> frames, double radius,
                   std::vector<Hold> holds = {});
+
+/// Adds the particles that have the worst values. worst_particles: of every frame, see measure.h.
+void add_worst_particles(Summary& summary,
+                         std::span<const std::vector<std::int64_t>> worst_particles);
 
 }  // namespace sinew

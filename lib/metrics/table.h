@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "metrics/frame.h"
+#include "metrics/particle_values.h"
 #include "metrics/summary.h"
 
 namespace sinew {
@@ -22,6 +23,8 @@ struct Metric {
   std::string_view formula;
   double FrameMetrics::*value;
   Worse worse = Worse::larger;
+  /// Of which the metric is the worst over all particles; none where it belongs to no one particle.
+  std::vector<double> ParticleValues::*of_particles = nullptr;
 };
 
 /// What is measured once in a run.

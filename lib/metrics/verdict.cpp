@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "metrics/markup.h"
+#include "metrics/report/markup.h"
 #include "metrics/table.h"
 
 namespace sinew {

@@ -106,7 +106,7 @@ def licence_breaches(source, path):
 def source_files(source):
     for folder in ("lib", "tools", "tests"):
         for path in sorted((source / folder).rglob("*")):
-            if path.suffix in (".h", ".cpp", ".py", ".sh"):
+            if path.suffix in (".h", ".cpp", ".py", ".sh", ".js"):
                 yield path
 
 

@@ -96,6 +96,18 @@ TEST(Measure, SpeedIsThatOfTheFastestParticle) {
   EXPECT_NEAR(measure(body, state).speed_max, 5, exact);
 }
 
+TEST(Measure, NamesTheParticleThatHasTheWorstValue) {
+  const RestBody body = rest_body(box_input());
+  FrameState state = at_rest(body);
+  state.velocities[7] = {0, 3, 4};
+  const std::vector<MeasuredFrame> frames{measure_frame(body, at_rest(body)),
+                                          measure_frame(body, state)};
+  Summary summary = summarize(std::vector{frames[0].metrics, frames[1].metrics}, r);
+  add_worst_particles(summary, std::vector{frames[0].worst_particles, frames[1].worst_particles});
+  EXPECT_EQ(summary.metrics[metric_index("speed_max")].worst_particle, 7u);
+  EXPECT_FALSE(summary.metrics[metric_index("volume")].worst_particle);
+}
+
 TEST(Measure, EnergiesPassThroughAndTheResidualClosesTheirBalance) {
   RestInput input = box_input();
   input.start = {1, -20, 3, 4, 5, 6};
@@ -113,6 +125,53 @@ TEST(Measure, EnergiesPassThroughAndTheResidualClosesTheirBalance) {
   EXPECT_EQ(m.work_of_world, 2);
   // stored grew by 0.5 + 2 + 0.25 + 0.5, bones gave 4 and the world 2, damping took 1
   EXPECT_NEAR(m.energy_residual, 3.25 - 4 - 2 + 1, exact);
+}
+
+TEST(Measure, AStretchIsEveryPercentileOfItsStrainAndScalesTheParticlesVolume) {
+  const RestBody body = rest_body(box_input());
+  const Mat3 F = Vec3(1, 1, 1.3).asDiagonal();
+  const FrameMetrics m = measure(body, moved(body, [&](const Vec3& p) -> Vec3 { return F * p; }));
+  const double strain = 2.0 / 3 * std::log(1.3);  // of ln(1.3) along one axis, its deviator
+  for (const double value : {m.strain_50, m.strain_95, m.strain_99})
+    EXPECT_NEAR(value, strain, exact);
+  EXPECT_NEAR(m.stretch_max, 1.3, exact);
+  EXPECT_NEAR(m.D2min_95, 0, exact);
+  const double V0 = volume_per_particle(r);
+  EXPECT_NEAR(m.particle_volume, 1.3 * V0 * static_cast<double>(body.particles()), exact);
+  EXPECT_TRUE(std::isnan(m.von_mises_95));  // no pair force was given
+}
+
+TEST(Measure, RigidMotionKeepsStrainsAndTheSkin) {
+  const RestBody body = rest_body(box_input());
+  const FrameMetrics m = measure(body, moved_rigidly(body, turned(73, {1, 2, 3}), {0.3, 0, 0.1}));
+  for (const double zero : {m.strain_50, m.strain_99, m.D2min_95, m.flipped_faces})
+    EXPECT_NEAR(zero, 0, exact);
+  for (const double one : {m.stretch_max, m.area_ratio, m.edge_stretch_max, m.area_stretch_max,
+                           m.conformal_max, m.symmetric_dirichlet / 4})
+    EXPECT_NEAR(one, 1, exact);
+}
+
+TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {
+  RestInput input = box_input();
+  input.mass = 0.25;
+  const RestBody body = rest_body(input);
+  FrameState state = at_rest(body);
+  const Vec3 drift(1, -2, 3), spin(0.5, 0.25, -1);
+  Vec3 centre = Vec3::Zero(), turning = Vec3::Zero();
+  for (const Vec3& p : state.positions) centre += p / static_cast<double>(body.particles());
+  for (std::size_t i = 0; i < body.particles(); ++i) {
+    const Vec3 arm = state.positions[i] - centre;
+    state.velocities[i] = drift + spin.cross(arm);
+    turning += 0.25 * arm.cross(spin.cross(arm));
+  }
+  const double mass = 0.25 * static_cast<double>(body.particles());
+  const Vec3 angular = turning + mass * centre.cross(drift);
+  const FrameMetrics m = measure(body, state);
+  EXPECT_NEAR((Vec3(m.centre_x, m.centre_y, m.centre_z) - centre).norm(), 0, exact);
+  EXPECT_NEAR((Vec3(m.momentum_x, m.momentum_y, m.momentum_z) - mass * drift).norm(), 0, 1e-10);
+  EXPECT_NEAR(
+      (Vec3(m.angular_momentum_x, m.angular_momentum_y, m.angular_momentum_z) - angular).norm(), 0,
+      1e-10);
 }
 
 TEST(Measure, PullingTheHalvesApartBreaksTheCrossingPairs) {

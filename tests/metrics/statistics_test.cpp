@@ -26,5 +26,15 @@ TEST(Statistics, OfNothingAreNotANumber) {
     EXPECT_TRUE(std::isnan(value));
 }
 
+TEST(Statistics, PercentilesAreNearestRanksOfWhatWasMeasured) {
+  std::vector<double> values;
+  for (int i = 100; i > 0; --i) values.push_back(i);
+  values.push_back(not_measured);
+  for (const double percent : {1.0, 50.0, 95.0, 100.0})
+    EXPECT_EQ(percentile(values, percent), percent);
+  std::vector<double> none{not_measured};
+  EXPECT_TRUE(std::isnan(percentile(none, 50)));
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -68,6 +68,30 @@ TEST(Summary, ThereIsNoResidualWithoutMotionOrReturn) {
   EXPECT_TRUE(std::isnan(summarize(shifted, r).residual_rms));
 }
 
+TEST(Summary, OvershootIsWhatTheTipTurnsBeyondItsRest) {
+  std::vector<FrameMetrics> frames(6);
+  const double tips[] = {0, 80, 95, 88, 91, 90};
+  for (int i = 0; i < 6; ++i) frames[i].tip_angle = tips[i];
+  EXPECT_EQ(summarize(frames, r, {{2, 5}}).overshoot, 5);
+  for (FrameMetrics& m : frames) m.tip_angle = 100 - m.tip_angle;  // the other way round
+  EXPECT_EQ(summarize(frames, r, {{2, 5}}).overshoot, 5);
+  EXPECT_TRUE(std::isnan(summarize(frames, r, {{0, 5}}).overshoot));
+  for (FrameMetrics& m : frames) m.tip_angle = not_measured;
+  EXPECT_TRUE(std::isnan(summarize(frames, r, {{2, 5}}).overshoot));
+}
+
+TEST(Summary, DriftIsTheLargestChangeOfMomentum) {
+  std::vector<FrameMetrics> frames(3);
+  for (int i = 0; i < 3; ++i) {
+    frames[i].momentum_x = 1 + 3 * (i == 1);
+    frames[i].momentum_y = 4 * (i == 1);
+    frames[i].momentum_z = 7;
+  }
+  const Summary summary = summarize(frames, r);
+  EXPECT_EQ(summary.momentum_drift, 5);
+  EXPECT_TRUE(std::isnan(summary.angular_momentum_drift));
+}
+
 TEST(Summary, RefusesARunWithoutFrames) { EXPECT_THROW(summarize({}, r), Error); }
 
 std::vector<RigidFrame> pose(double angle) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/markup.h"
+#include "metrics/report/markup.h"
 
 #include <algorithm>
 #include <array>
@@ -47,6 +47,12 @@ std::string escaped(std::string_view text) {
     if (!control && c != 127) out += entity(c);
   }
   return out;
+}
+
+std::string inert(std::string json) {
+  for (std::size_t at = json.find('<'); at != json.npos; at = json.find('<', at + 1))
+    json.replace(at, 1, "\\u003c");
+  return json;
 }
 
 std::string link_to(std::string_view path) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report_tables.h"
+#include "metrics/report/tables.h"
 
 #include <initializer_list>
 #include <vector>
 
-#include "metrics/markup.h"
+#include "metrics/report/markup.h"
 #include "metrics/table.h"
 
 namespace sinew {

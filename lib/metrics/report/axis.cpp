@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/axis.h"
+#include "metrics/report/axis.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/markup.h"
+#include "metrics/report/markup.h"
 
 namespace sinew {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "metrics/chart.h"
 #include "metrics/frame.h"
+#include "metrics/report/chart.h"
 
 namespace sinew {
 
@@ -22,6 +22,9 @@ struct ChartPlan {
 
 /// The report's charts, the most telling first.
 std::span<const ChartPlan> chart_plans();
+
+/// Metrics whose worst frames one looks at first; names in metrics_table().
+std::span<const std::string_view> telling_metrics();
 
 /// A chart filled with the frames' numbers; radius in m.
 Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames, double radius);

@@ -9,6 +9,7 @@
 
 #include "metrics/frame.h"
 #include "metrics/limits.h"
+#include "metrics/report/film.h"
 #include "metrics/summary.h"
 
 namespace sinew {
@@ -28,6 +29,17 @@ struct Picture {
   std::string caption;
 };
 
+/// A law of the scene drawn as curves; a curve's x ascends.
+struct CurveLine {
+  std::string name;
+  std::vector<double> x, y;
+};
+struct Curve {
+  std::string title, note;  ///< what it is, and its formula
+  std::string across, up;   ///< what the axes measure, with units
+  std::vector<CurveLine> lines;
+};
+
 /// Texts are plain; the page escapes them.
 struct ReportInput {
   std::string title;    ///< the scene's name
@@ -37,6 +49,8 @@ struct ReportInput {
   std::vector<FrameMetrics> frames;  ///< one at least
   Summary summary;                   ///< of these frames
   std::vector<Check> checks;
+  std::vector<Curve> curves;
+  Film film;  ///< of no frames: the page has no 3D view
   std::vector<Picture> pictures;
   std::string movie;       ///< relative to the report, or empty
   std::string scene_text;  ///< the resolved scene

@@ -10,6 +10,10 @@ namespace sinew {
 /// Text for an element or a quoted attribute: & < > " ' escaped, control characters left out.
 std::string escaped(std::string_view text);
 
+/// JSON that may stand within a script element: "<" written as \u003c can neither end the element
+/// nor begin a comment.
+std::string inert(std::string json);
+
 /// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded, leading
 /// slashes go, so that it can neither leave the attribute nor name another scheme or host.
 std::string link_to(std::string_view path);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report_charts.h"
+#include "metrics/report/charts.h"
+
+#include <array>
 
 #include "metrics/table.h"
 
@@ -38,6 +40,12 @@ std::vector<ChartPlan> make_plans() {
        {"J_min"},
        Shown::as_is,
        {0, 1}},
+      {"Strain",
+       "Equivalent strain that half, 95 % and 99 % of the particles do not exceed",
+       "",
+       {"strain_50", "strain_95", "strain_99"}},
+      {"Stress", "Von Mises, that 95 % of the particles do not exceed", "Pa", {"von_mises_95"}},
+      {"Surface", "Its area against the one at rest", "", {"area_ratio"}, Shown::as_is, {1}},
       {"Inverted particles", "How many of them there are", "", {"inverted"}},
       {"Displacement",
        "From the places at rest",
@@ -77,6 +85,13 @@ double shown_value(const ChartPlan& plan, double value, double start, double rad
 std::span<const ChartPlan> chart_plans() {
   static const auto plans = make_plans();
   return plans;
+}
+
+std::span<const std::string_view> telling_metrics() {
+  static constexpr std::array<std::string_view, 8> names = {
+      "pose_error_far_rms", "volume_error",     "broken_neighbours", "J_min",
+      "strain_99",          "displacement_max", "speed_max",         "twist_jump_max"};
+  return names;
 }
 
 Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames, double radius) {

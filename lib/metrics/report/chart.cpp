@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/chart.h"
+#include "metrics/report/chart.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/axis.h"
-#include "metrics/markup.h"
+#include "metrics/report/axis.h"
+#include "metrics/report/markup.h"
 
 namespace sinew {
 namespace {
@@ -14,9 +14,6 @@ namespace {
 constexpr double width = 440, left = 50, right = 428, top = 10, bottom = 176;
 constexpr double strip_top = 196, strip_bottom = 220, height = 242;
 constexpr std::size_t pieces = 400;  // two points in each are as many as the width can show
-
-/// Not-a-number is a gap; so is what would overflow the scale's arithmetic.
-bool drawable(double value) { return std::abs(value) < 1e300; }
 
 std::string at(double x, double y) { return fixed(x, 1) + ' ' + fixed(y, 1); }
 
@@ -29,32 +26,12 @@ std::string rule(double x1, double y1, double x2, double y2, const std::string& 
   return "<path class=\"" + kind + "\" d=\"M" + at(x1, y1) + 'L' + at(x2, y2) + "\"/>\n";
 }
 
-/// The places to draw: all, or the smallest and the largest of each piece, in order.
-std::vector<std::size_t> drawn(const std::vector<double>& values) {
-  std::vector<std::size_t> places;
-  const std::size_t grain = values.size() / pieces + 1;
-  for (std::size_t begin = 0; begin < values.size(); begin += grain) {
-    const std::size_t end = std::min(values.size(), begin + grain);
-    if (grain <= 2) {
-      for (std::size_t i = begin; i < end; ++i) places.push_back(i);
-      continue;
-    }
-    std::size_t low = begin, high = begin;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!(values[i] >= values[low])) low = i;
-      if (!(values[i] <= values[high])) high = i;
-    }
-    places.insert(places.end(), {std::min(low, high), std::max(low, high)});
-  }
-  return places;
-}
-
 /// The points of a line; a gap begins a new stroke.
 std::string stroke(const std::vector<double>& times, const std::vector<double>& values,
                    const Axis& time, const Axis& scale, double low_y, double high_y) {
   std::string path;
   bool pen_down = false;
-  for (const std::size_t i : drawn(values)) {
+  for (const std::size_t i : drawn_places(values)) {
     const bool there = drawable(values[i]);
     if (there)
       path += (pen_down ? 'L' : 'M') +
@@ -145,6 +122,27 @@ std::string legend(const Chart& chart) {
 }
 
 }  // namespace
+
+bool drawable(double value) { return std::abs(value) < 1e300; }
+
+std::vector<std::size_t> drawn_places(const std::vector<double>& values) {
+  std::vector<std::size_t> places;
+  const std::size_t grain = values.size() / pieces + 1;
+  for (std::size_t begin = 0; begin < values.size(); begin += grain) {
+    const std::size_t end = std::min(values.size(), begin + grain);
+    if (grain <= 2) {
+      for (std::size_t i = begin; i < end; ++i) places.push_back(i);
+      continue;
+    }
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!(values[i] >= values[low])) low = i;
+      if (!(values[i] <= values[high])) high = i;
+    }
+    places.insert(places.end(), {std::min(low, high), std::max(low, high)});
+  }
+  return places;
+}
 
 std::string chart_html(const Chart& chart) {
   if (chart.times.empty()) return "";

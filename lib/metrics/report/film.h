@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The run as the report's 3D view shows it: particles, skin and bones over time, thinned so that a
+// page of a few megabytes holds them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "metrics/body.h"
+#include "metrics/frame.h"
+#include "metrics/particle_values.h"
+
+namespace sinew {
+
+/// A value that particles can be coloured by.
+struct FilmField {
+  std::string_view name, unit, help;
+  std::vector<double> ParticleValues::*values;
+};
+
+/// All that a film keeps, in the order of FilmFrame::values.
+std::span<const FilmField> film_fields();
+
+struct FilmFrame {
+  std::size_t frame = 0;                   ///< of the run
+  double time = 0;                         ///< s
+  std::vector<float> particles, surface;   ///< x y z each, m
+  std::vector<float> bones;                ///< head and tail, x y z each, m
+  std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
+};
+
+struct Film {
+  std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
+  double radius = 0;                                              ///< of a particle, m
+  std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
+  std::vector<std::uint32_t> particles;                           ///< of the run, ascending
+  std::vector<int> bone;                  ///< that each of them follows, -1 for none
+  std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
+  std::vector<std::array<int, 3>> faces;  ///< indices into points
+  std::vector<std::string> bone_names;
+  std::vector<FilmFrame> frames;
+
+  bool wants(std::size_t frame) const;
+  bool has(std::size_t frame) const;
+};
+
+/// A film of no frames, with the choice made of what will be kept: all of a small run; of a large
+/// one frames at even distances, the first and the last among them, particles picked at random (the
+/// same ones every time) and a coarser skin.
+Film plan_film(const RestBody& rest, std::size_t frames);
+
+/// Adds a frame at its place in time.
+void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,
+               const ParticleValues& particles);
+
+/// For the page's script: places as 16-bit fractions of the film's box, values as 8-bit fractions
+/// of their range (a thousandth of the values at either end lies outside), all in base64.
+std::string film_json(const Film& film);
+
+}  // namespace sinew

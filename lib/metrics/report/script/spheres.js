@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles as spheres of their true size: a square each, on which the card works out a ball with
+// its shading and depth (impostors, as in Gumhold 2003).
+"use strict";
+
+const sphereVertex = `
+  attribute vec3 tint;
+  uniform float radius, pixels;
+  varying vec3 colour, centre;
+  void main() {
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    colour = tint;
+    centre = seen.xyz;
+    gl_Position = projectionMatrix * seen;
+    gl_PointSize = max(1.5, radius * projectionMatrix[1][1] * pixels / -seen.z);
+  }`;
+
+const sphereFragment = `
+  uniform mat4 projectionMatrix;
+  uniform float radius;
+  varying vec3 colour, centre;
+  void main() {
+    vec2 at = vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0);
+    float outside = dot(at, at);
+    if (outside > 1.0) discard;
+    vec3 normal = vec3(at, sqrt(1.0 - outside));
+    float light = 0.5 + 0.55 * max(0.0, dot(normal, normalize(vec3(0.35, 0.55, 0.8))));
+    gl_FragColor = vec4(colour * light * (0.75 + 0.25 * normal.z), 1.0);
+    vec4 clip = projectionMatrix * vec4(centre + radius * normal, 1.0);
+    gl_FragDepthEXT = 0.5 * clip.z / clip.w + 0.5;
+  }`;
+
+function makeSpheres(count, radius) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  geometry.setAttribute("tint", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  const material = new THREE.ShaderMaterial({
+    vertexShader: sphereVertex,
+    fragmentShader: sphereFragment,
+    uniforms: { radius: { value: radius }, pixels: { value: 1 } },
+    extensions: { fragDepth: true },
+  });
+  const spheres = new THREE.Points(geometry, material);
+  spheres.frustumCulled = false; // their box changes from frame to frame
+  return spheres;
+}
+
+// Viridis (van der Walt and Smith), perceptually uniform, at nine places.
+const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
+  [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+const boneColours = [[70, 130, 190], [217, 119, 66], [80, 160, 110], [150, 100, 180],
+  [200, 80, 110], [130, 130, 140], [190, 160, 50], [70, 170, 180]];
+const noColour = [150, 150, 150];
+
+/** Of a share between 0 and 1, 0 to 255 each. */
+function viridisAt(share) {
+  const at = Math.min(Math.max(share, 0), 1) * (viridis.length - 1);
+  const low = Math.min(Math.floor(at), viridis.length - 2);
+  return viridis[low].map((c, k) => c + (at - low) * (viridis[low + 1][k] - c));
+}
+
+const levelColours = Array.from({ length: 256 }, (_, level) =>
+  level === 255 ? noColour : viridisAt(level / 254));

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The 3D view: particles, skin and bones of one frame, to be turned and zoomed.
+"use strict";
+
+const away = 1e9; // where particles that are cut away are put, m
+
+/** Throws where the browser has no WebGL. */
+function makeView(film, stage) {
+  const canvas = stage.querySelector("canvas");
+  const context = canvas.getContext("webgl2", { antialias: true }) ||
+    canvas.getContext("webgl", { antialias: true });
+  if (!context) throw new Error("no WebGL");
+  const renderer = new THREE.WebGLRenderer({ canvas, context });
+  const counts = { particles: film.ids.length, points: film.surface.length / 3 / film.shots.length,
+    bones: film.boneNames.length };
+  const view = { film, stage, renderer, counts, scene: new THREE.Scene(),
+    camera: new THREE.PerspectiveCamera(30, 1, film.edge / 100, film.edge * 30) };
+  view.controls = new THREE.OrbitControls(view.camera, canvas);
+  addParts(view);
+  aim(view);
+  view.draw = drawer(view);
+  view.controls.addEventListener("change", view.draw);
+  new ResizeObserver(() => resize(view)).observe(stage);
+  resize(view);
+  return view;
+}
+
+/** A function that draws at the next repaint, however often it is called until then. */
+function drawer(view) {
+  let due = false;
+  return () => {
+    if (due) return;
+    due = true;
+    requestAnimationFrame(() => {
+      due = false;
+      view.renderer.setClearColor(colourOf("--stage"));
+      view.renderer.render(view.scene, view.camera);
+    });
+  };
+}
+
+/** Balls in place of several particles each are larger, so that the body looks filled. */
+const shownRadius = (film) => film.radius * Math.cbrt(film.run.particles / film.ids.length);
+
+function addParts(view) {
+  const { film, scene, counts } = view;
+  view.spheres = makeSpheres(counts.particles, shownRadius(film));
+  view.skin = makeSkin(film, counts.points);
+  view.skin.visible = false;
+  view.bones = Array.from({ length: counts.bones }, (_, b) => makeBone(b));
+  const sun = new THREE.DirectionalLight(0xffffff, 0.75);
+  sun.position.set(0.35, 0.55, 0.8);
+  view.camera.add(sun);
+  scene.add(view.camera, new THREE.AmbientLight(0xffffff, 0.5), view.skin, view.spheres,
+    ...view.bones);
+}
+
+function makeSkin(film, points) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * points), 3));
+  geometry.setIndex(new THREE.BufferAttribute(film.corners, 1));
+  const skin = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xd9a58c,
+    side: THREE.DoubleSide, transparent: true, opacity: 0.45, depthWrite: false }));
+  skin.frustumCulled = false;
+  return skin;
+}
+
+/** A long octahedron of length 1 along y, drawn over everything so that it shows in the flesh. */
+function makeBone(index) {
+  const geometry = new THREE.CylinderBufferGeometry(0, 0.07, 0.85, 4).translate(0, 0.575, 0);
+  const foot = new THREE.CylinderBufferGeometry(0.07, 0, 0.15, 4).translate(0, 0.075, 0);
+  const colour = new THREE.Color(...boneColours[index % boneColours.length].map((c) => c / 255));
+  const material = new THREE.MeshLambertMaterial({ color: colour, transparent: true, opacity: 0.85,
+    depthTest: false, flatShading: true });
+  const bone = new THREE.Group();
+  for (const part of [geometry, foot]) bone.add(Object.assign(new THREE.Mesh(part, material),
+    { renderOrder: 1 }));
+  return bone;
+}
+
+/** The camera looks at the whole film from the side it moves in least. */
+function aim(view) {
+  const { film, camera, controls } = view;
+  const box = new THREE.Box3().setFromArray(film.particles);
+  const size = box.getSize(new THREE.Vector3());
+  const side = size.y <= size.x ? new THREE.Vector3(0.35, -1, 0.25) : new THREE.Vector3(1, -0.35, 0.25);
+  box.getCenter(controls.target);
+  camera.up.set(0, 0, 1);
+  const reach = size.length() / 2 + film.radius;
+  const wide = Math.min(1, view.stage.clientWidth / view.stage.clientHeight);
+  const distance = reach / Math.sin(camera.fov * Math.PI / 360) / wide * 0.92;
+  camera.position.copy(controls.target).addScaledVector(side.normalize(), distance);
+  controls.update();
+}
+
+function resize(view) {
+  const { clientWidth: width, clientHeight: height } = view.stage;
+  view.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  view.renderer.setSize(width, height, false);
+  view.spheres.material.uniforms.pixels.value = view.renderer.getDrawingBufferSize(
+    new THREE.Vector2()).y;
+  view.camera.aspect = width / height;
+  view.camera.updateProjectionMatrix();
+  view.draw();
+}
+
+const shotOf = (array, count, shot) => array.subarray(3 * count * shot, 3 * count * (shot + 1));
+
+/** Which particles lie beyond the middle of the body at the start, in the direction seen. */
+function cutAway(film) {
+  const first = shotOf(film.particles, film.ids.length, 0);
+  const box = new THREE.Box3().setFromArray(first);
+  const size = box.getSize(new THREE.Vector3());
+  const axis = size.y <= size.x ? 1 : 0;
+  const middle = box.getCenter(new THREE.Vector3()).getComponent(axis);
+  const sign = axis === 1 ? -1 : 1;
+  return (i) => sign * (first[3 * i + axis] - middle) > 0;
+}
+
+function placeParticles(view, shot, cut) {
+  const geometry = view.spheres.geometry;
+  const places = geometry.attributes.position.array;
+  places.set(shotOf(view.film.particles, view.counts.particles, shot));
+  if (cut) {
+    const gone = view.gone ?? (view.gone = cutAway(view.film));
+    for (let i = 0; i < view.counts.particles; ++i) if (gone(i)) places[3 * i] = away;
+  }
+  geometry.attributes.position.needsUpdate = true;
+}
+
+function placeSkin(view, shot) {
+  const geometry = view.skin.geometry;
+  geometry.attributes.position.array.set(shotOf(view.film.surface, view.counts.points, shot));
+  geometry.attributes.position.needsUpdate = true;
+  geometry.computeVertexNormals();
+}
+
+function placeBones(view, shot) {
+  const ends = shotOf(view.film.bones, 2 * view.counts.bones, shot);
+  view.bones.forEach((bone, b) => {
+    const head = new THREE.Vector3().fromArray(ends, 6 * b);
+    const along = new THREE.Vector3().fromArray(ends, 6 * b + 3).sub(head);
+    bone.position.copy(head);
+    bone.scale.setScalar(Math.max(along.length(), 1e-9));
+    bone.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());
+  });
+}
+
+/** field: an item of film.fields, or null for the bone each particle follows. */
+function tint(view, shot, field) {
+  const tints = view.spheres.geometry.attributes.tint;
+  const count = view.counts.particles;
+  for (let i = 0; i < count; ++i) {
+    const colour = field ? levelColours[field.levels[shot * count + i]]
+      : boneColours[view.film.bone[i] % boneColours.length] ?? noColour;
+    for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = colour[k] / 255;
+  }
+  tints.needsUpdate = true;
+}
+
+function showShot(view, { shot, field, cut }) {
+  placeParticles(view, shot, cut);
+  placeSkin(view, shot);
+  placeBones(view, shot);
+  tint(view, shot, field);
+  view.draw();
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/report/film.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "metrics/report/thin_surface.h"
+#include "world.h"
+
+namespace sinew::test {
+namespace {
+
+Film whole_film(const RestBody& body, std::size_t frames) {
+  Film film = plan_film(body, frames);
+  for (std::size_t i = 0; i < frames; ++i) {
+    FrameState state = moved_rigidly(body, Mat3::Identity(), Vec3(0.01 * double(i), 0, 0));
+    state.time = 0.1 * double(i);
+    if (film.wants(i)) add_frame(film, i, body, state, particle_values(body, state));
+  }
+  return film;
+}
+
+TEST(Film, KeepsAllOfASmallRun) {
+  const RestBody body = rest_body(box_input());
+  const Film film = whole_film(body, 4);
+  EXPECT_EQ(film.frames.size(), 4u);
+  EXPECT_EQ(film.particles.size(), body.particles());
+  EXPECT_EQ(film.points.size(), body.surface.points.size());
+  EXPECT_EQ(film.faces, body.surface.faces);
+}
+
+TEST(Film, ThinsALongRunEvenlyAndKeepsItsEnds) {
+  const Film film = plan_film(rest_body(box_input()), 5000);
+  EXPECT_LE(film.wanted.size(), 120u);
+  EXPECT_GE(film.wanted.size(), 60u);
+  EXPECT_EQ(film.wanted.front(), 0u);
+  EXPECT_EQ(film.wanted.back(), 4999u);
+}
+
+TEST(Film, ThinsALargeBodyToAPageOfTenMegabytes) {
+  RestInput input = box_input();
+  input.positions = fcc_box(81, 41);
+  input.bone.assign(input.positions.size(), 0);
+  const RestBody body = rest_body(input);
+  Film film = whole_film(body, 100);
+  const FrameState state = at_rest(body);
+  const ParticleValues values = particle_values(body, state);
+  for (std::size_t frame = 0, more = 8; more > 0; ++frame)  // as many worst frames as may come
+    if (!film.has(frame)) add_frame(film, frame, body, state, values), --more;
+  EXPECT_LT(film.particles.size(), body.particles() / 2);
+  EXPECT_TRUE(std::is_sorted(film.particles.begin(), film.particles.end()));
+  EXPECT_LT(film_json(film).size(), 8u << 20);
+}
+
+TEST(Film, TakesAWorstFrameInItsPlace) {
+  const RestBody body = rest_body(box_input());
+  Film film = plan_film(body, 5000);
+  FrameState state = at_rest(body);
+  for (const std::size_t frame : {0, 4999, 17})
+    add_frame(film, frame, body, state, particle_values(body, state));
+  EXPECT_TRUE(film.has(17));
+  EXPECT_FALSE(film.has(18));
+  EXPECT_EQ(film.frames[1].frame, 17u);
+}
+
+TEST(Film, IsWrittenWithPlacesAndValuesOfEveryFrame) {
+  const RestBody body = rest_body(box_input());
+  const auto json = nlohmann::json::parse(film_json(whole_film(body, 3)));
+  const std::size_t n = body.particles();
+  EXPECT_EQ(json["particles"].get<std::string>().size(), (3 * n * 3 * 2 + 2) / 3 * 4);
+  EXPECT_EQ(json["shots"].size(), 3u);
+  EXPECT_EQ(json["boneNames"], (std::vector<std::string>{"lower", "upper"}));
+  for (const auto& field : json["fields"]) {
+    EXPECT_EQ(field["levels"].get<std::string>().size(), (3 * n + 2) / 3 * 4) << field["name"];
+    EXPECT_LE(field["low"], field["high"]) << field["name"];
+  }
+  EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
+}
+
+TEST(Film, LeavesOutWhatWasNotMeasured) {
+  const auto json = nlohmann::json::parse(film_json(whole_film(rest_body(box_input()), 1)));
+  for (const auto& field : json["fields"]) EXPECT_NE(field["name"], "von Mises stress");
+}
+
+TEST(ThinSurface, KeepsShapeWithFewerPoints) {
+  Triangles grid;
+  for (int j = 0; j <= 40; ++j)
+    for (int i = 0; i <= 40; ++i) grid.points.push_back(Vec3(i, j, 0) / 40.0);
+  for (int j = 0; j < 40; ++j)
+    for (int i = 0; i < 40; ++i) {
+      const int a = 41 * j + i;
+      grid.faces.push_back({a, a + 1, a + 42});
+      grid.faces.push_back({a, a + 42, a + 41});
+    }
+  const ThinSurface thin = thin_surface(grid, 200);
+  EXPECT_LE(thin.points.size(), 200u);
+  EXPECT_GE(thin.points.size(), 80u);
+  Triangles coarse{{}, thin.faces};
+  for (const auto i : thin.points) coarse.points.push_back(grid.points[i]);
+  EXPECT_NEAR(area(coarse), 1, 0.2);
+}
+
+}  // namespace
+}  // namespace sinew::test

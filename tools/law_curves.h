@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The forces of a scene as curves: between two particles, and of a bone on a particle.
+#pragma once
+
+#include <vector>
+
+#include "metrics/report/report.h"
+#include "physics/material.h"
+#include "run_files.h"
+
+namespace sinew {
+
+/// The constants that the run's particles had.
+Material material_of(const RunFiles& run);
+
+std::vector<Curve> law_curves(const RunFiles& run);
+
+}  // namespace sinew
