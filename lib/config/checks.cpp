@@ -104,7 +104,8 @@ void apply_preset(Settings& settings) {
   if (preset == nullptr) return;
   const auto free = [&](std::string_view key) {
     const std::string_view rival = rival_of(key);
-    return !is_given(settings, key) && (rival.empty() || !is_given(settings, rival));
+    const bool written = settings.places.find(key) != settings.places.end();  // as none, too
+    return !written && (rival.empty() || !is_given(settings, rival));
   };
   if (free("material.density")) material.density = preset->density;
   if (free("material.young_modulus")) material.young_modulus = preset->young_modulus;

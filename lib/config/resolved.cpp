@@ -37,7 +37,7 @@ std::string bound_text(const Settings& settings) {
   if (settings.bound.empty()) return "";
   std::string text = "  explicit:\n";
   for (const BoundSettings& bound : settings.bound)
-    text += entry(bound_fields(), bound, 4, &bound == &settings.bound.front());
+    text += entry_text(bound_fields(), bound, 4, &bound == &settings.bound.front());
   return text;
 }
 

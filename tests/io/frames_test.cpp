@@ -36,11 +36,13 @@ TEST(ParticlesDataset, AddsTheForceOfTheWorldWhereThereIsOne) {
   const Particles now = particles_at({{0, 0, 0}}, 0.5, 1);
   const Points rest(1, Vec3::Zero()), force = {{1, 0, 0}}, world = {{0, 5, 0}};
   const std::vector<std::int32_t> zero(1, 0);
+  const std::vector<double> one = {1};
   const Dataset with =
-      particles_dataset({now, rest, zero, force, force, force, zero, {}, world}, {});
+      particles_dataset({now, rest, zero, force, force, force, zero, {}, one, world}, {});
   EXPECT_EQ(vectors(with.point_columns, "force"), (Points{{3, 5, 0}}));
   EXPECT_EQ(vectors(with.point_columns, "force_world"), world);
-  const Dataset without = particles_dataset({now, rest, zero, force, force, force, zero, {}}, {});
+  const Dataset without =
+      particles_dataset({now, rest, zero, force, force, force, zero, {}, one}, {});
   EXPECT_EQ(vectors(without.point_columns, "force"), (Points{{3, 0, 0}}));
   EXPECT_EQ(without.point_columns.size() + 1, with.point_columns.size());
 }
