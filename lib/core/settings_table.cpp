@@ -276,8 +276,9 @@ std::vector<Field<Settings>> make_motion_section() {
                     field<S>("motion", "file", SINEW_AT(S, motion.file), "",
                              "clip instead of tracks: YAML with a list of tracks, BVH, glTF or "
                              "GLB"))),
-      may_lack("auto", field<S>("motion", "clip", SINEW_AT(S, motion.clip), "",
-                                "name of the clip, where the file has several; auto: the first")),
+      may_lack("auto",
+               field<S>("motion", "clip", SINEW_AT(S, motion.clip), "",
+                        "name of the clip, where the file has several; auto: the only one")),
       field<S>("motion", "start", SINEW_AT(S, motion.start), "s",
                "time of the clip at which it begins", not_negative),
       field<S>("motion", "end", SINEW_AT(S, motion.end), "s",
