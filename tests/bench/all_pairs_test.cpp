@@ -9,9 +9,9 @@ namespace sinew::bench {
 namespace {
 
 TEST(AllPairs, StepAsTheSimulationDoes) {
-  for (const Shape shape : shapes) {
-    const Scene scene = scene_of(shape, 3000);
-    const Particles start = settled(scene, shape);
+  for (const Condition condition : conditions) {
+    const Scene scene = scene_of(condition, 3000);
+    const Particles start = settled(scene, condition);
     Particles particles = start;
     Simulation simulation =
         simulation_of(scene, start, Precision::binary64, NeighbourSearch::cells);
@@ -23,7 +23,7 @@ TEST(AllPairs, StepAsTheSimulationDoes) {
     const Particles& other = simulation.particles();
     for (std::size_t i = 0; i < other.size(); ++i)
       ASSERT_LT((particles.position(other.id[i]) - other.position(i)).norm(), 1e-12)
-          << name_of(shape);
+          << name_of(condition);
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prepares a state for timing, and the same as input for LAMMPS:
 //
-//     make_state SHAPE COUNT FOLDER [lammps]
+//     make_state CONDITION COUNT FOLDER [lammps]
 //
 // writes FOLDER/SHAPE_COUNT.state, with `lammps` also SHAPE_COUNT.data and eq1.table, and prints
 // what a script for LAMMPS has to know as JSON.
@@ -30,10 +30,11 @@ void write_for_lammps(const std::filesystem::path& state, const Scene& scene,
                            table_begin * 2 * particles.radius, table_rows);
 }
 
-void make(Shape shape, std::size_t count, const std::filesystem::path& folder, bool lammps) {
-  const Scene scene = scene_of(shape, count);
-  const Particles particles = settled(scene, shape);
-  const auto path = state_path(folder, shape, count);
+void make(Condition condition, std::size_t count, const std::filesystem::path& folder,
+          bool lammps) {
+  const Scene scene = scene_of(condition, count);
+  const Particles particles = settled(scene, condition);
+  const auto path = state_path(folder, condition, count);
   write_state(path, particles);
   if (lammps) write_for_lammps(path, scene, particles);
   std::printf("{\"particles\": %zu, \"step\": %.17g, \"d0\": %.17g, \"range\": %.17g}\n",
@@ -44,10 +45,10 @@ void make(Shape shape, std::size_t count, const std::filesystem::path& folder, b
 
 int main(int count, char** words) try {
   if (count != 4 && !(count == 5 && std::strcmp(words[4], "lammps") == 0)) {
-    std::fprintf(stderr, "usage: make_state SHAPE COUNT FOLDER [lammps]\n");
+    std::fprintf(stderr, "usage: make_state CONDITION COUNT FOLDER [lammps]\n");
     return 2;
   }
-  make(shape_named(words[1]), std::stoul(words[2]), words[3], count == 5);
+  make(condition_named(words[1]), std::stoul(words[2]), words[3], count == 5);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "make_state: %s\n", error.what());

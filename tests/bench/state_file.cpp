@@ -16,9 +16,9 @@ constexpr std::array columns{&Particles::x, &Particles::y, &Particles::z,
 
 }  // namespace
 
-std::filesystem::path state_path(const std::filesystem::path& folder, Shape shape,
+std::filesystem::path state_path(const std::filesystem::path& folder, Condition condition,
                                  std::size_t count) {
-  std::string name(name_of(shape));
+  std::string name(name_of(condition));
   name += '_';
   name += std::to_string(count);
   name += ".state";

@@ -10,7 +10,7 @@
 namespace sinew::bench {
 
 /// FOLDER/SHAPE_COUNT.state.
-std::filesystem::path state_path(const std::filesystem::path& folder, Shape shape,
+std::filesystem::path state_path(const std::filesystem::path& folder, Condition condition,
                                  std::size_t count);
 
 /// Throws Error (not_written).

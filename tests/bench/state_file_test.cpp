@@ -11,18 +11,18 @@ namespace {
 using StateFile = Scratch;
 
 TEST_F(StateFile, GivesEveryBitBack) {
-  const Scene scene = scene_of(Shape::twisted, 3000);
-  const Particles particles = settled(scene, Shape::twisted);
-  const auto path = state_path(folder, Shape::twisted, 3000);
+  const Scene scene = scene_of(Condition::twisted, 3000);
+  const Particles particles = settled(scene, Condition::twisted);
+  const auto path = state_path(folder, Condition::twisted, 3000);
   write_state(path, particles);
   EXPECT_EQ(state_hash(read_state(path, scene)), state_hash(particles));
 }
 
 TEST_F(StateFile, OfAnotherBodyOrCutShortIsRefused) {
-  const Scene scene = scene_of(Shape::rest, 3000);
-  const auto path = state_path(folder, Shape::rest, 3000);
+  const Scene scene = scene_of(Condition::rest, 3000);
+  const auto path = state_path(folder, Condition::rest, 3000);
   write_state(path, scene.start);
-  EXPECT_THROW(read_state(path, scene_of(Shape::rest, 4000)), Error);
+  EXPECT_THROW(read_state(path, scene_of(Condition::rest, 4000)), Error);
   resize_file(path, file_size(path) - 1);
   EXPECT_THROW(read_state(path, scene), Error);
 }

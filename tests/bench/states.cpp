@@ -54,10 +54,10 @@ Vec3 twisted(const Vec3& rest, const Bar& bar) {
 Vec3 crushed(const Vec3& rest) { return {crushed_width * rest.x(), rest.y(), rest.z()}; }
 
 /// Two bones along the middle line; those of a bent body meet where its straight ends would.
-std::vector<BoneSettings> bones_of(Shape shape, const Bar& bar) {
+std::vector<BoneSettings> bones_of(Condition condition, const Bar& bar) {
   const double straight = (bar.length() - bar.zone()) / 2;
   const double half = straight + bar.zone() / radians(turn);
-  if (shape != Shape::bent) return test::box_scene(bar.along).bones;
+  if (condition != Condition::bent) return test::box_scene(bar.along).bones;
   return {{"lower", "", Vec3::Zero(), Vec3(0, 0, half)},
           {"upper", "lower", {}, Vec3(half, 0, half)}};
 }
@@ -69,11 +69,11 @@ void grip(BindingSettings& binding, const Bar& bar) {
       strong_grip * widths * widths;
 }
 
-Settings settings_of(Shape shape, const Bar& bar) {
+Settings settings_of(Condition condition, const Bar& bar) {
   Settings settings = test::box_scene(bar.along);
-  settings.bones = bones_of(shape, bar);
-  if (shape == Shape::bent || shape == Shape::crushed) grip(settings.binding, bar);
-  if (shape == Shape::twisted) {
+  settings.bones = bones_of(condition, bar);
+  if (condition == Condition::bent || condition == Condition::crushed) grip(settings.binding, bar);
+  if (condition == Condition::twisted) {
     settings.tracks = {test::track("upper", {test::twist_key(0, turn)})};
     settings.binding.joint_zone = bar.length() / bar.width();
   }
@@ -88,17 +88,17 @@ Points mapped(Points points, Map&& map) {
 
 /// Where the body is bound: nothing but strong bones, bound to it as it is, would hold it bent or
 /// crushed.
-Points rest_of(Shape shape, const Bar& bar) {
+Points rest_of(Condition condition, const Bar& bar) {
   const Points box = test::fcc_box(bar.across, bar.across, bar.along, r);
-  if (shape == Shape::bent) return mapped(box, [&](const Vec3& x) { return bent(x, bar); });
-  if (shape == Shape::crushed) return mapped(box, crushed);
+  if (condition == Condition::bent) return mapped(box, [&](const Vec3& x) { return bent(x, bar); });
+  if (condition == Condition::crushed) return mapped(box, crushed);
   return box;
 }
 
 /// Where it begins: twisted by its bones, which keep an even twist, or shaken out of its lattice.
-Particles start_of(Shape shape, const Bar& bar, const Body& body) {
-  if (shape == Shape::flowed) return test::shaken(body.rest, body.material, r, 0);
-  if (shape != Shape::twisted) return particles_at(body.rest, r, body.material.mass);
+Particles start_of(Condition condition, const Bar& bar, const Body& body) {
+  if (condition == Condition::flowed) return test::shaken(body.rest, body.material, r, 0);
+  if (condition != Condition::twisted) return particles_at(body.rest, r, body.material.mass);
   const auto twist = [&](const Vec3& x) { return twisted(x, bar); };
   return particles_at(mapped(body.rest, twist), r, body.material.mass);
 }
@@ -123,31 +123,31 @@ Particles after(int steps, const Scene& scene, const Particles& start) {
 
 }  // namespace
 
-std::string_view name_of(Shape shape) { return names[static_cast<std::size_t>(shape)]; }
+std::string_view name_of(Condition condition) { return names[static_cast<std::size_t>(condition)]; }
 
-Shape shape_named(std::string_view name) {
-  for (const Shape shape : shapes)
-    if (name == name_of(shape)) return shape;
+Condition condition_named(std::string_view name) {
+  for (const Condition condition : conditions)
+    if (name == name_of(condition)) return condition;
   throw bad_input("no state '" + std::string(name) + "'",
                   "use rest, bent, twisted, crushed or flowed");
 }
 
-Scene scene_of(Shape shape, std::size_t count) {
+Scene scene_of(Condition condition, std::size_t count) {
   const Bar bar = bar_of(count);
-  const Settings settings = settings_of(shape, bar);
+  const Settings settings = settings_of(condition, bar);
   Scene scene;
-  scene.body = test::make_body(settings, rest_of(shape, bar));
+  scene.body = test::make_body(settings, rest_of(condition, bar));
   scene.motion = make_motion(settings, scene.body.skeleton);
-  scene.start = start_of(shape, bar, scene.body);
+  scene.start = start_of(condition, bar, scene.body);
   const double limit =
       step_limit(settings.solver.integrator, scene.body.material, scene.body.springs);
   scene.step = choose_step(settings.solver, limit, settings.output.interval).step;
   return scene;
 }
 
-Particles settled(const Scene& scene, Shape shape) {
-  if (shape == Shape::rest) return scene.start;
-  if (shape != Shape::flowed) return after(100, scene, scene.start);
+Particles settled(const Scene& scene, Condition condition) {
+  if (condition == Condition::rest) return scene.start;
+  if (condition != Condition::flowed) return after(100, scene, scene.start);
   Particles particles = scene.start;  // overlapping, they would burst apart in full steps
   for (const double share : {0.1, 0.4, 1.0, 1.0}) {
     Scene slower = scene;

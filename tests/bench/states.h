@@ -11,7 +11,7 @@
 
 namespace sinew::bench {
 
-enum class Shape {
+enum class Condition {
   rest,
   bent,     ///< by 90 degrees, an even curve of three widths, held there by strong bones
   twisted,  ///< by 90 degrees, evenly over the whole length, by its bones
@@ -19,12 +19,12 @@ enum class Shape {
   flowed,   ///< wholly disordered
 };
 
-inline constexpr std::array shapes{Shape::rest, Shape::bent, Shape::twisted, Shape::crushed,
-                                   Shape::flowed};
+inline constexpr std::array conditions{Condition::rest, Condition::bent, Condition::twisted,
+                                       Condition::crushed, Condition::flowed};
 
-std::string_view name_of(Shape shape);
+std::string_view name_of(Condition condition);
 /// Throws bad input for another name.
-Shape shape_named(std::string_view name);
+Condition condition_named(std::string_view name);
 
 /// A body, its held pose, and the map's positions, from which it is to settle.
 struct Scene {
@@ -35,11 +35,11 @@ struct Scene {
 };
 
 /// About `count` particles of the default material, r = 10 mm.
-Scene scene_of(Shape shape, std::size_t count);
+Scene scene_of(Condition condition, std::size_t count);
 
 /// The state after 100 steps (flowed: 400, rest: none) from the scene's start, in the written
 /// order.
-Particles settled(const Scene& scene, Shape shape);
+Particles settled(const Scene& scene, Condition condition);
 
 /// A simulation of the scene's body that starts with `particles`.
 Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,

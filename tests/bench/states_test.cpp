@@ -25,7 +25,7 @@ struct Bonds {
 
 Bonds bonds_of(const Scene& scene, const Points& now) {
   const double b = scene.body.material.pair.b, d0 = nearest_distance(scene.start.radius);
-  const auto lists = neighbours_within(scene_of(Shape::rest, count).body.rest, 1.1 * d0);
+  const auto lists = neighbours_within(scene_of(Condition::rest, count).body.rest, 1.1 * d0);
   Bonds bonds;
   for (std::size_t i = 0; i < now.size(); ++i)
     for (const auto j : lists.of(i)) {
@@ -48,26 +48,28 @@ double order(const Points& points, double r) {
 }
 
 TEST(States, HoldAboutTheParticlesAskedFor) {
-  EXPECT_EQ(scene_of(Shape::rest, 3000).start.size(), 2965u);  // the paper's box
+  EXPECT_EQ(scene_of(Condition::rest, 3000).start.size(), 2965u);  // the paper's box
   for (const double asked : {3e4, 3e5})
-    EXPECT_NEAR(
-        static_cast<double>(scene_of(Shape::rest, static_cast<std::size_t>(asked)).start.size()),
-        asked, 0.03 * asked);
+    EXPECT_NEAR(static_cast<double>(
+                    scene_of(Condition::rest, static_cast<std::size_t>(asked)).start.size()),
+                asked, 0.03 * asked);
 }
 
 TEST(States, BonesKeepThemAsTheyAre) {
-  for (const Shape shape : {Shape::rest, Shape::bent, Shape::twisted, Shape::crushed}) {
-    const Scene scene = scene_of(shape, count);
+  for (const Condition condition :
+       {Condition::rest, Condition::bent, Condition::twisted, Condition::crushed}) {
+    const Scene scene = scene_of(condition, count);
     Forces forces;
     bone_forces(scene.start, scene.body, pose_at(scene.body.skeleton, scene.motion, 0), forces);
     const double bond = scene.body.material.stiffness() * scene.start.radius;
-    for (const Vec3& force : forces.bone) EXPECT_LT(force.norm(), 1e-4 * bond) << name_of(shape);
+    for (const Vec3& force : forces.bone)
+      EXPECT_LT(force.norm(), 1e-4 * bond) << name_of(condition);
   }
 }
 
 TEST(States, BentBodyTurnsByNinetyDegrees) {
-  const Points box = scene_of(Shape::rest, count).body.rest;
-  const Scene scene = scene_of(Shape::bent, count);
+  const Points box = scene_of(Condition::rest, count).body.rest;
+  const Scene scene = scene_of(Condition::bent, count);
   const Vec3 before = box.back() - box[box.size() - 2];  // two of the last plane
   const Vec3 now = scene.start.position(box.size() - 1) - scene.start.position(box.size() - 2);
   EXPECT_LT((now - Eigen::AngleAxisd(pi / 2, Vec3::UnitY()) * before).norm(), 1e-12);
@@ -76,42 +78,43 @@ TEST(States, BentBodyTurnsByNinetyDegrees) {
 }
 
 TEST(States, MapsStretchBondsModerately) {
-  for (const Shape shape : {Shape::bent, Shape::twisted, Shape::crushed}) {
-    const Scene scene = scene_of(shape, count);
+  for (const Condition condition : {Condition::bent, Condition::twisted, Condition::crushed}) {
+    const Scene scene = scene_of(condition, count);
     const Bonds bonds = bonds_of(scene, positions_of(scene.start));
-    EXPECT_GT(bonds.shortest, 0.8) << name_of(shape);
-    EXPECT_LT(bonds.longest, 1.25) << name_of(shape);  // partners to 1.3
+    EXPECT_GT(bonds.shortest, 0.8) << name_of(condition);
+    EXPECT_LT(bonds.longest, 1.25) << name_of(condition);  // partners to 1.3
   }
 }
 
 TEST(States, SettledBodiesKeepTheirBonds) {
-  for (const Shape shape : {Shape::bent, Shape::twisted, Shape::crushed}) {
-    const Scene scene = scene_of(shape, count);
-    const Bonds bonds = bonds_of(scene, positions_of(settled(scene, shape)));
-    EXPECT_GT(bonds.shortest, 0.8) << name_of(shape);
-    EXPECT_EQ(bonds.parted, 0) << name_of(shape);
+  for (const Condition condition : {Condition::bent, Condition::twisted, Condition::crushed}) {
+    const Scene scene = scene_of(condition, count);
+    const Bonds bonds = bonds_of(scene, positions_of(settled(scene, condition)));
+    EXPECT_GT(bonds.shortest, 0.8) << name_of(condition);
+    EXPECT_EQ(bonds.parted, 0) << name_of(condition);
   }
 }
 
 TEST(States, CrushedBodyStaysCrushed) {
-  const Scene scene = scene_of(Shape::crushed, count);
-  const Box before = bounds(scene_of(Shape::rest, count).body.rest);
-  const Box now = bounds(positions_of(settled(scene, Shape::crushed)));
+  const Scene scene = scene_of(Condition::crushed, count);
+  const Box before = bounds(scene_of(Condition::rest, count).body.rest);
+  const Box now = bounds(positions_of(settled(scene, Condition::crushed)));
   EXPECT_NEAR(now.sizes().x() / before.sizes().x(), 0.75, 0.03);
 }
 
 TEST(States, FlowedBodyHasNoLattice) {
-  const Scene scene = scene_of(Shape::flowed, count);
+  const Scene scene = scene_of(Condition::flowed, count);
   const double r = scene.start.radius;
   EXPECT_NEAR(order(scene.body.rest, r), 1, 1e-9);
-  EXPECT_LT(order(positions_of(settled(scene, Shape::flowed)), r), 0.03);
+  EXPECT_LT(order(positions_of(settled(scene, Condition::flowed)), r), 0.03);
 }
 
 TEST(States, DoNotDependOnTheNumberOfThreads) {
-  const Scene scene = scene_of(Shape::flowed, count);
+  const Scene scene = scene_of(Condition::flowed, count);
   std::uint64_t hash[2] = {};
   for (const int threads : {1, 2})
-    with_threads(threads, [&] { hash[threads - 1] = state_hash(settled(scene, Shape::flowed)); });
+    with_threads(threads,
+                 [&] { hash[threads - 1] = state_hash(settled(scene, Condition::flowed)); });
   EXPECT_EQ(hash[0], hash[1]);
 }
 

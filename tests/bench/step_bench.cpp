@@ -7,7 +7,7 @@
 //   build/bench/step_bench --benchmark_filter=/rest/
 //   build/bench/step_bench --states=FOLDER ...      states that make_state has written there
 //
-// Names are step/SHAPE/PARTICLES/KIND/threads:N. tests/bench/run.sh makes tables of them.
+// Names are step/CONDITION/PARTICLES/KIND/threads:N. tests/bench/run.sh makes tables of them.
 
 #include <benchmark/benchmark.h>
 
@@ -37,33 +37,33 @@ constexpr int first_steps = 5;  // build what is kept between steps; then the ha
 std::filesystem::path states_folder;  // empty: states are made here
 
 struct Case {
-  Shape shape;
+  Condition condition;
   std::size_t count;
   Kind kind;
   int threads;
 };
 
 struct Prepared {
-  Shape shape;
+  Condition condition;
   std::size_t count;
   Scene scene;
   Particles particles;
 };
 
-Prepared prepare(Shape shape, std::size_t count) {
-  Prepared prepared{shape, count, scene_of(shape, count), {}};
-  const auto path = state_path(states_folder, shape, count);
+Prepared prepare(Condition condition, std::size_t count) {
+  Prepared prepared{condition, count, scene_of(condition, count), {}};
+  const auto path = state_path(states_folder, condition, count);
   prepared.particles = !states_folder.empty() && exists(path) ? read_state(path, prepared.scene)
-                                                              : settled(prepared.scene, shape);
+                                                              : settled(prepared.scene, condition);
   return prepared;
 }
 
 /// The state of the last call is kept: those of all sizes together are large.
-const Prepared& prepared(Shape shape, std::size_t count) {
+const Prepared& prepared(Condition condition, std::size_t count) {
   static std::unique_ptr<Prepared> last;
-  if (!last || last->shape != shape || last->count != count) {
+  if (!last || last->condition != condition || last->count != count) {
     last.reset();
-    last = std::make_unique<Prepared>(prepare(shape, count));
+    last = std::make_unique<Prepared>(prepare(condition, count));
   }
   return *last;
 }
@@ -122,7 +122,7 @@ void count_lists(benchmark::State& state, const ListCounts& lists) {
 
 /// Every lap begins with the same state, which else would settle during the measurement.
 void step(benchmark::State& state, Case what) {
-  const Prepared& from = prepared(what.shape, what.count);
+  const Prepared& from = prepared(what.condition, what.count);
   const int steps = steps_per_lap(what);
   std::uint64_t hash = 0;
   ListCounts lists;
@@ -147,7 +147,7 @@ void step(benchmark::State& state, Case what) {
 
 /// Memory at the peak of a simulation's making and first steps, the body's description included.
 void memory(benchmark::State& state, Case what) {
-  const Prepared& from = prepared(what.shape, what.count);
+  const Prepared& from = prepared(what.condition, what.count);
   double bytes = 0;
   for (auto _ : state)
     bytes = peak_memory_of([&] { Stepper(from, what.kind).advance(first_steps); });
@@ -189,26 +189,26 @@ std::string path_of(const Parts&... parts) {
   return path;
 }
 
-void register_steps(Shape shape, std::size_t count, Kind kind) {
+void register_steps(Condition condition, std::size_t count, Kind kind) {
   if (kind == Kind::all_pairs && count > most_for_all_pairs) return;
   for (const int threads : {1, 2}) {
     const std::string name =
-        path_of("step", name_of(shape), std::to_string(count), kinds[static_cast<int>(kind)],
+        path_of("step", name_of(condition), std::to_string(count), kinds[static_cast<int>(kind)],
                 "threads:" + std::to_string(threads));
-    benchmark::RegisterBenchmark(name.c_str(), step, Case{shape, count, kind, threads})
+    benchmark::RegisterBenchmark(name.c_str(), step, Case{condition, count, kind, threads})
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
   }
 }
 
 void register_all() {
-  for (const Shape shape : shapes)
+  for (const Condition condition : conditions)
     for (const std::size_t count : counts)
       for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells, Kind::all_pairs})
-        register_steps(shape, count, kind);
+        register_steps(condition, count, kind);
   for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells})
     benchmark::RegisterBenchmark(path_of("memory", kinds[static_cast<int>(kind)]).c_str(), memory,
-                                 Case{Shape::rest, 300'000, kind, 1})
+                                 Case{Condition::rest, 300'000, kind, 1})
         ->Iterations(1);
   benchmark::RegisterBenchmark("peak/single", peak, &multiply_add_single);
   benchmark::RegisterBenchmark("peak/double", peak, &multiply_add_double);
