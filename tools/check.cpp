@@ -6,10 +6,12 @@
 #include "command.h"
 #include "config/scene.h"
 #include "core/available_memory.h"
+#include "core/closest_packing.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "estimate.h"
 #include "physics/rest_stability.h"
+#include "physics/thin_body.h"
 #include "results.h"
 #include "run_folder.h"
 #include "scene_body.h"
@@ -76,7 +78,7 @@ void add_material(const Material& material, Results& results) {
   const double k = pair.contact_stiffness();
   results.add("young_modulus", material.young_modulus(), "Pa");
   results.add("poisson_ratio", material.constants().hill_poisson_ratio());
-  results.add("bulk_modulus", 2 * std::sqrt(2.0) / 3 * k / (2 * pair.r), "Pa");
+  results.add("bulk_modulus", material.constants().bulk_modulus(), "Pa");
   results.add("k1", pair.k1, "Pa");
   results.add("k2", pair.k2, "Pa");
   results.add("contact_stiffness", k, "N/m");
@@ -84,15 +86,38 @@ void add_material(const Material& material, Results& results) {
   results.add("lambda", pair.lambda());
   results.add("rest", rests_stably(material) ? "stable" : "unstable");
   results.add("damping_constant", material.damping, "kg/s");
-  results.add("wave_speed_100", 2 * pair.r * std::sqrt(k / material.mass), "m/s");
+  const double density = material.mass / volume_per_particle(pair.r);
+  results.add("wave_speed_100", std::sqrt(material.constants().C11 / density), "m/s");
+  results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
+}
+
+/// Across the thinnest bone's part of the body.
+void add_planes(const Body& body, Results& results) {
+  double least = 0;
+  std::string name;
+  for (std::size_t b = 0; b < body.skeleton.size(); ++b) {
+    const double planes =
+        std::sqrt(body.binding.cross_section[b]) / half_plane_spacing(body.material.pair.r);
+    if (!(planes > 0) || (!name.empty() && planes >= least)) continue;
+    least = planes;
+    name = body.skeleton.bones[b].name;
+  }
+  if (name.empty()) return;
+  results.add("thinnest_bone", name);
+  results.add("planes_across", least);
+  results.add("lack_of_bending_stiffness", 100 * lack_of_bending_stiffness(least), "%");
 }
 
 void add_steps(const Settings& settings, const Setup& setup, double speed, Results& results) {
   const auto limit_of = [&](Integrator integrator) {
-    return step_limit(integrator, setup.body.material, setup.body.springs, load_of(setup.body));
+    return step_limit(integrator, setup.body, load_of(setup.body));
   };
   results.add("time_step_limit_symplectic_euler", limit_of(Integrator::symplectic_euler), "s");
-  results.add("time_step_limit_explicit_euler", limit_of(Integrator::explicit_euler), "s");
+  const double explicit_limit = limit_of(Integrator::explicit_euler);
+  if (explicit_limit > 0)
+    results.add("time_step_limit_explicit_euler", explicit_limit, "s");
+  else
+    results.add("time_step_limit_explicit_euler", "none: no step is stable without damping");
   results.add("time_step", setup.steps.step, "s");
   results.add("time_step_factor", setup.steps.factor());
   results.add("steps_per_frame", setup.steps.per_frame);
@@ -128,6 +153,7 @@ Exit check(const std::string& scene, const Common& common) {
   Results results;
   add_sizes(filling, surface, results);
   add_material(setup.body.material, results);
+  add_planes(setup.body, results);
   add_steps(settings, setup, speed, results);
   add_way(way, results);
   results.add("disk", bytes_text(needs.disk));

@@ -151,6 +151,8 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
   copy(forces.bone, frame.force_bone);
   copy(forces.world, frame.force_world);
   copy(forces.neighbours, frame.neighbours);
+  const auto broken = simulation.broken_bonds();
+  frame.broken_bonds.assign(broken.begin(), broken.end());
   frame.energies = simulation.energies();
   frame.pose = simulation.pose();
   frame.reactions = reactions(simulation.particles(), simulation.body(), frame.pose);
@@ -163,7 +165,8 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
 void Recorder::write(const Moved& frame) {
   const Dataset particles = particles_dataset(
       {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
-       frame.force_bone, frame.neighbours, frame.energies, particle_weight_, frame.force_world},
+       frame.force_bone, frame.neighbours, frame.energies, particle_weight_, frame.force_world,
+       frame.broken_bonds},
       frame.moment);
   particles_.add(particles);
   write_surfaces(frame, particles.points);

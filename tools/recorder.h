@@ -47,7 +47,7 @@ class Recorder {
     Moment moment;
     Particles particles;
     Points force_pair, force_damping, force_bone, force_world;
-    std::vector<std::int32_t> neighbours;
+    std::vector<std::int32_t> neighbours, broken_bonds;
     Energies energies;
     Pose pose;
     std::vector<Reaction> reactions;

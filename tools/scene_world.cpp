@@ -49,6 +49,20 @@ KeyedValue values_of(const std::vector<ValueKeySettings>& keys) {
   return values;
 }
 
+FieldForm form_of(const FieldSettings& given) {
+  switch (given.shape) {
+    case FieldShape::uniform:
+      return UniformAcceleration{*given.acceleration};
+    case FieldShape::density:
+      return ForceDensity{*given.density};
+    case FieldShape::attraction:
+      return Attraction{*given.point, *given.strength, *given.core};
+    case FieldShape::swirl:
+      return Swirl{*given.point, given.axis, *given.strength, *given.core};
+  }
+  return UniformAcceleration{};
+}
+
 /// A shape about its own middle, and where that is in the scene.
 struct Placed {
   Shape shape;
@@ -212,8 +226,8 @@ SceneWorld world_of(const Settings& settings, const Body& body) {
   add_obstacles(settings, body, world, made.obstacles);
   world.drag.rate = settings.world.drag;
   for (const FieldSettings& given : settings.world.fields)
-    world.fields.push_back({given.name, UniformAcceleration{given.acceleration},
-                            region_of(given.region), values_of(given.keys)});
+    world.fields.push_back(
+        {given.name, form_of(given), region_of(given.region), values_of(given.keys)});
   add_muscles(settings, body, world);
   add_pins(settings, body, world);
   told_at(settings, "world", [&] { check_world(world); });

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "physics/thin_body.h"
 #include "scene_binding.h"
 #include "scene_body.h"
 #include "scene_rig.h"
@@ -40,8 +41,7 @@ Body make_body(const Settings& settings, const Skeleton& skeleton, const Particl
 }
 
 StepChoice steps_of(const Settings& settings, const Body& body) {
-  const double limit =
-      step_limit(settings.solver.integrator, body.material, body.springs, load_of(body));
+  const double limit = step_limit(settings.solver.integrator, body, load_of(body));
   try {
     return choose_step(settings.solver, limit, settings.output.interval);
   } catch (const Error& error) {

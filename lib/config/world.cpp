@@ -130,9 +130,38 @@ void read_pin(const YamlNode& item, const std::string& path, PinSettings& pin, S
                     "add low: and high: of a box, or centre: and radius: of a ball");
 }
 
+/// Throws unless the keys that a field's shape needs are given.
+void check_field(const FieldSettings& field, const std::string& path, const Settings& settings) {
+  const auto need = [&](bool given, const char* key, const char* shape) {
+    if (!given)
+      throw bad_input(settings.place(path),
+                      path + '.' + key + " is missing, which a field of shape " + shape + " needs",
+                      std::string("add ") + key + ':');
+  };
+  const auto need_centre = [&](const char* shape) {
+    need(field.point.has_value(), "point", shape);
+    need(field.strength.has_value(), "strength", shape);
+    need(field.core.has_value(), "core", shape);
+  };
+  switch (field.shape) {
+    case FieldShape::uniform:
+      return need(field.acceleration.has_value(), "acceleration", "uniform");
+    case FieldShape::density:
+      return need(field.density.has_value(), "density", "density");
+    case FieldShape::attraction:
+      return need_centre("attraction");
+    case FieldShape::swirl:
+      if (field.axis.norm() == 0)
+        throw bad_input(settings.place(path + ".axis"), "a direction without length",
+                        "give [x, y, z], not all zero");
+      return need_centre("swirl");
+  }
+}
+
 void read_field(const YamlNode& item, const std::string& path, FieldSettings& field,
                 Settings& settings) {
   read_fields(item, path, field_fields(), "keys", field, settings.places);
+  check_field(field, path, settings);
   check_region(field.region, path, settings);
   read_keys(item, path, strength_fields(), field.keys, settings);
 }

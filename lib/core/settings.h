@@ -195,9 +195,17 @@ struct PinSettings {
   std::string bone;
 };
 
+enum class FieldShape { uniform, density, attraction, swirl };
+
 struct FieldSettings {
   std::string name;
-  Vec3 acceleration = Vec3::Zero();
+  FieldShape shape = FieldShape::uniform;
+  std::optional<Vec3> acceleration = {};  ///< uniform
+  std::optional<Vec3> density = {};       ///< of force
+  std::optional<Vec3> point = {};         ///< of attraction, or on the axis of a swirl
+  Vec3 axis = Vec3::UnitZ();              ///< of a swirl
+  std::optional<double> strength = {};    ///< acceleration of attraction and swirl
+  std::optional<double> core = {};        ///< of attraction and swirl
   RegionSettings region = {};
   std::vector<ValueKeySettings> keys = {};  ///< of strength
 };

@@ -549,8 +549,22 @@ std::vector<Field<FieldSettings>> make_fields() {
   using F = FieldSettings;
   std::vector<Field<F>> rows = {
       required(field<F>("", "name", SINEW_AT(F, name), "", "unique name of the field")),
-      required(field<F>("", "acceleration", SINEW_AT(F, acceleration), "m/s^2",
-                        "that it gives to what is in its region")),
+      choice<F>("", "shape", SINEW_AT(F, shape), {"uniform", "density", "attraction", "swirl"},
+                "one acceleration; a force per volume; towards a point; around an axis"),
+      field<F>("", "acceleration", SINEW_AT(F, acceleration), "m/s^2",
+               "uniform: that it gives to what is in its region", any, "none"),
+      field<F>("", "density", SINEW_AT(F, density), "N/m^3",
+               "density: force per volume of the body at rest", any, "none"),
+      field<F>("", "point", SINEW_AT(F, point), "m",
+               "attraction: the point; swirl: any point of its axis", any, "none"),
+      field<F>("", "axis", SINEW_AT(F, axis), "",
+               "swirl: direction of its axis, right-handed, of any length but 0"),
+      field<F>("", "strength", SINEW_AT(F, strength), "m/s^2",
+               "attraction and swirl: acceleration outside the core; below 0: the other way", any,
+               "none"),
+      field<F>("", "core", SINEW_AT(F, core), "m",
+               "attraction and swirl: within this distance it falls to 0 in proportion", positive,
+               "none"),
   };
   for (auto& row : make_region<F>("acts in a box of the scene: its least corner; none: everywhere",
                                   "or in a ball: its centre"))
@@ -651,7 +665,7 @@ std::span<const Field<FieldSettings>> field_fields() {
 
 std::span<const Field<ValueKeySettings>> strength_fields() {
   static const auto table =
-      make_value_keys("strength", "factor on the acceleration; straight lines between keys", any);
+      make_value_keys("strength", "factor on the field; straight lines between keys", any);
   return table;
 }
 

@@ -52,6 +52,8 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", point, "force_world", "N", xyz, real, plain,
        "force of obstacles, drag, fields, muscles and pins, where a scene has some"},
       {"particles", point, "neighbours", "1", one, whole, plain, "partners within the range b"},
+      {"particles", point, "broken_bonds", "1", one, whole, plain,
+       "bonds it has lost, where the material has bonds"},
       {"particles", field, "kinetic_energy", "J", one, exact, plain, "energy of motion"},
       {"particles", field, "pair_energy", "J", one, exact, plain, "elastic energy of all pairs"},
       {"particles", field, "bone_energy", "J", one, exact, plain,

@@ -142,6 +142,9 @@ Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
   };
   if (!frame.force_world.empty())
     data.point_columns.push_back(forces("force_world", frame.force_world));
+  if (!frame.broken_bonds.empty())
+    data.point_columns.push_back(
+        column("broken_bonds", in_written_order(frame.broken_bonds, now.id)));
   data.field_columns = columns_of(frame.energies);
   return data;
 }

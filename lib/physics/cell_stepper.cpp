@@ -130,16 +130,15 @@ void CellStepper::advance(std::size_t i, double kick) {
   particles_.set_velocity(i, kicked);
 }
 
-bool CellStepper::sound(std::size_t i, const Vec3& before, const Pose& pose) const {
+bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
   if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
   const auto bones = body_->binding.of(particles_.id[i]);
-  const Vec3 moved = particles_.position(i) - before;
-  const Vec3 ridden = bones.empty()
-                          ? Vec3(Vec3::Zero())
-                          : Vec3(stepping_.step * pose[bones.front().bone].velocity_at(before));
-  const double most = most_radii_per_step * particles_.radius;
+  const Vec3 carried =
+      bones.empty() ? before.velocity : pose[bones.front().bone].velocity_at(before.position);
+  const double most = most_radii_per_step * particles_.radius / stepping_.step;
   // False for values that are not numbers as well.
-  return (moved - ridden).squaredNorm() <= most * most && particles_.velocity(i).allFinite();
+  return (particles_.velocity(i) - carried).squaredNorm() <= most * most &&
+         particles_.position(i).allFinite();
 }
 
 StepSums CellStepper::step(const Pose& pose) {
@@ -152,7 +151,7 @@ StepSums CellStepper::step(const Pose& pose) {
   std::atomic<std::size_t> first_bad = n;
   parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 before = particles_.position(i);
+      const Particle before{particles_.position(i), particles_.velocity(i)};
       advance(i, kick);
       if (sound(i, before, pose)) continue;
       std::size_t least = first_bad;  // the lowest index wins, whichever thread finds it

@@ -30,6 +30,10 @@ class CellStepper {
   std::span<const Reaction> reactions_of_obstacles() const { return world_.reactions; }
 
  private:
+  struct Particle {
+    Vec3 position, velocity;
+  };
+
   void find_forces(const Pose& pose);
   void find_world_forces(const Pose& pose);
   void hold(const Pose& pose);
@@ -39,7 +43,7 @@ class CellStepper {
   void add_world(StepSums& sums) const;
   StepSums sums() const;
   void advance(std::size_t i, double kick);
-  bool sound(std::size_t i, const Vec3& before, const Pose& pose) const;
+  bool sound(std::size_t i, const Particle& before, const Pose& pose) const;
 
   std::shared_ptr<const Body> body_;
   Stepping stepping_;

@@ -60,6 +60,8 @@ double volume_stiffness_for(double poisson_ratio) {
   return std::max(0.0, bulk - bulk_of_bonds);
 }
 
+double lack_of_bending_stiffness(double planes) { return std::min(1.0, 2.5 / planes); }
+
 double highest_frequency_factor(double volume_stiffness) {
   const double root = std::numbers::sqrt2;
   return volume_stiffness > root ? 4 + root * volume_stiffness + 2 * root / volume_stiffness : 8;

@@ -38,6 +38,11 @@ inline constexpr double hill_young = 1.3505, hill_shear = 0.5354, hill_poisson =
 /// own, 0.261; more is not to be had by less.
 double volume_stiffness_for(double poisson_ratio);
 
+/// The share of its bending stiffness, E I of the shape filled, that a body lacks for being only
+/// `planes` half-planes of particles across: springs end at the outermost particles, not at the
+/// surface. Measured on square FCC beams of 5 to 17 planes, within 0.03; at most 1.
+double lack_of_bending_stiffness(double planes);
+
 /// How much the highest frequency of the lattice rises: w^2 = this k / m (8 for bonds alone).
 double highest_frequency_factor(double volume_stiffness);
 

@@ -86,7 +86,8 @@ void Simulation::fail(const Failure& failure) const {
               "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
                   std::to_string(id) + where +
                   (failure.finite ? " moved over " + three_digits(most_radii_per_step) +
-                                        " r relative to its bone in one step"
+                                        (bones.empty() ? " r off its motion before in one step"
+                                                       : " r relative to its bone in one step")
                                   : std::string(" reached a value that is not finite")) +
                   "; use solver.time_step " + three_digits(stepping_.step / 2) + " or less");
 }

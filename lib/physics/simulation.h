@@ -36,7 +36,8 @@ class Simulation {
              kernel::InstructionSet instructions = kernel::best_instruction_set());
 
   /// Advances by one step. Throws Error (unstable) naming step, particle, cause and a cure when a
-  /// value is not finite or a particle moves over 0.25 r relative to its bone within the step.
+  /// value is not finite or a particle moves over 0.25 r relative to its bone within the step
+  /// (one without a bone: relative to its motion before).
   void step();
 
   double time() const { return static_cast<double>(steps_) * stepping_.step; }  ///< s

@@ -62,6 +62,9 @@ const std::string everything = R"(world:
           strength: 0
         - time: 1
           strength: -2
+    - {name: lift, shape: density, density: [0, 0, 2000]}
+    - {name: well, shape: attraction, point: [0, 0, 1], strength: -4, core: 0.1}
+    - {name: whirl, shape: swirl, point: [1, 0, 0], axis: [0, 0, 2], strength: 5, core: 0.2}
   muscles:
     - name: biceps
       bone: lower
@@ -94,8 +97,12 @@ TEST(WorldSection, IsRead) {
   ASSERT_EQ(world.pins.size(), 2U);
   EXPECT_EQ(world.pins[0].region.high, Vec3(1, 1, 0.1));
   EXPECT_EQ(world.pins[1].region.radius, 0.2);
-  ASSERT_EQ(world.fields.size(), 1U);
+  ASSERT_EQ(world.fields.size(), 4U);
   EXPECT_EQ(world.fields[0].keys[1].value, -2);
+  EXPECT_EQ(world.fields[1].density, Vec3(0, 0, 2000));
+  EXPECT_EQ(world.fields[2].strength, -4);
+  EXPECT_EQ(world.fields[3].shape, FieldShape::swirl);
+  EXPECT_EQ(world.fields[3].axis, Vec3(0, 0, 2));
   ASSERT_EQ(world.muscles.size(), 1U);
   EXPECT_EQ(world.muscles[0].keys[0].time, 0.2);
   EXPECT_FALSE(world.empty());
@@ -163,6 +170,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"  pins:\n    - {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0]}\n",
                 "a box and as a ball"},
         Mistake{"  fields:\n    - name: a\n", "world.fields[0].acceleration is missing"},
+        Mistake{"  fields:\n    - {name: a, shape: density}\n",
+                "world.fields[0].density is missing"},
+        Mistake{"  fields:\n    - {name: a, shape: attraction, point: [0, 0, 0], strength: 1}\n",
+                "world.fields[0].core is missing"},
+        Mistake{"  fields:\n    - {name: a, shape: swirl, axis: [0, 0, 0]}\n",
+                "a direction without length"},
         Mistake{"  muscles:\n    - {name: a, strength: 1}\n",
                 "world.muscles[0] has neither a bone nor a direction"},
         Mistake{"  muscles:\n    - name: a\n      bone: lower\n      strength: 1\n"

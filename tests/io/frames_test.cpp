@@ -47,6 +47,17 @@ TEST(ParticlesDataset, AddsTheForceOfTheWorldWhereThereIsOne) {
   EXPECT_EQ(without.point_columns.size() + 1, with.point_columns.size());
 }
 
+TEST(ParticlesDataset, TellsOfBrokenBondsWhereThereAreBonds) {
+  Particles now = particles_at({{0, 0, 0}, {1, 0, 0}}, 0.5, 1);
+  now.id = {1, 0};
+  const Points two(2, Vec3::Zero());
+  const std::vector<std::int32_t> zeros(2, 0), broken = {3, 5};
+  const std::vector<double> ones(2, 1);
+  const Dataset data =
+      particles_dataset({now, two, zeros, two, two, two, zeros, {}, ones, {}, broken}, {});
+  EXPECT_EQ(integers(data.point_columns, "broken_bonds"), (std::vector<std::int32_t>{5, 3}));
+}
+
 TEST(ObstaclesDataset, MovesEachSurfaceWithItsFrame) {
   const Dataset data = SyntheticRun().obstacles({0.5, 0});
   ASSERT_EQ(data.points.size(), 8U);

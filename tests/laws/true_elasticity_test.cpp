@@ -49,6 +49,13 @@ TEST(Bonded, ComesBackFromATwistOf180Degrees) {
   EXPECT_LT(farthest_from_rest(simulation), 0.01 * r);
 }
 
+TEST(Paper, FlowsInTheSameBend) {
+  Simulation simulation = box(MaterialModel::paper,
+                              {test::bend_key(0, 0), test::bend_key(1, 90), test::bend_key(2, 0)});
+  step_until(simulation, 4);
+  EXPECT_GT(farthest_from_rest(simulation), r);
+}
+
 TEST(BondedVolume, KeepsTheVolumeOfABentBoxCloserThanBonded) {
   const auto lost_volume = [](MaterialModel model) {
     Simulation simulation = box(model, {test::bend_key(0, 0), test::bend_key(1, 90)});

@@ -93,6 +93,11 @@ double modulus(const Material& material, const Mat3& strain) {
 
 Mat3 unit(int i, int j) { return Vec3::Unit(i) * Vec3::Unit(j).transpose(); }
 
+CubicConstants measured_constants(const Material& material) {
+  const double C11 = modulus(material, unit(0, 0));
+  return {C11, modulus(material, unit(0, 0) + unit(1, 1)) / 2 - C11, modulus(material, unit(0, 1))};
+}
+
 class Moduli : public testing::TestWithParam<MaterialModel> {};
 
 TEST_P(Moduli, OfTheFilledLatticeAreItsClosedForms) {
@@ -130,6 +135,16 @@ TEST_P(Moduli, LetWavesTravelAsTheyShould) {
   const double density = material.mass / volume_per_particle(r);
   EXPECT_NEAR(speed(0, 0), std::sqrt(material.constants().C11 / density), 0.01 * speed(0, 0));
   EXPECT_NEAR(speed(0, 1), std::sqrt(material.constants().C44 / density), 0.01 * speed(0, 1));
+}
+
+TEST(BondedVolume, HasThePoissonRatioAskedForByMeasure) {
+  for (const double nu : {0.26, 0.3, 0.35, 0.4, 0.45}) {
+    MaterialSettings settings;
+    settings.model = MaterialModel::bonded_volume;
+    settings.poisson_ratio = nu;
+    const CubicConstants C = measured_constants(make_material(settings, r, 1));
+    EXPECT_NEAR(C.hill_poisson_ratio(), nu, 0.005);
+  }
 }
 
 std::string name_of(const testing::TestParamInfo<MaterialModel>& info) {

@@ -179,6 +179,61 @@ TEST(Unstable, DoesNotMindTheWholeBodyMovingFastWithItsBone) {
   });
 }
 
+// Half of the body has no bone: it is judged by what changes its motion, not by the motion.
+Body half_bound(const Settings& settings, const Points& rest) {
+  Body body = test::make_body(settings, rest);
+  BindOptions options;
+  options.radius = r;
+  options.core_radius = 2 * r;
+  body.binding = bind_to_bones(rest, body.skeleton, options);
+  EXPECT_TRUE(std::any_of(rest.begin(), rest.end(), [&, i = std::size_t(0)](const Vec3&) mutable {
+    return body.binding.bone(i++) == no_bone;
+  }));
+  return body;
+}
+
+TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
+  Settings settings = test::box_scene(25);
+  KeySettings end = test::bend_key(1, 0);
+  end.translation = {30, 0, 0};  // 3 r in each step
+  settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
+  settings.tracks[0].interpolation = Interpolation::linear;
+  const Points rest = test::fcc_box(5, 5, 25, r);
+  const Body body = half_bound(settings, rest);
+  Particles particles = particles_at(rest, r, body.material.mass);
+  for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, {30, 0, 0});
+  for (const NeighbourSearch way : {NeighbourSearch::lists, NeighbourSearch::cells}) {
+    settings.solver.neighbour_search = way;
+    Simulation simulation(body, make_motion(settings, body.skeleton), particles,
+                          stepping_of(settings.solver, 1e-3));
+    EXPECT_NO_THROW({
+      while (simulation.steps() < 200) simulation.step();
+    });
+  }
+}
+
+TEST(Unstable, StopsWhereNoBoneHoldsTheFlesh) {
+  for (const Integrator integrator :
+       {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::explicit_euler})
+    for (const NeighbourSearch way : {NeighbourSearch::lists, NeighbourSearch::cells}) {
+      Settings settings = test::box_scene(25);
+      settings.solver.integrator = integrator;
+      settings.solver.neighbour_search = way;
+      const Points rest = test::fcc_box(9, 9, 25, r);
+      Body body = half_bound(settings, rest);
+      body.springs.assign(body.springs.size(), {});
+      const double step = 1.2 * step_limit(integrator, body.material, body.springs);
+      Simulation simulation(body, make_motion(settings, body.skeleton),
+                            test::shaken(rest, body.material, 0, 1e-6),
+                            stepping_of(settings.solver, step));
+      test::expect_error(Exit::unstable,
+                         [&] {
+                           for (int n = 0; n < 2000; ++n) simulation.step();
+                         },
+                         {"in one step; use solver.time_step"});
+    }
+}
+
 TEST(OpenLoop, SpinsTheBodyThatTheServoHolds) {
   const auto spin = [](TwistForm form) {
     Settings settings = test::box_scene(25);

@@ -13,7 +13,7 @@ struct BoneSums {
   typename L::V power = L::all(0);          ///< that the bones put in
   typename L::V damping_power = L::all(0);  ///< the damping's part of it
   typename L::V energy = L::all(0);         ///< in the springs; only when asked for
-  Triple<L> carried = none<L>();            ///< velocity of the leading bone here
+  Triple<L> carried = none<L>();            ///< velocity of the leading bone here, its own without
 };
 
 /// A particle's numbers in the frame of one bone.
@@ -140,8 +140,13 @@ SINEW_INLINE BoneSums<L> bone_sums(const Step<typename L::Real>& step, std::size
   if (end - begin == 1 && holds.slots[begin].shares < 0) [[likely]]
     return pull_of(begin);
   BoneSums<L> sums;
-  for (std::uint32_t s = begin; s != end; ++s)
-    add<L>(pull_of(s), shares_of<L>(holds, holds.slots[s], lane), sums);
+  typename L::V led = L::all(0);
+  for (std::uint32_t s = begin; s != end; ++s) {
+    const Shares<L> shares = shares_of<L>(holds, holds.slots[s], lane);
+    add<L>(pull_of(s), shares, sums);
+    led = led + shares.lead;
+  }
+  sums.carried = fused<L>(L::all(1) - led, velocity, sums.carried);
   return sums;
 }
 

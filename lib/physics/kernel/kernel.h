@@ -115,7 +115,7 @@ struct Totals {
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
   double fastest;      ///< largest squared speed relative to the carrier
-  bool sound;          ///< none too fast for its leading bone, all values finite
+  bool sound;          ///< none too fast (see most_radii_per_step), all values finite
 };
 
 /// Forces of a probe, by particle.

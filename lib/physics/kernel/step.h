@@ -74,16 +74,11 @@ SINEW_INLINE void watch(const Step<typename L::Real>& step, std::size_t block, i
 }
 
 template <class L>
-SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& drifting,
-                        const Triple<L>& kicked, const Triple<L>& carried, Sums<L>& sums) {
-  const Triple<L> relative = drifting - carried;
+SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& kicked,
+                        const Triple<L>& carried, Sums<L>& sums) {
+  const Triple<L> relative = kicked - carried;
   const typename L::V speed2 = dot<L>(relative, relative);
   sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
-  if (step.drift_first) {  // the velocity after is not in it: zero times what is not finite is no
-                           // number
-    const typename L::V nothing = dot<L>(L::all(0) * kicked, kicked);
-    sums.sound = sums.sound && L::every(L::at_most(nothing, L::all(0)));
-  }
 }
 
 template <class L>
@@ -102,7 +97,7 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& 
   L::store_coord(step.after.x[1] + i, L::moved(here.y, by.y));
   L::store_coord(step.after.x[2] + i, L::moved(here.z, by.z));
   account<L>(step, forces, velocity, lane, sums);
-  guard<L>(step, drifting, kicked, forces.bones.carried, sums);
+  guard<L>(step, kicked, forces.bones.carried, sums);
   watch<L>(step, block, lane, here, drifting, sums);
 }
 

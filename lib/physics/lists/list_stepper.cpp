@@ -279,14 +279,13 @@ Failure ListStepper<Real>::culprit(const Pose& pose) {
   return first.particle < caller_.size() ? first : fastest;
 }
 
-/// To the leading bone, of the velocity with which the particle has been moved.
+/// Of the velocity after the step to the leading bone, or to the velocity before it.
 template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
-  const bool drift_first = stepping_.integrator == Integrator::explicit_euler;
-  const Vec3 velocity = (drift_first ? state_ : next_).velocity(k, measure_);
   const int bone = body_->binding.bone(static_cast<std::size_t>(id_[k + block]));
-  return bone == no_bone ? velocity
-                         : Vec3(velocity - pose[bone].velocity_at(state_.position(k, measure_)));
+  const Vec3 carried = bone == no_bone ? state_.velocity(k, measure_)
+                                       : pose[bone].velocity_at(state_.position(k, measure_));
+  return next_.velocity(k, measure_) - carried;
 }
 
 template <class Real>
