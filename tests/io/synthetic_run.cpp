@@ -123,7 +123,7 @@ Dataset SyntheticRun::particles(Moment moment) const {
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
   return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies,
-                            std::vector<double>(n, 1), world},
+                            std::vector<double>(n, 1), world, std::vector<std::int32_t>(n, 1)},
                            moment);
 }
 
