@@ -44,6 +44,29 @@ std::span<const std::int32_t> CellStepper::broken_bonds() const {
   return solid_->bonds().broken;
 }
 
+void CellStepper::save(SimulationState& state) const {
+  const Particles& now = particles_;
+  state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
+  state.kicked = kicked_;
+  if (!solid_) return;
+  state.rest_length = solid_->bonds().rest_length;
+  state.broken = solid_->bonds().broken;
+}
+
+void CellStepper::restore(const SimulationState& state) {
+  const auto* moving = std::get_if<MovingInDouble>(&state.moving);
+  if (moving == nullptr) throw not_a_state("it is in single precision");
+  check_moving(*moving, particles_.size());
+  if (solid_)
+    solid_->restore(state.rest_length, state.broken);
+  else if (!state.rest_length.empty())
+    throw not_a_state("it has bonds");
+  Particles& now = particles_;
+  now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
+  now.u = moving->v[0], now.v = moving->v[1], now.w = moving->v[2];
+  kicked_ = state.kicked;
+}
+
 Vec3 CellStepper::acceleration(std::size_t i) const {
   return forces_.total(i) / particles_.mass + stepping_.gravity;
 }

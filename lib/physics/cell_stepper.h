@@ -23,6 +23,9 @@ class CellStepper {
   /// Bonds broken so far, by particle; none for a body without bonds.
   std::span<const std::int32_t> broken_bonds() const;
 
+  void save(SimulationState& state) const;
+  void restore(const SimulationState& state);
+
  private:
   void find_forces(const Pose& pose);
   double stored_in_pairs();

@@ -139,6 +139,23 @@ std::span<const std::int32_t> Simulation::broken_bonds() const {
   return cells != nullptr ? cells->broken_bonds() : std::span<const std::int32_t>();
 }
 
+SimulationState Simulation::save() const {
+  SimulationState state;
+  std::visit([&](const auto& stepper) { stepper.save(state); }, stepper_);
+  state.steps = steps_;
+  state.book = book_.entries();
+  return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
+  steps_ = state.steps;
+  book_.restore(state.book);
+  evaluated_ = false;
+  forget_read();
+}
+
 ListCounts Simulation::list_counts() const {
   return std::visit(
       [](const auto& stepper) {

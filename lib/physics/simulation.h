@@ -15,6 +15,7 @@
 #include "core/energies.h"
 #include "core/particles.h"
 #include "core/settings.h"
+#include "core/simulation_state.h"
 #include "physics/cell_stepper.h"
 #include "physics/energy_book.h"
 #include "physics/forces.h"
@@ -54,6 +55,12 @@ class Simulation {
   /// Bonds of each particle that are broken, in the order of the particles; none for the paper's
   /// model, which has no bonds.
   std::span<const std::int32_t> broken_bonds() const;
+
+  /// What is needed to go on later from this moment with the same bits, on any number of threads.
+  SimulationState save() const;
+  /// Goes to that moment of a simulation of the same body, motion and stepping. Throws bad input
+  /// for a state that cannot be one.
+  void restore(const SimulationState& state);
 
   /// How often lists of partners were made; none for cells.
   ListCounts list_counts() const;

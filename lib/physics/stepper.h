@@ -2,12 +2,16 @@
 // What every way of stepping offers the simulation: see list_stepper.h and cell_stepper.h.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
+#include "core/error.h"
 #include "core/particles.h"
 #include "core/settings.h"
+#include "core/simulation_state.h"
 #include "physics/forces.h"
 
 namespace sinew {
@@ -42,6 +46,26 @@ struct Balance {
   double power = 0, lost = 0;               ///< W
   double pair_energy = 0, bone_energy = 0;  ///< J
 };
+
+/// Of a saved state that does not belong to a stepper, or that nothing has saved.
+inline Error not_a_state(const std::string& why) {
+  return bad_input("the saved state does not fit this body: " + why,
+                   "begin again without --resume");
+}
+
+/// Throws bad input unless there are `particles` positions and velocities, all of them finite.
+template <class Coord, class Real>
+void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particles) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (moving.x[axis].size() != particles || moving.v[axis].size() != particles)
+      throw not_a_state("it is of " + std::to_string(moving.x[axis].size()) + " particles, not " +
+                        std::to_string(particles));
+    for (std::size_t k = 0; k < particles; ++k)
+      if (!std::isfinite(static_cast<double>(moving.x[axis][k])) ||
+          !std::isfinite(moving.v[axis][k]))
+        throw not_a_state("particle " + std::to_string(k) + " has a value that is not finite");
+  }
+}
 
 /// How often lists were made, and how long they are.
 struct ListCounts {
