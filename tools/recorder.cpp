@@ -63,22 +63,24 @@ std::vector<std::int32_t> bones_of_particles(const Body& body) {
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
-                   const Body& body, const Triangles& surface)
+                   const Body& body, const Triangles& surface, std::span<const double> kept)
     : skeleton_(body.skeleton),
       rest_(body.rest),
       skin_(make_skin(surface.points, rest_, body.material.pair.r)),
       surface_(surface),
       particle_bone_(bones_of_particles(body)),
       surface_bone_(bones_of_vertices(skin_, particle_bone_)),
-      particles_(folder, format_of(output, "particles", body.material.pair.r)),
-      skins_(folder, format_of(output, "surface", body.material.pair.r)),
-      bones_(folder, format_of(output, "bones", body.material.pair.r)),
-      frames_(folder, format_of(output, "frames", body.material.pair.r)),
+      particles_(folder, format_of(output, "particles", body.material.pair.r), kept),
+      skins_(folder, format_of(output, "surface", body.material.pair.r), kept),
+      bones_(folder, format_of(output, "bones", body.material.pair.r), kept),
+      frames_(folder, format_of(output, "frames", body.material.pair.r), kept),
+      written_(static_cast<int>(kept.size())),
       writer_(moved_.size()) {}
 
 void Recorder::add(Simulation& simulation, double time) {
   writer_.hand([&] {
-    // There is room, so the frame that was here before is written.
+    // There is room, so the frame that was here before is written: one job at most is under way,
+    // the last one.
     Moved& frame = moved_[taken_ % moved_.size()];
     take(simulation, time, frame);
     ++taken_;

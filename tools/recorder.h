@@ -6,6 +6,8 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <functional>
+#include <span>
 
 #include "core/background.h"
 #include "core/settings.h"
@@ -19,13 +21,16 @@ namespace sinew {
 
 class Recorder {
  public:
-  /// `surface`: the body's skin at rest. Throws not written.
+  /// `surface`: the body's skin at rest; `kept`: times (s) of frames that are there already. Throws
+  /// not written, and bad input when one of those is missing.
   Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
-           const Triangles& surface);
+           const Triangles& surface, std::span<const double> kept = {});
 
   /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
   /// not written, of a frame before it too: then nothing more is written.
   void add(Simulation& simulation, double time);
+  /// Does what make() returns once all frames before are written, unless that fails.
+  void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
   /// Waits until all frames are written and named by the PVDs. Throws not written.
   void close();
 

@@ -25,6 +25,7 @@ bool written_by_a_run(const fs::path& relative) {
       "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|"
       "(particles|surface|bones|frames)\\.pvd|"
       "(particles|surface|bones|frames)/\\.?[a-z]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
+      "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?))");
   return std::regex_match(relative.generic_string(), ours);
 }
@@ -32,7 +33,7 @@ bool written_by_a_run(const fs::path& relative) {
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (const char* part : {"", "particles", "surface", "bones", "frames", "pictures"})
+  for (const char* part : {"", "particles", "surface", "bones", "frames", "checkpoint", "pictures"})
     for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
       if (!entry.is_directory(failed) &&
           written_by_a_run(entry.path().lexically_relative(folder.path / "")))

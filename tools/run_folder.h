@@ -15,6 +15,7 @@ struct RunFolder {
   std::filesystem::path record() const { return path / "run.json"; }
   std::filesystem::path log() const { return path / "log.txt"; }
   std::filesystem::path body() const { return path / "body.vtu"; }
+  std::filesystem::path checkpoints() const { return path / "checkpoint"; }
   std::filesystem::path pictures() const { return path / "pictures"; }
 
   /// Whether a run has begun here.

@@ -13,6 +13,7 @@
 #include "recorder.h"
 #include "results.h"
 #include "run_folder.h"
+#include "run_keeper.h"
 #include "run_options.h"
 #include "run_record.h"
 #include "scene_body.h"
@@ -36,7 +37,6 @@ bool may_begin(const RunFolder& folder, const RunOptions& options, const Common&
     say(common, "the run in " + folder.path.string() + " is finished already");
     return false;
   }
-  say(common, "no checkpoint in " + folder.path.string() + ": beginning again");
   return true;
 }
 
@@ -79,22 +79,40 @@ struct Course {
   int frames = 0;  ///< after the first
   int steps_per_frame = 0;
   double interval = 0;  ///< s between frames
+  int there = 0;        ///< frames that are recorded already
+
+  std::vector<double> times_there() const {
+    std::vector<double> times;
+    for (int frame = 0; frame < there; ++frame) times.push_back(frame * interval);
+    return times;
+  }
 };
 
-/// Steps to the end, a frame at a time.
+void save(const Simulation& simulation, RunKeeper& keeper, Recorder& recorder, Journal& journal) {
+  keeper.save(simulation, recorder);
+  journal.checkpoint(simulation.steps());
+}
+
+/// Steps to the end; stops after any step. A checkpoint comes after the frame of its moment.
 Exit step_through(Simulation& simulation, const Course& course, Recorder& recorder,
-                  Journal& journal, Progress& progress) {
+                  Journal& journal, RunKeeper& keeper, Progress& progress) {
   Stopwatch watch;
-  for (int frame = 0;; ++frame) {
-    const double time = frame * course.interval;
-    recorder.add(simulation, time);
-    journal.frame(frame, time);
-    journal.spend("writing", watch.lap());  // what the stepping waited for it
-    progress.frame(frame, time, simulation.steps());
-    if (frame == course.frames) return Exit::done;
-    if (stop_asked()) return Exit::interrupted;
-    for (int step = 0; step < course.steps_per_frame; ++step) simulation.step();
+  for (int frame = course.there;; simulation.step()) {
+    if (simulation.steps() == std::int64_t{frame} * course.steps_per_frame) {
+      const double time = frame * course.interval;
+      journal.spend("stepping", watch.lap());
+      recorder.add(simulation, time);
+      journal.frame(frame, time);
+      journal.spend("writing", watch.lap());  // what the stepping waited for it
+      progress.frame(frame++, time, simulation.steps());
+    }
+    if (frame > course.frames) return Exit::done;
+    const bool stop = stop_asked() || keeper.out_of_time();
+    if (!stop && !keeper.due()) continue;
     journal.spend("stepping", watch.lap());
+    save(simulation, keeper, recorder, journal);
+    journal.spend("writing", watch.lap());
+    if (stop) return Exit::interrupted;
   }
 }
 
@@ -107,10 +125,10 @@ void close(Recorder& recorder, Journal& journal) {
 
 /// Steps through and closes the series; the good frames of an unstable run too.
 Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder, Journal& journal,
-                bool quiet) {
+                RunKeeper& keeper, bool quiet) {
   try {
     Progress progress(course.frames, progress_style(quiet));
-    const Exit exit = step_through(simulation, course, recorder, journal, progress);
+    const Exit exit = step_through(simulation, course, recorder, journal, keeper, progress);
     close(recorder, journal);
     return exit;
   } catch (const Error& error) {
@@ -126,18 +144,24 @@ Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder
 }
 
 Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder, Journal& journal,
-                bool quiet) {
+                RunKeeper& keeper, const std::optional<SimulationState>& state, bool quiet) {
   try {
     Stopwatch watch;
-    write_beginning(settings, made, folder);
+    if (!state) write_beginning(settings, made, folder);
     journal.spend("writing", watch.lap());
-    const Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
+    Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
     Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
     made.body = {};  // millions of numbers that nobody needs any more
-    Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles);
+    if (state) {
+      simulation.restore(*state);
+      course.there = static_cast<int>(state->steps / course.steps_per_frame + 1);
+      journal.frames(course.there);
+    }
+    Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles,
+                      course.times_there());
     simulation.forces();  // finds the first partners: no part of what writing costs
     journal.spend("binding", watch.lap());
-    const Exit exit = record_run(simulation, course, recorder, journal, quiet);
+    const Exit exit = record_run(simulation, course, recorder, journal, keeper, quiet);
     journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
     return exit;
   } catch (const Error& error) {
@@ -160,6 +184,27 @@ void print_results(const RunFolder& folder, const Journal& journal, bool as_json
   results.print(as_json);
 }
 
+/// The words that go on with this run.
+std::string resume_words(const RunOptions& options, const Common& common, const RunFolder& folder) {
+  std::string words = "sinew simulate " + options.scene;
+  for (const Override& one : common.overrides)
+    if (one.path != "solver.wall_time") words += " --set '" + one.path + '=' + one.value + '\'';
+  return words + " -o " + folder.path.string() + " --resume";
+}
+
+/// The state to go on with, when that is asked for and there is one.
+std::optional<SimulationState> state_to_resume(const RunFolder& folder, const RunOptions& options,
+                                               const RunIdentity& run, RunKeeper& keeper,
+                                               const Common& common) {
+  if (!options.resume || !folder.used()) return std::nullopt;
+  std::string complaint;
+  auto state = keeper.resume(run, complaint);
+  if (!complaint.empty()) say(common, "passed over: " + complaint);
+  say(common, state ? "going on from step " + std::to_string(state->steps)
+                    : "no checkpoint in " + folder.path.string() + ": beginning again");
+  return state;
+}
+
 Exit simulate(int argc, char** argv, const RunOptions& options, const Common& common) {
   const Settings settings = read_scene(options.scene, common.overrides);
   const RunFolder folder = run_folder(options.scene, options.folder);
@@ -167,9 +212,15 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
   const FolderLock lock(folder);
   if (!may_begin(folder, options, common)) return Exit::done;
 
+  const std::string resolved = resolved_scene(settings, folder.path);
+  if (options.resume && folder.used()) check_same_scene(folder, resolved);
   Prepared made = prepare(settings, folder);
-  remove_old_run(folder);
-  Journal journal(folder, argc, argv);
+  RunKeeper keeper(folder, settings);
+  const RunIdentity run = identity_of(resolved, made.setup.body.rest, made.setup.steps.step);
+  const auto state = state_to_resume(folder, options, run, keeper, common);
+  if (!state) remove_old_run(folder);
+  keeper.keep_for(run);
+  Journal journal(folder, argc, argv, state.has_value());
   journal.spend("filling", made.seconds_filling);
   journal.spend("binding", made.seconds_binding);
   journal.describe(settings, made.setup);
@@ -178,11 +229,11 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
                   three_digits(made.setup.steps.limit) + " s");
 
   catch_stop_signals();
-  const Exit exit = run_to_end(settings, std::move(made), folder, journal, common.quiet);
+  const Exit exit =
+      run_to_end(settings, std::move(made), folder, journal, keeper, state, common.quiet);
   print_results(folder, journal, common.json);
   if (exit == Exit::interrupted)
-    say(common, "sinew: stopped; go on with: sinew simulate " + options.scene + " -o " +
-                    folder.path.string() + " --resume");
+    say(common, "sinew: stopped; go on with: " + resume_words(options, common, folder));
   return exit;
 }
 

@@ -34,6 +34,15 @@ Error unreadable(const fs::path& path, int error) {
                    "check the path and the permissions");
 }
 
+/// The new name is an entry of its folder, which is written by itself.
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;  // a folder that may be written but not read: there is no more to be done
+  ::fsync(file);
+  ::close(file);
+}
+
 void close_file(const int* file) { ::close(*file); }
 
 }  // namespace
@@ -65,11 +74,13 @@ void NewFile::write(const void* bytes, std::size_t count) {
   }
 }
 
-void NewFile::finish() {
+void NewFile::finish(Durability durability) {
+  if (durability == Durability::synced && ::fsync(file_) != 0) throw refused(path_, errno);
   // The close itself may report that the data did not arrive (network file systems).
   if (::close(std::exchange(file_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw refused(path_, errno);
   temporary_.clear();
+  if (durability == Durability::synced) sync_folder_of(path_);
 }
 
 void write_file(const fs::path& path, std::string_view text) {

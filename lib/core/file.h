@@ -11,6 +11,9 @@
 
 namespace sinew {
 
+/// Whether a finished file is there even after the machine's power fails.
+enum class Durability { cached, synced };
+
 /// A file in the making. What is not finished disappears.
 class NewFile {
  public:
@@ -23,7 +26,8 @@ class NewFile {
   /// Where to write: by write(), or by others under this name.
   const std::filesystem::path& temporary() const { return temporary_; }
   void write(const void* bytes, std::size_t count);  ///< throws not written
-  void finish();                                     ///< puts it in place; throws not written
+  /// Puts it in place. Throws not written.
+  void finish(Durability durability = Durability::cached);
 
  private:
   std::filesystem::path path_, temporary_;

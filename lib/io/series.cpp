@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <regex>
+#include <set>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -23,23 +24,41 @@ std::string frame_name(const std::string& series, std::size_t number) {
 }
 
 /// Only files that a series of this name writes: what else lies there is not ours to remove.
-void remove_older(const fs::path& folder, const std::string& series) {
+void remove_older(const fs::path& folder, const std::string& series,
+                  const std::vector<PvdRow>& kept) {
   const std::regex ours("\\.?" + series + "_[0-9]{6,}\\.vtu(\\.tmp)?");
-  fs::remove(folder / (series + ".pvd"));
+  std::set<std::string> stay;
+  for (const PvdRow& row : kept) stay.insert(fs::path(row.file).filename().string());
+  if (kept.empty()) fs::remove(folder / (series + ".pvd"));
   for (const auto& entry : fs::directory_iterator(folder / series))
-    if (std::regex_match(entry.path().filename().string(), ours)) fs::remove(entry.path());
+    if (const std::string name = entry.path().filename().string();
+        std::regex_match(name, ours) && !stay.contains(name))
+      fs::remove(entry.path());
 }
 
 }  // namespace
 
-Series::Series(fs::path folder, VtuFormat format)
+Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
     : folder_(std::move(folder)), format_(std::move(format)) {
+  keep(kept);
   try {
     fs::create_directories(folder_ / format_.series);
-    remove_older(folder_, format_.series);
+    // The PVD loses its rows first: at no time it names a file that is not there.
+    if (!rows_.empty()) write_pvd();
+    remove_older(folder_, format_.series, rows_);
   } catch (const fs::filesystem_error& error) {
     throw not_written((folder_ / format_.series).string(), error.code().message(),
                       "choose a place you may write to");
+  }
+}
+
+void Series::keep(std::span<const double> times) {
+  for (const double time : times) {
+    rows_.push_back({time, frame_name(format_.series, rows_.size())});
+    const fs::path file = folder_ / rows_.back().file;
+    if (!fs::exists(file))
+      throw bad_input({file.string()}, "is missing, and the run cannot go on without it",
+                      "begin again with --force");
   }
 }
 

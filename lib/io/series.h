@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ class Series {
  public:
   /// Starts the series format.series in `folder`, which is created; an older one is removed. Throws
   /// not written.
-  Series(std::filesystem::path folder, VtuFormat format);
+  /// But for its first frames, those at `kept` (s), which are there already: it goes on after them.
+  /// Throws bad input when one is missing.
+  Series(std::filesystem::path folder, VtuFormat format, std::span<const double> kept = {});
   /// Closes, without a word if that fails: call close() to hear of it.
   ~Series();
   Series(const Series&) = delete;
@@ -43,6 +46,7 @@ class Series {
   const std::vector<PvdRow>& rows() const { return rows_; }
 
  private:
+  void keep(std::span<const double> times);
   void write_pvd();
 
   std::filesystem::path folder_;

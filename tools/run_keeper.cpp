@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_keeper.h"
+
+#include <memory>
+#include <sstream>
+
+#include "command.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/number_text.h"
+
+namespace sinew {
+namespace {
+
+/// Lines of a resolved scene that say something of the results, without their comments.
+std::vector<std::string> deciding_lines(const std::string& resolved) {
+  std::vector<std::string> lines;
+  std::istringstream text(resolved);
+  for (std::string line; std::getline(text, line);) {
+    line = line.substr(0, line.find("  # "));
+    if (!line.starts_with("  checkpoint_interval:") && !line.starts_with("  wall_time:"))
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string trimmed(const std::string& line) {
+  const auto first = line.find_first_not_of(' ');
+  return first == std::string::npos ? "nothing" : line.substr(first);
+}
+
+Error another_run(const std::string& what) {
+  return bad_input("--resume goes on with the same run only: " + what,
+                   "give what the run began with, or replace the run with --force");
+}
+
+}  // namespace
+
+void check_same_scene(const RunFolder& folder, const std::string& resolved) {
+  if (!std::filesystem::exists(folder.scene())) return;
+  const auto there = deciding_lines(read_file(folder.scene())), here = deciding_lines(resolved);
+  for (std::size_t i = 0; i < std::max(there.size(), here.size()); ++i) {
+    const std::string before = i < there.size() ? there[i] : "",
+                      now = i < here.size() ? here[i] : "";
+    if (before != now)
+      throw another_run("it has '" + trimmed(before) + "' where the scene has '" + trimmed(now) +
+                        "'");
+  }
+}
+
+RunIdentity identity_of(const std::string& resolved, const Points& rest, double time_step) {
+  Hash scene, body;
+  for (const std::string& line : deciding_lines(resolved)) scene.add(line + '\n');
+  for (const Vec3& point : rest) body.add(point.data(), 3 * sizeof(double));
+  return {version(), scene.value(), body.value(), rest.size(), time_step};
+}
+
+RunKeeper::RunKeeper(const RunFolder& folder, const Settings& settings)
+    : checkpoints_(folder.checkpoints()),
+      interval_(settings.output.checkpoint_interval),
+      limit_(settings.solver.wall_time) {}
+
+std::optional<SimulationState> RunKeeper::resume(const RunIdentity& run, std::string& complaint) {
+  auto found = checkpoints_.newest(run.particles, complaint);
+  if (!found) return std::nullopt;
+  const RunIdentity& was = found->run;
+  if (was.program != run.program)
+    throw another_run("it is of sinew " + was.program + ", this is " + run.program);
+  if (was.time_step != run.time_step)
+    throw another_run("its step is " + number_text(was.time_step) + " s, not " +
+                      number_text(run.time_step) + " s");
+  if (was.body != run.body) throw another_run("its body is another");
+  if (was.scene != run.scene) throw another_run("its scene is another");
+  return std::move(found->state);
+}
+
+void RunKeeper::save(const Simulation& simulation, Recorder& recorder) {
+  recorder.then([&]() -> Background::Job {
+    auto checkpoint = std::make_shared<const Checkpoint>(Checkpoint{run_, simulation.save()});
+    return [this, checkpoint] { checkpoints_.write(*checkpoint); };
+  });
+  since_ = Stopwatch();
+}
+
+}  // namespace sinew
