@@ -222,6 +222,55 @@ class Commands(unittest.TestCase):
         self.assert_one_line(sinew("measure", self.out, "--fail-on", "volume_eror > 1"), 2,
                              "volume_error")
 
+    def everything(self, folder):
+        return {file.relative_to(folder): file.read_bytes() for name in SERIES
+                for file in [*(folder / name).iterdir(), folder / f"{name}.pvd"]}
+
+    def assert_same_as_unbroken(self, *words):
+        whole = self.folder / "whole"
+        sinew("simulate", self.scene, "-o", whole, *words, check=0)
+        self.assertEqual(self.record()["state_hash"], self.record(whole)["state_hash"])
+        self.assertEqual(self.everything(self.out), self.everything(whole))
+
+    def test_wall_time_stops_a_run_that_resumes_with_the_same_bits(self):
+        words = ["--set", "solver.precision=single", "--set", "solver.duration=2"]
+        done = self.simulate(*words, "--set", "solver.wall_time=0.05", check=130)
+        self.assertIn("--resume", done.stderr)
+        self.assertEqual(self.record()["status"], "stopped")
+        self.assert_series_are_whole(self.record()["frames"])
+        self.assertIn("going on from step", self.simulate("--resume", "--threads", 1, *words).stderr)
+        self.assertEqual((self.record()["status"], self.record()["resumed"]), ("finished", 1))
+        self.assert_same_as_unbroken(*words)
+
+    def test_another_scene_or_a_broken_checkpoint_is_not_resumed(self):
+        self.simulate("--set", "solver.wall_time=0.01", "--set", "solver.duration=2", check=130)
+        done = self.simulate("--resume", "--set", "solver.duration=3", check=2)
+        self.assert_one_line(done, 2, "duration: 2", "duration: 3")
+        for file in (self.out / "checkpoint").iterdir():
+            file.write_bytes(file.read_bytes()[:-1])
+        self.assert_one_line(self.simulate("--resume", "--set", "solver.duration=2", check=2), 2, "torn")
+        self.simulate("--force", "--set", "solver.duration=0")
+        self.assertEqual(list((self.out / "checkpoint").iterdir()), [])
+
+    def test_run_whose_disk_was_full_resumes_when_there_is_space(self):
+        words = ["--set", "body.radius=0.012", "--set", "output.checkpoint_interval=0"]
+        whole = self.folder / "sizes"
+        sinew("simulate", self.scene, "-o", whole, *words, check=0)
+        sizes = sorted(file.stat().st_size for file in (whole / "particles").glob("*.vtu"))
+        limit = max(sizes[1], (whole / "checkpoint/a.bin").stat().st_size + 1000)
+        self.assertLess(limit, sizes[-1])
+        limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        done = sinew("simulate", self.scene, "-o", self.out, *words, preexec_fn=limited,
+                     restore_signals=False)
+        self.assert_one_line(done, 4, "cannot be written")
+        self.assertIn("going on from step", self.simulate("--resume", *words).stderr)
+        self.assert_same_as_unbroken(*words)
+
+    def test_killed_at_any_moment_loses_nothing_but_time(self):
+        done = subprocess.run([sys.executable, SOURCE / "tests/campaigns/kill.py", BIN, SOURCE,
+                               "--kills", "10"], capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_interrupt_finishes_the_frame_and_says_how_to_go_on(self):
         for name in [signal.SIGINT, signal.SIGTERM]:
             self.out = self.folder / name.name
