@@ -135,7 +135,7 @@ TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {
   const std::size_t at = bytes.find("order") + 16;
   const std::uint64_t huge = UINT64_MAX / 2;
   std::memcpy(bytes.data() + at, &huge, 8);
-  expect_refused(resealed(bytes), {"'order' is torn"});
+  expect_refused(resealed(bytes), {"section is torn"});
 }
 
 TEST_F(CheckpointFile, InTurnLeavesTheOlderOneWhole) {
