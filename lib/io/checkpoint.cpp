@@ -85,8 +85,16 @@ class Writer {
     put(&value, sizeof value);
   }
   void put(const void* bytes, std::size_t count) {
-    file_.write(bytes, count);
     hash_.add(bytes, count);
+    if (pending_.size() + count > most_pending) flush();
+    if (count > most_pending)
+      file_.write(bytes, count);
+    else
+      pending_.append(static_cast<const char*>(bytes), count);
+  }
+  void flush() {
+    file_.write(pending_.data(), pending_.size());
+    pending_.clear();
   }
   std::uint64_t hash() const { return hash_.value(); }
 
@@ -110,7 +118,10 @@ class Writer {
     put(first, count * sizeof(Element));
   }
 
+  static constexpr std::size_t most_pending = 1 << 16;
+
   NewFile& file_;
+  std::string pending_;
   Hash hash_;
 };
 
@@ -262,6 +273,7 @@ void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   walk(checkpoint, writer);
   const std::uint64_t hash = writer.hash();
   writer.put(hash);
+  writer.flush();
   file.finish(Durability::synced);
 }
 

@@ -26,8 +26,8 @@ class Campaign:
         self.arguments, self.folder = arguments, folder
 
     def run(self, name, way):
-        return Run(self.arguments.bin, self.arguments.source, self.folder, name, way, duration=0.3,
-                   checkpoints=0.01)
+        return Run(self.arguments.bin, self.arguments.source, self.folder, name, way, duration=0.1,
+                   checkpoints=0)  # after each step: not by the clock, so that runs ask alike
 
     def on_full_disk(self, run, full_at, once=False):
         environment = dict(os.environ, LD_PRELOAD=str(self.arguments.shim), SINEW_DISK=str(run.out),
@@ -47,7 +47,7 @@ class Campaign:
         run, where = self.run("full", way), (way, number, "once" if once else "for ever")
         done = self.on_full_disk(run, number, once)
         errors = [line for line in done.stderr.splitlines() if line.startswith("sinew: ")]
-        if done.returncode == 0:  # checkpoints come by the clock: this run had fewer requests
+        if done.returncode == 0:  # threads share their requests in another way each time
             assert int((self.folder / "requests").read_text()) < number, where
         else:
             assert done.returncode == 4 and len(errors) == 1, (where, done.returncode, done.stderr)
