@@ -97,9 +97,9 @@ World surrounded(const std::string& name, Integrator integrator) {
   sinew::World around;
   Obstacle wall;
   wall.name = "wall";
-  wall.shape = PlaneShape{{-4.5 * r, 0, 0}, {1, 0, 0}};
+  wall.shape = PlaneShape{{-5.4 * r, 0, 0}, {1, 0, 0}};
   wall.motion = [](double time, const Pose&) {
-    return ObstaclePose{{{0.3 * time, 0, 0}, Mat3::Identity()}, {0.3, 0, 0}, Vec3::Zero()};
+    return ObstaclePose{{{0.005 * time, 0, 0}, Mat3::Identity()}, {0.005, 0, 0}, Vec3::Zero()};
   };
   wall.stiffness = material.pair.contact_stiffness();
   wall.damping = 0.5 * std::sqrt(wall.stiffness * material.mass);
@@ -118,7 +118,7 @@ World surrounded(const std::string& name, Integrator integrator) {
   muscle.shares = shares_in({}, world.rest);
   around.muscles = make_muscles(world.rest, r, {muscle});
   world.around = std::make_shared<const sinew::World>(around);
-  world.factor = 0.3;
+  world.factor = 0.2;
   return world;
 }
 

@@ -173,7 +173,7 @@ TEST(Unstable, StaysWhereItWasAndTellsWhoFailed) {
       EXPECT_EQ(lost.moved, 0);
       EXPECT_EQ(fast.particle, 9u);
       EXPECT_TRUE(fast.finite);
-      EXPECT_NEAR(fast.moved, 1, 1e-6);
+      EXPECT_NEAR(fast.moved, 1, 1e-3);  // its bone holds it back
       for (std::size_t i = 0; i < rest.size(); ++i)
         EXPECT_LT((simulation.particles().position(i) - rest[i]).norm(), 1e-6 * r);
     }
