@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -108,6 +109,8 @@ int tell(Exit exit, std::string message) {
 }  // namespace
 
 int run_told(const std::function<Exit()>& job) {
+  // A file that may not grow any more is an error of its write, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return static_cast<int>(job());
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "physics/solid/solid.h"
 #include "step_way.h"
 
 namespace sinew {
@@ -18,6 +19,8 @@ constexpr double reals_per_particle = 23, wholes_per_particle = 6;
 constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
+// Positions, velocities and order of three checkpoints, one of them in the making; and their bonds.
+constexpr double checkpoints_per_particle = 3 * 52, bonds_per_particle = 3 * (12 * 8 + 4);
 constexpr double exported_per_point = 12;        // bytes in surface.pc2
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 // Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
@@ -51,9 +54,12 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const double coded =
       raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
   const double exported = output.export_surface ? points * exported_per_point : 0;
+  const bool bonds = remembers_neighbours(setup.body.material);
+  const double checkpoints =
+      particles * (checkpoints_per_particle + (bonds ? bonds_per_particle : 0));
   Needs needs;
-  needs.disk =
-      static_cast<std::uint64_t>((coded + exported + bytes_per_frame_beside) * (setup.frames + 1));
+  needs.disk = static_cast<std::uint64_t>(
+      (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
   const StepWay way = step_way(settings.solver, setup.body, setup.motion);
   needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
                                             points * memory_per_point + memory_beside);

@@ -11,7 +11,7 @@
 namespace sinew {
 
 struct Needs {
-  std::uint64_t disk = 0;    ///< bytes of all frames
+  std::uint64_t disk = 0;    ///< bytes of all frames and checkpoints
   std::uint64_t memory = 0;  ///< bytes while stepping
 };
 

@@ -50,14 +50,25 @@ Json lists_of(const ListCounts& counts) {
           {"strays", counts.strays}};
 }
 
+/// Keeps what a run that is resumed has spent and when it began.
+void go_on_from(const Json& before, Json& record) {
+  for (const char* key : {"started", "seconds"})
+    if (before.contains(key)) record[key] = before[key];
+  const auto times = before.find("resumed");
+  record["resumed"] = 1 + (times != before.end() && times->is_number() ? times->get<int>() : 0);
+}
+
 }  // namespace
 
-Journal::Journal(const RunFolder& folder, int argc, char** argv)
+Journal::Journal(const RunFolder& folder, int argc, char** argv, bool resumed)
     : folder_(folder), record_(begin_record(argc, argv)) {
   record_["seconds"] = Json::object();
+  record_["resumed"] = 0;
+  if (resumed) go_on_from(read_record(folder), record_);
   write_record(folder_, record_);
   try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), true);
+    auto sink =
+        std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !resumed);
     log_ = std::make_shared<spdlog::logger>("run", std::move(sink));
   } catch (const spdlog::spdlog_ex& error) {
     throw not_written(folder.log().string(), error.what(), "choose another folder with -o");
@@ -114,6 +125,12 @@ void Journal::describe(const StepWay& way) {
 
 void Journal::spend(const std::string& stage, double seconds) {
   record_["seconds"][stage] = record_["seconds"].value(stage, 0.0) + seconds;
+}
+
+void Journal::checkpoint(std::int64_t steps) {
+  record_["steps"] = steps;
+  write_record(folder_, record_);
+  log("checkpoint at step " + std::to_string(steps));
 }
 
 void Journal::frame(int frame, double time) {

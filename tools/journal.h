@@ -20,7 +20,8 @@ namespace sinew {
 class Journal {
  public:
   /// Begins both files, status "running". Throws not written.
-  Journal(const RunFolder& folder, int argc, char** argv);
+  /// A run that is resumed goes on with what they hold.
+  Journal(const RunFolder& folder, int argc, char** argv, bool resumed = false);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -29,6 +30,8 @@ class Journal {
 
   /// Adds to the seconds of a stage.
   void spend(const std::string& stage, double seconds);
+  /// Writes run.json as far as the run has come. Throws not written.
+  void checkpoint(std::int64_t steps);
   void frame(int frame, double time);
   /// How many frames there are, where a failure has left fewer than were begun.
   void frames(int written);

@@ -95,7 +95,8 @@ std::vector<double> weights_of_particles(const Body& body) {
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
-                   const Body& body, const Triangles& surface, std::vector<Triangles> obstacles)
+                   const Body& body, const Triangles& surface, std::vector<Triangles> obstacles,
+                   std::span<const double> kept)
     : skeleton_(body.skeleton),
       rest_(body.rest),
       skin_(make_skin(surface.points, rest_, body.material.pair.r, body.skeleton, body.binding)),
@@ -104,37 +105,39 @@ Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& ou
       surface_bone_(bones_of_vertices(skin_, particle_bone_)),
       obstacles_(std::move(obstacles)),
       particle_weight_(weights_of_particles(body)),
-      particles_(folder, format_of(output, "particles", body.material.pair.r)),
-      skins_(folder, format_of(output, "surface", body.material.pair.r)),
-      bones_(folder, format_of(output, "bones", body.material.pair.r)),
-      frames_(folder, format_of(output, "frames", body.material.pair.r)),
-      bone_table_(folder / "bones.csv"),
+      particles_(folder, format_of(output, "particles", body.material.pair.r), kept),
+      skins_(folder, format_of(output, "surface", body.material.pair.r), kept),
+      bones_(folder, format_of(output, "bones", body.material.pair.r), kept),
+      frames_(folder, format_of(output, "frames", body.material.pair.r), kept),
+      bone_table_(folder / "bones.csv", body.skeleton.size(), kept.size()),
+      written_(static_cast<int>(kept.size())),
       writer_(moved_.size()) {
   if (!obstacles_.empty())
-    obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r));
-  begin_skinned(folder, output, body);
-  if (output.export_surface) begin_export(folder);
+    obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
+  begin_skinned(folder, output, body, kept);
+  if (output.export_surface) begin_export(folder, kept.size());
 }
 
 void Recorder::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
-                             const Body& body) {
+                             const Body& body, std::span<const double> kept) {
   if (output.skin_lbs || output.skin_dqs) vertex_weights_ = weights_of_vertices(body, skin_.rest);
   const auto begin = [&](auto* method, const char* name) {
-    skinned_.push_back(
-        {method, std::make_unique<Series>(folder, format_of(output, name, body.material.pair.r))});
+    skinned_.push_back({method, std::make_unique<Series>(
+                                    folder, format_of(output, name, body.material.pair.r), kept)});
   };
   if (output.skin_lbs) begin(linear_blend_skinned, "skin_lbs");
   if (output.skin_dqs) begin(dual_quaternion_skinned, "skin_dqs");
 }
 
-void Recorder::begin_export(const std::filesystem::path& folder) {
+void Recorder::begin_export(const std::filesystem::path& folder, std::size_t kept) {
   write_obj(folder / "surface.obj", surface_);
-  export_ = std::make_unique<PointCache>(folder / "surface.pc2", skin_.rest.size());
+  export_ = std::make_unique<PointCache>(folder / "surface.pc2", skin_.rest.size(), kept);
 }
 
 void Recorder::add(Simulation& simulation, double time) {
   writer_.hand([&] {
-    // There is room, so the frame that was here before is written.
+    // There is room, so the frame that was here before is written: one job at most is under way,
+    // the last one.
     Moved& frame = moved_[taken_ % moved_.size()];
     take(simulation, time, frame);
     ++taken_;

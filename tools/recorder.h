@@ -7,8 +7,10 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/background.h"
@@ -27,14 +29,18 @@ namespace sinew {
 
 class Recorder {
  public:
-  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame.
-  /// Throws not written.
+  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame;
+  /// `kept`: times (s) of frames that are there already. Throws not written, and bad input when one
+  /// of those is missing.
   Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
-           const Triangles& surface, std::vector<Triangles> obstacles);
+           const Triangles& surface, std::vector<Triangles> obstacles,
+           std::span<const double> kept = {});
 
   /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
   /// not written, of a frame before it too: then nothing more is written.
   void add(Simulation& simulation, double time);
+  /// Does what make() returns once all frames before are written, unless that fails.
+  void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
   /// Waits until all frames are written and named by the PVDs. Throws not written.
   void close();
 
@@ -62,8 +68,8 @@ class Recorder {
   };
 
   void begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
-                     const Body& body);
-  void begin_export(const std::filesystem::path& folder);
+                     const Body& body, std::span<const double> kept);
+  void begin_export(const std::filesystem::path& folder, std::size_t kept);
   void write_surfaces(const Moved& frame, const Points& particles);
   static void take(Simulation& simulation, double time, Moved& frame);
   void write(const Moved& frame);

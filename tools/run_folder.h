@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <system_error>
 
 namespace sinew {
@@ -14,13 +15,17 @@ struct RunFolder {
   std::filesystem::path scene() const { return path / "scene.yaml"; }
   std::filesystem::path record() const { return path / "run.json"; }
   std::filesystem::path log() const { return path / "log.txt"; }
+  std::filesystem::path old_record() const { return path / ".run.json.old"; }
+  std::filesystem::path blowup() const { return path / "blowup.vtu"; }
   std::filesystem::path body() const { return path / "body.vtu"; }
+  std::filesystem::path checkpoints() const { return path / "checkpoint"; }
   std::filesystem::path pictures() const { return path / "pictures"; }
 
   /// Whether a run has begun here.
   bool used() const {
     std::error_code unreachable;
-    return std::filesystem::exists(record(), unreachable);
+    return std::filesystem::exists(record(), unreachable) ||
+           std::filesystem::exists(old_record(), unreachable);
   }
 };
 
@@ -31,6 +36,7 @@ RunFolder run_folder(const std::filesystem::path& scene, const std::filesystem::
 void create(const RunFolder& folder);
 
 /// Removes what an older run has left, and nothing else; the body stays, it may fit the scene.
+/// Killed on the way it leaves a folder that can be used again in the same way. Throws not written.
 void remove_old_run(const RunFolder& folder);
 
 /// Throws bad input when the folder, which no run has used, holds a file that a run would replace.
@@ -40,16 +46,22 @@ void refuse_foreign_files(const RunFolder& folder);
 std::uint64_t size_of_old_run(const RunFolder& folder);
 
 /// Held while a run works in its folder; the kernel lets go of it however the program ends.
+/// DIR/.lock names the process that holds it.
 class FolderLock {
  public:
-  /// Throws bad input when another process holds it, not written when it cannot be made.
+  /// Throws bad input, naming the process, when another one holds it, not written when it cannot be
+  /// made.
   explicit FolderLock(const RunFolder& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  /// The process that held it before and ended without letting go; "" for none.
+  const std::string& left_by() const { return left_by_; }
+
  private:
   int file_ = -1;
+  std::string left_by_;
 };
 
 }  // namespace sinew

@@ -10,6 +10,7 @@ namespace sinew {
 struct RunOptions {
   std::string scene, folder;
   bool force = false, resume = false;
+  std::string asked_of = "simulate";  ///< what the user called, and calls to go on
 };
 
 inline void declare(CLI::App& app, RunOptions& options) {
@@ -18,6 +19,7 @@ inline void declare(CLI::App& app, RunOptions& options) {
       ->type_name("DIR");
   auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
   app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
+  app.add_option("--asked-of", options.asked_of)->group("");  // hidden: run says it to simulate
 }
 
 }  // namespace sinew

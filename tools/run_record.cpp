@@ -41,7 +41,10 @@ nlohmann::ordered_json read_record(const RunFolder& folder) {
 }
 
 void write_record(const RunFolder& folder, const nlohmann::ordered_json& record) {
-  write_file(folder.record(), record.dump(2) + '\n');
+  const std::string text = record.dump(2) + '\n';
+  NewFile file(folder.record());
+  file.write(text.data(), text.size());
+  file.finish(Durability::synced);
 }
 
 void record_stage(const RunFolder& folder, const std::string& stage, double seconds) {
@@ -58,7 +61,8 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
 }
 
 std::string status_of(const RunFolder& folder) {
-  if (!folder.used()) return "";
+  std::error_code unreachable;
+  if (!std::filesystem::exists(folder.record(), unreachable)) return "";
   const auto record = read_record(folder);
   const auto status = record.find("status");
   return status != record.end() && status->is_string() ? status->get<std::string>() : "";

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-simulate: moves the bones of a scene and writes what the body does.
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
 #include "command.h"
 #include "config/resolved.h"
 #include "config/scene.h"
@@ -7,12 +11,14 @@
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "estimate.h"
+#include "io/blowup.h"
 #include "io/view_script.h"
 #include "journal.h"
 #include "progress.h"
 #include "recorder.h"
 #include "results.h"
 #include "run_folder.h"
+#include "run_keeper.h"
 #include "run_options.h"
 #include "run_record.h"
 #include "scene_body.h"
@@ -36,7 +42,6 @@ bool may_begin(const RunFolder& folder, const RunOptions& options, const Common&
     say(common, "the run in " + folder.path.string() + " is finished already");
     return false;
   }
-  say(common, "no checkpoint in " + folder.path.string() + ": beginning again");
   return true;
 }
 
@@ -80,22 +85,42 @@ struct Course {
   int frames = 0;  ///< after the first
   int steps_per_frame = 0;
   double interval = 0;  ///< s between frames
+  int there = 0;        ///< frames that are recorded already
+
+  std::vector<double> times_there() const {
+    std::vector<double> times;
+    for (int frame = 0; frame < there; ++frame) times.push_back(frame * interval);
+    return times;
+  }
 };
 
-/// Steps to the end, a frame at a time.
+void save(const Simulation& simulation, RunKeeper& keeper, Recorder& recorder, Journal& journal) {
+  keeper.save(simulation, recorder);
+  journal.checkpoint(simulation.steps());
+}
+
+/// Steps to the end; stops after any step. A checkpoint comes after the frame of its moment.
 Exit step_through(Simulation& simulation, const Course& course, Recorder& recorder,
-                  Journal& journal, Progress& progress) {
+                  Journal& journal, RunKeeper& keeper, Progress& progress) {
   Stopwatch watch;
-  for (int frame = 0;; ++frame) {
-    const double time = frame * course.interval;
-    recorder.add(simulation, time);
-    journal.frame(frame, time);
-    journal.spend("writing", watch.lap());  // what the stepping waited for it
-    progress.frame(frame, time, simulation.steps());
-    if (frame == course.frames) return Exit::done;
-    if (stop_asked()) return Exit::interrupted;
-    for (int step = 0; step < course.steps_per_frame; ++step) simulation.step();
+  const std::int64_t begun = simulation.steps();
+  for (int frame = course.there;; simulation.step()) {
+    if (simulation.steps() == std::int64_t{frame} * course.steps_per_frame) {
+      const double time = frame * course.interval;
+      journal.spend("stepping", watch.lap());
+      recorder.add(simulation, time);
+      journal.frame(frame, time);
+      journal.spend("writing", watch.lap());  // what the stepping waited for it
+      progress.frame(frame++, time, simulation.steps());
+    }
+    if (frame > course.frames) return Exit::done;
+    // However little time there is, a run that is resumed again and again comes to its end.
+    const bool stop = stop_asked() || (keeper.out_of_time() && simulation.steps() > begun);
+    if (!stop && !keeper.due()) continue;
     journal.spend("stepping", watch.lap());
+    save(simulation, keeper, recorder, journal);
+    journal.spend("writing", watch.lap());
+    if (stop) return Exit::interrupted;
   }
 }
 
@@ -106,12 +131,28 @@ void close(Recorder& recorder, Journal& journal) {
   journal.spend("writing", watch.lap());
 }
 
+/// The last sound state of an unstable run, with those who failed after it.
+void write_last_state(const Simulation& simulation, const std::filesystem::path& path) {
+  const Body& body = simulation.body();
+  const Particles& before = simulation.particles();
+  std::vector<Offence> offence(before.size(), Offence::none);
+  std::vector<double> moved(before.size());
+  for (const Offender& one : simulation.offenders()) {
+    const auto id = static_cast<std::size_t>(before.id[one.particle]);
+    offence[id] = one.finite ? Offence::too_fast : Offence::not_finite;
+    moved[id] = one.moved / before.radius;
+  }
+  const auto bone = bones_of_particles(body);
+  write_blowup(path, {before, body.rest, bone, offence, moved},
+               {simulation.time(), static_cast<std::int32_t>(simulation.steps())});
+}
+
 /// Steps through and closes the series; the good frames of an unstable run too.
 Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder, Journal& journal,
-                bool quiet) {
+                RunKeeper& keeper, const RunFolder& folder, const Common& common) {
   try {
-    Progress progress(course.frames, progress_style(quiet));
-    const Exit exit = step_through(simulation, course, recorder, journal, progress);
+    Progress progress(course.frames, progress_style(common.quiet));
+    const Exit exit = step_through(simulation, course, recorder, journal, keeper, progress);
     close(recorder, journal);
     return exit;
   } catch (const Error& error) {
@@ -119,6 +160,8 @@ Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder
     if (error.exit() != Exit::unstable) throw;
     close(recorder, journal);
     journal.frames(recorder.written());
+    write_last_state(simulation, folder.blowup());
+    say(common, "the body before the step that failed is in " + folder.blowup().string());
     throw;
   } catch (...) {
     journal.frames(recorder.written());
@@ -127,20 +170,26 @@ Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder
 }
 
 Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder, Journal& journal,
-                bool quiet) {
+                RunKeeper& keeper, const std::optional<SimulationState>& state,
+                const Common& common) {
   try {
     Stopwatch watch;
-    write_beginning(settings, made, folder);
+    if (!state) write_beginning(settings, made, folder);
     journal.spend("writing", watch.lap());
-    const Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
+    Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
     std::vector<Triangles> obstacles = std::move(made.setup.obstacles);
     Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
     made.body = {};  // millions of numbers that nobody needs any more
+    if (state) {
+      simulation.restore(*state);
+      course.there = static_cast<int>(state->steps / course.steps_per_frame + 1);
+      journal.frames(course.there);
+    }
     Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles,
-                      std::move(obstacles));
+                      std::move(obstacles), course.times_there());
     simulation.forces();  // finds the first partners: no part of what writing costs
     journal.spend("binding", watch.lap());
-    const Exit exit = record_run(simulation, course, recorder, journal, quiet);
+    const Exit exit = record_run(simulation, course, recorder, journal, keeper, folder, common);
     journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
     return exit;
   } catch (const Error& error) {
@@ -163,16 +212,54 @@ void print_results(const RunFolder& folder, const Journal& journal, bool as_json
   results.print(as_json);
 }
 
+/// As a shell takes it for one word.
+std::string shell_word(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_./=,:+-", c); };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + '\'';
+}
+
+/// The command that goes on with this run.
+std::string resume_words(const RunOptions& options, const Common& common, const RunFolder& folder) {
+  std::string words = "sinew " + options.asked_of + ' ' + shell_word(options.scene);
+  for (const Override& one : common.overrides)
+    if (one.path != "solver.wall_time") words += " --set " + shell_word(one.path + '=' + one.value);
+  return words + " -o " + shell_word(folder.path.string()) + " --resume";
+}
+
+/// The state to go on with, when that is asked for and there is one.
+std::optional<SimulationState> state_to_resume(const RunFolder& folder, const RunOptions& options,
+                                               const RunIdentity& run, RunKeeper& keeper,
+                                               const Common& common) {
+  if (!options.resume || !folder.used()) return std::nullopt;
+  std::string complaint;
+  auto state = keeper.resume(run, complaint);
+  if (!complaint.empty()) say(common, "passed over: " + complaint);
+  say(common, state ? "going on from step " + std::to_string(state->steps)
+                    : "no checkpoint in " + folder.path.string() + ": beginning again");
+  return state;
+}
+
 Exit simulate(int argc, char** argv, const RunOptions& options, const Common& common) {
   const Settings settings = read_scene(options.scene, common.overrides);
   const RunFolder folder = run_folder(options.scene, options.folder);
   create(folder);
   const FolderLock lock(folder);
+  if (!lock.left_by().empty())
+    say(common, "taking over from " + lock.left_by() + ", which ended without a word");
   if (!may_begin(folder, options, common)) return Exit::done;
 
+  const std::string resolved = resolved_scene(settings, folder.path);
+  if (options.resume && folder.used()) check_same_scene(folder, resolved);
   Prepared made = prepare(settings, folder);
-  remove_old_run(folder);
-  Journal journal(folder, argc, argv);
+  RunKeeper keeper(folder, settings);
+  const RunIdentity run = identity_of(resolved, made.setup, made.surface.triangles);
+  const auto state = state_to_resume(folder, options, run, keeper, common);
+  if (!state) remove_old_run(folder);
+  keeper.keep_for(run);
+  Journal journal(folder, argc, argv, state.has_value());
   journal.spend("filling", made.seconds_filling);
   journal.spend("binding", made.seconds_binding);
   journal.describe(settings, made.setup);
@@ -181,11 +268,10 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
                   three_digits(made.setup.steps.limit) + " s");
 
   catch_stop_signals();
-  const Exit exit = run_to_end(settings, std::move(made), folder, journal, common.quiet);
+  const Exit exit = run_to_end(settings, std::move(made), folder, journal, keeper, state, common);
   print_results(folder, journal, common.json);
   if (exit == Exit::interrupted)
-    say(common, "sinew: stopped; go on with: sinew simulate " + options.scene + " -o " +
-                    folder.path.string() + " --resume");
+    say(common, "sinew: stopped; go on with: " + resume_words(options, common, folder));
   return exit;
 }
 

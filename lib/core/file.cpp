@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -34,6 +35,30 @@ Error unreadable(const fs::path& path, int error) {
                    "check the path and the permissions");
 }
 
+/// The new name is an entry of its folder, which is written by itself.
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;  // a folder that may be written but not read: there is no more to be done
+  ::fsync(file);
+  ::close(file);
+}
+
+/// At the file's own place, or `place` bytes from its beginning.
+void write_all(int file, const fs::path& path, const void* bytes, std::size_t count,
+               std::optional<std::uint64_t> place = std::nullopt) {
+  const char* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = place ? ::pwrite(file, next, count, static_cast<off_t>(*place))
+                                  : ::write(file, next, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw refused(path, errno);
+    next += written;
+    count -= static_cast<std::size_t>(written);
+    if (place) *place += static_cast<std::uint64_t>(written);
+  }
+}
+
 void close_file(const int* file) { ::close(*file); }
 
 }  // namespace
@@ -54,34 +79,61 @@ NewFile::~NewFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void NewFile::write(const void* bytes, std::size_t count) {
-  const char* next = static_cast<const char*>(bytes);
-  while (count > 0) {
-    const ssize_t written = ::write(file_, next, count);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw refused(path_, errno);
-    next += written;
-    count -= static_cast<std::size_t>(written);
-  }
-}
+void NewFile::write(const void* bytes, std::size_t count) { write_all(file_, path_, bytes, count); }
 
-void NewFile::write_at(std::size_t place, const void* bytes, std::size_t count) {
-  const char* next = static_cast<const char*>(bytes);
-  while (count > 0) {
-    const ssize_t written = ::pwrite(file_, next, count, static_cast<off_t>(place));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw refused(path_, errno);
-    next += written;
-    place += static_cast<std::size_t>(written);
-    count -= static_cast<std::size_t>(written);
-  }
-}
-
-void NewFile::finish() {
+void NewFile::finish(Durability durability) {
+  if (durability == Durability::synced && ::fsync(file_) != 0) throw refused(path_, errno);
   // The close itself may report that the data did not arrive (network file systems).
   if (::close(std::exchange(file_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw refused(path_, errno);
   temporary_.clear();
+  if (durability == Durability::synced) sync_folder_of(path_);
+}
+
+GrowingFile::GrowingFile(fs::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file_ < 0) throw refused(path_, errno);
+  struct stat status;
+  int error = ::fstat(file_, &status) != 0 ? errno : 0;
+  const bool shorter = error == 0 && static_cast<std::uint64_t>(status.st_size) < kept;
+  if (error == 0 && !shorter && ::ftruncate(file_, static_cast<off_t>(kept)) != 0) error = errno;
+  if (error == 0 && !shorter) return;
+  ::close(file_);
+  if (error != 0) throw refused(path_, error);
+  throw bad_input({path_.string()},
+                  "has " + std::to_string(status.st_size) + " bytes where " + std::to_string(kept) +
+                      " were written",
+                  "begin again with --force");
+}
+
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void GrowingFile::add(const void* bytes, std::size_t count) {
+  try {
+    write_all(file_, path_, bytes, count, size_);
+  } catch (const Error&) {
+    // No torn record stays. A file that becomes shorter needs no space.
+    [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(size_));
+    throw;
+  }
+  size_ += count;
+}
+
+void GrowingFile::write_at(std::uint64_t place, const void* bytes, std::size_t count) {
+  write_all(file_, path_, bytes, count, place);
+}
+
+void GrowingFile::close() {
+  if (::close(std::exchange(file_, -1)) != 0) throw refused(path_, errno);
+}
+
+void sync_all(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::syncfs(file);
+  ::close(file);
 }
 
 void write_file(const fs::path& path, std::string_view text) {

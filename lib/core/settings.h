@@ -253,12 +253,14 @@ struct SolverSettings {
   Vec3 gravity = Vec3::Zero();
   Precision precision = Precision::binary64;
   NeighbourSearch neighbour_search = NeighbourSearch::lists;
+  std::optional<double> wall_time;
 };
 
 enum class Encoding { zlib, lz4, raw, none };
 
 struct OutputSettings {
   double interval = 1.0 / 30;
+  double checkpoint_interval = 60;
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;
   bool skin_lbs = false;

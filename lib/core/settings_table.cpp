@@ -351,6 +351,9 @@ std::vector<Field<Settings>> make_solver() {
       choice<S>("solver", "neighbour_search", SINEW_AT(S, solver.neighbour_search),
                 {"lists", "cells"},
                 "how partners are found; cells: the paper's, a slow and readable reference"),
+      field<S>("solver", "wall_time", SINEW_AT(S, solver.wall_time), "s",
+               "of the clock on the wall, after which the run stops to be resumed; none: no limit",
+               positive, "none"),
   };
 }
 
@@ -359,6 +362,9 @@ std::vector<Field<Settings>> make_output() {
   return {
       field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
                "time of the scene between frames", positive),
+      field<S>("output", "checkpoint_interval", SINEW_AT(S, output.checkpoint_interval), "s",
+               "of the clock on the wall between checkpoints, from which --resume goes on",
+               not_negative),
       choice<S>("output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
                 "of the arrays in VTU files; none is plain base64; raw is for readers other than "
                 "VTK before 9.3"),

@@ -9,7 +9,9 @@ namespace sinew {
 
 class Stopwatch {
  public:
-  /// Seconds since the last lap, or the start.
+  /// Seconds since the last lap, or the start, without a new lap.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - last_).count(); }
+  /// The same, and a lap begins.
   double lap() {
     const auto last = std::exchange(last_, Clock::now());
     return std::chrono::duration<double>(last_ - last).count();

@@ -143,11 +143,26 @@ std::vector<WrittenArray> table_of_defects() {
   };
 }
 
+std::vector<WrittenArray> table_of_blowup() {
+  return {
+      {"blowup", point, "Points", "m", xyz, real, plain, "where the particle was before the step"},
+      {"blowup", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"blowup", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
+      {"blowup", point, "radius", "m", one, real, plain, "radius of the particle"},
+      {"blowup", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"blowup", point, "velocity", "m/s", xyz, real, plain, "velocity before the step"},
+      {"blowup", point, "offender", "1", one, whole, scalars,
+       "0 no; 1 moved too far in the step, 2 reached a value that is not finite"},
+      {"blowup", point, "moved", "radii", one, real, plain,
+       "an offender's way in the step, relative to its bone; 0 where that is not finite"},
+  };
+}
+
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
   for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_surface,
                     table_of_skin_lbs, table_of_skin_dqs, table_of_bones, table_of_frames,
-                    table_of_obstacles, table_of_defects})
+                    table_of_obstacles, table_of_defects, table_of_blowup})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

@@ -19,7 +19,7 @@ enum class ArrayRole { plain, scalars, vectors };
 
 struct WrittenArray {
   std::string_view series;  ///< "body", "particles", "surface", "bones", "frames", "obstacles",
-                            ///< "defects"; "all": each
+                            ///< "defects", "blowup"; "all": each
   ArrayPlace place;
   std::string_view name;                     ///< "Points" for the coordinates themselves
   std::string_view unit;                     ///< "1" for pure numbers

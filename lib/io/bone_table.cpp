@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bone_table.h"
 
+#include "core/error.h"
 #include "core/number_text.h"
 
 namespace sinew {
@@ -18,11 +19,30 @@ void add_numbers(const Vec3& vector, std::string& row) {
   for (const double value : vector) row += ',' + number_text(value);
 }
 
+constexpr std::string_view head =
+    "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n";
+constexpr std::uint64_t largest_table = std::uint64_t{4} << 30;  // bytes
+
+/// Bytes of the first `rows` rows, the head included. Names in quotes may hold line ends.
+std::uint64_t size_of_rows(const std::filesystem::path& path, std::size_t rows) {
+  const std::string text = read_file(path, largest_table);
+  bool quoted = false;
+  std::size_t ends = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '\n' && !quoted && ++ends > rows) return i + 1;
+  }
+  throw bad_input(
+      {path.string()},
+      "has " + std::to_string(ends) + " lines where " + std::to_string(rows + 1) + " were written",
+      "begin again with --force");
+}
+
 }  // namespace
 
-BoneTable::BoneTable(const std::filesystem::path& path) : file_(path) {
-  const std::string head = "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n";
-  file_.write(head.data(), head.size());
+BoneTable::BoneTable(const std::filesystem::path& path, std::size_t bones, std::size_t kept)
+    : file_(path, kept > 0 ? size_of_rows(path, bones * kept) : 0) {
+  if (kept == 0) file_.add(head.data(), head.size());
 }
 
 void BoneTable::add(double time, const Skeleton& skeleton, const Reactions& reactions,
@@ -35,9 +55,9 @@ void BoneTable::add(double time, const Skeleton& skeleton, const Reactions& reac
     add_numbers(reactions.moment[b], rows);
     rows += ',' + number_text(power[b]) + '\n';
   }
-  file_.write(rows.data(), rows.size());
+  file_.add(rows.data(), rows.size());
 }
 
-void BoneTable::close() { file_.finish(); }
+void BoneTable::close() { file_.close(); }
 
 }  // namespace sinew

@@ -12,11 +12,13 @@
 namespace sinew {
 
 /// Columns: time (s), bone (its name), force_x, force_y, force_z (N), moment_x, moment_y, moment_z
-/// (N m, about the head), power (W, that the bone puts into the body). There once close() returned.
+/// (N m, about the head), power (W, that the bone puts into the body). It grows frame by frame.
 class BoneTable {
  public:
-  /// Throws not written.
-  explicit BoneTable(const std::filesystem::path& path);
+  /// Goes on after the first `kept` frames of a table of as many `bones` that is there already.
+  /// Throws not written, and bad input when it holds fewer.
+  explicit BoneTable(const std::filesystem::path& path, std::size_t bones = 0,
+                     std::size_t kept = 0);
 
   /// One frame; `power` in W. Throws not written.
   void add(double time, const Skeleton& skeleton, const Reactions& reactions,
@@ -24,7 +26,7 @@ class BoneTable {
   void close();  ///< throws not written
 
  private:
-  NewFile file_;
+  GrowingFile file_;
 };
 
 }  // namespace sinew

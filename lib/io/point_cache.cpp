@@ -12,7 +12,8 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t place_of_samples = 28;  // bytes from the file's beginning
+constexpr std::size_t place_of_samples = 28, header_size = 32;  // bytes
+constexpr std::size_t point_size = 12;
 
 void add_bytes(std::uint32_t value, std::string& text) {
   for (int byte = 0; byte < 4; ++byte) text += static_cast<char>((value >> (8 * byte)) & 0xff);
@@ -41,32 +42,40 @@ void write_obj(const std::filesystem::path& path, const Triangles& surface) {
   file.finish();
 }
 
-PointCache::PointCache(const std::filesystem::path& path, std::size_t points)
-    : file_(path), points_(points) {
+PointCache::PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept)
+    : points_(points),
+      samples_(kept),
+      file_(path, kept > 0 ? header_size + kept * points * point_size : 0) {
+  if (kept > 0) {
+    count_samples();
+    return;
+  }
   std::string header("POINTCACHE2\0", 12);
   add_bytes(1, header);
   add_bytes(static_cast<std::uint32_t>(points), header);
   add_bytes(bits_of(0), header);  // first frame
   add_bytes(bits_of(1), header);  // frames from sample to sample
-  add_bytes(0, header);           // samples, told at the end
-  file_.write(header.data(), header.size());
+  add_bytes(0, header);           // samples
+  file_.add(header.data(), header.size());
 }
 
 void PointCache::add(const Points& points) {
   assert(points.size() == points_);
   std::string bytes;
-  bytes.reserve(12 * points_);
+  bytes.reserve(point_size * points_);
   for (const Vec3& point : points)
     for (const double coordinate : point) add_bytes(bits_of(coordinate), bytes);
-  file_.write(bytes.data(), bytes.size());
+  file_.add(bytes.data(), bytes.size());
   ++samples_;
+  count_samples();
 }
 
-void PointCache::close() {
+void PointCache::count_samples() {
   std::string count;
   add_bytes(static_cast<std::uint32_t>(samples_), count);
   file_.write_at(place_of_samples, count.data(), count.size());
-  file_.finish();
 }
+
+void PointCache::close() { file_.close(); }
 
 }  // namespace sinew

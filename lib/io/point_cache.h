@@ -15,21 +15,23 @@ namespace sinew {
 void write_obj(const std::filesystem::path& path, const Triangles& surface);
 
 /// PC2: "POINTCACHE2\0", int32 version 1, int32 points, float start, float rate, int32 samples,
-/// then float32 x y z of every point of every sample; little endian. There once close() has
-/// returned.
+/// then float32 x y z of every point of every sample; little endian. It grows sample by sample, and
+/// never counts one that is not there.
 class PointCache {
  public:
-  /// Throws not written.
-  PointCache(const std::filesystem::path& path, std::size_t points);
+  /// Goes on after the first `kept` samples of a cache that is there already. Throws not written,
+  /// and bad input when it holds fewer.
+  PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept = 0);
 
   /// One sample; as many points each time. Throws not written.
   void add(const Points& points);
   void close();  ///< throws not written
 
  private:
-  NewFile file_;
-  std::size_t points_;
-  std::int32_t samples_ = 0;
+  void count_samples();
+
+  std::size_t points_, samples_;
+  GrowingFile file_;
 };
 
 }  // namespace sinew

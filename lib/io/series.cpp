@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/series.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <regex>
+#include <set>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/settings_table.h"
+#include "core/number_text.h"
+#include "core/parallel.h"
 
 namespace sinew {
 namespace {
@@ -15,6 +20,7 @@ namespace fs = std::filesystem;
 
 /// Often enough to follow a run by eye, seldom enough not to matter beside the frames.
 constexpr std::chrono::seconds pvd_pause{1};
+constexpr std::size_t values_per_piece = 1 << 15;
 
 std::string frame_name(const std::string& series, std::size_t number) {
   char digits[24];
@@ -22,24 +28,66 @@ std::string frame_name(const std::string& series, std::size_t number) {
   return series + '/' + series + digits + ".vtu";
 }
 
+bool all_finite(const double* values, std::size_t count, double most) {
+  return parallel_sum(count, values_per_piece, [&](std::size_t begin, std::size_t end) {
+           return std::count_if(values + begin, values + end,
+                                [most](double value) { return !(std::abs(value) <= most); });
+         }) == 0;
+}
+
+/// A number of the file's type is finite up to `most`.
+void refuse_not_finite(const Dataset& frame, const std::string& series, double most) {
+  const auto refuse = [&](const std::string& name) {
+    throw Error(Exit::unstable, "frame at " + number_text(frame.time) + " s: " + series + ' ' +
+                                    name +
+                                    " has a value that is not finite; make solver.time_step "
+                                    "shorter");
+  };
+  const double* first = frame.points.empty() ? nullptr : frame.points.front().data();
+  if (!all_finite(first, 3 * frame.points.size(), most)) refuse("Points");
+  for (const auto* columns : {&frame.point_columns, &frame.cell_columns, &frame.field_columns})
+    for (const Column& column : *columns)
+      if (const auto* real = std::get_if<std::vector<double>>(&column.values);
+          real != nullptr && !all_finite(real->data(), real->size(), most))
+        refuse(column.name);
+}
+
 /// Only files that a series of this name writes: what else lies there is not ours to remove.
-void remove_older(const fs::path& folder, const std::string& series) {
+void remove_older(const fs::path& folder, const std::string& series,
+                  const std::vector<PvdRow>& kept) {
   const std::regex ours("\\.?" + series + "_[0-9]{6,}\\.vtu(\\.tmp)?");
-  fs::remove(folder / (series + ".pvd"));
+  std::set<std::string> stay;
+  for (const PvdRow& row : kept) stay.insert(fs::path(row.file).filename().string());
+  if (kept.empty()) fs::remove(folder / (series + ".pvd"));
   for (const auto& entry : fs::directory_iterator(folder / series))
-    if (std::regex_match(entry.path().filename().string(), ours)) fs::remove(entry.path());
+    if (const std::string name = entry.path().filename().string();
+        std::regex_match(name, ours) && !stay.contains(name))
+      fs::remove(entry.path());
 }
 
 }  // namespace
 
-Series::Series(fs::path folder, VtuFormat format)
+Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
     : folder_(std::move(folder)), format_(std::move(format)) {
+  keep(kept);
   try {
     fs::create_directories(folder_ / format_.series);
-    remove_older(folder_, format_.series);
+    // The PVD loses its rows first: at no time it names a file that is not there.
+    if (!rows_.empty()) write_pvd();
+    remove_older(folder_, format_.series, rows_);
   } catch (const fs::filesystem_error& error) {
     throw not_written((folder_ / format_.series).string(), error.code().message(),
                       "choose a place you may write to");
+  }
+}
+
+void Series::keep(std::span<const double> times) {
+  for (const double time : times) {
+    rows_.push_back({time, frame_name(format_.series, rows_.size())});
+    const fs::path file = folder_ / rows_.back().file;
+    if (!fs::exists(file))
+      throw bad_input({file.string()}, "is missing, and the run cannot go on without it",
+                      "begin again with --force");
   }
 }
 
@@ -52,6 +100,9 @@ Series::~Series() {
 }
 
 void Series::add(const Dataset& frame) {
+  refuse_not_finite(frame, format_.series,
+                    format_.double_precision ? std::numeric_limits<double>::max()
+                                             : std::numeric_limits<float>::max());
   const std::string file = frame_name(format_.series, rows_.size());
   write_vtu(folder_ / file, frame, format_);
   rows_.push_back({frame.time, file});

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,13 +30,16 @@ class Series {
  public:
   /// Starts the series format.series in `folder`, which is created; an older one is removed. Throws
   /// not written.
-  Series(std::filesystem::path folder, VtuFormat format);
+  /// But for its first frames, those at `kept` (s), which are there already: it goes on after them.
+  /// Throws bad input when one is missing.
+  Series(std::filesystem::path folder, VtuFormat format, std::span<const double> kept = {});
   /// Closes, without a word if that fails: call close() to hear of it.
   ~Series();
   Series(const Series&) = delete;
   Series& operator=(const Series&) = delete;
 
-  /// Writes one frame, later than the one before. Throws not written.
+  /// Writes one frame, later than the one before. Throws not written, and Error (unstable) naming
+  /// the array for a value that is not finite, or becomes so in Float32.
   void add(const Dataset& frame);
   /// Brings the PVD up to date. Throws not written.
   void close();
@@ -43,6 +47,7 @@ class Series {
   const std::vector<PvdRow>& rows() const { return rows_; }
 
  private:
+  void keep(std::span<const double> times);
   void write_pvd();
 
   std::filesystem::path folder_;

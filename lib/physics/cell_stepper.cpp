@@ -80,6 +80,29 @@ std::span<const std::int32_t> CellStepper::broken_bonds() const {
   return solid_->bonds().broken;
 }
 
+void CellStepper::save(SimulationState& state) const {
+  const Particles& now = particles_;
+  state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
+  state.kicked = kicked_;
+  if (!solid_) return;
+  state.rest_length = solid_->bonds().rest_length;
+  state.broken = solid_->bonds().broken;
+}
+
+void CellStepper::restore(const SimulationState& state) {
+  const auto* moving = std::get_if<MovingInDouble>(&state.moving);
+  if (moving == nullptr) throw not_a_state("it is in single precision");
+  check_moving(*moving, particles_.size());
+  if (solid_)
+    solid_->restore(state.rest_length, state.broken);
+  else if (!state.rest_length.empty())
+    throw not_a_state("it has bonds");
+  Particles& now = particles_;
+  now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
+  now.u = moving->v[0], now.v = moving->v[1], now.w = moving->v[2];
+  kicked_ = state.kicked;
+}
+
 Vec3 CellStepper::acceleration(std::size_t i) const {
   return forces_.total(i) / particles_.mass + stepping_.gravity;
 }
@@ -130,15 +153,37 @@ void CellStepper::advance(std::size_t i, double kick) {
   particles_.set_velocity(i, kicked);
 }
 
-bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
-  if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
+/// Over the step, relative to its bone, or to its motion before where it has none.
+Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose) const {
   const auto bones = body_->binding.of(particles_.id[i]);
   const Vec3 carried =
       bones.empty() ? before.velocity : pose[bones.front().bone].velocity_at(before.position);
-  const double most = most_radii_per_step * particles_.radius / stepping_.step;
+  return stepping_.step * (particles_.velocity(i) - carried);
+}
+
+bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
+  if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
+  const double most = most_radii_per_step * particles_.radius;
   // False for values that are not numbers as well.
-  return (particles_.velocity(i) - carried).squaredNorm() <= most * most &&
-         particles_.position(i).allFinite();
+  return moved(i, before, pose).squaredNorm() <= most * most && particles_.position(i).allFinite();
+}
+
+/// Goes back to before the step, and tells who failed in it.
+Failure CellStepper::take_back(const Pose& pose) {
+  Failure failure;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Particle before{{before_.x[0][i], before_.x[1][i], before_.x[2][i]},
+                          {before_.v[0][i], before_.v[1][i], before_.v[2][i]}};
+    if (sound(i, before, pose)) continue;
+    const Vec3 way = moved(i, before, pose);
+    failure.all.push_back({i, way.allFinite() && particles_.position(i).allFinite(),
+                           way.allFinite() ? way.norm() : 0});
+  }
+  failure.first = failure.all.front();
+  Particles& now = particles_;
+  now.x = before_.x[0], now.y = before_.x[1], now.z = before_.x[2];
+  now.u = before_.v[0], now.v = before_.v[1], now.w = before_.v[2];
+  return failure;
 }
 
 StepSums CellStepper::step(const Pose& pose) {
@@ -147,22 +192,20 @@ StepSums CellStepper::step(const Pose& pose) {
   if (solid_) sums.lost += solid_->evolve(particles_, stepping_.step) / stepping_.step;
   const bool half = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
   const double kick = half ? stepping_.step / 2 : stepping_.step;
-  const std::size_t n = particles_.size();
-  std::atomic<std::size_t> first_bad = n;
-  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  const Particles& now = particles_;
+  before_ = {{now.x, now.y, now.z}, {now.u, now.v, now.w}};
+  std::atomic<bool> failed = false;
+  parallel_for(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Particle before{particles_.position(i), particles_.velocity(i)};
       advance(i, kick);
-      if (sound(i, before, pose)) continue;
-      std::size_t least = first_bad;  // the lowest index wins, whichever thread finds it
-      while (i < least && !first_bad.compare_exchange_weak(least, i)) {
-      }
+      if (!sound(i, before, pose)) failed = true;
     }
   });
-  if (first_bad < n)
-    sums.failure = {first_bad, particles_.position(first_bad).allFinite() &&
-                                   particles_.velocity(first_bad).allFinite()};
-  kicked_ = true;
+  if (failed)
+    sums.failure = take_back(pose);
+  else
+    kicked_ = true;
   return sums;
 }
 

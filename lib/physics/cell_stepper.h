@@ -29,6 +29,9 @@ class CellStepper {
   /// As evaluated last; none without a world.
   std::span<const Reaction> reactions_of_obstacles() const { return world_.reactions; }
 
+  void save(SimulationState& state) const;
+  void restore(const SimulationState& state);
+
  private:
   struct Particle {
     Vec3 position, velocity;
@@ -43,13 +46,16 @@ class CellStepper {
   void add_world(StepSums& sums) const;
   StepSums sums() const;
   void advance(std::size_t i, double kick);
+  Vec3 moved(std::size_t i, const Particle& before, const Pose& pose) const;
   bool sound(std::size_t i, const Particle& before, const Pose& pose) const;
+  Failure take_back(const Pose& pose);
 
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
   Particles particles_;
   std::optional<Solid> solid_;  ///< of materials that remember who was whose neighbour
   Forces forces_;
+  MovingInDouble before_;  ///< the step
   double time_ = 0;
   WorldForces world_;
   std::vector<std::size_t> held_;  ///< place of each pin of the world

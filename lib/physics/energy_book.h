@@ -2,6 +2,8 @@
 // What the bones have put in and what was lost since the start, step by step.
 #pragma once
 
+#include "core/simulation_state.h"
+
 namespace sinew {
 
 class EnergyBook {
@@ -10,23 +12,25 @@ class EnergyBook {
 
   /// A step that began with this power of the bones and loss (W): trapezoid of the power.
   void add_step(double power, double lost) {
-    work_ = work_until(power);
-    power_ = power;
-    begun_ = true;
-    dissipation_ += step_ * lost;
+    now_.work = work_until(power);
+    now_.power = power;
+    now_.begun = true;
+    now_.dissipation += step_ * lost;
   }
 
   /// Up to a moment with that power, J.
   double work_until(double power) const {
-    return begun_ ? work_ + step_ * (power_ + power) / 2 : work_;
+    return now_.begun ? now_.work + step_ * (now_.power + power) / 2 : now_.work;
   }
   /// Half of the step that begins with that loss included, for the moment of the positions, J.
-  double dissipation_until(double lost) const { return dissipation_ + step_ * lost / 2; }
+  double dissipation_until(double lost) const { return now_.dissipation + step_ * lost / 2; }
+
+  const BookEntries& entries() const { return now_; }
+  void restore(const BookEntries& entries) { now_ = entries; }
 
  private:
   double step_;
-  double work_ = 0, power_ = 0, dissipation_ = 0;
-  bool begun_ = false;
+  BookEntries now_;
 };
 
 }  // namespace sinew

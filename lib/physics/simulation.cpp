@@ -54,8 +54,11 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
 void Simulation::step() {
   const Pose now = pose();
   tell_time();
-  const StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
-  if (sums.failure) fail(*sums.failure);
+  StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
+  if (sums.failure) {
+    offenders_ = std::move(sums.failure->all);
+    fail(sums.failure->first);
+  }
   book_.add_step(sums.power, sums.lost);
   world_book_.add_step(sums.world_power, 0);
   if (steps_ == 0) held_at_start_ = sums.held_kinetic;
@@ -77,15 +80,15 @@ void Simulation::forget_read() {
   read_ = false;
 }
 
-void Simulation::fail(const Failure& failure) const {
-  const std::int32_t id = particles_.id[failure.particle];
+void Simulation::fail(const Offender& first) const {
+  const std::int32_t id = particles_.id[first.particle];
   const auto bones = body_->binding.of(id);
   const std::string where =
       bones.empty() ? "" : " on bone '" + body_->skeleton.bones[bones.front().bone].name + "'";
   throw Error(Exit::unstable,
               "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
                   std::to_string(id) + where +
-                  (failure.finite ? " moved over " + three_digits(most_radii_per_step) +
+                  (first.finite ? " moved over " + three_digits(most_radii_per_step) +
                                         (bones.empty() ? " r off its motion before in one step"
                                                        : " r relative to its bone in one step")
                                   : std::string(" reached a value that is not finite")) +
@@ -159,6 +162,27 @@ std::span<const Reaction> Simulation::reactions_of_obstacles() {
   evaluate();
   const auto* cells = std::get_if<CellStepper>(&stepper_);
   return cells != nullptr ? cells->reactions_of_obstacles() : std::span<const Reaction>();
+}
+
+SimulationState Simulation::save() const {
+  SimulationState state;
+  std::visit([&](const auto& stepper) { stepper.save(state); }, stepper_);
+  state.steps = steps_;
+  state.book = book_.entries();
+  state.world_book = world_book_.entries();
+  state.held_at_start = held_at_start_;
+  return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
+  steps_ = state.steps;
+  book_.restore(state.book);
+  world_book_.restore(state.world_book);
+  held_at_start_ = state.held_at_start;
+  evaluated_ = false;
+  forget_read();
 }
 
 ListCounts Simulation::list_counts() const {

@@ -11,10 +11,12 @@
 #include <memory>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "core/energies.h"
 #include "core/particles.h"
 #include "core/settings.h"
+#include "core/simulation_state.h"
 #include "physics/cell_stepper.h"
 #include "physics/energy_book.h"
 #include "physics/forces.h"
@@ -36,9 +38,12 @@ class Simulation {
              kernel::InstructionSet instructions = kernel::best_instruction_set());
 
   /// Advances by one step. Throws Error (unstable) naming step, particle, cause and a cure when a
-  /// value is not finite or a particle moves over 0.25 r relative to its bone within the step
-  /// (one without a bone: relative to its motion before).
+  /// value is not finite or a particle moves over 0.25 r relative to its bone within the step (one
+  /// without a bone: relative to its motion before). The particles stay where they were before it;
+  /// bonds that broke in it stay broken.
   void step();
+  /// Of the step that threw, in the order of the particles.
+  const std::vector<Offender>& offenders() const { return offenders_; }
 
   double time() const { return static_cast<double>(steps_) * stepping_.step; }  ///< s
   std::int64_t steps() const { return steps_; }
@@ -59,6 +64,12 @@ class Simulation {
   /// What the body does to each obstacle of its world at the present moment, about its frame.
   std::span<const Reaction> reactions_of_obstacles();
 
+  /// What is needed to go on later from this moment with the same bits, on any number of threads.
+  SimulationState save() const;
+  /// Goes to that moment of a simulation of the same body, motion and stepping. Throws bad input
+  /// for a state that cannot be one.
+  void restore(const SimulationState& state);
+
   /// How often lists of partners were made; none for cells.
   ListCounts list_counts() const;
 
@@ -71,7 +82,7 @@ class Simulation {
   void evaluate();
   void forget_read();
   void tell_time() const;
-  [[noreturn]] void fail(const Failure& failure) const;
+  [[noreturn]] void fail(const Offender& first) const;
 
   std::shared_ptr<const Body> body_;
   Motion motion_;
@@ -81,6 +92,7 @@ class Simulation {
   EnergyBook book_, world_book_;
   double held_at_start_ = 0;  ///< kinetic energy of what pins hold, J
 
+  std::vector<Offender> offenders_;
   mutable Particles particles_;  ///< as read last; radius, mass and ids always
   mutable bool read_ = false;    ///< whether they are those of the present moment
   Forces forces_;

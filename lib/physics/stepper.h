@@ -2,12 +2,17 @@
 // What every way of stepping offers the simulation: see list_stepper.h and cell_stepper.h.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "core/error.h"
 #include "core/particles.h"
 #include "core/settings.h"
+#include "core/simulation_state.h"
 #include "physics/forces.h"
 
 namespace sinew {
@@ -24,10 +29,17 @@ struct Stepping {
 // only a run that has left the range of every limit is faster than several bonds at once.
 inline constexpr double most_radii_per_step = 0.25;
 
-/// A particle that left what is sane, by its place in the caller's order.
-struct Failure {
+/// A particle that left what is sane in a step, by its place in the caller's order.
+struct Offender {
   std::size_t particle = 0;
   bool finite = true;
+  double moved = 0;  ///< relative to its bone, m; 0 where that is not finite
+};
+
+/// A step that was not taken.
+struct Failure {
+  Offender first;  ///< of the lowest place
+  std::vector<Offender> all;
 };
 
 /// What a step adds to the book, at the moment of the positions it began with.
@@ -47,6 +59,26 @@ struct Balance {
   double contact_energy = 0;                ///< in the springs of obstacles, J
   double held_kinetic = 0;                  ///< of particles that pins hold, J
 };
+
+/// Of a saved state that does not belong to a stepper, or that nothing has saved.
+inline Error not_a_state(const std::string& why) {
+  return bad_input("the saved state does not fit this body: " + why,
+                   "begin again without --resume");
+}
+
+/// Throws bad input unless there are `particles` positions and velocities, all of them finite.
+template <class Coord, class Real>
+void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particles) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (moving.x[axis].size() != particles || moving.v[axis].size() != particles)
+      throw not_a_state("it is of " + std::to_string(moving.x[axis].size()) + " particles, not " +
+                        std::to_string(particles));
+    for (std::size_t k = 0; k < particles; ++k)
+      if (!std::isfinite(static_cast<double>(moving.x[axis][k])) ||
+          !std::isfinite(moving.v[axis][k]))
+        throw not_a_state("particle " + std::to_string(k) + " has a value that is not finite");
+  }
+}
 
 /// How often lists were made, and how long they are.
 struct ListCounts {

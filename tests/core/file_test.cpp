@@ -29,6 +29,23 @@ TEST_F(File, LeavesTheOlderFileWhenItIsNotFinished) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(File, GrowsAfterWhatIsKept) {
+  write_file(folder / "f", "older and longer");
+  {
+    GrowingFile file(folder / "f", 5);
+    file.add(" oak", 4);
+    file.write_at(0, "O", 1);
+    file.add("s", 1);
+    EXPECT_EQ(read_file(folder / "f"), "Older oaks");
+    file.close();
+  }
+  EXPECT_EQ(error_of([&] { GrowingFile(folder / "f", 11); }).exit(), Exit::bad_input);
+  EXPECT_EQ(read_file(folder / "f"), "Older oaks");
+  EXPECT_EQ(error_of([&] { GrowingFile(folder, 0); }).exit(), Exit::not_written);
+  ::mkfifo((folder / "pipe").c_str(), 0600);
+  EXPECT_EQ(error_of([&] { GrowingFile(folder / "pipe", 0); }).exit(), Exit::not_written);
+}
+
 TEST_F(File, NamesTheFileThatCannotBeWritten) {
   const Error error = error_of([&] { write_file(folder / "missing" / "f", "text"); });
   EXPECT_EQ(error.exit(), Exit::not_written);

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "io/blowup.h"
 #include "synthetic_run.h"
 
 namespace sinew {
@@ -43,6 +44,10 @@ TEST(WrittenArrays, AreExactlyThoseThatTheSeriesHold) {
   expect_listed("bones", run.bones({}));
   expect_listed("frames", run.frames({}));
   expect_listed("obstacles", run.obstacles({}));
+  const Particles some = particles_at(run.rest, run.radius, 1);
+  const std::vector<Offence> offence(run.count(), Offence::none);
+  const std::vector<double> moved(run.count());
+  expect_listed("blowup", blowup_dataset({some, run.rest, run.bone, offence, moved}, {}));
   expect_listed("body", body_dataset(run.body()));
 }
 

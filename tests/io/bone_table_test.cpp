@@ -21,13 +21,33 @@ TEST_F(BoneTableFile, HasARowPerBoneAndFrame) {
   BoneTable table(path);
   table.add(0, skeleton, {force, moment}, power);
   table.add(0.5, skeleton, {force, moment}, power);
-  EXPECT_FALSE(std::filesystem::exists(path));
   table.close();
   const std::string rows[] = {"lower,1,2,3,4,5,6,7\n",
                               "\"upper, \"\"left\"\"\",0,0,0.5,0,-1,0,-0.25\n"};
   EXPECT_EQ(read_file(path),
             "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n0," + rows[0] +
                 "0," + rows[1] + "0.5," + rows[0] + "0.5," + rows[1]);
+}
+
+TEST_F(BoneTableFile, GoesOnAfterTheFramesThatAreKept) {
+  Skeleton skeleton;
+  skeleton.bones.resize(2);
+  skeleton.bones[0].name = "lower";
+  skeleton.bones[1].name = "name of\ntwo lines, \"quoted\"";
+  const Points some = {{1, 2, 3}, {0, 0, 0.5}};
+  const std::vector<double> power = {7, -0.25};
+  const auto write = [&](const char* name, std::size_t kept, std::initializer_list<double> times) {
+    BoneTable table(folder / name, 2, kept);
+    for (const double time : times) table.add(time, skeleton, {some, some}, power);
+  };
+  write("whole.csv", 0, {0, 0.5, 1});
+  write("bones.csv", 0, {0, 0.25});  // and is dropped, not closed
+  put(folder / "bones.csv", text_of(folder / "bones.csv") + "0.5,lower,torn");
+  write("bones.csv", 1, {0.5, 1});
+  EXPECT_EQ(text_of(folder / "bones.csv"), text_of(folder / "whole.csv"));
+  const Error error = error_of([&] { BoneTable(folder / "bones.csv", 2, 4); });
+  EXPECT_EQ(error.exit(), Exit::bad_input);
+  EXPECT_TRUE(contains(error.what(), "7 lines where 9")) << error.what();
 }
 
 }  // namespace

@@ -56,6 +56,17 @@ TEST_F(FullDisk, VtuIsNotWrittenWhereverTheSpaceEnds) {
   }
 }
 
+TEST_F(FullDisk, GrowingFileKeepsItsWholeRecords) {
+  GrowingFile file(folder / "f", 0);
+  file.add("12345", 5);
+  limit(8);
+  EXPECT_EQ(error_of([&] { file.add("67890", 5); }).exit(), Exit::not_written);
+  EXPECT_EQ(text_of(folder / "f"), "12345");
+  limit(RLIM_INFINITY);
+  file.add("abc", 3);
+  EXPECT_EQ(text_of(folder / "f"), "12345abc");
+}
+
 TEST_F(FullDisk, SeriesKeepsTheFramesItHas) {
   const SyntheticRun run;
   Series series(folder, {Encoding::raw, false, "bones", 0.01});

@@ -30,7 +30,6 @@ TEST_F(PointCacheFile, ReadsBackAsWritten) {
       {{1, 2, 3}, {-4, 0.1, 1e-3}}, {{5, 6, 7}, {0, 0, 0}}, {{8, 9, 1}, {2, 3, 4}}};
   PointCache cache(path, 2);
   for (const Points& points : samples) cache.add(points);
-  EXPECT_FALSE(std::filesystem::exists(path));
   cache.close();
   const std::string bytes = read_file(path);
   ASSERT_EQ(bytes.size(), 32 + 3 * 2 * 12u);
@@ -49,9 +48,29 @@ TEST_F(PointCacheFile, ReadsBackAsWritten) {
       }
 }
 
-TEST_F(PointCacheFile, ThatIsNotClosedLeavesNothing) {
-  { PointCache(folder / "surface.pc2", 1).add({{1, 2, 3}}); }
-  EXPECT_TRUE(std::filesystem::is_empty(folder));
+TEST_F(PointCacheFile, CountsAtAnyMomentTheSamplesItHolds) {
+  PointCache cache(folder / "surface.pc2", 1);
+  for (std::uint32_t samples = 0; samples < 3; ++samples) {
+    const std::string bytes = read_file(folder / "surface.pc2");
+    EXPECT_EQ(word_at(bytes, 28), samples);
+    EXPECT_EQ(bytes.size(), 32 + 12 * samples);
+    cache.add({{1, 2, 3}});
+  }
+}
+
+TEST_F(PointCacheFile, GoesOnAfterTheSamplesThatAreKept) {
+  const auto write = [&](const char* name, std::size_t kept, std::initializer_list<double> all) {
+    PointCache cache(folder / name, 1, kept);
+    for (const double x : all) cache.add({{x, 0, 0}});
+  };
+  write("whole.pc2", 0, {1, 2, 3});
+  write("surface.pc2", 0, {1, 7});
+  put(folder / "surface.pc2", text_of(folder / "surface.pc2") + "torn");
+  write("surface.pc2", 1, {2, 3});
+  EXPECT_EQ(text_of(folder / "surface.pc2"), text_of(folder / "whole.pc2"));
+  const Error error = error_of([&] { PointCache(folder / "surface.pc2", 1, 4); });
+  EXPECT_EQ(error.exit(), Exit::bad_input);
+  EXPECT_TRUE(contains(error.what(), "68 bytes where 80")) << error.what();
 }
 
 TEST_F(PointCacheFile, HoldsPointsAndFacesInOrder) {

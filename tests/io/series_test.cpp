@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/series.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "core/file.h"
 #include "scratch.h"
 #include "synthetic_run.h"
@@ -61,6 +65,48 @@ TEST_F(SeriesFiles, TheLastFrameIsNamedEvenWhenTheSeriesIsOnlyDropped) {
     series.add(run.bones({1, 1}));
   }
   EXPECT_EQ(read_pvd(folder / "bones.pvd").size(), 2u);
+}
+
+TEST_F(SeriesFiles, AValueThatIsNotFiniteIsNeverWritten) {
+  const SyntheticRun run;
+  Series series(folder, {Encoding::zlib, false, "particles", 0.01});
+  series.add(run.particles({0, 0}));
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), inf, -inf, 1e39}) {
+    Dataset frame = run.particles({1, 1});
+    Column& force = *std::find_if(frame.point_columns.begin(), frame.point_columns.end(),
+                                  [](const Column& one) { return one.name == "force"; });
+    std::get<std::vector<double>>(force.values)[7] = bad;
+    const Error error = error_of([&] { series.add(frame); });
+    EXPECT_EQ(error.exit(), Exit::unstable);
+    EXPECT_TRUE(contains(error.what(), "at 1 s: particles force ")) << error.what();
+    frame = run.particles({1, 1});
+    frame.points.back().z() = bad;
+    EXPECT_TRUE(contains(error_of([&] { series.add(frame); }).what(), "Points"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "particles/particles_000001.vtu"));
+}
+
+TEST_F(SeriesFiles, GoesOnAfterTheFramesThatAreKept) {
+  const SyntheticRun run;
+  const std::vector<double> times = {0, 0.5};
+  {
+    Series series(folder, bones_format());
+    for (int i = 0; i < 4; ++i) series.add(run.bones({i / 2.0, i}));
+  }
+  {
+    Series series(folder, bones_format(), times);
+    EXPECT_EQ(read_pvd(folder / "bones.pvd").size(), 2u);  // at once: the others are gone
+    EXPECT_FALSE(std::filesystem::exists(folder / "bones/bones_000002.vtu"));
+    series.add(run.bones({1, 2}));
+  }
+  const auto rows = read_pvd(folder / "bones.pvd");
+  ASSERT_EQ(rows.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(rows[i].time, i / 2.0);
+  std::filesystem::remove(folder / "bones/bones_000001.vtu");
+  const Error error = error_of([&] { Series(folder, bones_format(), times); });
+  EXPECT_EQ(error.exit(), Exit::bad_input);
+  EXPECT_TRUE(contains(error.what(), "bones_000001.vtu")) << error.what();
 }
 
 TEST_F(SeriesFiles, AStartRemovesTheOlderSeriesAndNothingElse) {

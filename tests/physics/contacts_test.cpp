@@ -128,20 +128,14 @@ TEST(Contacts, NoListedPairComesNearerThanApproachSinceAllows) {
       }
 }
 
-TEST(Contacts, BoundTravelAndReach) {
+TEST(Contacts, BoundReach) {
   std::mt19937 random(3);
   for (const Scene& scene : scenes())
-    for (const auto& [angle, shift] : sizes) {
-      const auto motions = random_motions(scene.groups, random, angle, shift);
-      const double travel = scene.contacts.travel(motions);
+    for (int sample = 0; sample < 3; ++sample) {
       const Vec3 place = test::random_vector(random);
-      for (std::size_t k = 0; k < scene.points.size(); ++k) {
-        const std::size_t group = scene.lead[k];
-        ASSERT_LE((moved(motions[group], scene.points[k]) - scene.points[k]).norm(),
-                  travel + 1e-12);
+      for (std::size_t k = 0; k < scene.points.size(); ++k)
         ASSERT_LE((scene.points[k] - place).norm(),
-                  scene.contacts.reach_from(place, group) + 1e-12);
-      }
+                  scene.contacts.reach_from(place, scene.lead[k]) + 1e-12);
     }
 }
 

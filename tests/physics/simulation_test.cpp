@@ -152,6 +152,33 @@ TEST(Unstable, NamesTheParticleByItsId) {
   test::expect_error(Exit::unstable, [&] { broken.step(); }, {"particle " + id, "not finite"});
 }
 
+TEST(Unstable, StaysWhereItWasAndTellsWhoFailed) {
+  const Points rest = bar();
+  for (const auto search : {NeighbourSearch::lists, NeighbourSearch::cells})
+    for (const auto precision : {Precision::binary64, Precision::binary32}) {
+      Settings settings = test::box_scene(25);
+      settings.solver.neighbour_search = search;
+      settings.solver.precision = precision;
+      settings.material.damping = 0;
+      Particles particles = particles_at(rest, r, 1);
+      particles.set_velocity(9, {0, 1000, 0});
+      particles.set_velocity(4, {std::nan(""), 0, 0});
+      Simulation simulation = test::simulation_from(settings, rest, particles, 1e-3);
+      test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"particle 4 "});
+      EXPECT_EQ(simulation.steps(), 0);
+      ASSERT_EQ(simulation.offenders().size(), 2u);
+      const Offender &lost = simulation.offenders()[0], &fast = simulation.offenders()[1];
+      EXPECT_EQ(lost.particle, 4u);
+      EXPECT_FALSE(lost.finite);
+      EXPECT_EQ(lost.moved, 0);
+      EXPECT_EQ(fast.particle, 9u);
+      EXPECT_TRUE(fast.finite);
+      EXPECT_NEAR(fast.moved, 1, 1e-3);  // its bone holds it back
+      for (std::size_t i = 0; i < rest.size(); ++i)
+        EXPECT_LT((simulation.particles().position(i) - rest[i]).norm(), 1e-6 * r);
+    }
+}
+
 TEST(Unstable, NamesTheFirstOfManyForEveryThreadCount) {
   const Settings settings = test::box_scene(25);
   const Points rest = bar();

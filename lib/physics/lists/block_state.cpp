@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/lists/block_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sinew {
@@ -66,6 +67,27 @@ template <class Real>
 void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Measure& measure) {
   for (int axis = 0; axis < 3; ++axis)
     v_[axis][k + block] = static_cast<Real>(measure.velocity(v[axis]));
+}
+
+template <class Real>
+auto BlockState<Real>::columns() const -> MovingColumns<Coord, Real> {
+  const auto part = [&](const auto& axis) {
+    const auto first = axis.begin() + block;
+    return std::vector(first, first + static_cast<std::ptrdiff_t>(size_));
+  };
+  MovingColumns<Coord, Real> columns;
+  for (int axis = 0; axis < 3; ++axis)
+    columns.x[axis] = part(x_[axis]), columns.v[axis] = part(v_[axis]);
+  return columns;
+}
+
+template <class Real>
+void BlockState<Real>::set_columns(const MovingColumns<Coord, Real>& columns) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::copy(columns.x[axis].begin(), columns.x[axis].end(), x_[axis].begin() + block);
+    std::copy(columns.v[axis].begin(), columns.v[axis].end(), v_[axis].begin() + block);
+  }
+  pad();
 }
 
 template <>

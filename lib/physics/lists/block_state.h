@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/particles.h"
+#include "core/simulation_state.h"
 #include "physics/kernel/kernel.h"
 #include "physics/lists/measure.h"
 
@@ -38,6 +39,10 @@ class BlockState {
   void set_position(std::size_t k, const Vec3& p, const Measure& measure);
   Vec3 velocity(std::size_t k, const Measure& measure) const;
   void set_velocity(std::size_t k, const Vec3& v, const Measure& measure);
+
+  MovingColumns<Coord, Real> columns() const;  ///< without the pads
+  /// As many as there are.
+  void set_columns(const MovingColumns<Coord, Real>& columns);
 
   /// Puts nobody's particles, far from everything and each other, before the first and after the
   /// last.

@@ -182,11 +182,4 @@ double Contacts::reach_from(const Vec3& point, std::size_t group) const {
   return (point - whole_[group].center()).norm() + radius_[group];
 }
 
-double Contacts::travel(std::span<const RigidMotion> motions) const {
-  double most = 0;
-  for (std::size_t group = 0; group < whole_.size(); ++group)
-    most = std::max(most, difference_within(motions[group], RigidMotion(), whole_[group]));
-  return most;
-}
-
 }  // namespace sinew

@@ -42,8 +42,6 @@ class Contacts {
   /// particle was farther than `moved` (m) from its T x(0).
   double approach_since(std::span<const RigidMotion> earlier, std::span<const RigidMotion> motions,
                         double moved, double shift = 0) const;
-  /// How far any particle has been carried, m.
-  double travel(std::span<const RigidMotion> motions) const;
   /// Upper bound of a group's distance from `point` at the reference, m; 0 for an empty group.
   double reach_from(const Vec3& point, std::size_t group) const;
 

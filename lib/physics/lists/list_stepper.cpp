@@ -16,6 +16,10 @@ namespace {
 // Columns of sorted particles, in diameters; how much longer lists may become before a sort is
 // tried anew.
 constexpr double column_edge = 1.2, most_growth = 1.3;
+// When the order of the particles is looked at, which the last bits of sums depend on, follows from
+// the count of steps alone, so that a run that is resumed sorts when an unbroken one does. The
+// lists made for it cost about one step in a hundred.
+constexpr std::int64_t steps_between_looks_at_order = 1024;
 // A barrier costs more than the work below this many particles per thread.
 constexpr std::size_t particles_per_thread = 8192;
 
@@ -64,6 +68,7 @@ void ListStepper<Real>::load(const Particles& particles) {
   const std::size_t n = particles.size();
   Box box;
   for (std::size_t i = 0; i < n; ++i) box.extend(particles.position(i));
+  measured_box_ = box;
   measure_ = measure_for<Real>(box, body_->material.pair, stepping_.step);
   state_ = next_ = BlockState<Real>(n);
   id_.assign((state_.blocks() + 2) * block, 0);
@@ -74,8 +79,13 @@ void ListStepper<Real>::load(const Particles& particles) {
     state_.set_position(k, particles.position(k), measure_);
     state_.set_velocity(k, particles.velocity(k), measure_);
   }
-  slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
+  find_slots();
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
+}
+
+template <class Real>
+void ListStepper<Real>::find_slots() {
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, measure_);
 }
 
 template <class Real>
@@ -156,11 +166,22 @@ Riders<Real> ListStepper<Real>::riders() {
 template <class Real>
 void ListStepper<Real>::keep_lists_true(const Pose& pose) {
   const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
-  if (!lists_.made()) return rebuild(pose);
-  place_carriers(pose);
-  if (fastest && !lists_.follow(riders(), *fastest)) return rebuild(pose);
-  if (sizeof(Real) == 4 && lists_.travel(carrier_pose_) > free_travel<Real>(measure_))
+  const bool anew = remeasure();
+  if (must_look_at_order()) {
     rebuild(pose);
+    if (lists_.mean_of_wide() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
+    return;
+  }
+  if (anew || !lists_.made()) return rebuild(pose);
+  place_carriers(pose);
+  if (fastest && !lists_.follow(riders(), *fastest)) rebuild(pose);
+}
+
+/// A second look before the same step, as in a run resumed there, would change nothing.
+template <class Real>
+bool ListStepper<Real>::must_look_at_order() {
+  return steps_ % steps_between_looks_at_order == 0 &&
+         std::exchange(order_looked_at_, steps_) != steps_;
 }
 
 /// Puts the particles into columns where that makes the lists shorter.
@@ -184,35 +205,50 @@ bool ListStepper<Real>::sort() {
   }
   id_ = std::move(id);
   caller_ = std::move(caller);
-  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, measure_);
+  find_slots();
   sorting_ += watch.lap();
   return true;
 }
 
+/// Takes a new measure where the body may have come to the end of the present one's range, and has.
+/// When that is looked at follows from the bones' motion alone: lists differ in a run that is
+/// resumed.
 template <class Real>
-void ListStepper<Real>::remeasure() {
-  if (sizeof(Real) == 8) return;
+bool ListStepper<Real>::remeasure() {
+  if (sizeof(Real) == 8 || travelled_ <= free_travel<Real>(measure_)) return false;
   const std::size_t n = caller_.size();
-  const Box box = box_of(state_, measure_);
-  if (sinew::serves<Real>(measure_, box)) return;
-  const Measure before =
-      std::exchange(measure_, measure_for<Real>(box, body_->material.pair, stepping_.step));
+  measured_box_ = box_of(state_, measure_);
+  travelled_ = 0;
+  if (sinew::serves<Real>(measure_, measured_box_)) return false;
+  const Measure before = std::exchange(
+      measure_, measure_for<Real>(measured_box_, body_->material.pair, stepping_.step));
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       state_.set_velocity(k, state_.velocity(k, before), measure_);
       state_.set_position(k, state_.position(k, before), measure_);
     }
   });
-  slots_ = bone_slots<Real>(*body_, {id_.data() + block, n}, measure_);
+  find_slots();
+  return true;
+}
+
+/// How far a particle may come in a step that is sound: its bone's way and what it moves beside.
+template <class Real>
+double ListStepper<Real>::travel_of_step(const Pose& pose) const {
+  double fastest = 0;
+  for (const BonePose& bone : pose) {
+    const double spread = bone.angular_velocity.norm() * travelled_;
+    for (int corner = 0; corner < 8 && !measured_box_.isEmpty(); ++corner) {
+      const Vec3 at = measured_box_.corner(static_cast<Box::CornerType>(corner));
+      fastest = std::max(fastest, bone.velocity_at(at).norm() + spread);
+    }
+  }
+  return 1.001 * (fastest * stepping_.step + most_radii_per_step * body_->material.pair.r);
 }
 
 template <class Real>
 void ListStepper<Real>::rebuild(const Pose& pose) {
-  remeasure();
   place_bones(pose);
-  choose_carriers(pose);
-  lists_.make(riders());
-  if (lists_.mean_of_wide() <= most_growth * mean_when_sorted_ || !sort()) return;
   choose_carriers(pose);
   lists_.make(riders());
 }
@@ -251,32 +287,38 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   for (const kernel::Totals& piece : totals_)
     fastest = std::max(fastest, piece.fastest), sound = sound && piece.sound;
   if (!sound) {
-    sums.failure = culprit(pose);
+    sums.failure = failure(pose);
     return sums;
   }
   fastest_ = std::sqrt(fastest) * measure_.length / measure_.time;
   std::swap(state_, next_);
   state_.pad_last_block();
   kicked_ = true;
+  if (sizeof(Real) == 4) travelled_ += travel_of_step(pose);
+  ++steps_;
   return sums;
 }
 
-/// The first particle in the caller's order whose step was not sound; where rounding makes that
-/// none, the fastest.
+/// Who failed in the step, the first in the caller's order; where rounding makes that none, the
+/// fastest.
 template <class Real>
-Failure ListStepper<Real>::culprit(const Pose& pose) {
-  Failure first{caller_.size(), true}, fastest;
+Failure ListStepper<Real>::failure(const Pose& pose) {
+  Failure failure;
   const double rounding = sizeof(Real) == 4 ? 1e-5 : 0;
   const double most = most_radii_per_step * body_->material.pair.r * (1 - rounding);
-  double farthest = -1;
+  Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < caller_.size(); ++k) {
-    const Vec3 velocity = next_.velocity(k, measure_);
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
-    if (moved > farthest) farthest = moved, fastest = {caller_[k], true};
-    if (moved <= most && velocity.allFinite()) continue;
-    if (caller_[k] < first.particle) first = {caller_[k], velocity.allFinite()};
+    const bool finite = std::isfinite(moved) && next_.velocity(k, measure_).allFinite();
+    const Offender one{caller_[k], finite, std::isfinite(moved) ? moved : 0};
+    if (finite && moved > fastest.moved) fastest = one;
+    if (!finite || moved > most) failure.all.push_back(one);
   }
-  return first.particle < caller_.size() ? first : fastest;
+  if (failure.all.empty()) failure.all.push_back(fastest);
+  std::sort(failure.all.begin(), failure.all.end(),
+            [](const Offender& a, const Offender& b) { return a.particle < b.particle; });
+  failure.first = failure.all.front();
+  return failure;
 }
 
 /// Of the velocity after the step to the leading bone, or to the velocity before it.
@@ -347,6 +389,63 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
     particles.set_velocity(
         i, particles.velocity(i) +
                stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
+}
+
+template <class Real>
+void ListStepper<Real>::save(SimulationState& state) const {
+  state.moving = state_.columns();
+  state.kicked = kicked_;
+  state.order = caller_;
+  state.whole_numbers = {measure_.length, measure_.origin, measured_box_, travelled_};
+  state.mean_when_sorted = mean_when_sorted_;
+}
+
+template <class Real>
+void ListStepper<Real>::restore(const SimulationState& state) {
+  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
+  const auto* moving = std::get_if<Columns>(&state.moving);
+  if (moving == nullptr) throw not_a_state("it is in another precision");
+  check_moving(*moving, caller_.size());
+  if (!state.rest_length.empty()) throw not_a_state("it has bonds");
+  restore_order(state.order);
+  restore_measure(state.whole_numbers);
+  state_.set_columns(*moving);
+  next_ = state_;
+  find_slots();
+  kicked_ = state.kicked;
+  mean_when_sorted_ = state.mean_when_sorted;
+  steps_ = state.steps;
+  order_looked_at_ = -1;
+  fastest_.reset();
+  lists_ = PartnerLists<Real>(kernel_, body_->material.pair, stepping_.step);
+}
+
+/// `order` names each particle's place in the caller's order once.
+template <class Real>
+void ListStepper<Real>::restore_order(const std::vector<std::uint32_t>& order) {
+  std::vector<std::int32_t> id_of(caller_.size(), -1);
+  for (std::size_t k = 0; k < caller_.size(); ++k) id_of[caller_[k]] = id_[k + block];
+  if (order.size() != id_of.size()) throw not_a_state("it has no order of the particles");
+  std::vector<std::int32_t> id(id_.size(), 0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (order[k] >= id_of.size() || id_of[order[k]] < 0)
+      throw not_a_state("its order of the particles names one twice");
+    id[k + block] = std::exchange(id_of[order[k]], -1);
+  }
+  id_ = std::move(id);
+  caller_ = order;
+}
+
+template <class Real>
+void ListStepper<Real>::restore_measure(const WholeNumbers& saved) {
+  const bool sane = saved.length > 0 && std::isfinite(saved.length) && saved.origin.allFinite() &&
+                    saved.box.min().allFinite() && saved.box.max().allFinite() &&
+                    saved.travelled >= 0 && std::isfinite(saved.travelled);
+  if (!sane) throw not_a_state("its measure is none");
+  measure_.length = saved.length;
+  measure_.origin = saved.origin;
+  measured_box_ = saved.box;
+  travelled_ = saved.travelled;
 }
 
 template class ListStepper<double>;

@@ -30,6 +30,9 @@ class ListStepper {
   void read(const Pose& pose, Particles& particles);
   ListCounts counts() const;
 
+  void save(SimulationState& state) const;
+  void restore(const SimulationState& state);
+
  private:
   static constexpr int block = BlockState<Real>::block;
 
@@ -44,10 +47,15 @@ class ListStepper {
 
   void keep_lists_true(const Pose& pose);
   void rebuild(const Pose& pose);
-  void remeasure();
+  bool remeasure();
+  double travel_of_step(const Pose& pose) const;
+  bool must_look_at_order();
   bool sort();
+  void find_slots();
+  void restore_order(const std::vector<std::uint32_t>& order);
+  void restore_measure(const WholeNumbers& saved);
   StepSums sums_of_totals() const;
-  Failure culprit(const Pose& pose);
+  Failure failure(const Pose& pose);
   Vec3 relative_velocity(const Pose& pose, std::size_t k) const;
 
   std::shared_ptr<const Body> body_;
@@ -55,6 +63,8 @@ class ListStepper {
   double mass_;  ///< of a particle, kg
   kernel::Functions<Real> kernel_;
   Measure measure_;
+  Box measured_box_;      ///< around the particles when the measure was looked at, m
+  double travelled_ = 0;  ///< since then, at most, m
   BlockState<Real> state_, next_;
   std::vector<std::int32_t> id_;       ///< with pads, as the states have
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
@@ -64,11 +74,13 @@ class ListStepper {
   CarrierSlots<Real> carrier_slots_;
   Pose carrier_pose_;
   std::vector<kernel::FrameNow<Real>> frames_;  ///< of the carriers; the last stands still
+  std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
   PartnerLists<Real> lists_;
   double mean_when_sorted_ =
       45;  ///< differences per block in the wide list; here: of a packed body
+  std::int64_t order_looked_at_ = -1;  ///< before which step
   std::int64_t sorts_ = 0;
   double sorting_ = 0;             ///< s
   std::optional<double> fastest_;  ///< in a step not yet followed, relative to the carriers, m/s

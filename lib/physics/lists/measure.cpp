@@ -7,11 +7,11 @@ namespace sinew {
 namespace {
 
 // Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
-// at first; it is measured anew when it is larger than 1.25 of that, off the middle by more than an
-// eighth of it, or has been carried by more than 0.36 of it. So no particle comes farther out than
-// 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
+// at first; it is measured anew when it is larger than 1.25 of that, or off the middle by more than
+// an eighth of it, which is looked at when it may have travelled by 0.36 of it. So no particle
+// comes farther out than 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
 constexpr double body_range = 1073741824;  // 2^30
-constexpr double largest = 1.25, off_the_middle = 0.125, carried = 0.36;
+constexpr double largest = 1.25, off_the_middle = 0.125, travelled = 0.36;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ double free_travel<double>(const Measure&) {
 
 template <>
 double free_travel<float>(const Measure& measure) {
-  return carried * body_range * measure.length;
+  return travelled * body_range * measure.length;
 }
 
 }  // namespace sinew

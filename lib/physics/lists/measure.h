@@ -27,7 +27,7 @@ Measure measure_for(const Box& box, const PairForce& pair, double step);
 template <class Real>
 bool serves(const Measure& measure, const Box& box);
 
-/// How far particles may be carried before the lists are made, and the measure looked at, again: m.
+/// How far particles may travel before the measure is looked at again: m.
 template <class Real>
 double free_travel(const Measure& measure);
 

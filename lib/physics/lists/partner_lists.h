@@ -54,10 +54,6 @@ class PartnerLists {
   /// After a step in which no particle was faster than `fastest` (m/s) relative to its
   /// carrier, from the pose told last. False: the lists have to be made anew.
   bool follow(const Riders<Real>& riders, double fastest);
-  /// How far particles have been carried since the lists were made, m.
-  double travel(const Pose& pose) const {
-    return contacts_.travel(motions_between(listed_pose_, pose));
-  }
   ListCounts counts() const;
 
  private:

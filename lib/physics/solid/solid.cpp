@@ -7,6 +7,7 @@
 
 #include "core/closest_packing.h"
 #include "physics/pair_pass.h"
+#include "physics/stepper.h"
 
 namespace sinew {
 namespace {
@@ -142,6 +143,18 @@ double Solid::energy(const Particles& particles) {
     if (material_.volume_stiffness > 0) sum += volume_energy(i);
     return sum;
   });
+}
+
+void Solid::restore(const std::vector<double>& rest_length,
+                    const std::vector<std::int32_t>& broken) {
+  if (rest_length.size() != bonds_.rest_length.size() || broken.size() != bonds_.broken.size())
+    throw not_a_state("it has " + std::to_string(rest_length.size() / 2) + " bonds, not " +
+                      std::to_string(bonds_.size()));
+  if (!std::all_of(rest_length.begin(), rest_length.end(),
+                   [](double length) { return length >= 0 && std::isfinite(length); }))
+    throw not_a_state("a bond has no length");
+  bonds_.rest_length = rest_length;
+  bonds_.broken = broken;
 }
 
 double Solid::evolve(const Particles& particles, double step) {

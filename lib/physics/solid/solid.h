@@ -34,6 +34,8 @@ class Solid {
   double evolve(const Particles& particles, double step);
 
   const Bonds& bonds() const { return bonds_; }
+  /// Bonds as they were at another moment. Throws bad input where they are not this solid's.
+  void restore(const std::vector<double>& rest_length, const std::vector<std::int32_t>& broken);
 
  private:
   double between(std::size_t i, std::uint32_t j, double d) const;

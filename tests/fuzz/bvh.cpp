@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rig/bvh.h"
+
+#include <cmath>
+
+#include "targets.h"
+
+namespace sinew::fuzz {
+namespace {
+
+void require_sound(const Rig& rig, const Bvh& bvh) {
+  require(rig.skeleton.size() == bvh.joints.size());
+  for (const Bone& bone : rig.skeleton.bones)
+    require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite());
+  for (const Clip& clip : rig.clips)
+    for (const Track& track : clip.motion.tracks)
+      for (const Quat& turn : track.rotation.values) require(std::abs(turn.norm() - 1) < 1e-9);
+}
+
+}  // namespace
+
+void bvh(std::string_view bytes) {
+  expect_sound_or_refused([&] {
+    const Bvh read = parse_bvh(std::string(bytes), "fuzz.bvh");
+    BvhOptions options;
+    options.rate = bytes.size() % 2 ? 0 : 7;
+    require_sound(rig_of(read, options), read);
+  });
+}
+
+}  // namespace sinew::fuzz

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the seeds of the fuzz targets: small files of every form that each reader knows.
+
+usage: make_seeds.py BIN CORPUS      folder of the programs, folder of the corpora
+"""
+import base64
+import json
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+BVH = """HIERARCHY
+ROOT hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT chest
+  {
+    OFFSET 0 10 0
+    CHANNELS 3 Zrotation Xrotation Yrotation
+    End Site
+    {
+      OFFSET 0 5 0
+    }
+  }
+}
+MOTION
+Frames: 2
+Frame Time: 0.0333333
+0 0 0 0 0 0 0 0 0
+1 2 3 10 20 30 -10 5 90
+"""
+
+SCENES = {
+    "small": """body: {mesh: a.obj, radius: 1/40}
+skeleton:
+  bones:
+    - {name: lower, head: [0, 0, 0], tail: [0, 0, 0.3]}
+    - {name: upper, parent: lower, tail: [0, 0, 0.7]}
+motion:
+  tracks:
+    - bone: upper
+      interpolation: step
+      keys: [{time: 0}, {frame: 3, axis: [0, 1, 0], angle: 50}, {time: 1, euler: [1, 2, 3], translation: [0, 0, 1]}]
+solver: {duration: 2, gravity: [0, 0, -9.81], precision: single}
+output: {encoding: none, skin_lbs: true}
+""",
+    "world": """body:
+  mesh: "a.obj"
+  count: 1000
+  packing: hcp
+material: {model: bonded, poisson_ratio: 0.4}
+skeleton: {bones: [{name: a, head: [0, 0, 0], tail: [0, 0, 1]}]}
+binding:
+  joint_zone: 2
+  explicit: [{bone: a, ids: [0, 1]}, {low: [0, 0, 0], high: [1, 1, 1]}, {bone: a, centre: [0, 0, 0], radius: 1}]
+world:
+  drag: 0.5
+  obstacles:
+    - {name: floor, shape: plane, friction: 0.5}
+    - {name: ring, shape: capsule, from: [0, 0, 0], to: [1, 0, 0], radius: 0.1, bone: a}
+    - {name: ball, shape: sphere, centre: [1, 1, 1], radius: 0.1, keys: [{time: 0}, {time: 1, translation: [1, 0, 0]}]}
+  pins: [{centre: [0, 0, 0], radius: 0.1, bone: a}]
+  fields: [{name: wind, acceleration: [0, 3, 0], low: [0, 0, 0], high: [1, 1, 1], falloff: 0.05}]
+  muscles: [{name: m, bone: a, strength: 500, keys: [{time: 0, activation: 0}, {time: 1, activation: 1}]}]
+"""}
+
+
+def stl_text():
+    facets = "".join("facet normal 0 0 0\nouter loop\n" +
+                     "".join("vertex %g %g %g\n" % POINTS[corner] for corner in face) + "endloop\nendfacet\n"
+                     for face in FACES)
+    return f"solid seed\n{facets}endsolid seed\n".encode()
+
+
+def stl_binary():
+    facets = b"".join(struct.pack("<12fH", 0, 0, 0, *POINTS[a], *POINTS[b], *POINTS[c], 0) for a, b, c in FACES)
+    return b"seed".ljust(80) + struct.pack("<I", len(FACES)) + facets
+
+
+def ply(form):
+    head = (f"ply\nformat {form} 1.0\ncomment seed\nelement vertex {len(POINTS)}\nproperty float x\n"
+            "property float y\nproperty double z\nproperty uchar red\n"
+            f"element face {len(FACES)}\nproperty list uchar int vertex_indices\nend_header\n").encode()
+    if form == "ascii":
+        return head + "".join("%g %g %g 7\n" % point for point in POINTS).encode() + \
+            "".join("3 %d %d %d\n" % face for face in FACES).encode()
+    order = "<" if "little" in form else ">"
+    return head + b"".join(struct.pack(order + "ffdB", *point, 7) for point in POINTS) + \
+        b"".join(struct.pack(order + "B3i", 3, *face) for face in FACES)
+
+
+def gltf_parts():
+    indices = struct.pack("<12H", *(corner for face in FACES for corner in face))
+    data = indices + struct.pack("<12f", *(x for point in POINTS for x in point))
+    return data, {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "scale": [2, 2, -2], "children": [1]}, {"translation": [1, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0}]}],
+        "buffers": [{"byteLength": len(data)}],
+        "bufferViews": [{"buffer": 0, "byteLength": 24}, {"buffer": 0, "byteOffset": 24, "byteLength": 48}],
+        "accessors": [{"bufferView": 0, "componentType": 5123, "count": 12, "type": "SCALAR"},
+                      {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [1, 1, 1]}]}
+
+
+def gltf_text():
+    data, document = gltf_parts()
+    document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return json.dumps(document, indent=1).encode()
+
+
+def gltf_binary():
+    data, document = gltf_parts()
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+def run_files(binaries, put):
+    """What runs of a few particles leave."""
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        cube = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        quads = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+        (folder / "a.obj").write_text("".join("v %d %d %d\n" % point for point in cube) +
+                                      "".join("f %d %d %d %d\n" % quad for quad in quads))
+        (folder / "few.yaml").write_text("body: {mesh: a.obj, count: 5}\nskeleton: {bones: [{name: a, "
+                                         "head: [0.5, 0.5, 0], tail: [0.5, 0.5, 1]}]}\nsolver: {duration: 0.04}\n"
+                                         "output: {checkpoint_interval: 0}\n")
+        for encoding in ("zlib", "lz4", "raw", "none"):
+            out = folder / encoding
+            subprocess.run([binaries / "sinew-simulate", folder / "few.yaml", "-o", out, "--quiet", "--set",
+                            f"output.encoding={encoding}"], check=True, stdout=subprocess.DEVNULL)
+            for series in ("particles", "surface", "bones", "frames"):
+                put("vtu", f"{series}_{encoding}", (out / f"{series}/{series}_000001.vtu").read_bytes())
+        put("pvd", "run", (out / "particles.pvd").read_bytes())
+        put("checkpoint", "double", (out / "checkpoint/a.bin").read_bytes())
+        for name, words in [("single", "solver.precision=single"), ("bonded", "material.model=bonded")]:
+            subprocess.run([binaries / "sinew-simulate", folder / "few.yaml", "-o", folder / name, "--quiet",
+                            "--set", words], check=True, stdout=subprocess.DEVNULL)
+            put("checkpoint", name, (folder / name / "checkpoint/a.bin").read_bytes())
+
+
+def main():
+    binaries, corpus = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+
+    def put(target, name, content):
+        (corpus / target).mkdir(parents=True, exist_ok=True)
+        (corpus / target / name).write_bytes(content)
+
+    put("bvh", "two_joints", BVH.encode())
+    points = "".join("%g %g %g\n" % point for point in POINTS)
+    put("obj", "tetrahedron", ("".join("v " + line + "\n" for line in points.splitlines()) + "vt 0 0\nvn 0 0 1\n" +
+                               "".join("f %d/1/1 %d//1 %d\n" % tuple(c + 1 for c in face) for face in FACES) +
+                               "f -1 -2 \\\n -3\n").encode())
+    put("off", "tetrahedron", ("OFF\n4 4 0\n" + points + "".join("3 %d %d %d\n" % face for face in FACES)).encode())
+    put("off", "coloured", ("COFF 4 1 0\n" + "".join(line + " 1 0 0 1\n" for line in points.splitlines()) +
+                            "3 0 1 2 255 0 0\n").encode())
+    put("stl", "text", stl_text())
+    put("stl", "binary", stl_binary())
+    for form in ("ascii", "binary_little_endian", "binary_big_endian"):
+        put("ply", form, ply(form))
+    put("gltf", "embedded.gltf", gltf_text())
+    put("gltf", "binary.glb", gltf_binary())
+    for name, text in SCENES.items():
+        put("scene", name, text.encode())
+    run_files(binaries, put)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

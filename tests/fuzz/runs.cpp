@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes, and what a run leaves behind.
+#include "config/resolved.h"
+#include "config/scene.h"
+#include "io/checkpoint.h"
+#include "io/series.h"
+#include "io/vtu.h"
+#include "targets.h"
+
+namespace sinew::fuzz {
+
+void scene(std::string_view bytes) {
+  const auto path = file_of(bytes, "fuzz.yaml");
+  expect_sound_or_refused([&] {
+    const Settings settings = read_scene(path);
+    require(!resolved_scene(settings, path.parent_path()).empty());
+  });
+}
+
+void checkpoint(std::string_view bytes) {
+  const auto path = file_of(bytes, "a.bin");
+  for (const std::uint64_t particles : {std::uint64_t{3}, std::uint64_t{5}})
+    expect_sound_or_refused([&] {
+      const Checkpoint read = read_checkpoint(path, particles);
+      require(read.run.particles == particles && read.state.order.size() <= bytes.size());
+    });
+}
+
+void vtu(std::string_view bytes) {
+  const auto path = file_of(bytes, "fuzz.vtu");
+  expect_sound_or_refused([&] {
+    const Dataset data = read_vtu(path);
+    const auto points = static_cast<std::int32_t>(data.points.size());
+    for (const std::int32_t point : data.connectivity) require(point >= 0 && point < points);
+  });
+}
+
+void pvd(std::string_view bytes) {
+  const auto path = file_of(bytes, "fuzz.pvd");
+  expect_sound_or_refused([&] {
+    for (const PvdRow& row : read_pvd(path))
+      require(std::filesystem::path(row.file).is_relative() &&
+              row.file.find("/../") == row.file.npos && !row.file.starts_with("../"));
+  });
+}
+
+}  // namespace sinew::fuzz

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The readers as fuzzers call them. Any bytes are a file that gives sound values, or bad input in
+// one line that says what to do; all else ends the program.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace sinew::fuzz {
+
+void bvh(std::string_view bytes);
+void checkpoint(std::string_view bytes);
+void gltf(std::string_view bytes);
+void obj(std::string_view bytes);
+void off(std::string_view bytes);
+void ply(std::string_view bytes);
+void pvd(std::string_view bytes);
+void scene(std::string_view bytes);
+void stl(std::string_view bytes);
+void vtu(std::string_view bytes);
+
+/// Ends the program where something that always holds does not.
+void require(bool holds);
+
+/// Does `job`; what it throws must be bad input in one line.
+template <class Job>
+void expect_sound_or_refused(Job&& job);
+
+/// Puts the bytes into a file of that name, in a folder of this process.
+std::filesystem::path file_of(std::string_view bytes, const char* name);
+
+}  // namespace sinew::fuzz
+
+#include "expect.h"

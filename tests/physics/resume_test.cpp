@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A simulation that is saved and restored goes on with the bits of one that never stopped, wherever
+// it stops and on any number of threads, while particles are sorted and measured anew.
+#include "core/parallel.h"
+#include "expect_error.h"
+#include "physics/world/world.h"
+#include "ways.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+
+/// A world of which as many equal simulations can be begun as are needed.
+struct World {
+  std::string name;
+  Settings settings;
+  Points rest;
+  double shake = 0, speed = 0;  // of the particles at the beginning: radii, m/s
+  double factor = 0.5;
+  Vec3 velocity = Vec3::Zero();
+  std::shared_ptr<const sinew::World> around = {};
+
+  Simulation begin() const {
+    Body body = test::make_body(settings, rest);
+    Particles particles = test::shaken(rest, body.material, shake * r, speed);
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      particles.set_velocity(i, particles.velocity(i) + velocity);
+    const double step = test::step_of(settings, body, factor);
+    body.world = around;
+    return Simulation(body, make_motion(settings, body.skeleton), particles,
+                      stepping_of(settings.solver, step));
+  }
+};
+
+void PrintTo(const World& world, std::ostream* out) { *out << world.name; }
+
+World bend(const std::string& name, Precision precision, int planes = 25) {
+  World world{name, test::in(precision, test::box_scene(planes)), test::fcc_box(7, 7, planes, r)};
+  world.settings.binding.joint_zone = 2;
+  world.settings.solver.gravity = {0, 1, -2};
+  world.settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.2, 50)})};
+  return world;
+}
+
+/// Comes in no order and flows.
+World melt(const std::string& name, Precision precision) {
+  World world{name,
+              test::in(precision, test::unbound(test::box_scene(15))),
+              test::fcc_box(13, 13, 15, r),
+              0.3,
+              1.2,
+              0.1};
+  world.settings.material.damping = 0;
+  std::shuffle(world.rest.begin(), world.rest.end(), std::mt19937(7));
+  return world;
+}
+
+/// Flies so far that whole numbers need a measure of their own.
+World flight(const std::string& name) {
+  World world{name,
+              test::in(Precision::binary32, test::unbound(test::box_scene(9))),
+              test::fcc_box(5, 5, 9, r),
+              0.1,
+              0.1,
+              0.1};
+  world.velocity = {3, -2, 1};
+  return world;
+}
+
+World with(World world, Integrator integrator) {
+  world.settings.solver.integrator = integrator;
+  return world;
+}
+
+World with(World world, NeighbourSearch search) {
+  world.settings.solver.neighbour_search = search;
+  return world;
+}
+
+/// Bonds that creep and snap.
+World tearing(const std::string& name, MaterialModel model) {
+  World world = bend(name, Precision::binary64, 17);
+  world.settings.material.model = model;
+  world.settings.material.breaking_strain = 0.02;
+  world.settings.material.yield_strain = 0.005;
+  world.settings.material.creep_rate = 30;
+  world.shake = 0.05;
+  return world;
+}
+
+/// Between a wall that comes and a wind, in a medium, held at both ends, with a muscle that
+/// twitches.
+World surrounded(const std::string& name, Integrator integrator) {
+  World world = with(bend(name, Precision::binary64, 17), integrator);
+  const Material material = test::material_of(world.settings);
+  sinew::World around;
+  Obstacle wall;
+  wall.name = "wall";
+  wall.shape = PlaneShape{{-5.4 * r, 0, 0}, {1, 0, 0}};
+  wall.motion = [](double time, const Pose&) {
+    return ObstaclePose{{{0.005 * time, 0, 0}, Mat3::Identity()}, {0.005, 0, 0}, Vec3::Zero()};
+  };
+  wall.stiffness = material.pair.contact_stiffness();
+  wall.damping = 0.5 * std::sqrt(wall.stiffness * material.mass);
+  wall.friction = 0.4;
+  around.obstacles = {wall};
+  around.drag.rate = 2;
+  around.fields = {{"wind", UniformAcceleration{{2, 0, 0}}, {}, {{0, 0.02}, {0, 1}}}};
+  const double top = world.rest.back().z();
+  around.pins = pinned(world.rest,
+                       {{{BoxShape{{0, 0, 0}, {1, 1, 2 * r}}, 0}, no_bone},
+                        {{BoxShape{{0, 0, top}, {1, 1, 2 * r}}, 0}, 1}},
+                       2);
+  Muscle muscle;
+  muscle.strength = 200;
+  muscle.activation = {{0, 0.05}, {0, 1}};
+  muscle.shares = shares_in({}, world.rest);
+  around.muscles = make_muscles(world.rest, r, {muscle});
+  world.around = std::make_shared<const sinew::World>(around);
+  world.factor = 0.2;
+  return world;
+}
+
+std::vector<World> worlds() {
+  using enum Precision;
+  return {bend("BendInDouble", binary64),
+          bend("BendInSingle", binary32),
+          with(bend("VerletInDouble", binary64), Integrator::velocity_verlet),
+          with(bend("VerletInSingle", binary32), Integrator::velocity_verlet),
+          with(bend("ExplicitInSingle", binary32), Integrator::explicit_euler),
+          melt("MeltInDouble", binary64),
+          melt("MeltInSingle", binary32),
+          flight("Flight"),
+          with(bend("Cells", binary64, 17), NeighbourSearch::cells),
+          with(with(bend("VerletWithCells", binary64, 17), NeighbourSearch::cells),
+               Integrator::velocity_verlet),
+          tearing("Bonded", MaterialModel::bonded),
+          tearing("BondedVolume", MaterialModel::bonded_volume),
+          surrounded("Surrounded", Integrator::symplectic_euler),
+          surrounded("VerletSurrounded", Integrator::velocity_verlet)};
+}
+
+/// All that a simulation tells of a moment.
+struct Told {
+  std::uint64_t state = 0;
+  std::vector<double> energies;
+  Points forces;
+  std::vector<int> neighbours;
+  std::vector<std::int32_t> broken;
+
+  bool operator==(const Told&) const = default;
+};
+
+Told tell(Simulation& simulation) {
+  const Energies of = simulation.energies();
+  const Forces& forces = simulation.forces();
+  Told told{state_hash(simulation.particles()),
+            {of.kinetic, of.gravity, of.pair, of.bone, of.work_of_bones, of.dissipation, of.contact,
+             of.work_of_world},
+            {},
+            forces.neighbours,
+            {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
+  for (std::size_t i = 0; i < simulation.particles().size(); ++i)
+    for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
+      told.forces.push_back((*part)[i]);
+  told.forces.insert(told.forces.end(), forces.world.begin(), forces.world.end());
+  for (const Reaction& on : simulation.reactions_of_obstacles()) told.forces.push_back(on.force);
+  return told;
+}
+
+/// Telling the state on the way leaves no trace.
+bool is_told(std::int64_t step) { return step % 5 == 0; }
+
+void go_on(Simulation& simulation, std::int64_t steps) {
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (is_told(simulation.steps())) simulation.energies();
+  }
+}
+
+class Resumed : public testing::TestWithParam<World> {};
+
+/// Past the first look at the order of the particles.
+constexpr std::int64_t last = 1100;
+
+TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
+  Simulation unbroken = GetParam().begin();
+  std::vector<SimulationState> saved{unbroken.save()};
+  for (const std::int64_t moment : {1, 2, 37, 301, 777, 1023, 1024, 1025}) {
+    go_on(unbroken, moment);
+    saved.push_back(unbroken.save());
+  }
+  while (unbroken.steps() < last) unbroken.step();
+  const Told expected = tell(unbroken);
+  int threads = 0;
+  for (const SimulationState& state : saved)
+    with_threads(1 + threads++ % 3, [&] {
+      Simulation resumed = GetParam().begin();
+      resumed.restore(state);
+      EXPECT_EQ(resumed.steps(), state.steps);
+      while (resumed.steps() < last) resumed.step();
+      EXPECT_TRUE(tell(resumed) == expected) << "from step " << state.steps;
+    });
+}
+
+TEST_P(Resumed, TellsTheSameOfTheMomentItWasSavedAt) {
+  Simulation simulation = GetParam().begin();
+  for (const std::int64_t moment : {0, 3, 90}) {
+    go_on(simulation, moment);
+    const SimulationState state = simulation.save();
+    const Told expected = tell(simulation);
+    Simulation resumed = GetParam().begin();
+    resumed.restore(state);
+    EXPECT_TRUE(tell(resumed) == expected) << "step " << moment;
+  }
+}
+
+TEST_P(Resumed, StopsAgainAndAgainWithoutATrace) {
+  Simulation unbroken = GetParam().begin();
+  auto resumed = std::make_unique<Simulation>(GetParam().begin());
+  while (unbroken.steps() < 200) {
+    unbroken.step();
+    resumed->step();
+    if (unbroken.steps() % 17 != 0) continue;
+    const SimulationState state = resumed->save();
+    resumed = std::make_unique<Simulation>(GetParam().begin());
+    resumed->restore(state);
+  }
+  EXPECT_TRUE(tell(*resumed) == tell(unbroken));
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Resumed, testing::ValuesIn(worlds()),
+                         [](const auto& one) { return one.param.name; });
+
+TEST(Resume, GoesThroughSortsMeasuresAndBrokenBonds) {
+  for (const Precision precision : test::precisions) {
+    Simulation simulation = melt("Melt", precision).begin();
+    const auto before = simulation.save().order;
+    while (simulation.steps() < last) simulation.step();
+    EXPECT_GT(simulation.list_counts().sorts, 0);
+    EXPECT_NE(simulation.save().order, before);
+  }
+  Simulation far = flight("Flight").begin();
+  const Vec3 origin = far.save().whole_numbers.origin;
+  while (far.steps() < last) far.step();
+  EXPECT_NE(far.save().whole_numbers.origin, origin);
+  Simulation torn = tearing("Torn", MaterialModel::bonded).begin();
+  while (torn.steps() < last) torn.step();
+  Simulation pressed = surrounded("Pressed", Integrator::symplectic_euler).begin();
+  while (pressed.steps() < last) pressed.step();
+  EXPECT_GT(pressed.energies().contact, 0);
+  EXPECT_NE(pressed.energies().work_of_world, 0);
+  const auto broken = torn.broken_bonds();
+  EXPECT_GT(std::count_if(broken.begin(), broken.end(), [](int n) { return n > 0; }), 0);
+}
+
+TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
+  using enum Precision;
+  const SimulationState good = bend("", binary64).begin().save();
+  const auto refuse = [](const World& world, SimulationState state, const char* why) {
+    Simulation simulation = world.begin();
+    const auto before = state_hash(simulation.particles());
+    test::expect_bad_input([&] { simulation.restore(state); }, {why});
+    EXPECT_EQ(state_hash(simulation.particles()), before);
+  };
+  refuse(bend("", binary64, 17), good, "particles, not");
+  refuse(bend("", binary32), good, "precision");
+  refuse(tearing("", MaterialModel::bonded), good, "particles, not");
+  refuse(with(bend("", binary64, 17), NeighbourSearch::cells),
+         bend("", binary32, 17).begin().save(), "single precision");
+  SimulationState bad = good;
+  bad.order[3] = bad.order[4];
+  refuse(bend("", binary64), bad, "twice");
+  bad = good;
+  std::get<MovingInDouble>(bad.moving).v[1][7] = NAN;
+  refuse(bend("", binary64), bad, "finite");
+  bad = good;
+  bad.steps = -1;
+  refuse(bend("", binary64), bad, "steps");
+  bad = bend("", binary32).begin().save();
+  bad.whole_numbers.length = 0;
+  refuse(bend("", binary32), bad, "measure");
+  bad = tearing("", MaterialModel::bonded).begin().save();
+  bad.rest_length.pop_back();
+  refuse(tearing("", MaterialModel::bonded), bad, "bonds");
+}
+
+}  // namespace
+}  // namespace sinew
