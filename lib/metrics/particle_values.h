@@ -4,10 +4,14 @@
 
 #include <vector>
 
+#include "core/cell_grid.h"
 #include "metrics/body.h"
 #include "metrics/frame.h"
 
 namespace sinew {
+
+/// The least squared stretch that counts: keeps the logarithm of a flat F finite.
+inline constexpr double flattest = 1e-24;
 
 /// n values each, in the written order. From F, the least-squares deformation gradient over the
 /// neighbours at rest: not-a-number where those lie in a plane.
@@ -19,11 +23,22 @@ struct ParticleValues {
   std::vector<double> stretch;       ///< the largest of U = sqrt(F^T F)
   std::vector<double> D2min;         ///< mean |dx - F dX|^2 over the rest neighbours, m^2
   std::vector<double> neighbours;    ///< closer than b
-  std::vector<double> near;          ///< closer than 2.2 r
+  std::vector<double> lost;          ///< neighbours at rest that are at b or farther
+  std::vector<double> gained;        ///< particles closer than 2.2 r that were not at rest
+  std::vector<double> turnover;      ///< (lost + gained) / neighbours at rest
+  std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
+  std::vector<double> weight;        ///< the share its bone has in it; empty where not known
   /// sqrt(3/2 dev s : dev s) of the virial stress s = -(1/2V0) sum f (x) r, Pa; empty where the
   /// body's pair force is not known.
   std::vector<double> von_mises;
 };
+
+/// The virial stress of particle i, Pa: all the forces between particles, and of each one's own
+/// volume. The body's pair force is known, and `near` finds all particles within b.
+Mat3 virial_stress(const RestBody& rest, const Points& now, const CellGrid& near, std::size_t i);
+
+/// sqrt(3/2 dev s : dev s).
+double von_mises(const Mat3& stress);
 
 /// In parallel. The state is one of this body.
 ParticleValues particle_values(const RestBody& rest, const FrameState& state);
