@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same_place = 1e-6;       // radii: two bodies began alike
+constexpr double same_place = 1e-6;        // radii: two bodies began alike
 constexpr double same_float_place = 1e-3;  // radii: likewise, of surfaces read from Float32
 
 /// One of the two runs, with what is known of it before the other.
@@ -67,10 +67,10 @@ struct Alike {
 
 Alike alike(const Side& first, const Side& second) {
   const double r = first.rest.radius;
-  return {began_alike(first.rest.shape.points, second.rest.shape.points, same_place * r),
-          first.run.surface.faces == second.run.surface.faces &&
-              began_alike(first.run.surface.points, second.run.surface.points,
-                          same_float_place * r)};
+  return {
+      began_alike(first.rest.shape.points, second.rest.shape.points, same_place * r),
+      first.run.surface.faces == second.run.surface.faces &&
+          began_alike(first.run.surface.points, second.run.surface.points, same_float_place * r)};
 }
 
 std::string counted(const Points& one, const Points& other, const char* what) {
@@ -169,7 +169,7 @@ void refuse_own_folders(const fs::path& out, const fs::path& first, const fs::pa
                     "name another folder with -o");
 }
 
-void write_comparison(const Comparison& compared, const Side& first, const Side& second,
+void write_comparison(const RunComparison& compared, const Side& first, const Side& second,
                       const fs::path& out) {
   create({out});
   write_file(out / "compare.csv", comparison_csv(compared));
@@ -183,7 +183,7 @@ void write_comparison(const Comparison& compared, const Side& first, const Side&
 
 }  // namespace
 
-Comparison compare_runs(const fs::path& first_folder, const fs::path& second_folder,
+RunComparison compare_runs(const fs::path& first_folder, const fs::path& second_folder,
                         const HowToMeasure& how, const fs::path& out) {
   refuse_own_folders(out, first_folder, second_folder);
   Side first(first_folder), second(second_folder);
@@ -192,7 +192,7 @@ Comparison compare_runs(const fs::path& first_folder, const fs::path& second_fol
     side->measured = measure_run(side->run, {{}, {}, {}, how.ahead, false});
   const Alike same = alike(first, second);
   hold_together(first, second, pairs, same);
-  Comparison compared = compare(compared_run(first, pairs, 0), compared_run(second, pairs, 1));
+  RunComparison compared = compare(compared_run(first, pairs, 0), compared_run(second, pairs, 1));
   compared.remarks = remarks_on(first, second, same, pairs.size());
   for (const Limit& limit : how.limits)
     compared.checks.push_back(check_limit(limit, compared.differences, compared.summary));
@@ -200,7 +200,7 @@ Comparison compare_runs(const fs::path& first_folder, const fs::path& second_fol
   return compared;
 }
 
-void print_comparison(const Comparison& compared, bool as_json) {
+void print_comparison(const RunComparison& compared, bool as_json) {
   Results results;
   results.add("frames", compared.differences.size());
   if (!compared.remarks.empty()) results.add("remarks", compared.remarks);

@@ -12,10 +12,10 @@ namespace sinew {
 /// Writes compare.csv, metrics.json and report.html into `out`, which is made. Throws bad input for
 /// folders that are no runs, for runs without a time in common, and for `out` being one of them;
 /// not written.
-Comparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second,
+RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second,
                         const HowToMeasure& how, const std::filesystem::path& out);
 
 /// The largest differences, as key: value lines or one JSON object.
-void print_comparison(const Comparison& comparison, bool as_json);
+void print_comparison(const RunComparison& comparison, bool as_json);
 
 }  // namespace sinew

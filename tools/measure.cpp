@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a run;
-// or what two runs have in common, and what not.
+// sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
+// run; or what two runs have in common, and what not.
 #include "command.h"
 #include "compare_runs.h"
 #include "core/file.h"
@@ -96,9 +96,10 @@ Exit measure_folder(const Options& options, const Common& common) {
   Stopwatch watch;
   const RunFiles run = open_run({options.folders.front()});
   if (run.frames() < run.frames_named)
-    say(common, "warning: only " + std::to_string(run.frames()) + " of " +
-                    std::to_string(run.frames_named) +
-                    " frames are in all series (a run still going, or cut off); these are measured");
+    say(common,
+        "warning: only " + std::to_string(run.frames()) + " of " +
+            std::to_string(run.frames_named) +
+            " frames are in all series (a run still going, or cut off); these are measured");
   Measured measured = measure_run(run, how);
   write_tables(run.folder, measured);
   record_stage(run.folder, "measuring", watch.lap());
@@ -114,7 +115,7 @@ Exit compare_folders(const Options& options, const Common& common) {
   if (!options.reference.empty() || !options.arrays.empty())
     throw bad_input("--reference and --arrays are for one run: of two, the first is the reference",
                     "leave them out");
-  const Comparison comparison = compare_runs(options.folders[0], options.folders[1],
+  const RunComparison comparison = compare_runs(options.folders[0], options.folders[1],
                                              how_to_measure(options, common), options.out);
   print_comparison(comparison, common.json);
   return told(comparison.checks);
@@ -124,14 +125,14 @@ Exit compare_folders(const Options& options, const Common& common) {
 
 int main(int argc, char** argv) {
   Options options;
-  About about{"measure",
-              "Measures a run: metrics.csv, metrics_bones.csv, sections.csv, metrics.json, "
-              "report.html. Compares two: compare.csv, metrics.json, report.html.",
-              {"sinew measure out/box_bend",
-               "sinew measure out/box_bend --fail-on 'volume_error > 0.05'",
-               "sinew measure out/paper out/bonded -o out/paper_bonded",
-               "sinew measure out/coarse --reference out/fine/surface.pvd",
-               "sinew measure out/box_bend --arrays 'J, strain, stress'"}};
+  About about{
+      "measure",
+      "Measures a run: metrics.csv, metrics_bones.csv, sections.csv, metrics.json, "
+      "report.html. Compares two: compare.csv, metrics.json, report.html.",
+      {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'",
+       "sinew measure out/paper out/bonded -o out/paper_bonded",
+       "sinew measure out/coarse --reference out/fine/surface.pvd",
+       "sinew measure out/box_bend --arrays 'J, strain, stress'"}};
   about.takes_scene = false;
   return run_command(
       argc, argv, about, [&](CLI::App& app) { declare(app, options); },

@@ -69,7 +69,8 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
   measured.frames.push_back(frame.metrics);
   for (const BoneMetrics& bone : measure_bones(rest, state, frame.particles))
     measured.bones.push_back(bone);
-  for (const SectionMetrics& row : measure_sections(rest.sections, state.surface_points, state.time))
+  for (const SectionMetrics& row :
+       measure_sections(rest.sections, state.surface_points, state.time))
     measured.sections.push_back(row);
   if (measured.film.wants(i)) add_frame(measured.film, i, rest, state, frame.particles);
   course.worst_particles.push_back(std::move(frame.worst_particles));

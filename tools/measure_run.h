@@ -29,8 +29,8 @@ struct HowToMeasure {
   std::vector<Limit> limits;
   std::optional<SurfaceSeries> reference;
   std::vector<std::string_view> arrays;  ///< to be written as the series "values"
-  bool ahead = true;  ///< read the frame that comes while one is measured
-  bool film = true;   ///< keep one
+  bool ahead = true;                     ///< read the frame that comes while one is measured
+  bool film = true;                      ///< keep one
 };
 
 /// The body of a run at rest.

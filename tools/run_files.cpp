@@ -39,7 +39,8 @@ Error of_another_body(const std::filesystem::path& file, const char* what) {
 /// The rows of a series that a scene may ask for.
 std::vector<PvdRow> rows_if_there(const RunFolder& folder, const char* series) {
   std::error_code unreachable;
-  const bool there = std::filesystem::exists(folder.path / (std::string(series) + ".pvd"), unreachable);
+  const bool there =
+      std::filesystem::exists(folder.path / (std::string(series) + ".pvd"), unreachable);
   return there ? rows_of(folder, series) : std::vector<PvdRow>();
 }
 
@@ -126,7 +127,8 @@ void trim_rows(RunFiles& run) {
     run.frames_named = std::max(run.frames_named, rows->size());
   }
   if (frames == 0)
-    throw bad_input(Place{run.folder.path.string()}, "the run has no frames", "run the scene again");
+    throw bad_input(Place{run.folder.path.string()}, "the run has no frames",
+                    "run the scene again");
   for (const auto& [name, rows] : series) {
     rows->resize(frames);
     for (std::size_t i = 0; i < frames; ++i)

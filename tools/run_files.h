@@ -22,13 +22,13 @@ struct RunFiles {
   std::string scene_text;
   Settings settings;
   Skeleton skeleton;
-  BodyFile body;      ///< at rest, with the bone of each particle
-  Triangles surface;  ///< at rest
+  BodyFile body;                           ///< at rest, with the bone of each particle
+  Triangles surface;                       ///< at rest
   std::vector<std::int32_t> surface_bone;  ///< that moves each point most, -1 for none
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< as many of each
   std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the surface by skinning; none if not written
 
-  std::size_t frames_named = 0;            ///< by the series that has most
+  std::size_t frames_named = 0;  ///< by the series that has most
 
   std::size_t frames() const { return particle_rows.size(); }
 };

@@ -22,10 +22,12 @@ namespace {
 /// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
-      "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|(metrics_bones|sections)\\.csv|"
+      "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|(metrics_"
+      "bones|sections)\\.csv|"
       "\\.?(bones\\.csv|surface\\.(obj|pc2))(\\.tmp)?|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
+      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/"
+      "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?))");
   return std::regex_match(relative.generic_string(), ours);
 }
@@ -33,8 +35,8 @@ bool written_by_a_run(const fs::path& relative) {
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (const char* part :
-       {"", "particles", "surface", "bones", "frames", "obstacles", "skin_lbs", "skin_dqs", "values", "pictures"})
+  for (const char* part : {"", "particles", "surface", "bones", "frames", "obstacles", "skin_lbs",
+                           "skin_dqs", "values", "pictures"})
     for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
       if (!entry.is_directory(failed) &&
           written_by_a_run(entry.path().lexically_relative(folder.path / "")))

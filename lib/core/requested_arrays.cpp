@@ -11,8 +11,8 @@ namespace sinew {
 namespace {
 
 constexpr std::array<std::string_view, 12> names = {
-    "F",         "J",     "stretch",  "strain",   "hencky_strain", "strain_eq",
-    "stress",    "von_mises", "D2min", "turnover", "inverted",      "pose_error"};
+    "F",      "J",         "stretch", "strain",   "hencky_strain", "strain_eq",
+    "stress", "von_mises", "D2min",   "turnover", "inverted",      "pose_error"};
 
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;

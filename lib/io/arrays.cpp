@@ -187,9 +187,10 @@ std::vector<WrittenArray> table_of_defects() {
 
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
-  for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles, table_of_values, table_of_surface,
-                    table_of_skin_lbs, table_of_skin_dqs, table_of_bones, table_of_frames,
-                    table_of_obstacles, table_of_defects})
+  for (auto rows :
+       {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles,
+        table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs, table_of_bones,
+        table_of_frames, table_of_obstacles, table_of_defects})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

@@ -23,7 +23,7 @@ void append(std::string& line, double value) {
   line += std::isnan(value) ? "nan" : number_text(value);
 }
 
-Summary summary_of_differences(const Comparison& compared) {
+Summary summary_of_differences(const RunComparison& compared) {
   Summary summary = summarize(compared.differences, compared.first.radius);
   for (const RunMetric& metric : run_metrics_table())
     summary.*metric.value =
@@ -45,16 +45,15 @@ FrameMetrics difference(const FrameMetrics& first, const FrameMetrics& second) {
   return out;
 }
 
-Comparison compare(ComparedRun first, ComparedRun second) {
-  Comparison compared{std::move(first), std::move(second), {}, {}, {}, {}};
+RunComparison compare(ComparedRun first, ComparedRun second) {
+  RunComparison compared{std::move(first), std::move(second), {}, {}, {}, {}};
   for (std::size_t i = 0; i < compared.first.frames.size(); ++i)
-    compared.differences.push_back(
-        difference(compared.first.frames[i], compared.second.frames[i]));
+    compared.differences.push_back(difference(compared.first.frames[i], compared.second.frames[i]));
   compared.summary = summary_of_differences(compared);
   return compared;
 }
 
-std::string comparison_csv(const Comparison& compared) {
+std::string comparison_csv(const RunComparison& compared) {
   std::string text = csv_head();
   for (std::size_t i = 0; i < compared.differences.size(); ++i) {
     text += number_text(compared.differences[i].time);
@@ -70,7 +69,7 @@ std::string comparison_csv(const Comparison& compared) {
   return text;
 }
 
-std::optional<std::size_t> largest_difference(const Comparison& compared, std::size_t metric) {
+std::optional<std::size_t> largest_difference(const RunComparison& compared, std::size_t metric) {
   const auto value = metrics_table()[metric].value;
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < compared.differences.size(); ++i) {

@@ -21,7 +21,7 @@ struct ComparedRun {
   double radius = 0;                 ///< of a particle, m
 };
 
-struct Comparison {
+struct RunComparison {
   ComparedRun first, second;
   /// A metric of the second run less that of the first; distances to the first as they are.
   std::vector<FrameMetrics> differences;
@@ -37,13 +37,13 @@ bool is_distance(std::string_view metric);
 FrameMetrics difference(const FrameMetrics& first, const FrameMetrics& second);
 
 /// Sums the differences up. `first` and `second` have their frames and summaries.
-Comparison compare(ComparedRun first, ComparedRun second);
+RunComparison compare(ComparedRun first, ComparedRun second);
 
 /// compare.csv: a row per time; of each metric NAME_a, NAME_b and NAME_difference, of distances
 /// between the runs NAME alone. Numbers read back as the same bits.
-std::string comparison_csv(const Comparison& comparison);
+std::string comparison_csv(const RunComparison& comparison);
 
 /// The frame in which a metric's difference is farthest from zero.
-std::optional<std::size_t> largest_difference(const Comparison& comparison, std::size_t metric);
+std::optional<std::size_t> largest_difference(const RunComparison& comparison, std::size_t metric);
 
 }  // namespace sinew

@@ -73,7 +73,7 @@ Json extremes(const MetricSummary& values) {
   return {{"min", values.min}, {"max", values.max}, {"mean", values.mean}, {"final", values.final}};
 }
 
-Json difference_of(const Comparison& compared, std::size_t metric) {
+Json difference_of(const RunComparison& compared, std::size_t metric) {
   Json one = extremes(compared.summary.metrics[metric]);
   const auto largest = largest_difference(compared, metric);
   const auto value = metrics_table()[metric].value;
@@ -82,7 +82,7 @@ Json difference_of(const Comparison& compared, std::size_t metric) {
   return one;
 }
 
-Json metrics_of(const Comparison& compared) {
+Json metrics_of(const RunComparison& compared) {
   Json all = Json::object();
   for (std::size_t i = 1; i < metrics_table().size(); ++i) {
     const Metric& metric = metrics_table()[i];
@@ -97,7 +97,7 @@ Json metrics_of(const Comparison& compared) {
   return all;
 }
 
-Json run_metrics_of(const Comparison& compared) {
+Json run_metrics_of(const RunComparison& compared) {
   Json all = Json::object();
   for (const RunMetric& metric : run_metrics_table()) {
     Json one = json_description(metric);
@@ -126,7 +126,7 @@ std::string metrics_json(std::span<const FrameMetrics> frames, const Summary& su
   return json_text(file);
 }
 
-std::string comparison_json(const Comparison& compared) {
+std::string comparison_json(const RunComparison& compared) {
   Json file;
   file["schema_version"] = metrics_schema_version;
   file["frames"] = compared.differences.size();

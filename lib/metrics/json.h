@@ -35,6 +35,6 @@ std::string metrics_json(std::span<const FrameMetrics> frames, const Summary& su
 ///   same with largest, the one farthest from zero, and its time)
 /// - run, by name: unit, meaning, formula, a, b, difference
 /// - checks: as in metrics.json of a run
-std::string comparison_json(const Comparison& comparison);
+std::string comparison_json(const RunComparison& comparison);
 
 }  // namespace sinew

@@ -78,7 +78,9 @@ Column stresses(std::string_view name, const RestBody& rest, const Points& now) 
   if (!rest.law.force) return filled<6>(name, now.size(), [&](std::size_t) { return none; });
   const CellGrid grid(now, rest.interaction_range);
   return filled<6>(name, now.size(), [&](std::size_t i) {
-    return symmetric(virial_stress(rest, now, grid, i));
+    std::vector<Partner> partners;
+    find_partners(now, grid, rest.interaction_range, i, partners);
+    return symmetric(virial_stress(rest, now, partners, i));
   });
 }
 

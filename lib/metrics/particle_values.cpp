@@ -71,40 +71,32 @@ struct Within {
   double near = 0, far = 0;
 };
 
-Within count_around(const Points& now, const CellGrid& grid, std::size_t i, double near,
-                    double far) {
-  Within count;
-  grid.for_each_near(now[i], [&](std::uint32_t j) {
-    const double squared = (now[i] - now[j]).squaredNorm();
-    count.near += squared < near * near;
-    count.far += squared < far * far;
-  });
-  return {count.near - 1, count.far - 1};  // not itself
-}
-
-Within count_rest_neighbours(const RestShape& shape, const Points& now, std::size_t i, double near,
-                             double far) {
-  Within count;
-  for (const auto j : shape.neighbours.of(i)) {
-    const double squared = (now[i] - now[j]).squaredNorm();
-    count.near += squared < near * near;
-    count.far += squared < far * far;
+/// How many of value(k) for k < count, squares of distances, are within each.
+template <class Squared>
+Within count_within(std::size_t count, double near, double far, const Squared& squared) {
+  Within found;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double d = squared(k);
+    found.near += d < near * near;
+    found.far += d < far * far;
   }
-  return count;
+  return found;
 }
 
-void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now,
-                      const CellGrid& grid) {
+void count_neighbours(ParticleValues& out, const RestBody& rest, const Points& now,
+                      std::span<const Partner> partners, std::size_t i) {
   const double near = rest_neighbour_range(rest.radius), far = rest.interaction_range;
-  for_each_particle(now.size(), [&](std::size_t i) {
-    const Within all = count_around(now, grid, i, near, far);
-    const Within kept = count_rest_neighbours(rest.shape, now, i, near, far);
-    const auto before = static_cast<double>(rest.shape.neighbours.of(i).size());
-    out.neighbours[i] = all.far;
-    out.lost[i] = before - kept.far;
-    out.gained[i] = all.near - kept.near;
-    out.turnover[i] = before > 0 ? (out.lost[i] + out.gained[i]) / before : not_measured;
+  const auto before = rest.shape.neighbours.of(i);
+  const Within all =
+      count_within(partners.size(), near, far, [&](std::size_t k) { return partners[k].squared; });
+  const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
+    return (now[i] - now[before[k]]).squaredNorm();
   });
+  const auto all_before = static_cast<double>(before.size());
+  out.neighbours[i] = all.far;
+  out.lost[i] = all_before - kept.far;
+  out.gained[i] = all.near - kept.near;
+  out.turnover[i] = all_before > 0 ? (out.lost[i] + out.gained[i]) / all_before : not_measured;
 }
 
 /// -f (x) r of one pair, N m.
@@ -129,6 +121,19 @@ Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
   return sum;
 }
 
+void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now) {
+  const double range = std::max(rest_neighbour_range(rest.radius), rest.interaction_range);
+  const CellGrid grid(now, range);
+  parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
+    std::vector<Partner> partners;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_partners(now, grid, range, i, partners);
+      count_neighbours(out, rest, now, partners, i);
+      if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, partners, i));
+    }
+  });
+}
+
 }  // namespace
 
 double von_mises(const Mat3& stress) {
@@ -136,18 +141,27 @@ double von_mises(const Mat3& stress) {
   return std::sqrt(1.5 * deviator.squaredNorm());
 }
 
-Mat3 virial_stress(const RestBody& rest, const Points& now, const CellGrid& near, std::size_t i) {
+void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Partner>& found) {
+  found.clear();
+  grid.for_each_near(now[i], [&](std::uint32_t j) {
+    const Vec3 apart = now[i] - now[j];
+    const double squared = apart.squaredNorm();
+    if (j != i && squared < range * range) found.push_back({j, apart, squared});
+  });
+}
+
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+                   std::size_t i) {
   const double range = rest.interaction_range;
   const auto bonded = rest.shape.neighbours.of(i);
   Mat3 sum = rest.law.bond ? bonds_virial(rest, now, i) : Mat3(Mat3::Zero());
-  near.for_each_near(now[i], [&](std::uint32_t j) {
-    const Vec3 apart = now[i] - now[j];
-    const double squared = apart.squaredNorm();
-    if (j == i || squared >= range * range || squared == 0) return;
-    if (rest.law.bond && std::binary_search(bonded.begin(), bonded.end(), j)) return;
-    const double d = std::sqrt(squared);
-    sum += virial(rest.law.force(d), apart, d);
-  });
+  for (const Partner& other : partners) {
+    if (other.squared >= range * range || other.squared == 0) continue;
+    if (rest.law.bond && std::binary_search(bonded.begin(), bonded.end(), other.index)) continue;
+    const double d = std::sqrt(other.squared);
+    sum += virial(rest.law.force(d), other.apart, d);
+  }
   return sum / (2 * volume_per_particle(rest.radius)) + volume_stress(rest, now, i);
 }
 
@@ -157,18 +171,12 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
   for (auto* values : {&out.displacement, &out.speed, &out.J, &out.strain, &out.stretch, &out.D2min,
                        &out.neighbours, &out.lost, &out.gained, &out.turnover, &out.pose_error})
     values->resize(n);
+  if (rest.law.force) out.von_mises.resize(n);
   add_motion(out, rest, state);
   add_deformation(out, rest.shape, state.positions);
   add_pose(out, rest, state);
-  const CellGrid grid(state.positions,
-                      std::max(rest_neighbour_range(rest.radius), rest.interaction_range));
-  add_surroundings(out, rest, state.positions, grid);
+  add_surroundings(out, rest, state.positions);
   out.weight = rest.weight;
-  if (!rest.law.force) return out;
-  out.von_mises.resize(n);
-  for_each_particle(n, [&](std::size_t i) {
-    out.von_mises[i] = von_mises(virial_stress(rest, state.positions, grid, i));
-  });
   return out;
 }
 

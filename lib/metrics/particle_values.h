@@ -2,6 +2,8 @@
 // What is measured of every single particle of a frame.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/cell_grid.h"
@@ -33,9 +35,21 @@ struct ParticleValues {
   std::vector<double> von_mises;
 };
 
+/// A particle near another one.
+struct Partner {
+  std::uint32_t index;
+  Vec3 apart;      ///< from it to the other one, m
+  double squared;  ///< of its length, m^2
+};
+
+/// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
+void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Partner>& found);
+
 /// The virial stress of particle i, Pa: all the forces between particles, and of each one's own
-/// volume. The body's pair force is known, and `near` finds all particles within b.
-Mat3 virial_stress(const RestBody& rest, const Points& now, const CellGrid& near, std::size_t i);
+/// volume. The body's pair force is known; partners within b at least.
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+                   std::size_t i);
 
 /// sqrt(3/2 dev s : dev s).
 double von_mises(const Mat3& stress);

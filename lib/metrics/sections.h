@@ -23,9 +23,9 @@ struct EdgePoint {
 
 struct Section {
   int bone = 0;
-  double along = 0;           ///< where it crosses the bone: 0 at the head, 1 at the tail
-  bool joint = false;         ///< it lies in a joint zone
-  double area = 0;            ///< at rest, m^2
+  double along = 0;             ///< where it crosses the bone: 0 at the head, 1 at the tail
+  bool joint = false;           ///< it lies in a joint zone
+  double area = 0;              ///< at rest, m^2
   std::vector<EdgePoint> ring;  ///< counter-clockwise about the bone's axis
 };
 

@@ -150,7 +150,8 @@ constexpr std::array table = {
            &M::reference_surface_max},
     Metric{"reference_particles_rms", "m",
            "Distance of the particles from the same particles of the other run, rms",
-           "sqrt(mean |x - y|^2), where both began at the same places", &M::reference_particles_rms},
+           "sqrt(mean |x - y|^2), where both began at the same places",
+           &M::reference_particles_rms},
     Metric{"reference_particles_max", "m", "The same, at most", "max |x - y|",
            &M::reference_particles_max},
 };

@@ -41,7 +41,8 @@ TEST(SurfaceGap, OfABoxInABoxIsThatOfTheirCorners) {
 }
 
 TEST(SurfaceGap, OfConcentricSpheresIsTheDifferenceOfTheirRadii) {
-  const Triangles one = surface_of(shapes::sphere(1, 5)), other = surface_of(shapes::sphere(1.2, 5));
+  const Triangles one = surface_of(shapes::sphere(1, 5)),
+                  other = surface_of(shapes::sphere(1.2, 5));
   const SurfaceGap gap = surface_gap(one, other);
   EXPECT_NEAR(gap.hausdorff, 0.2, 1e-3);  // they are polyhedra
   EXPECT_NEAR(gap.mean, 0.2, 1e-3);

@@ -38,8 +38,8 @@ TEST(BoneMetrics, SwellingIsTheMeanWayOutwards) {
   const RestBody body = rest_body(box_input());
   const double swell = 0.1;
   const auto bones = bones_of(body, moved(body, [&](const Vec3& p) -> Vec3 {
-                                     return {(1 + swell) * p.x(), (1 + swell) * p.y(), p.z()};
-                                   }));
+                                return {(1 + swell) * p.x(), (1 + swell) * p.y(), p.z()};
+                              }));
   for (std::size_t b_ = 0; b_ < 2; ++b_) {
     double mean = 0, largest = 0;
     for (const Bound& bound : body.bound)

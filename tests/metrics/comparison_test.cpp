@@ -24,10 +24,10 @@ ComparedRun some_run(const char* name, double factor) {
   return run;
 }
 
-Comparison some_comparison() { return compare(some_run("paper", 1), some_run("bonded", 3)); }
+RunComparison some_comparison() { return compare(some_run("paper", 1), some_run("bonded", 3)); }
 
 TEST(Comparison, TakesTheFirstFromTheSecondAndLeavesDistancesAsTheyAre) {
-  const Comparison compared = some_comparison();
+  const RunComparison compared = some_comparison();
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(compared.differences[i].time, 0.5 * i);
     EXPECT_EQ(compared.differences[i].volume, 2 * (i + 1));
@@ -37,23 +37,25 @@ TEST(Comparison, TakesTheFirstFromTheSecondAndLeavesDistancesAsTheyAre) {
 }
 
 TEST(Comparison, OfARunWithItselfIsNothing) {
-  const Comparison compared = compare(some_run("a", 2), some_run("a", 2));
+  const RunComparison compared = compare(some_run("a", 2), some_run("a", 2));
   for (const Metric& metric : metrics_table().subspan(1))
     for (const FrameMetrics& frame : compared.differences)
-      if (!is_distance(metric.name)) EXPECT_EQ(frame.*metric.value, 0) << metric.name;
+      if (!is_distance(metric.name)) {
+        EXPECT_EQ(frame.*metric.value, 0) << metric.name;
+      }
 }
 
 TEST(Comparison, RunMetricsAreDifferencesToo) {
   ComparedRun first = some_run("a", 1), second = some_run("b", 1);
   first.summary.settling_time = 0.5;
   second.summary.settling_time = 0.2;
-  const Comparison compared = compare(first, second);
+  const RunComparison compared = compare(first, second);
   EXPECT_NEAR(compared.summary.settling_time, -0.3, 1e-15);
   EXPECT_TRUE(std::isnan(compared.summary.residual_rms));  // never measured
 }
 
 TEST(Comparison, LimitsAreOnDifferences) {
-  const Comparison compared = some_comparison();
+  const RunComparison compared = some_comparison();
   const auto check = [&](const char* limit) {
     return check_limit(parse_limit(limit), compared.differences, compared.summary);
   };
@@ -98,7 +100,7 @@ TEST(ComparisonCsv, HasBothRunsAndTheirDifferenceInEveryRow) {
 }
 
 TEST(ComparisonJson, TellsBothRunsTheirDifferenceAndItsLargest) {
-  Comparison compared = some_comparison();
+  RunComparison compared = some_comparison();
   compared.remarks = {"Something else."};
   const auto file = nlohmann::json::parse(comparison_json(compared));
   EXPECT_EQ(file["frames"], 3);
@@ -144,7 +146,8 @@ TEST(ComparisonPage, EscapesNamesAndRemarks) {
 Film film_of(const RestBody& body) {
   Film film = plan_film(body, 2, 0.5);
   for (const std::size_t frame : {0, 1}) {
-    const FrameState state = moved_rigidly(body, turned(30.0 * double(frame), {0, 1, 0}), {0, 0, 0});
+    const FrameState state =
+        moved_rigidly(body, turned(30.0 * double(frame), {0, 1, 0}), {0, 0, 0});
     add_frame(film, frame, body, state, particle_values(body, state));
   }
   return film;
@@ -156,7 +159,8 @@ TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
   const std::size_t n = one.particles.size();
   ASSERT_EQ(both.frames.size(), 2u);
   EXPECT_EQ(both.particles.size(), 2 * n);
-  EXPECT_EQ(both.bone_names, (std::vector<std::string>{"a: lower", "a: upper", "b: lower", "b: upper"}));
+  EXPECT_EQ(both.bone_names,
+            (std::vector<std::string>{"a: lower", "a: upper", "b: lower", "b: upper"}));
   EXPECT_EQ(both.bone[n], one.bone[0] + 2);
   for (const FilmFrame& frame : both.frames) {
     ASSERT_EQ(frame.particles.size(), 6 * n);
@@ -172,7 +176,9 @@ TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
     }
     EXPECT_GT(second_begin, first_end);
     for (const auto& values : frame.values)
-      if (!values.empty()) EXPECT_EQ(values.size(), 2 * n);
+      if (!values.empty()) {
+        EXPECT_EQ(values.size(), 2 * n);
+      }
   }
 }
 

@@ -91,10 +91,10 @@ TEST(ParticleArrays, StressOfASmallStrainIsHookes) {
   const double e = 1e-6;
   const Mat3 strain = e * (Mat3() << 1, 0.4, -0.3, 0.4, -0.5, 0.7, -0.3, 0.7, 2).finished();
   const double unit = 1 / (2 * r), C12 = unit / std::sqrt(2.0), C11 = 2 * C12;
-  const Mat3 stress = 2 * C12 * strain +
-                      Mat3((C12 * strain.trace() + (C11 - 3 * C12) * strain.diagonal().array())
-                               .matrix()
-                               .asDiagonal());
+  const Mat3 stress =
+      2 * C12 * strain + Mat3((C12 * strain.trace() + (C11 - 3 * C12) * strain.diagonal().array())
+                                  .matrix()
+                                  .asDiagonal());
   const auto found = values_of(body, moved(body, affine(Mat3::Identity() + strain)), "stress");
   const auto expected = in_order(stress);
   for (std::size_t i = 0; i < body.particles(); ++i)
@@ -173,7 +173,9 @@ TEST(ParticleValues, PullingHalvesApartTurnsOverAThirdOfAnInnerPlane) {
   for (std::size_t i = 0; i < body.particles(); ++i) {
     const int plane = plane_of(body.shape.points[i]);
     const bool at_cut = plane == along / 2 - 1 || plane == along / 2;
-    if (!at_cut) EXPECT_EQ(turnover[i], 0);
+    if (!at_cut) {
+      EXPECT_EQ(turnover[i], 0);
+    }
     if (!at_cut || body.shape.neighbours.of(i).size() < 12) continue;
     EXPECT_NEAR(turnover[i], 4.0 / 12, exact);  // of twelve, four lie across
     ++inner;

@@ -39,9 +39,8 @@ std::vector<MeasuredBone> two_bones() {
 }
 
 std::vector<Section> sections_of(const Triangles& surface) {
-  return make_sections(surface, two_bones(), [](const Vec3& place) {
-    return std::abs(place.z() - length) <= half;
-  });
+  return make_sections(surface, two_bones(),
+                       [](const Vec3& place) { return std::abs(place.z() - length) <= half; });
 }
 
 /// The upper bone's share, linear over a zone of its half width on either side of the joint.
@@ -79,8 +78,8 @@ TEST(Sections, ATwistByLinearBlendPinchesThemAsTheSquareOfTheCosine) {
       const double z = (section.bone + section.along) * length;
       EXPECT_NEAR(area_of(section, now) / section.area, kept(upper_share(z), angle), exact);
       if (section.bone == 1 && section.along == 0) {
-        EXPECT_NEAR(area_of(section, now) / section.area,
-                    std::pow(std::cos(radians(angle / 2)), 2), exact);
+        EXPECT_NEAR(area_of(section, now) / section.area, std::pow(std::cos(radians(angle / 2)), 2),
+                    exact);
       }
     }
   }
@@ -98,9 +97,8 @@ TEST(Sections, ABendByLinearBlendNarrowsThemInOneDirection) {
 TEST(Sections, ARigidMotionKeepsThem) {
   const Triangles surface = prism();
   const Mat3 turn = turned(81, {1, 2, 3});
-  const Points now = mapped(surface.points, [&](const Vec3& p) -> Vec3 {
-    return turn * p + Vec3(1, -2, 3);
-  });
+  const Points now =
+      mapped(surface.points, [&](const Vec3& p) -> Vec3 { return turn * p + Vec3(1, -2, 3); });
   for (const Section& section : sections_of(surface))
     EXPECT_NEAR(area_of(section, now) / section.area, 1, exact);
 }
@@ -127,8 +125,7 @@ TEST(Sections, GiveTheFrameItsIndices) {
   EXPECT_NEAR(rest.candy_wrapper, 0, exact);
   EXPECT_NEAR(rest.bulge, 0, exact);
   state.surface_points = mapped(
-      state.surface_points,
-      blended(turned(90, Vec3::UnitZ()), half * half_length, half_length));
+      state.surface_points, blended(turned(90, Vec3::UnitZ()), half * half_length, half_length));
   EXPECT_NEAR(measure(body, state).candy_wrapper, 0.5, exact);
   state.surface_points = mapped(body.surface.points, [](const Vec3& p) -> Vec3 {
     return {1.1 * p.x(), 1.1 * p.y(), p.z()};
@@ -177,8 +174,9 @@ TEST(JointZone, LosesTheVolumeThatLinearBlendsLose) {
 
 TEST(BoneMetrics, AStretchScalesTheVolumeOfEachBone) {
   const RestBody body = rest_body(box_input());
-  const FrameState state =
-      moved(body, [](const Vec3& p) -> Vec3 { return {p.x(), p.y(), 1.3 * p.z()}; });
+  const FrameState state = moved(body, [](const Vec3& p) -> Vec3 {
+    return {p.x(), p.y(), 1.3 * p.z()};
+  });
   for (const BoneMetrics& bone : measure_bones(body, state, particle_values(body, state))) {
     EXPECT_NEAR(bone.volume, 1.3 * volume_per_particle(r) * bone.followers, exact);
     for (const double ratio : {bone.volume_ratio, bone.volume_joint_ratio, bone.volume_far_ratio})

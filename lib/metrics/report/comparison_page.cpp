@@ -14,11 +14,11 @@
 namespace sinew {
 namespace {
 
-std::string name_of(const Comparison& compared, bool second) {
+std::string name_of(const RunComparison& compared, bool second) {
   return second ? "b: " + compared.second.name : "a: " + compared.first.name;
 }
 
-std::string header(const Comparison& compared) {
+std::string header(const RunComparison& compared) {
   const std::string line =
       std::to_string(compared.differences.size()) + " frames of the same times, from " +
       readable(compared.differences.front().time) + " s to " +
@@ -29,7 +29,7 @@ std::string header(const Comparison& compared) {
                                element("p", line, "class=\"quiet\""));
 }
 
-std::string remarks(const Comparison& compared) {
+std::string remarks(const RunComparison& compared) {
   std::string items;
   for (const std::string& remark : compared.remarks) items += element("li", escaped(remark));
   return items.empty() ? "" : element("ul", items, "class=\"remarks\"");
@@ -46,7 +46,7 @@ bool all_measured_nowhere(const Chart& chart) {
 }
 
 /// One metric of both runs over each other.
-Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const Comparison& compared) {
+Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const RunComparison& compared) {
   ChartPlan one = plan;
   one.metrics = {metric};
   const double radius = compared.first.radius;
@@ -60,7 +60,7 @@ Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const Compar
   return chart;
 }
 
-Chart chart_of_distances(const Comparison& compared) {
+Chart chart_of_distances(const RunComparison& compared) {
   const ChartPlan plan{"Distance between the two",
                        "Of the same particles, of the same points of the surface, and of the "
                        "nearest places",
@@ -74,7 +74,7 @@ Chart chart_of_distances(const Comparison& compared) {
   return chart;
 }
 
-std::vector<Chart> charts_of(const Comparison& compared) {
+std::vector<Chart> charts_of(const RunComparison& compared) {
   std::vector<Chart> charts{chart_of_distances(compared)};
   std::vector<std::string_view> drawn;
   for (const ChartPlan& plan : chart_plans())
@@ -101,9 +101,10 @@ std::string numbers(const ComparisonInput& input, const std::vector<Chart>& char
 std::string film_section(const ComparisonInput& input) {
   if (input.film.frames.empty()) return "";
   return element("h2", "Side by side") +
-         element("p", escaped(name_of(input.comparison, false)) + " beside " +
-                          escaped(name_of(input.comparison, true)) +
-                          ", at the same time and in the same colours.",
+         element("p",
+                 escaped(name_of(input.comparison, false)) + " beside " +
+                     escaped(name_of(input.comparison, true)) +
+                     ", at the same time and in the same colours.",
                  "class=\"quiet\"") +
          std::string(view_markup());
 }
@@ -111,7 +112,7 @@ std::string film_section(const ComparisonInput& input) {
 }  // namespace
 
 std::string comparison_html(const ComparisonInput& input) {
-  const Comparison& compared = input.comparison;
+  const RunComparison& compared = input.comparison;
   const std::vector<Chart> charts = charts_of(compared);
   const std::string body =
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +

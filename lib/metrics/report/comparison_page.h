@@ -14,9 +14,9 @@ namespace sinew {
 /// Texts are plain; the page escapes them.
 struct ComparisonInput {
   std::string version;  ///< of sinew
-  Comparison comparison;
-  Film film;                            ///< of both, see side_by_side(); of no frames: no 3D view
-  std::vector<FactGroup> facts;         ///< what differs between the scenes
+  RunComparison comparison;
+  Film film;                              ///< of both, see side_by_side(); of no frames: no 3D view
+  std::vector<FactGroup> facts;           ///< what differs between the scenes
   std::string first_scene, second_scene;  ///< resolved
 };
 

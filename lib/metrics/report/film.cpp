@@ -58,8 +58,8 @@ void plan_particles(Film& film, const RestBody& rest, std::size_t bytes) {
   const std::size_t each = 6 + film_fields().size();
   const std::size_t fewest = std::min(film.run_particles, fewest_particles);
   film.wanted = evenly(film.run_frames, frames_paid(film.run_frames, bytes, each * fewest));
-  film.particles = picked(film.run_particles,
-                          bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
+  film.particles =
+      picked(film.run_particles, bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
   for (const auto i : film.particles) film.bone.push_back(rest.bone_of[i]);
 }
 

@@ -32,8 +32,7 @@ const char* name_of(Level level) {
 }
 
 std::string scripts(const Page& page) {
-  const std::string data =
-      element("script", page.data, "type=\"application/json\" id=\"data\"");
+  const std::string data = element("script", page.data, "type=\"application/json\" id=\"data\"");
   return data + element("script", std::string(chart_library())) +
          element("script", std::string(scene_library())) +
          element("script", std::string(page_script()));
@@ -47,11 +46,11 @@ std::string head(const Page& page) {
 }
 
 std::string footer(const Page& page) {
-  return element("footer",
-                 element("p", "Written by sinew " + escaped(page.version) + ". " +
-                                  escaped(page.ending)) +
-                     element("details", element("summary", "Licences of what draws this page") +
-                                            element("pre", escaped(licences()))));
+  return element(
+      "footer",
+      element("p", "Written by sinew " + escaped(page.version) + ". " + escaped(page.ending)) +
+          element("details", element("summary", "Licences of what draws this page") +
+                                 element("pre", escaped(licences()))));
 }
 
 }  // namespace

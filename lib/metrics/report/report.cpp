@@ -39,7 +39,8 @@ std::string pictures(const ReportInput& input) {
 std::vector<Chart> filled_charts(const ReportInput& input) {
   std::vector<Chart> charts;
   for (const ChartPlan& plan : chart_plans())
-    if (is_drawn(plan, input.frames)) charts.push_back(planned_chart(plan, input.frames, input.radius));
+    if (is_drawn(plan, input.frames))
+      charts.push_back(planned_chart(plan, input.frames, input.radius));
   return charts;
 }
 
@@ -81,10 +82,10 @@ std::string report_html(const ReportInput& input) {
   const std::vector<Chart> charts = filled_charts(input);
   const std::string body =
       header(input) + verdict_cards(input.frames, input.summary, input.radius) +
-      checks_table(input.checks) + film_section(input) + pictures(input) + charts_section(charts, !input.film.frames.empty()) +
-      curves_section(input) + metrics_tables(input.frames, input.summary) +
-      element("h2", "What was run") + fact_lists(input.facts) +
-      folded("The resolved scene", input.scene_text);
+      checks_table(input.checks) + film_section(input) + pictures(input) +
+      charts_section(charts, !input.film.frames.empty()) + curves_section(input) +
+      metrics_tables(input.frames, input.summary) + element("h2", "What was run") +
+      fact_lists(input.facts) + folded("The resolved scene", input.scene_text);
   return page_html({input.title, input.version, body,
                     "The same numbers, frame by frame, are in metrics.csv, and summed up in "
                     "metrics.json.",

@@ -81,9 +81,8 @@ Film side_by_side(const Film& first, const Film& second,
   const Vec3 way = way_aside(first, second);
   film.frames.clear();
   for (const FilmFrame& frame : first.frames) {
-    const auto other =
-        std::find_if(second.frames.begin(), second.frames.end(),
-                     [&](const FilmFrame& one) { return one.frame == frame.frame; });
+    const auto other = std::find_if(second.frames.begin(), second.frames.end(),
+                                    [&](const FilmFrame& one) { return one.frame == frame.frame; });
     if (other != second.frames.end()) film.frames.push_back(joined(frame, *other, way));
   }
   join_shape(film, second, prefixes);

@@ -64,7 +64,7 @@ std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& 
          element("h2", "Of the whole run") + table({"metric", "value"}, run_rows);
 }
 
-std::string differences_table(const Comparison& compared) {
+std::string differences_table(const RunComparison& compared) {
   std::string rows, run_rows;
   for (std::size_t i = 1; i < metrics_table().size(); ++i) {
     const auto largest = largest_difference(compared, i);

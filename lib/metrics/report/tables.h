@@ -16,7 +16,7 @@ namespace sinew {
 std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& summary);
 
 /// Heading and table: what was measured of both runs, and by how much it differs.
-std::string differences_table(const Comparison& comparison);
+std::string differences_table(const RunComparison& comparison);
 
 /// Heading and table; empty without checks.
 std::string checks_table(std::span<const Check> checks);
