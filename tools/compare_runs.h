@@ -13,7 +13,7 @@ namespace sinew {
 /// folders that are no runs, for runs without a time in common, and for `out` being one of them;
 /// not written.
 RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second,
-                        const HowToMeasure& how, const std::filesystem::path& out);
+                           const HowToMeasure& how, const std::filesystem::path& out);
 
 /// The largest differences, as key: value lines or one JSON object.
 void print_comparison(const RunComparison& comparison, bool as_json);

@@ -116,7 +116,7 @@ Exit compare_folders(const Options& options, const Common& common) {
     throw bad_input("--reference and --arrays are for one run: of two, the first is the reference",
                     "leave them out");
   const RunComparison comparison = compare_runs(options.folders[0], options.folders[1],
-                                             how_to_measure(options, common), options.out);
+                                                how_to_measure(options, common), options.out);
   print_comparison(comparison, common.json);
   return told(comparison.checks);
 }

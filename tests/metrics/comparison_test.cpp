@@ -130,8 +130,11 @@ TEST(ComparisonPage, ShowsBothVerdictsDifferencesRemarksAndSettings) {
        {"<h1>paper and bonded</h1>", "a: paper</h2>", "b: bonded</h2>", "The particles are not",
         "paper → bonded", "body: one", "body: other", "Differences</h2>", "compare.csv"})
     EXPECT_TRUE(contains(page, part)) << part;
-  for (const Metric& metric : metrics_table().subspan(1))
-    EXPECT_TRUE(contains(page, ">" + std::string(metric.name) + "<")) << metric.name;
+  for (const Metric& metric : metrics_table().subspan(1)) {
+    std::string cell = ">";
+    cell += metric.name;
+    EXPECT_TRUE(contains(page, cell += '<')) << metric.name;
+  }
 }
 
 TEST(ComparisonPage, EscapesNamesAndRemarks) {

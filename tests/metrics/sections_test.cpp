@@ -166,9 +166,10 @@ double zone_volume(const RestBody& body, const Mat3& turn) {
 TEST(JointZone, LosesTheVolumeThatLinearBlendsLose) {
   const RestBody body = rest_body(fine_box());
   const auto lost = [](double degrees_) { return 1 - std::cos(radians(degrees_)); };
+  const double coarse = 0.015;  // planes at the surface and the ends of the zone see half of it
   for (const double angle : {45.0, 90.0}) {
-    EXPECT_NEAR(zone_volume(body, turned(angle, Vec3::UnitZ())), 1 - lost(angle) / 3, 0.01);
-    EXPECT_NEAR(zone_volume(body, turned(angle, Vec3::UnitY())), 1 - lost(angle) / 6, 0.01);
+    EXPECT_NEAR(zone_volume(body, turned(angle, Vec3::UnitZ())), 1 - lost(angle) / 3, coarse);
+    EXPECT_NEAR(zone_volume(body, turned(angle, Vec3::UnitY())), 1 - lost(angle) / 6, coarse);
   }
 }
 
