@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <system_error>
 
 #include "core/error.h"
+#include "core/requested_arrays.h"
+#include "io/arrays.h"
 #include "physics/solid/solid.h"
 #include "step_way.h"
 
@@ -35,6 +38,16 @@ double memory_per_particle(const StepWay& way) {
   return way.precision == Precision::binary64 ? memory_with_lists_double : memory_with_lists_single;
 }
 
+/// Numbers of a particle in the arrays that the scene asks for.
+double requested_numbers(const OutputSettings& output) {
+  double numbers = 0;
+  for (const std::string_view name : requested_arrays(output.arrays)) {
+    const WrittenArray* row = find_written("particles", ArrayPlace::point, name);
+    numbers += std::max(1.0, static_cast<double>(row->components.size()));
+  }
+  return numbers;
+}
+
 }  // namespace
 
 Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
@@ -46,7 +59,8 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = setup.body.world ? 3 : 0;  // one more force
   const double reals =
-      particles * (reals_per_particle + reals_of_world) + surfaces * points * reals_per_point;
+      particles * (reals_per_particle + reals_of_world + requested_numbers(output)) +
+      surfaces * points * reals_per_point;
   const double wholes = particles * wholes_per_particle +
                         surfaces * (points * wholes_per_point + faces * wholes_per_face);
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-measure: metrics.csv, metrics_bones.csv, metrics.json and report.html of a run.
-#include "metrics/measure.h"
+// sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
+// run; or what two runs have in common, and what not.
 #include "command.h"
+#include "compare_runs.h"
 #include "core/file.h"
+#include "core/requested_arrays.h"
 #include "core/stopwatch.h"
-#include "law_curves.h"
 #include "metrics/csv.h"
 #include "metrics/json.h"
-#include "metrics/report/charts.h"
-#include "metrics/settling.h"
 #include "metrics/table.h"
 #include "report_input.h"
 #include "results.h"
-#include "run_files.h"
 #include "run_record.h"
 
 namespace {
@@ -20,101 +18,30 @@ namespace {
 using namespace sinew;
 
 struct Options {
-  std::string folder;
+  std::vector<std::string> folders;
   std::vector<std::string> limits;
+  std::string reference, arrays, out;
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("DIR", options.folder, "Folder of the run")->required();
+  app.add_option("DIR", options.folders, "Folder of the run; of two runs: they are compared")
+      ->required()
+      ->expected(1, 2);
+  app.add_option("-o", options.out, "Of two runs: the folder for their comparison")
+      ->type_name("DIR");
   app.add_option("--fail-on", options.limits,
-                 "End with 1 when this holds in any frame, such as 'volume_error > 0.05'")
+                 "End with 1 when this holds in any frame, such as 'volume_error > 0.05'; of two "
+                 "runs a metric is the second's less the first's")
       ->type_name("LIMIT")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-/// Where the force between two particles depends on nothing but their distance.
-std::function<double(double)> pair_force_of(const RunFiles& run) {
-  const MaterialSettings& material = run.settings.material;
-  if (material.model != MaterialModel::paper || material.cohesion != Cohesion::all) return {};
-  return [pair = material_of(run).pair](double d) { return pair.force(d); };
-}
-
-RestBody rest_of(const RunFiles& run) {
-  RestInput input;
-  input.positions = positions_of(run.body.particles);
-  input.surface = run.surface;
-  input.bone.assign(run.body.bone->begin(), run.body.bone->end());
-  for (const Bone& bone : run.skeleton.bones)
-    input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
-  input.radius = run.body.particles.radius;
-  input.interaction_range = run.settings.material.b * input.radius;
-  input.start = read_frame(run, 0).energies;
-  input.pair_force = pair_force_of(run);
-  input.mass = run.body.particles.mass;
-  return rest_body(std::move(input));
-}
-
-FrameState state_of(RunFrame frame) {
-  return {frame.time,
-          std::move(frame.positions),
-          std::move(frame.velocities),
-          std::move(frame.surface_points),
-          std::move(frame.bones),
-          frame.energies};
-}
-
-/// Frames that one goes to look at are in the film even where it leaves others out.
-void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& run) {
-  for (const std::string_view name : telling_metrics()) {
-    const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
-    if (!worst || measured.film.has(*worst)) continue;
-    const FrameState state = state_of(read_frame(run, *worst));
-    add_frame(measured.film, *worst, rest, state, particle_values(rest, state));
-  }
-}
-
-/// What the frames were like in order, beside their metrics.
-struct Course {
-  std::vector<std::vector<RigidFrame>> poses;
-  std::vector<double> times;
-  std::vector<BoneMetrics> bones;
-  std::vector<std::vector<std::int64_t>> worst_particles;
-};
-
-Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& run, bool ahead) {
-  Course course;
-  FramesInOrder frames(run, ahead);
-  for (std::size_t i = 0; i < run.frames(); ++i) {
-    const FrameState state = state_of(frames.next());
-    MeasuredFrame frame = measure_frame(rest, state);
-    measured.frames.push_back(frame.metrics);
-    for (const BoneMetrics& bone : measure_bones(rest, state)) course.bones.push_back(bone);
-    if (measured.film.wants(i)) add_frame(measured.film, i, rest, state, frame.particles);
-    course.worst_particles.push_back(std::move(frame.worst_particles));
-    course.poses.push_back(state.bones);
-    course.times.push_back(state.time);
-  }
-  return course;
-}
-
-Measured measure_run(const RunFiles& run, const std::vector<Limit>& limits, int threads) {
-  const RestBody rest = rest_of(run);
-  Measured measured;
-  measured.film = plan_film(rest, run.frames());
-  Course course = measure_frames(measured, rest, run, threads != 1);
-  const double radius = run.body.particles.radius;
-  std::vector<Hold> stills = holds(course.poses, radius);
-  for (Hold& hold : stills)
-    hold.settled = settling_time(hold, course.times, radius,
-                                 [&](std::size_t i) { return read_frame(run, i).positions; });
-  measured.summary = summarize(measured.frames, radius, std::move(stills));
-  add_worst_particles(measured.summary, course.worst_particles);
-  for (const Limit& limit : limits)
-    measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
-  measured.bones = std::move(course.bones);
-  add_worst_frames(measured, rest, run);
-  return measured;
+  app.add_option("--reference", options.reference,
+                 "Measure the distance to the surfaces of this series too")
+      ->type_name("FILE.pvd");
+  app.add_option("--arrays", options.arrays,
+                 "Write these of every particle and frame too, as values.pvd: F, J, stress, ...; "
+                 "all")
+      ->type_name("NAMES");
 }
 
 double worst_of(const Measured& measured, const Metric& metric, const MetricSummary& summary) {
@@ -145,21 +72,53 @@ Exit told(const std::vector<Check>& checks) {
   return exit;
 }
 
-Exit measure_folder(const Options& options, const Common& common) {
-  std::vector<Limit> limits;
-  for (const std::string& text : options.limits) limits.push_back(parse_limit(text));
-  Stopwatch watch;
-  const RunFiles run = open_run({options.folder});
-  Measured measured = measure_run(run, limits, common.threads);
-  write_file(run.folder.path / "metrics.csv", metrics_csv(measured.frames));
-  write_file(run.folder.path / "metrics_bones.csv", bone_metrics_csv(measured.bones));
-  write_file(run.folder.path / "metrics.json",
+HowToMeasure how_to_measure(const Options& options, const Common& common) {
+  HowToMeasure how;
+  for (const std::string& text : options.limits) how.limits.push_back(parse_limit(text));
+  if (!options.reference.empty()) how.reference = open_surfaces(options.reference);
+  how.arrays = requested_arrays(options.arrays);
+  how.ahead = common.threads != 1;
+  return how;
+}
+
+void write_tables(const RunFolder& folder, const Measured& measured) {
+  write_file(folder.path / "metrics.csv", metrics_csv(measured.frames));
+  write_file(folder.path / "metrics_bones.csv", bone_metrics_csv(measured.bones));
+  write_file(folder.path / "sections.csv", sections_csv(measured.sections));
+  write_file(folder.path / "metrics.json",
              metrics_json(measured.frames, measured.summary, measured.checks));
+}
+
+Exit measure_folder(const Options& options, const Common& common) {
+  if (!options.out.empty())
+    throw bad_input("-o is for the comparison of two runs", "leave it out, or name two runs");
+  const HowToMeasure how = how_to_measure(options, common);
+  Stopwatch watch;
+  const RunFiles run = open_run({options.folders.front()});
+  if (run.frames() < run.frames_named)
+    say(common,
+        "warning: only " + std::to_string(run.frames()) + " of " +
+            std::to_string(run.frames_named) +
+            " frames are in all series (a run still going, or cut off); these are measured");
+  Measured measured = measure_run(run, how);
+  write_tables(run.folder, measured);
   record_stage(run.folder, "measuring", watch.lap());
   print_results(measured, common.json);
   const Exit exit = told(measured.checks);
   write_file(run.folder.path / "report.html", report_html(report_input(run, std::move(measured))));
   return exit;
+}
+
+Exit compare_folders(const Options& options, const Common& common) {
+  if (options.out.empty())
+    throw bad_input("two runs are compared into a folder of its own", "name it with -o");
+  if (!options.reference.empty() || !options.arrays.empty())
+    throw bad_input("--reference and --arrays are for one run: of two, the first is the reference",
+                    "leave them out");
+  const RunComparison comparison = compare_runs(options.folders[0], options.folders[1],
+                                                how_to_measure(options, common), options.out);
+  print_comparison(comparison, common.json);
+  return told(comparison.checks);
 }
 
 }  // namespace
@@ -168,10 +127,17 @@ int main(int argc, char** argv) {
   Options options;
   About about{
       "measure",
-      "Measures a run: metrics.csv, metrics_bones.csv, metrics.json, report.html.",
-      {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'"}};
+      "Measures a run: metrics.csv, metrics_bones.csv, sections.csv, metrics.json, "
+      "report.html. Compares two: compare.csv, metrics.json, report.html.",
+      {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'",
+       "sinew measure out/paper out/bonded -o out/paper_bonded",
+       "sinew measure out/coarse --reference out/fine/surface.pvd",
+       "sinew measure out/box_bend --arrays 'J, strain, stress'"}};
   about.takes_scene = false;
   return run_command(
       argc, argv, about, [&](CLI::App& app) { declare(app, options); },
-      [&](const Common& common) { return measure_folder(options, common); });
+      [&](const Common& common) {
+        return options.folders.size() == 2 ? compare_folders(options, common)
+                                           : measure_folder(options, common);
+      });
 }

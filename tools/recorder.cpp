@@ -4,6 +4,9 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "core/requested_arrays.h"
+#include "measured_body.h"
+#include "metrics/particle_arrays.h"
 
 namespace sinew {
 namespace {
@@ -116,6 +119,7 @@ Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& ou
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
   begin_skinned(folder, output, body, kept);
   if (output.export_surface) begin_export(folder, kept.size());
+  begin_arrays(output, body);
 }
 
 void Recorder::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
@@ -132,6 +136,16 @@ void Recorder::begin_skinned(const std::filesystem::path& folder, const OutputSe
 void Recorder::begin_export(const std::filesystem::path& folder, std::size_t kept) {
   write_obj(folder / "surface.obj", surface_);
   export_ = std::make_unique<PointCache>(folder / "surface.pc2", skin_.rest.size(), kept);
+}
+
+void Recorder::begin_arrays(const OutputSettings& output, const Body& body) {
+  arrays_ = requested_arrays(output.arrays);
+  if (arrays_.empty()) return;
+  RestInput input = measured_body(body.material, body.skeleton);
+  input.positions = rest_;
+  input.surface = surface_;
+  input.bone.assign(particle_bone_.begin(), particle_bone_.end());
+  measured_ = rest_body(std::move(input));
 }
 
 void Recorder::add(Simulation& simulation, double time) {
@@ -166,11 +180,12 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
 }
 
 void Recorder::write(const Moved& frame) {
-  const Dataset particles = particles_dataset(
-      {frame.particles, rest_, particle_bone_, frame.force_pair, frame.force_damping,
-       frame.force_bone, frame.neighbours, frame.energies, particle_weight_, frame.force_world,
-       frame.broken_bonds},
-      frame.moment);
+  Dataset particles =
+      particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
+                         frame.force_damping, frame.force_bone, frame.neighbours, frame.energies,
+                         particle_weight_, frame.force_world, frame.broken_bonds},
+                        frame.moment);
+  add_arrays(frame, particles);
   particles_.add(particles);
   write_surfaces(frame, particles.points);
   bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
@@ -181,6 +196,15 @@ void Recorder::write(const Moved& frame) {
     obstacle_series_->add(
         obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
   ++written_;
+}
+
+void Recorder::add_arrays(const Moved& frame, Dataset& particles) const {
+  if (!measured_) return;
+  FrameState state;
+  state.positions = particles.points;
+  for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
+  for (Column& array : particle_arrays(*measured_, state, arrays_))
+    particles.point_columns.push_back(std::move(array));
 }
 
 void Recorder::write_surfaces(const Moved& frame, const Points& particles) {

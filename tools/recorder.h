@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/background.h"
@@ -20,6 +21,7 @@
 #include "io/frames.h"
 #include "io/point_cache.h"
 #include "io/series.h"
+#include "metrics/body.h"
 #include "physics/simulation.h"
 #include "physics/world/world.h"
 #include "rig/skin.h"
@@ -70,6 +72,8 @@ class Recorder {
   void begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
                      const Body& body, std::span<const double> kept);
   void begin_export(const std::filesystem::path& folder, std::size_t kept);
+  void begin_arrays(const OutputSettings& output, const Body& body);
+  void add_arrays(const Moved& frame, Dataset& particles) const;
   void write_surfaces(const Moved& frame, const Points& particles);
   static void take(Simulation& simulation, double time, Moved& frame);
   void write(const Moved& frame);
@@ -87,6 +91,8 @@ class Recorder {
   BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not asked for
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
+  std::vector<std::string_view> arrays_;  ///< that the scene asks for besides
+  std::optional<RestBody> measured_;      ///< what they are worked out from, if any
   std::array<Moved, 2> moved_;  ///< one being written, one waiting; their room is used again
   std::size_t taken_ = 0;
   std::atomic<int> written_ = 0;

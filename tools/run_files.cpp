@@ -3,16 +3,18 @@
 #include "scene_rig.h"
 
 #include <algorithm>
+#include <array>
 
 #include "config/scene.h"
 #include "core/dataset.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/number_text.h"
 
 namespace sinew {
 namespace {
 
-constexpr std::size_t read_at_once = 2;  // frames: each is large, and more would not come sooner
+constexpr std::size_t read_ahead = 1;  // frames: each is large
 
 std::vector<PvdRow> rows_of(const RunFolder& folder, const char* series) {
   return read_pvd(folder.path / (std::string(series) + ".pvd"));
@@ -34,19 +36,33 @@ Error of_another_body(const std::filesystem::path& file, const char* what) {
                    "run the scene again with --force");
 }
 
-Triangles rest_surface(const RunFolder& folder, const PvdRow& first) {
-  const auto file = folder.path / first.file;
+/// The rows of a series that a scene may ask for.
+std::vector<PvdRow> rows_if_there(const RunFolder& folder, const char* series) {
+  std::error_code unreachable;
+  const bool there =
+      std::filesystem::exists(folder.path / (std::string(series) + ".pvd"), unreachable);
+  return there ? rows_of(folder, series) : std::vector<PvdRow>();
+}
+
+/// The skin at rest, and the bone of each of its points.
+void read_rest_surface(RunFiles& run) {
+  const auto file = run.folder.path / run.surface_rows.front().file;
   const Dataset data = read_vtu(file);
   if (data.kind != CellKind::triangle)
     throw bad_input(Place{file.string()}, "does not hold triangles", "run the scene again");
   const Points moved = told_of(file, [&] { return vectors(data.point_columns, "displacement"); });
-  Triangles surface;
+  run.surface_bone = told_of(file, [&] { return integers(data.point_columns, "bone"); });
+  for (const std::int32_t bone : run.surface_bone)
+    if (bone < -1 || bone >= static_cast<std::int32_t>(run.skeleton.size()))
+      throw bad_input(Place{file.string()},
+                      "names bone " + std::to_string(bone) + ", which the run does not have",
+                      "run the scene again with --force");
+  Triangles& surface = run.surface;
   surface.points = data.points;
   for (std::size_t i = 0; i < moved.size(); ++i) surface.points[i] -= moved[i];
   for (std::size_t c = 0; c < data.cells(); ++c)
     surface.faces.push_back(
         {data.connectivity[3 * c], data.connectivity[3 * c + 1], data.connectivity[3 * c + 2]});
-  return surface;
 }
 
 double field(const Dataset& data, const char* name) {
@@ -99,6 +115,32 @@ void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
   });
 }
 
+/// Rows of frames that not all series have go; those that stay are of the same times.
+void trim_rows(RunFiles& run) {
+  const std::array<std::pair<const char*, std::vector<PvdRow>*>, 3> series{
+      {{"particles.pvd", &run.particle_rows},
+       {"surface.pvd", &run.surface_rows},
+       {"frames.pvd", &run.frame_rows}}};
+  std::size_t frames = run.particle_rows.size();
+  for (const auto& [name, rows] : series) {
+    frames = std::min(frames, rows->size());
+    run.frames_named = std::max(run.frames_named, rows->size());
+  }
+  if (frames == 0)
+    throw bad_input(Place{run.folder.path.string()}, "the run has no frames",
+                    "run the scene again");
+  for (const auto& [name, rows] : series) {
+    rows->resize(frames);
+    for (std::size_t i = 0; i < frames; ++i)
+      if ((*rows)[i].time != run.particle_rows[i].time)
+        throw bad_input(Place{(run.folder.path / name).string()},
+                        "has a frame at " + number_text((*rows)[i].time) +
+                            " s where particles.pvd has one at " +
+                            number_text(run.particle_rows[i].time) + " s",
+                        "run the scene again with --force");
+  }
+}
+
 }  // namespace
 
 RunFiles open_run(const RunFolder& folder) {
@@ -117,12 +159,10 @@ RunFiles open_run(const RunFolder& folder) {
   run.particle_rows = rows_of(folder, "particles");
   run.surface_rows = rows_of(folder, "surface");
   run.frame_rows = rows_of(folder, "frames");
-  const std::size_t frames =
-      std::min({run.particle_rows.size(), run.surface_rows.size(), run.frame_rows.size()});
-  if (frames == 0)
-    throw bad_input(Place{folder.path.string()}, "the run has no frames", "run the scene again");
-  for (auto* rows : {&run.particle_rows, &run.surface_rows, &run.frame_rows}) rows->resize(frames);
-  run.surface = rest_surface(folder, run.surface_rows.front());
+  trim_rows(run);
+  run.lbs_rows = rows_if_there(folder, "skin_lbs");
+  run.dqs_rows = rows_if_there(folder, "skin_dqs");
+  read_rest_surface(run);
   return run;
 }
 
@@ -136,7 +176,7 @@ RunFrame read_frame(const RunFiles& run, std::size_t index) {
 }
 
 FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {
-  for (std::size_t i = 0; i < (ahead_ ? read_at_once : 1); ++i) begin();
+  for (std::size_t i = 0; i < read_ahead; ++i) begin();
 }
 
 RunFrame FramesInOrder::next() {

@@ -22,15 +22,20 @@ struct RunFiles {
   std::string scene_text;
   Settings settings;
   Skeleton skeleton;
-  BodyFile body;      ///< at rest, with the bone of each particle
-  Triangles surface;  ///< at rest
+  BodyFile body;                           ///< at rest, with the bone of each particle
+  Triangles surface;                       ///< at rest
+  std::vector<std::int32_t> surface_bone;  ///< that moves each point most, -1 for none
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< as many of each
+  std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the surface by skinning; none if not written
+
+  std::size_t frames_named = 0;  ///< by the series that has most
 
   std::size_t frames() const { return particle_rows.size(); }
 };
 
-/// Opens a run. Throws bad input, naming the file, for a folder that is none. Frames that only some
-/// of the series have (a run still going, or cut off) are left out.
+/// Opens a run. Throws bad input, naming the file, for a folder that is none, and for series of
+/// different times. Frames that only some of the series have (a run still going, or cut off) are
+/// left out.
 RunFiles open_run(const RunFolder& folder);
 
 /// Everything about one frame, in the written order.

@@ -6,6 +6,7 @@
 #include "io/arrays.h"
 #include "markdown.h"
 #include "metrics/bone_metrics.h"
+#include "metrics/sections.h"
 #include "metrics/table.h"
 #include "results.h"
 #include "settings_list.h"
@@ -46,13 +47,20 @@ std::string bones_markdown() {
   return text;
 }
 
+std::string sections_markdown() {
+  std::string text = "| metric | unit | meaning | formula |\n|---|---|---|---|\n";
+  for (const SectionMetric& metric : section_metrics_table()) text += metric_row(metric);
+  return text;
+}
+
 std::string table_named(const std::string& name) {
   if (name == "settings") return settings_markdown();
   if (name == "arrays") return arrays_markdown();
   if (name == "metrics") return metrics_markdown();
   if (name == "bones") return bones_markdown();
+  if (name == "sections") return sections_markdown();
   throw bad_input("no table is named '" + name + "'",
-                  "write sinew-tables settings, arrays, metrics or bones");
+                  "write sinew-tables settings, arrays, metrics, bones or sections");
 }
 
 }  // namespace

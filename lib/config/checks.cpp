@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/material_presets.h"
+#include "core/requested_arrays.h"
 #include "core/settings_table.h"
 
 namespace sinew {
@@ -60,6 +61,15 @@ void check_material(const Settings& settings) {
     throw bad_input(settings.place("material.modulus_direction"),
                     "moduli along a direction are known for fcc only",
                     "set body.packing to fcc, or remove it");
+}
+
+/// Tells of a name that is none by the scene's line.
+void check_arrays(const Settings& settings) {
+  try {
+    requested_arrays(settings.output.arrays);
+  } catch (const Error& error) {
+    throw error.within(settings.place("output.arrays"));
+  }
 }
 
 void check_axes(const Settings& settings) {
@@ -121,6 +131,7 @@ void check_together(const Settings& settings) {
   check_material(settings);
   check_axes(settings);
   check_clip(settings);
+  check_arrays(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

@@ -266,6 +266,7 @@ struct OutputSettings {
   bool skin_lbs = false;
   bool skin_dqs = false;
   bool export_surface = false;
+  std::string arrays;  ///< see requested_arrays()
 };
 
 struct Settings {

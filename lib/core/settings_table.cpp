@@ -376,6 +376,10 @@ std::vector<Field<Settings>> make_output() {
                "write the surface moved by dual-quaternion skinning too, for comparison"),
       field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
                "write surface.obj (rest) and surface.pc2 (its motion) for Blender, 3ds Max, Maya"),
+      may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
+                                "more arrays of particles, as in \"J, stress\", or all: F, J, "
+                                "stretch, strain, hencky_strain, strain_eq, stress, von_mises, "
+                                "D2min, turnover, inverted, pose_error")),
   };
 }
 

@@ -12,6 +12,10 @@ using enum ArrayRole;
 
 const std::vector<std::string_view> one = {};
 const std::vector<std::string_view> xyz = {"X", "Y", "Z"};
+const std::vector<std::string_view> tensor = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+const std::vector<std::string_view> full_tensor = {"XX", "XY", "XZ", "YX", "YY",
+                                                   "YZ", "ZX", "ZY", "ZZ"};
+const std::vector<std::string_view> principal = {"1", "2", "3"};
 const std::vector<std::string_view> wxyz = {"W", "X", "Y", "Z"};
 
 std::vector<WrittenArray> table_of_all() {
@@ -68,6 +72,46 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", field, "work_of_world", "J", one, exact, plain,
        "work that moving obstacles, pins, fields and muscles have done so far"},
   };
+}
+
+/// What particles get where output.arrays, or sinew measure --arrays, asks for it.
+std::vector<WrittenArray> table_of_requested(const char* series) {
+  return {
+      {series, point, "F", "1", full_tensor, real, plain,
+       "deformation gradient over the neighbours at rest, on request"},
+      {series, point, "J", "1", one, real, plain, "local volume ratio det F, on request"},
+      {series, point, "stretch", "1", principal, real, plain,
+       "principal stretches, largest first, on request"},
+      {series, point, "strain", "1", tensor, real, plain,
+       "Green-Lagrange strain (F^T F - I) / 2, on request"},
+      {series, point, "hencky_strain", "1", tensor, real, plain,
+       "Hencky strain ln(F^T F) / 2, on request"},
+      {series, point, "strain_eq", "1", one, real, plain,
+       "equivalent strain sqrt(2/3 dev H : dev H) of it, on request"},
+      {series, point, "stress", "Pa", tensor, real, plain,
+       "virial stress -(1/2V0) sum f r, tension positive, on request"},
+      {series, point, "von_mises", "Pa", one, real, plain, "its von Mises stress, on request"},
+      {series, point, "D2min", "m^2", one, real, plain,
+       "motion of the neighbours that F does not explain, on request"},
+      {series, point, "turnover", "1", one, real, plain,
+       "neighbours lost and won over those at rest, on request"},
+      {series, point, "inverted", "1", one, whole, plain, "1 where J <= 0, on request"},
+      {series, point, "pose_error", "m", one, real, plain,
+       "distance from where its bone alone would carry it, on request"},
+  };
+}
+
+std::vector<WrittenArray> table_of_requested_in_particles() {
+  return table_of_requested("particles");
+}
+
+std::vector<WrittenArray> table_of_values() {
+  std::vector<WrittenArray> rows = {
+      {"values", point, "Points", "m", xyz, real, plain, "where the particle is"},
+      {"values", point, "id", "1", one, whole, scalars, "number of the particle, from 0"},
+  };
+  for (WrittenArray& row : table_of_requested("values")) rows.push_back(std::move(row));
+  return rows;
 }
 
 std::vector<WrittenArray> table_of_surface_in(const char* series, const char* of_points) {
@@ -160,9 +204,10 @@ std::vector<WrittenArray> table_of_blowup() {
 
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
-  for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_surface,
-                    table_of_skin_lbs, table_of_skin_dqs, table_of_bones, table_of_frames,
-                    table_of_obstacles, table_of_defects, table_of_blowup})
+  for (auto rows :
+       {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles,
+        table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs, table_of_bones,
+        table_of_frames, table_of_obstacles, table_of_defects, table_of_blowup})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

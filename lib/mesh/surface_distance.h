@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far points lie from a closed surface, inside or outside of it: nearest faces by CGAL's tree
-// of boxes, sides by winding numbers.
+// How far points lie from a closed surface, inside or outside of it: nearest faces by a tree of
+// boxes, sides by winding numbers.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/body.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -45,6 +46,9 @@ void check(const RestInput& input) {
   require(input.bone.size() == input.positions.size(),
           "there are " + std::to_string(input.positions.size()) + " particles but bones for " +
               std::to_string(input.bone.size()));
+  require(input.weight.empty() || input.weight.size() == input.positions.size(),
+          "there are " + std::to_string(input.positions.size()) + " particles but weights for " +
+              std::to_string(input.weight.size()));
   check_bones(input.bones);
   for (const int bone : input.bone)
     require(bone >= -1 && bone < static_cast<int>(input.bones.size()),
@@ -82,8 +86,13 @@ std::vector<JointZone> joint_zones(const RestInput& input) {
   return zones;
 }
 
-std::vector<Bound> bound_particles(const RestInput& input) {
-  const std::vector<JointZone> zones = joint_zones(input);
+bool near_joint(const std::vector<JointZone>& zones, const Vec3& place) {
+  return std::any_of(zones.begin(), zones.end(), [&](const JointZone& zone) {
+    return (place - zone.centre).norm() <= zone.reach;
+  });
+}
+
+std::vector<Bound> bound_particles(const RestInput& input, const std::vector<JointZone>& zones) {
   std::vector<Bound> all;
   for (std::size_t i = 0; i < input.bone.size(); ++i) {
     if (input.bone[i] < 0) continue;
@@ -91,12 +100,26 @@ std::vector<Bound> bound_particles(const RestInput& input) {
     bound.foot = nearest_on(input.bones[bound.bone], input.positions[i]);
     bound.distance = (input.positions[i] - bound.foot).norm();
     // By the foot and not the particle: the zone is a slab across the bones, corners included.
-    bound.far = std::none_of(zones.begin(), zones.end(), [&](const JointZone& zone) {
-      return (bound.foot - zone.centre).norm() <= zone.reach;
-    });
+    bound.far = !near_joint(zones, bound.foot);
     all.push_back(bound);
   }
   return all;
+}
+
+/// How much a particle's own volume resists: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
+/// A = sum dX dX^T over its neighbours; less at the surface, where neighbours are few.
+std::vector<double> volume_weights(const RestShape& shape, double radius) {
+  const double full = 4 * nearest_distance(radius) * nearest_distance(radius);
+  std::vector<double> weights(shape.points.size(), 0);
+  parallel_for(weights.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!shape.defined(i)) continue;
+      const Eigen::SelfAdjointEigenSolver<Mat3> inverse(shape.inverse[i], Eigen::EigenvaluesOnly);
+      const double share = std::min(1.0, 1 / (inverse.eigenvalues()[2] * full));
+      weights[i] = share * share;
+    }
+  });
+  return weights;
 }
 
 }  // namespace
@@ -110,16 +133,22 @@ RestBody rest_body(RestInput input) {
   RestBody body;
   body.volume = volume(input.surface);
   body.area = area(input.surface);
-  require(body.volume > 0, "the surface at rest encloses no volume");
-  body.bound = bound_particles(input);
+  require(body.area > 0, "the surface at rest has no area");
+  const std::vector<JointZone> zones = joint_zones(input);
+  body.bound = bound_particles(input, zones);
+  body.sections = make_sections(input.surface, input.bones,
+                                [&](const Vec3& place) { return near_joint(zones, place); });
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
   body.shape = rest_shape(std::move(input.positions), rest_neighbour_range(input.radius));
+  body.bone_of = std::move(input.bone);
+  body.weight = std::move(input.weight);
+  if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;
   body.interaction_range = input.interaction_range;
   body.start = input.start;
-  body.pair_force = std::move(input.pair_force);
+  body.law = std::move(input.law);
   body.mass = input.mass;
   return body;
 }

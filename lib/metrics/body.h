@@ -13,23 +13,33 @@
 #include "core/triangles.h"
 #include "core/vector.h"
 #include "metrics/frame.h"
+#include "metrics/sections.h"
 #include "metrics/slices.h"
 
 namespace sinew {
 
+/// What particles do to each other, as far as their positions decide it. Called from several
+/// threads.
+struct PairLaw {
+  /// Force between two particles at a distance (m), N, positive repels; empty: not known.
+  std::function<double(double)> force;
+  /// The same between neighbours at rest, of the distance and the one at rest; empty: as any other.
+  std::function<double(double, double)> bond;
+  double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
+};
+
 /// What is known of a run before its first frame. Particles are in the written order.
 struct RestInput {
   Points positions;       ///< of the n particles at rest, m
-  Triangles surface;      ///< the body's skin at rest, closed, outside out
+  Triangles surface;      ///< the body's skin at rest, outside out
   std::vector<int> bone;  ///< n; the bone each particle follows (most), -1 for none
   std::vector<MeasuredBone> bones;
   double radius = 0;             ///< of a particle, r, m
   double interaction_range = 0;  ///< b, m: pairs farther apart than this do not feel each other
   Energies start;                ///< of the first frame: where the balance of energies begins
-  /// Force between any two particles at a distance (m), N, positive repels; empty where it depends
-  /// on more than that. Called from several threads.
-  std::function<double(double)> pair_force;
+  PairLaw law;
   double mass = not_measured;  ///< of a particle, kg
+  std::vector<double> weight;  ///< n; the share that bone has in each particle; or empty
 };
 
 /// A particle that follows a bone: its point of attachment at rest, and whether a joint is near.
@@ -44,22 +54,26 @@ struct Bound {
 struct RestBody {
   RestShape shape;  ///< neighbours: pairs closer than 2.2 r
   Triangles surface;
-  double volume = 0;  ///< enclosed by the surface, m^3
+  double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
   double area = 0;    ///< of the surface, m^2
   std::vector<MeasuredBone> bones;
   std::vector<Bound> bound;
+  std::vector<int> bone_of;       ///< n; -1 for none
+  std::vector<double> weight;     ///< n, or empty
+  std::vector<double> stiffened;  ///< n; w of each particle's volume, empty where the law has none
   Slices slices;
+  std::vector<Section> sections;
   double radius = 0, interaction_range = 0;  ///< m
   Energies start;
-  std::function<double(double)> pair_force;  ///< N at a distance (m), or empty
-  double mass = not_measured;                ///< of a particle, kg
+  PairLaw law;
+  double mass = not_measured;  ///< of a particle, kg
 
   std::size_t particles() const { return shape.points.size(); }
   double rest_pairs() const { return static_cast<double>(shape.neighbours.partner.size()) / 2; }
 };
 
 /// Checks the input and works out the rest. Throws bad input for sizes that do not fit, indices out
-/// of range, numbers that are not finite, or a surface that encloses nothing.
+/// of range, numbers that are not finite, or a surface without an area.
 /// A joint zone reaches half a width of the body, sqrt(A_B) / 2, along the bones from each joint;
 /// A_B is the volume bound to a bone over its length, the larger of the two that meet counts.
 RestBody rest_body(RestInput input);

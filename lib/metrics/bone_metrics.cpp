@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/closest_packing.h"
 #include "metrics/csv.h"
 
 namespace sinew {
@@ -33,6 +34,13 @@ constexpr std::array table = {
                &M::pose_error_rms},
     BoneMetric{"pose_error_max", "m", "Way from the rigid pose, at most", "max |x - q|",
                &M::pose_error_max},
+    BoneMetric{"volume", "m^3", "Volume of the particles that follow it, as they are strained",
+               "sum V0 J, V0 = 4 sqrt(2) r^3, where J is defined", &M::volume},
+    BoneMetric{"volume_ratio", "", "The same relative to rest", "mean J", &M::volume_ratio},
+    BoneMetric{"volume_joint_ratio", "", "Likewise, within half a width of a joint",
+               "mean J where |c - joint| <= sqrt(A_B) / 2", &M::volume_joint_ratio},
+    BoneMetric{"volume_far_ratio", "", "Likewise, of the others",
+               "mean J where |c - joint| > sqrt(A_B) / 2", &M::volume_far_ratio},
 };
 
 /// What is wrong with the place of one particle.
@@ -59,6 +67,7 @@ Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) 
 
 struct Misses {
   Statistics slip, joint, far, radial, twist, pose;
+  Statistics volume_joint, volume_far;  ///< of J
   std::vector<double> slips;
 };
 
@@ -70,6 +79,15 @@ void add(Misses& all, const Miss& miss, bool far) {
   all.pose.add(miss.pose);
   if (!std::isnan(miss.twist)) all.twist.add(miss.twist);
   all.slips.push_back(slip);
+}
+
+void add_volumes(BoneMetrics& out, const Misses& all, double radius) {
+  Statistics both = all.volume_joint;
+  both.add(all.volume_far);
+  if (both.count > 0) out.volume = volume_per_particle(radius) * both.sum;
+  out.volume_ratio = both.mean();
+  out.volume_joint_ratio = all.volume_joint.mean();
+  out.volume_far_ratio = all.volume_far.mean();
 }
 
 BoneMetrics summed(Misses& all, double time, std::size_t bone) {
@@ -91,16 +109,25 @@ BoneMetrics summed(Misses& all, double time, std::size_t bone) {
 
 std::span<const BoneMetric> bone_metrics_table() { return table; }
 
-std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state) {
+std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state,
+                                       const ParticleValues& particles) {
   std::vector<Miss> misses(rest.bound.size());
   parallel_for(misses.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) misses[k] = miss_of(rest, state, rest.bound[k]);
   });
   std::vector<Misses> bones(rest.bones.size());
-  for (std::size_t k = 0; k < misses.size(); ++k)  // in order, for the same bits every time
-    add(bones[rest.bound[k].bone], misses[k], rest.bound[k].far);
+  for (std::size_t k = 0; k < misses.size(); ++k) {  // in order, for the same bits every time
+    const Bound& bound = rest.bound[k];
+    Misses& bone = bones[bound.bone];
+    add(bone, misses[k], bound.far);
+    const double J = particles.J[bound.particle];
+    if (!std::isnan(J)) (bound.far ? bone.volume_far : bone.volume_joint).add(J);
+  }
   std::vector<BoneMetrics> out;
-  for (std::size_t b = 0; b < bones.size(); ++b) out.push_back(summed(bones[b], state.time, b));
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    out.push_back(summed(bones[b], state.time, b));
+    add_volumes(out.back(), bones[b], rest.radius);
+  }
   return out;
 }
 

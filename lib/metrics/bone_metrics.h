@@ -9,6 +9,7 @@
 
 #include "metrics/body.h"
 #include "metrics/frame.h"
+#include "metrics/particle_values.h"
 
 namespace sinew {
 
@@ -19,6 +20,8 @@ struct BoneMetrics {
   double adherence_joint_rms = not_measured, adherence_far_rms = not_measured;
   double radial_mean = not_measured, twist_rms = not_measured, twist_mean = not_measured;
   double pose_error_rms = not_measured, pose_error_max = not_measured;
+  double volume = not_measured, volume_ratio = not_measured;
+  double volume_joint_ratio = not_measured, volume_far_ratio = not_measured;
 };
 
 struct BoneMetric {
@@ -28,8 +31,9 @@ struct BoneMetric {
 
 std::span<const BoneMetric> bone_metrics_table();
 
-/// One for each bone, in their order. The state is one of this body.
-std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state);
+/// One for each bone, in their order. The state is one of this body, with its particles' values.
+std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state,
+                                       const ParticleValues& particles);
 
 /// The whole file; as metrics_csv().
 std::string bone_metrics_csv(std::span<const BoneMetrics> rows);

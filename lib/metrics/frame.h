@@ -59,6 +59,15 @@ struct FrameMetrics {
   double conformal_max = not_measured, symmetric_dirichlet = not_measured;
   double flipped_faces = not_measured;
   double tip_angle = not_measured, twist_jump_max = not_measured;
+  double candy_wrapper = not_measured, bulge = not_measured;
+  // What needs other surfaces or exact geometry: filled by whoever has them at hand.
+  double self_intersections = not_measured;
+  double pose_hausdorff = not_measured, pose_distance_mean = not_measured;
+  double lbs_hausdorff = not_measured, lbs_distance_mean = not_measured;
+  double dqs_hausdorff = not_measured, dqs_distance_mean = not_measured;
+  double reference_hausdorff = not_measured, reference_distance_mean = not_measured;
+  double reference_surface_rms = not_measured, reference_surface_max = not_measured;
+  double reference_particles_rms = not_measured, reference_particles_max = not_measured;
 };
 
 }  // namespace sinew

@@ -46,6 +46,7 @@ void add_pose(FrameMetrics& out, const RestBody& rest, const FrameState& state) 
 }
 
 void add_volume(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  if (!(rest.volume > 0)) return;
   out.volume = volume(Triangles{state.surface_points, rest.surface.faces});
   out.volume_ratio = out.volume / rest.volume;
   out.volume_error = std::abs(out.volume_ratio - 1);
@@ -132,44 +133,30 @@ void add_adherence(FrameMetrics& out, const RestBody& rest, const FrameState& st
   out.adherence_max = slip.max();
 }
 
-void add_pose_error(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
-  std::vector<double> errors(rest.bound.size());
-  const Statistics all = statistics(rest.bound.size(), [&](std::size_t k) {
-    const Bound& bound = rest.bound[k];
-    const Vec3 target = carried(rest.shape.points[bound.particle], rest.bones[bound.bone].rest,
-                                state.bones[bound.bone]);
-    return errors[k] = (state.positions[bound.particle] - target).norm();
-  });
+void add_pose_error(FrameMetrics& out, const RestBody& rest, const ParticleValues& particles) {
+  const auto error = [&](std::size_t k) { return particles.pose_error[rest.bound[k].particle]; };
+  const Statistics all = statistics(rest.bound.size(), error);
   Statistics far;
-  for (std::size_t k = 0; k < errors.size(); ++k)
-    if (rest.bound[k].far) far.add(errors[k]);
+  for (std::size_t k = 0; k < rest.bound.size(); ++k)
+    if (rest.bound[k].far) far.add(error(k));
   out.pose_error_rms = all.rms();
   out.pose_error_max = all.max();
   out.pose_error_far_rms = far.rms();
 }
 
-/// Pairs for which count(i) holds partners of i, from both sides.
-template <class Count>
-double pairs(std::size_t particles, const Count& count) {
-  return statistics(particles, count).sum / 2;
+void add_neighbours(FrameMetrics& out, const RestBody& rest, const ParticleValues& particles) {
+  const double from_both_sides = 2 * rest.rest_pairs();
+  if (from_both_sides == 0) return;
+  out.broken_neighbours = statistics_of(particles.lost).sum / from_both_sides;
+  out.new_neighbours = statistics_of(particles.gained).sum / from_both_sides;
 }
 
-void add_neighbours(FrameMetrics& out, const RestBody& rest, const FrameState& state,
-                    const ParticleValues& particles) {
-  if (rest.rest_pairs() == 0) return;
-  const Points& now = state.positions;
-  const auto rest_pairs_within = [&](double range) {
-    return pairs(now.size(), [&](std::size_t i) {
-      double count = 0;
-      for (const auto j : rest.shape.neighbours.of(i))
-        count += (now[j] - now[i]).squaredNorm() < range * range;
-      return count;
-    });
-  };
-  const double all_near = statistics_of(particles.near).sum / 2;
-  const double total = rest.rest_pairs();
-  out.broken_neighbours = (total - rest_pairs_within(rest.interaction_range)) / total;
-  out.new_neighbours = (all_near - rest_pairs_within(rest_neighbour_range(rest.radius))) / total;
+void add_sections(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  Statistics ratios;
+  for (const Section& section : rest.sections)
+    ratios.add(area_of(section, state.surface_points) / section.area);
+  out.candy_wrapper = 1 - ratios.min();
+  out.bulge = ratios.max() - 1;
 }
 
 void add_gradients(FrameMetrics& out, const ParticleValues& particles, double radius) {
@@ -221,11 +208,12 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_motion(out, frame.particles);
   add_energies(out, rest.start, state.energies);
   add_adherence(out, rest, state);
-  add_pose_error(out, rest, state);
-  add_neighbours(out, rest, state, frame.particles);
+  add_pose_error(out, rest, frame.particles);
+  add_neighbours(out, rest, frame.particles);
   add_gradients(out, frame.particles, rest.radius);
   add_strain(out, frame.particles);
   add_surface(out, rest, state);
+  add_sections(out, rest, state);
   add_momentum(out, rest, state);
   out.tip_angle = degrees(tip_turn(rest.slices, rest.shape.points, state.positions));
   out.twist_jump_max = degrees(largest_twist_jump(rest.slices, rest.shape.points, state.positions));

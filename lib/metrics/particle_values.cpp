@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cell_grid.h"
 #include "core/closest_packing.h"
 #include "core/parallel.h"
 
@@ -13,7 +12,6 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t piece = 1024;
-constexpr double flattest = 1e-24;  // squared stretch: keeps the logarithm of a flat F finite
 
 template <class Job>
 void for_each_particle(std::size_t count, const Job& job) {
@@ -28,11 +26,6 @@ double equivalent(const Vec3& principal, double factor) {
   return std::sqrt(factor * (principal.array() - mean).square().sum());
 }
 
-double von_mises(const Mat3& stress) {
-  const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
-  return std::sqrt(1.5 * deviator.squaredNorm());
-}
-
 double non_affine(const RestShape& shape, const Points& now, const Mat3& F, std::size_t i) {
   double sum = 0;
   const auto partners = shape.neighbours.of(i);
@@ -44,7 +37,7 @@ double non_affine(const RestShape& shape, const Points& now, const Mat3& F, std:
 void add_motion(ParticleValues& out, const RestBody& rest, const FrameState& state) {
   for_each_particle(rest.particles(), [&](std::size_t i) {
     out.displacement[i] = (state.positions[i] - rest.shape.points[i]).norm();
-    out.speed[i] = state.velocities[i].norm();
+    out.speed[i] = state.velocities.empty() ? not_measured : state.velocities[i].norm();
   });
 }
 
@@ -63,37 +56,127 @@ void add_deformation(ParticleValues& out, const RestShape& shape, const Points& 
   });
 }
 
-void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now) {
+void add_pose(ParticleValues& out, const RestBody& rest, const FrameState& state) {
+  for_each_particle(rest.particles(), [&](std::size_t i) {
+    const int bone = rest.bone_of[i];
+    out.pose_error[i] = not_measured;
+    if (bone < 0) return;
+    const Vec3 target = carried(rest.shape.points[i], rest.bones[bone].rest, state.bones[bone]);
+    out.pose_error[i] = (state.positions[i] - target).norm();
+  });
+}
+
+/// Counts of particles within two ranges (m) of one.
+struct Within {
+  double near = 0, far = 0;
+};
+
+/// How many of value(k) for k < count, squares of distances, are within each.
+template <class Squared>
+Within count_within(std::size_t count, double near, double far, const Squared& squared) {
+  Within found;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double d = squared(k);
+    found.near += d < near * near;
+    found.far += d < far * far;
+  }
+  return found;
+}
+
+void count_neighbours(ParticleValues& out, const RestBody& rest, const Points& now,
+                      std::span<const Partner> partners, std::size_t i) {
   const double near = rest_neighbour_range(rest.radius), far = rest.interaction_range;
-  const double twice_volume = 2 * volume_per_particle(rest.radius);
-  const CellGrid grid(now, std::max(near, far));
-  for_each_particle(now.size(), [&](std::size_t i) {
-    Mat3 virial = Mat3::Zero();
-    grid.for_each_near(now[i], [&](std::uint32_t j) {
-      const Vec3 apart = now[i] - now[j];
-      const double squared = apart.squaredNorm();
-      if (j == i || squared >= std::max(near * near, far * far)) return;
-      out.near[i] += squared < near * near;
-      out.neighbours[i] += squared < far * far;
-      if (const double d = std::sqrt(squared); rest.pair_force && d > 0)
-        virial -= rest.pair_force(d) / d * apart * apart.transpose();
-    });
-    if (rest.pair_force) out.von_mises[i] = von_mises(virial / twice_volume);
+  const auto before = rest.shape.neighbours.of(i);
+  const Within all =
+      count_within(partners.size(), near, far, [&](std::size_t k) { return partners[k].squared; });
+  const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
+    return (now[i] - now[before[k]]).squaredNorm();
+  });
+  const auto all_before = static_cast<double>(before.size());
+  out.neighbours[i] = all.far;
+  out.lost[i] = all_before - kept.far;
+  out.gained[i] = all.near - kept.near;
+  out.turnover[i] = all_before > 0 ? (out.lost[i] + out.gained[i]) / all_before : not_measured;
+}
+
+/// -f (x) r of one pair, N m.
+Mat3 virial(double force, const Vec3& apart, double d) {
+  return -force / d * apart * apart.transpose();
+}
+
+/// Of a particle's own volume: the stress of U = (K_v / 2) V0 w (J - 1)^2, over V0.
+Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
+  if (rest.stiffened.empty() || rest.stiffened[i] == 0) return Mat3::Zero();
+  const double J = deformation_gradient(rest.shape, now, i).determinant();
+  return rest.law.volume_stiffness * rest.stiffened[i] * (J - 1) * J * Mat3::Identity();
+}
+
+Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
+  Mat3 sum = Mat3::Zero();
+  for (const auto j : rest.shape.neighbours.of(i)) {
+    const Vec3 apart = now[i] - now[j];
+    const double d = apart.norm(), before = (rest.shape.points[i] - rest.shape.points[j]).norm();
+    if (d > 0) sum += virial(rest.law.bond(d, before), apart, d);
+  }
+  return sum;
+}
+
+void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now) {
+  const double range = std::max(rest_neighbour_range(rest.radius), rest.interaction_range);
+  const CellGrid grid(now, range);
+  parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
+    std::vector<Partner> partners;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_partners(now, grid, range, i, partners);
+      count_neighbours(out, rest, now, partners, i);
+      if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, partners, i));
+    }
   });
 }
 
 }  // namespace
 
+double von_mises(const Mat3& stress) {
+  const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
+  return std::sqrt(1.5 * deviator.squaredNorm());
+}
+
+void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Partner>& found) {
+  found.clear();
+  grid.for_each_near(now[i], [&](std::uint32_t j) {
+    const Vec3 apart = now[i] - now[j];
+    const double squared = apart.squaredNorm();
+    if (j != i && squared < range * range) found.push_back({j, apart, squared});
+  });
+}
+
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+                   std::size_t i) {
+  const double range = rest.interaction_range;
+  const auto bonded = rest.shape.neighbours.of(i);
+  Mat3 sum = rest.law.bond ? bonds_virial(rest, now, i) : Mat3(Mat3::Zero());
+  for (const Partner& other : partners) {
+    if (other.squared >= range * range || other.squared == 0) continue;
+    if (rest.law.bond && std::binary_search(bonded.begin(), bonded.end(), other.index)) continue;
+    const double d = std::sqrt(other.squared);
+    sum += virial(rest.law.force(d), other.apart, d);
+  }
+  return sum / (2 * volume_per_particle(rest.radius)) + volume_stress(rest, now, i);
+}
+
 ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
   ParticleValues out;
   const std::size_t n = rest.particles();
   for (auto* values : {&out.displacement, &out.speed, &out.J, &out.strain, &out.stretch, &out.D2min,
-                       &out.neighbours, &out.near})
+                       &out.neighbours, &out.lost, &out.gained, &out.turnover, &out.pose_error})
     values->resize(n);
-  if (rest.pair_force) out.von_mises.resize(n);
+  if (rest.law.force) out.von_mises.resize(n);
   add_motion(out, rest, state);
   add_deformation(out, rest.shape, state.positions);
+  add_pose(out, rest, state);
   add_surroundings(out, rest, state.positions);
+  out.weight = rest.weight;
   return out;
 }
 

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 
+#include "core/requested_arrays.h"
 #include "io/blowup.h"
 #include "synthetic_run.h"
 
@@ -29,8 +31,10 @@ void expect_listed(const std::string& series, const Dataset& data) {
   expect_listed(series, ArrayPlace::cell, data.cell_columns);
   expect_listed(series, ArrayPlace::field, data.field_columns);
   const auto rows = written_arrays();
+  const auto requested = requestable_arrays();
   const auto listed = std::count_if(rows.begin(), rows.end(), [&](const WrittenArray& row) {
-    return row.series == series && row.name != "Points";
+    return row.series == series && row.name != "Points" &&
+           std::find(requested.begin(), requested.end(), row.name) == requested.end();
   });
   EXPECT_EQ(listed,
             data.point_columns.size() + data.cell_columns.size() + data.field_columns.size())
@@ -49,6 +53,12 @@ TEST(WrittenArrays, AreExactlyThoseThatTheSeriesHold) {
   const std::vector<double> moved(run.count());
   expect_listed("blowup", blowup_dataset({some, run.rest, run.bone, offence, moved}, {}));
   expect_listed("body", body_dataset(run.body()));
+}
+
+TEST(WrittenArrays, AreThoseOnRequestTooWithTheirComponents) {
+  for (const char* series : {"particles", "values"})
+    for (const std::string_view name : requestable_arrays())
+      EXPECT_TRUE(find_written(series, ArrayPlace::point, name)) << series << ' ' << name;
 }
 
 TEST(WrittenArrays, HaveANameOfTheirOwnAUnitAndHelp) {

@@ -8,9 +8,13 @@
 namespace sinew::test {
 namespace {
 
+std::vector<BoneMetrics> bones_of(const RestBody& body, const FrameState& state) {
+  return measure_bones(body, state, particle_values(body, state));
+}
+
 TEST(BoneMetrics, ARigidMotionIsFollowedByAll) {
   const RestBody body = rest_body(box_input());
-  const auto bones = measure_bones(body, moved_rigidly(body, turned(64, {1, -1, 2}), {1, 2, 3}));
+  const auto bones = bones_of(body, moved_rigidly(body, turned(64, {1, -1, 2}), {1, 2, 3}));
   ASSERT_EQ(bones.size(), 2u);
   EXPECT_EQ(bones[0].followers + bones[1].followers, static_cast<double>(body.particles()));
   for (const BoneMetrics& bone : bones)
@@ -23,7 +27,7 @@ TEST(BoneMetrics, ABoneThatTurnsAloneLeavesItsFleshBehindByThatAngle) {
   const RestBody body = rest_body(box_input());
   FrameState state = at_rest(body);
   state.bones[1].rotation = turned(20, Vec3::UnitZ()) * state.bones[1].rotation;
-  const auto bones = measure_bones(body, state);
+  const auto bones = bones_of(body, state);
   EXPECT_NEAR(bones[0].twist_rms, 0, 1e-10);
   EXPECT_NEAR(bones[1].twist_rms, 20, 1e-10);
   EXPECT_NEAR(bones[1].twist_mean, -20, 1e-10);
@@ -33,9 +37,9 @@ TEST(BoneMetrics, ABoneThatTurnsAloneLeavesItsFleshBehindByThatAngle) {
 TEST(BoneMetrics, SwellingIsTheMeanWayOutwards) {
   const RestBody body = rest_body(box_input());
   const double swell = 0.1;
-  const auto bones = measure_bones(body, moved(body, [&](const Vec3& p) -> Vec3 {
-                                     return {(1 + swell) * p.x(), (1 + swell) * p.y(), p.z()};
-                                   }));
+  const auto bones = bones_of(body, moved(body, [&](const Vec3& p) -> Vec3 {
+                                return {(1 + swell) * p.x(), (1 + swell) * p.y(), p.z()};
+                              }));
   for (std::size_t b_ = 0; b_ < 2; ++b_) {
     double mean = 0, largest = 0;
     for (const Bound& bound : body.bound)
@@ -51,7 +55,7 @@ TEST(BoneMetrics, SwellingIsTheMeanWayOutwards) {
 
 TEST(BoneMetrics, TheFileHasARowPerFrameAndBone) {
   const RestBody body = rest_body(box_input());
-  const std::string text = bone_metrics_csv(measure_bones(body, at_rest(body)));
+  const std::string text = bone_metrics_csv(bones_of(body, at_rest(body)));
   EXPECT_EQ(text.substr(0, 20), "time,bone,followers,");
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
 }

@@ -60,7 +60,7 @@ TEST(ParticleValues, AParticleThatLeavesItsCageIsNotAffine) {
 /// A linear spring of one unit around the distance at rest.
 RestInput sprung() {
   RestInput input = box_input();
-  input.pair_force = [](double d) { return 2 * r - d; };
+  input.law.force = [](double d) { return 2 * r - d; };
   input.interaction_range = 2.4 * r;
   return input;
 }
@@ -82,12 +82,12 @@ TEST(ParticleValues, PressureHasNoVonMisesStressAndShearHas) {
         [&](double value) { EXPECT_NEAR(value, stress, 1e-4 * stress); });
 }
 
-TEST(ParticleValues, CountsNeighboursWithinBothRanges) {
+TEST(ParticleValues, AtRestEachHasItsNeighboursAndNoTurnover) {
   const RestBody body = rest_body(box_input());
   const ParticleValues values = particle_values(body, at_rest(body));
   for (std::size_t i = 0; i < body.particles(); ++i) {
-    EXPECT_EQ(values.near[i], double(body.shape.neighbours.of(i).size()));
-    EXPECT_EQ(values.neighbours[i], values.near[i]);  // nothing lies between 2 r and 2.6 r
+    EXPECT_EQ(values.neighbours[i], double(body.shape.neighbours.of(i).size()));
+    EXPECT_EQ(values.lost[i] + values.gained[i] + values.turnover[i], 0);
   }
 }
 

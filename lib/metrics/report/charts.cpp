@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/report/charts.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "metrics/table.h"
 
 namespace sinew {
 namespace {
 
-std::vector<ChartPlan> make_plans() {
+std::vector<ChartPlan> plans_of_shape() {
   return {
       {"Distance from the bones",
        "How far particles are from where their bones would carry them",
@@ -34,6 +36,16 @@ std::vector<ChartPlan> make_plans() {
        "A cut body shows its whole angle in one step",
        "degrees",
        {"twist_jump_max"}},
+      {"Sections across the bones",
+       "Largest loss of area (candy wrapper) and largest gain (bulge)",
+       "%",
+       {"candy_wrapper", "bulge"},
+       Shown::in_percent},
+  };
+}
+
+std::vector<ChartPlan> plans_of_material() {
+  return {
       {"Smallest local volume",
        "Below zero the surroundings of a particle are inside out",
        "",
@@ -45,8 +57,29 @@ std::vector<ChartPlan> make_plans() {
        "",
        {"strain_50", "strain_95", "strain_99"}},
       {"Stress", "Von Mises, that 95 % of the particles do not exceed", "Pa", {"von_mises_95"}},
-      {"Surface", "Its area against the one at rest", "", {"area_ratio"}, Shown::as_is, {1}},
       {"Inverted particles", "How many of them there are", "", {"inverted"}},
+  };
+}
+
+std::vector<ChartPlan> plans_of_surface() {
+  return {
+      {"Surface", "Its area against the one at rest", "", {"area_ratio"}, Shown::as_is, {1}},
+      {"Self-intersections", "Pairs of faces that cut each other", "", {"self_intersections"}},
+      {"Surface and other poses: farthest",
+       "From the rigid pose, linear-blend and dual-quaternion skinning, and a reference",
+       "r",
+       {"pose_hausdorff", "lbs_hausdorff", "dqs_hausdorff", "reference_hausdorff"},
+       Shown::in_radii},
+      {"Surface and other poses: mean",
+       "From the same, over the area",
+       "r",
+       {"pose_distance_mean", "lbs_distance_mean", "dqs_distance_mean", "reference_distance_mean"},
+       Shown::in_radii},
+  };
+}
+
+std::vector<ChartPlan> plans_of_motion() {
+  return {
       {"Displacement",
        "From the places at rest",
        "r",
@@ -59,11 +92,26 @@ std::vector<ChartPlan> make_plans() {
        {"kinetic_energy", "pair_energy", "bone_energy", "gravity_energy", "work_of_bones",
         "dissipation"},
        Shown::since_start},
+      {"World",
+       "Energy of contacts with obstacles, and the work of all that is around the body, since the "
+       "first frame",
+       "J",
+       {"contact_energy", "work_of_world"},
+       Shown::since_start,
+       {0},
+       Drawn::unless_zero},
       {"Balance of energies",
        "What is missing; zero for a perfect integrator",
        "J",
        {"energy_residual"}},
   };
+}
+
+std::vector<ChartPlan> make_plans() {
+  std::vector<ChartPlan> all;
+  for (auto* plans : {plans_of_shape, plans_of_material, plans_of_surface, plans_of_motion})
+    for (ChartPlan& plan : plans()) all.push_back(std::move(plan));
+  return all;
 }
 
 double shown_value(const ChartPlan& plan, double value, double start, double radius) {
@@ -80,6 +128,18 @@ double shown_value(const ChartPlan& plan, double value, double start, double rad
   return value;
 }
 
+/// A line that was never measured only takes room in the legend; one stays in any case.
+void drop_unmeasured(Chart& chart) {
+  const auto unmeasured = [](const Line& line) {
+    return std::none_of(line.values.begin(), line.values.end(), drawable);
+  };
+  const auto first = std::find_if_not(chart.lines.begin(), chart.lines.end(), unmeasured);
+  if (first == chart.lines.end())
+    chart.lines.resize(1);
+  else
+    std::erase_if(chart.lines, unmeasured);
+}
+
 }  // namespace
 
 std::span<const ChartPlan> chart_plans() {
@@ -92,6 +152,15 @@ std::span<const std::string_view> telling_metrics() {
       "pose_error_far_rms", "volume_error",     "broken_neighbours", "J_min",
       "strain_99",          "displacement_max", "speed_max",         "twist_jump_max"};
   return names;
+}
+
+bool is_drawn(const ChartPlan& plan, std::span<const FrameMetrics> frames) {
+  if (plan.drawn == Drawn::always) return true;
+  return std::any_of(plan.metrics.begin(), plan.metrics.end(), [&](std::string_view name) {
+    const auto value = metrics_table()[metric_index(name)].value;
+    return std::any_of(frames.begin(), frames.end(),
+                       [&](const FrameMetrics& frame) { return std::abs(frame.*value) > 0; });
+  });
 }
 
 Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames, double radius) {
@@ -113,6 +182,7 @@ Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames,
       line.values.push_back(shown_value(plan, frame.*value, frames.front().*value, radius));
     chart.lines.push_back(std::move(line));
   }
+  drop_unmeasured(chart);
   return chart;
 }
 

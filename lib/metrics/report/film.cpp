@@ -44,8 +44,8 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
 }
 
 /// All of the run's frames where they can be paid for, else as many as leave room for worst ones.
-std::size_t frames_paid(std::size_t run_frames, std::size_t frame_bytes) {
-  const std::size_t paid = std::min(most_frames, particle_bytes / frame_bytes);
+std::size_t frames_paid(std::size_t run_frames, std::size_t bytes, std::size_t frame_bytes) {
+  const std::size_t paid = std::min(most_frames, bytes / frame_bytes);
   if (paid >= run_frames) return run_frames;
   return paid > worst_frames ? paid - worst_frames : 1;
 }
@@ -54,15 +54,13 @@ std::size_t most_shots(const Film& film) {
   return std::min(film.run_frames, film.wanted.size() + worst_frames);
 }
 
-void plan_particles(Film& film, const RestBody& rest) {
+void plan_particles(Film& film, const RestBody& rest, std::size_t bytes) {
   const std::size_t each = 6 + film_fields().size();
   const std::size_t fewest = std::min(film.run_particles, fewest_particles);
-  film.wanted = evenly(film.run_frames, frames_paid(film.run_frames, each * fewest));
-  film.particles = picked(film.run_particles,
-                          particle_bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
-  std::vector<int> bone(film.run_particles, -1);
-  for (const Bound& bound : rest.bound) bone[bound.particle] = bound.bone;
-  for (const auto i : film.particles) film.bone.push_back(bone[i]);
+  film.wanted = evenly(film.run_frames, frames_paid(film.run_frames, bytes, each * fewest));
+  film.particles =
+      picked(film.run_particles, bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
+  for (const auto i : film.particles) film.bone.push_back(rest.bone_of[i]);
 }
 
 void append(std::vector<float>& out, const Vec3& point) {
@@ -101,6 +99,11 @@ std::span<const FilmField> film_fields() {
       FilmField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
       FilmField{"D2min", "m²", "Motion that is not affine: flow", &V::D2min},
       FilmField{"neighbours", "", "Particles within the interaction range", &V::neighbours},
+      FilmField{"turnover", "", "Neighbours lost and won, over those at rest", &V::turnover},
+      FilmField{"distance to rigid pose", "m", "From where its bone alone would carry it",
+                &V::pose_error},
+      FilmField{"weight of its bone", "", "Share the bone it follows has in it; 1: that one alone",
+                &V::weight},
   };
   return fields;
 }
@@ -114,14 +117,17 @@ bool Film::has(std::size_t frame) const {
   return place != frames.end() && place->frame == frame;
 }
 
-Film plan_film(const RestBody& rest, std::size_t frames) {
+Film plan_film(const RestBody& rest, std::size_t frames, double share) {
   Film film;
   film.run_frames = frames;
   film.run_particles = rest.particles();
   film.run_points = rest.surface.points.size();
   film.radius = rest.radius;
-  plan_particles(film, rest);
-  ThinSurface skin = thin_surface(rest.surface, surface_bytes / (6 * most_shots(film)));
+  const auto bytes_of = [&](std::size_t all) {
+    return static_cast<std::size_t>(share * static_cast<double>(all));
+  };
+  plan_particles(film, rest, bytes_of(particle_bytes));
+  ThinSurface skin = thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_shots(film)));
   film.points = std::move(skin.points);
   film.faces = std::move(skin.faces);
   for (const MeasuredBone& bone : rest.bones) film.bone_names.push_back(bone.name);

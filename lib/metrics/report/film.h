@@ -51,7 +51,14 @@ struct Film {
 /// A film of no frames, with the choice made of what will be kept: all of a small run; of a large
 /// one frames at even distances, the first and the last among them, particles picked at random (the
 /// same ones every time) and a coarser skin.
-Film plan_film(const RestBody& rest, std::size_t frames);
+/// `share`: of a page's bytes that it may take.
+Film plan_film(const RestBody& rest, std::size_t frames, double share = 1);
+
+/// Both films in one, the second beside the first: across the shorter of its sides, so that the
+/// page's camera sees them next to each other. Of frames that both have; names of bones get the
+/// prefixes.
+Film side_by_side(const Film& first, const Film& second,
+                  const std::array<std::string, 2>& prefixes);
 
 /// Adds a frame at its place in time.
 void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,

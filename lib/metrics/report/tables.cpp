@@ -64,6 +64,32 @@ std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& 
          element("h2", "Of the whole run") + table({"metric", "value"}, run_rows);
 }
 
+std::string differences_table(const RunComparison& compared) {
+  std::string rows, run_rows;
+  for (std::size_t i = 1; i < metrics_table().size(); ++i) {
+    const auto largest = largest_difference(compared, i);
+    if (!largest) continue;
+    const Metric& metric = metrics_table()[i];
+    const bool own = is_distance(metric.name);
+    const FrameMetrics& at = compared.differences[*largest];
+    const auto final = [&](const ComparedRun& run) {
+      return own ? not_measured : run.frames.back().*metric.value;
+    };
+    rows += row(described(metric), {{"a, final", readable(final(compared.first))},
+                                    {"b, final", readable(final(compared.second))},
+                                    {"b − a, final", readable(compared.summary.metrics[i].final)},
+                                    {"largest", readable(at.*metric.value)},
+                                    {"at", readable(at.time) + " s"}});
+  }
+  for (const RunMetric& metric : run_metrics_table())
+    run_rows += row(described(metric), {{"a", readable(compared.first.summary.*metric.value)},
+                                        {"b", readable(compared.second.summary.*metric.value)},
+                                        {"b − a", readable(compared.summary.*metric.value)}});
+  return element("h2", "Differences") +
+         table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows) +
+         element("h2", "Of the whole runs") + table({"metric", "a", "b", "b − a"}, run_rows);
+}
+
 std::string checks_table(std::span<const Check> checks) {
   if (checks.empty()) return "";
   std::string rows;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "metrics/comparison.h"
 #include "metrics/frame.h"
 #include "metrics/limits.h"
 #include "metrics/summary.h"
@@ -13,6 +14,9 @@ namespace sinew {
 
 /// Headings and tables; `summary` is that of `frames`.
 std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& summary);
+
+/// Heading and table: what was measured of both runs, and by how much it differs.
+std::string differences_table(const RunComparison& comparison);
 
 /// Heading and table; empty without checks.
 std::string checks_table(std::span<const Check> checks);

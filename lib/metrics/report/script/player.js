@@ -7,10 +7,26 @@ const byId = (id) => document.getElementById(id);
 function fillFields(film) {
   const options = film.fields.map((field, i) =>
     element("option", { value: i, textContent: field.name }));
-  byId("field").append(element("option", { value: -1, textContent: "bone" }), ...options);
+  byId("field").append(element("option", { value: -1, textContent: "bone it follows" }), ...options);
+}
+
+const mostNames = 12; // bones named beside the view; more would bury it
+
+/** Which colour is which bone. */
+function fillBoneNames(film) {
+  const names = film.boneNames.slice(0, mostNames).map((name, b) => {
+    const colour = boneColours[b % boneColours.length].join(" ");
+    const dot = element("i");
+    dot.style.background = `rgb(${colour})`;
+    return element("span", {}, [dot, name]);
+  });
+  const more = film.boneNames.length - names.length;
+  if (more > 0) names.push(element("span", { textContent: `and ${more} more` }));
+  byId("bone-names").append(...names);
 }
 
 function showScale(film, field) {
+  byId("bone-names").hidden = Boolean(field);
   const [low, bar, high] = byId("scale").children;
   byId("scale").hidden = !field;
   if (!field) return;
@@ -91,6 +107,7 @@ function startFilm(packed) {
   const view = makeView(film, byId("stage"));
   const player = makePlayer(view);
   fillFields(film);
+  fillBoneNames(film);
   connect(player, view);
   player.show();
   return { view, player };

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The nearest place on any set of triangles, open or closed, by CGAL's tree of boxes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "core/triangles.h"
+
+namespace sinew {
+
+struct NearestOnFaces {
+  Vec3 place;        ///< on the surface, m
+  std::size_t face;  ///< that it lies on; one of several where they meet
+};
+
+class NearestFace {
+ public:
+  /// Faces without area are left out. Throws bad input where none is left.
+  explicit NearestFace(const Triangles& surface);
+  ~NearestFace();
+  NearestFace(NearestFace&&) noexcept;
+  NearestFace& operator=(NearestFace&&) noexcept;
+
+  /// Rounded, not exact. From many threads at once if wanted.
+  NearestOnFaces to(const Vec3& point) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace sinew

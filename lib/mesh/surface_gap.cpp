@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/surface_gap.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/parallel.h"
+#include "mesh/measures.h"
+#include "mesh/nearest_face.h"
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t piece = 256;
+
+// Exact for quadratics over a triangle.
+constexpr double corner_weight = 1.0 / 12, centre_weight = 3.0 / 4;
+
+/// place(i) for all i < count, and how far each is from a surface.
+template <class Place>
+std::vector<double> distances(std::size_t count, const NearestFace& to, const Place& place) {
+  std::vector<double> found(count);
+  parallel_for(count, piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 at = place(i);
+      found[i] = (to.to(at).place - at).norm();
+    }
+  });
+  return found;
+}
+
+struct OneWay {
+  double farthest = 0, integral = 0, area = 0;
+};
+
+OneWay one_way(const Triangles& from, const NearestFace& to) {
+  const auto corner = [&](std::size_t i) -> Vec3 { return from.points[i]; };
+  const auto centre = [&](std::size_t f) -> Vec3 {
+    const auto& [a, b, c] = from.faces[f];
+    return (from.points[a] + from.points[b] + from.points[c]) / 3;
+  };
+  const auto at_corners = distances(from.points.size(), to, corner);
+  const auto at_centres = distances(from.faces.size(), to, centre);
+  OneWay all;
+  for (std::size_t f = 0; f < from.faces.size(); ++f) {  // in order, for the same bits every time
+    const double area = face_area(from, from.faces[f]);
+    double sum = centre_weight * at_centres[f];
+    all.farthest = std::max(all.farthest, at_centres[f]);
+    for (const int i : from.faces[f]) {
+      sum += corner_weight * at_corners[i];
+      all.farthest = std::max(all.farthest, at_corners[i]);
+    }
+    all.integral += area * sum;
+    all.area += area;
+  }
+  return all;
+}
+
+}  // namespace
+
+SurfaceGap surface_gap(const Triangles& one, const Triangles& other) {
+  const OneWay there = one_way(one, NearestFace(other)), back = one_way(other, NearestFace(one));
+  return {std::max(there.farthest, back.farthest),
+          (there.integral + back.integral) / (there.area + back.area)};
+}
+
+}  // namespace sinew

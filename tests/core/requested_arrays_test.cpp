@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/requested_arrays.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace sinew {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+TEST(RequestedArrays, AreNamedWithCommasOrSpacesAndComeInTheOrderOfTheTable) {
+  EXPECT_EQ(requested_arrays("stress, J"), (Names{"J", "stress"}));
+  EXPECT_EQ(requested_arrays("  J\tJ stress,"), (Names{"J", "stress"}));
+  EXPECT_EQ(requested_arrays("all").size(), requestable_arrays().size());
+  EXPECT_TRUE(requested_arrays("").empty());
+}
+
+TEST(RequestedArrays, RefuseOtherNamesAndSuggestTheNearest) {
+  try {
+    requested_arrays("J, stres");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::bad_input);
+    EXPECT_NE(std::string(error.what()).find("did you mean stress?"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sinew
