@@ -25,24 +25,15 @@ namespace {
 /// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
-<<<<<<< HEAD
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics(_bones)?\\.(csv|json)"
+      "|sections\\.csv"
       "|"
       "bones\\.csv|surface\\.(obj|pc2)|blowup\\.vtu|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs)\\.pvd)(\\.tmp)?|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs)/"
+      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
+      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?)");
-=======
-      "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|(metrics_"
-      "bones|sections)\\.csv|"
-      "\\.?(bones\\.csv|surface\\.(obj|pc2))(\\.tmp)?|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/"
-      "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
-      "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?))");
->>>>>>> wt-met
   return std::regex_match(relative.generic_string(), ours);
 }
 
@@ -50,13 +41,8 @@ bool written_by_a_run(const fs::path& relative) {
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-<<<<<<< HEAD
   for (const char* part : {"checkpoint", "", "particles", "surface", "bones", "frames", "obstacles",
-                           "skin_lbs", "skin_dqs", "pictures"})
-=======
-  for (const char* part : {"", "particles", "surface", "bones", "frames", "obstacles", "skin_lbs",
-                           "skin_dqs", "values", "pictures"})
->>>>>>> wt-met
+                           "skin_lbs", "skin_dqs", "values", "pictures"})
     for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
       if (!entry.is_directory(failed) &&
           written_by_a_run(entry.path().lexically_relative(folder.path / "")))
