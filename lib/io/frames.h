@@ -29,7 +29,7 @@ struct ParticleFrame {
   std::span<const Vec3> force_bone;          ///< N
   std::span<const std::int32_t> neighbours;  ///< partners within b
   Energies energies;
-  std::span<const double> weight;  ///< of the bone in each particle, in the written order
+  std::span<const double> weight;          ///< of the bone in each particle, in the written order
   std::span<const Vec3> force_world = {};  ///< N, as the others; empty where there is no world
   std::span<const std::int32_t> broken_bonds = {};  ///< of each; empty where there are no bonds
 };
