@@ -22,11 +22,13 @@ namespace {
 /// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
-      "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|"
+      "(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|report\\.html|metrics\\.(csv|json)|"
       "\\.?(bones\\.csv|surface\\.(obj|pc2))(\\.tmp)?|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs)\\.pvd|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs)/\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
-      "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?))");
+      "pictures/((compare_)?(body|surface|particles|section|strain|forces|bones)"
+      "_([0-9]{6,}|sheet)\\.png|contact_sheet\\.png|\\.?(movie|(compare_)?(body|surface|particles|"
+      "section|strain|forces|bones))\\.mp4(\\.tmp)?))");
   return std::regex_match(relative.generic_string(), ours);
 }
 
