@@ -43,7 +43,7 @@ Colour from_oklab(const Vec3& lab) {
 }
 
 /// The hues a map goes through: those by S. van der Walt and N. Smith (2015), cividis by
-/// J. Nunez, C. Anderton and R. Renslow (2018), at tenths of their length.
+/// J. Nunez, C. Anderton and R. Renslow (2018), at even steps.
 std::vector<Colour> stops_of(ColourMap map) {
   switch (map) {
     case ColourMap::indigo:
