@@ -98,7 +98,7 @@ void DrawnRun::cut_open(Shot& shot) const {
   const Points rest = positions_of(run_.body.particles);
   const Vec3 back = view_.row(2);
   Vec3 across = Vec3::UnitY();
-  for (const Vec3& axis : {Vec3::UnitX(), Vec3::UnitZ()})
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
     if (std::abs(axis.dot(back)) > std::abs(across.dot(back))) across = axis;
   if (across.dot(back) < 0) across = -across;
   const double middle = across.dot(bounds(rest).center());

@@ -104,11 +104,11 @@ def live_source(series):
     return source
 
 
-def show_time(source, view, options):
+def time_note(source):
     note = AnnotateGlobalData(registrationName="time", Input=source)
     note.SelectArrays = ["FIELD", "TimeValue"]
     note.Prefix, note.Postfix, note.Format = "t = ", " s", "%.3f"
-    show_note(note, view, options)
+    return note
 
 
 def scene_of(folder, follower, options):
@@ -163,8 +163,9 @@ def main():
     module.follower = follower = Follower(folder, options)
     sys.modules["sinew_live"] = module
     sources = {series: live_source(series) for series in follower.series}
-    layout, left, _ = show_all(sources, options, scene_of(folder, follower, options))
-    show_time(sources["particles"], left, options)
+    layout, left = show_all(sources, options, scene_of(folder, follower, options))
+    show_time(time_note(sources["particles"]), left, options)
+    SetActiveSource(sources["particles"])
     if "pvbatch" not in program() and "pvpython" not in program():
         RenderAllViews()
         return

@@ -288,7 +288,7 @@ def show_forces(arrows, view, options, scene):
     shown.WindowLocation = "Lower Center"
 
 
-def show_note(note, view, options):
+def show_time(note, view, options):
     shown = Show(note, view)
     shown.Color = INK
     shown.FontSize = letters(options, 0.026)
@@ -373,7 +373,7 @@ def look_at(view, corners, back, aspect):
 
 def show_all(sources, options, scene):
     """`sources` by the names of their series. Left the cut-away body, right the bones within the
-    translucent skin. Returns the layout and its two views."""
+    translucent skin. Returns the layout and its left view."""
     layout, left, right = two_views()
     show_particles(cut_body(sources["particles"], options, scene), left, options, scene.array,
                    scene.limits)
@@ -392,8 +392,7 @@ def show_all(sources, options, scene):
     if options.forces:
         show_forces(arrows, right, options, scene)
     SetActiveView(left)
-    SetActiveSource(sources["particles"])
-    return layout, left, right
+    return layout, left
 
 
 def arguments(description, *more):

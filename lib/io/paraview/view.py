@@ -49,10 +49,10 @@ def corners_over_time(source, times, most=16):
     return corners
 
 
-def show_time(source, view, options):
+def time_note(source):
     note = AnnotateTimeFilter(registrationName="time", Input=source)
     note.Format = "t = {time:.3f} s"
-    show_note(note, view, options)
+    return note
 
 
 def scene_of(folder, frames, particles, options):
@@ -78,8 +78,9 @@ def main():
         stop("the run has no frames yet; live.py follows it")
     sources = open_series(folder)
     scene, moment = scene_of(folder, frames, sources["particles"], options)
-    layout, left, _ = show_all(sources, options, scene)
-    show_time(sources["particles"], left, options)
+    layout, left = show_all(sources, options, scene)
+    show_time(time_note(sources["particles"]), left, options)
+    SetActiveSource(sources["particles"])
 
     animation = GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()
