@@ -29,7 +29,7 @@ ColourScale Album::scale() const {
     scale.low = std::min(scale.low, drawn(run).range.low);
     scale.high = std::max(scale.high, drawn(run).range.high);
   }
-  if (options_.range) std::tie(scale.low, scale.high) = std::tie((*options_.range)[0], (*options_.range)[1]);
+  if (options_.range) scale.low = (*options_.range)[0], scale.high = (*options_.range)[1];
   if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing has moved
   return scale;
 }
@@ -76,11 +76,21 @@ std::vector<Panel> Album::panels(const std::vector<Shot>& shots) {
   return panels;
 }
 
+/// The box around these moments of all runs.
+Box Album::frame_of(const std::vector<std::size_t>& frames) const {
+  Box box;
+  for (const std::size_t frame : frames)
+    for (const Shot& shot : shots(frame)) box.extend(seen(options_.view, shot));
+  return box;
+}
+
 int Album::pictures() {
   const std::vector<std::size_t> frames = moments();
+  PlateOptions options = plate_options(Finish::fine);
+  options.camera.frame = frame_of(frames);
   for (const std::size_t frame : frames) {
     const std::vector<Shot> moment = shots(frame);
-    write_png(plate(panels(moment), plate_options(Finish::fine)),
+    write_png(plate(panels(moment), options),
               place(name() + '_' + numbered(frame) + ".png"));
   }
   return static_cast<int>(frames.size());

@@ -38,6 +38,7 @@ class Album {
   ColourScale scale() const;
   std::vector<std::size_t> moments() const;
   std::vector<Shot> shots(std::size_t frame) const;
+  Box frame_of(const std::vector<std::size_t>& frames) const;
   std::vector<Panel> panels(const std::vector<Shot>& shots);
   PlateOptions plate_options(Finish finish) const;
   std::string title(std::size_t run) const;

@@ -12,7 +12,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t most_arrows = 900;    // more of them hide each other
-constexpr double longest_arrow = 0.22;      // of the body's longest side
+constexpr double longest_arrow = 0.25;      // of the body's longest side
 constexpr double shortest_arrow = 0.1;      // of the longest: shorter ones are dots
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {

@@ -25,7 +25,7 @@ class DrawnValues {
   /// that index.
   std::vector<double> at(std::size_t index, const RunFrame& frame) const;
 
-  /// What stands at the ends of the colours for these values: their range without the thousandth
+  /// What stands at the ends of the colours for these values: their range without the hundredth
   /// part at each end, which few stray particles have to themselves; from zero where that is near.
   struct Range {
     double low = 0, high = 0;

@@ -104,7 +104,7 @@ Exit render(const Options& options, const Common& common) {
       shown.push_back(
           &runs.emplace_back(folder, looks, options.array, album.view, common.threads != 1));
   const RunFiles& run = runs.front().files();
-  album.folder = options.target.empty() ? run.folder.pictures() : options.target;
+  album.folder = options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
   create({album.folder});
   int pictures = 0;
   for (std::size_t look = 0; look < looks.size(); ++look) {

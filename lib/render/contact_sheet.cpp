@@ -68,6 +68,11 @@ void lay_columns(Layout& layout, const SheetOptions& options) {
   }
 }
 
+bool show_values(const std::vector<SheetRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const SheetRow& row) { return shows_values(row.view); });
+}
+
 Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {
   Layout layout;
   layout.columns = columns_of(rows, options.view);
@@ -83,7 +88,8 @@ Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options)
   layout.captions = y + layout.margin / 2;
   layout.bar = layout.captions + caption_lines(*rows.front().shots) * line_height(layout.text) +
                layout.margin / 2;
-  layout.height = layout.bar + colour_bar_height(layout.text) + layout.margin / 2;
+  layout.height =
+      layout.bar + (show_values(rows) ? colour_bar_height(layout.text) + layout.margin / 2 : 0);
   return layout;
 }
 
@@ -123,6 +129,7 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& optio
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);
   write_captions(sheet, *rows.front().shots, layout);
+  if (!show_values(rows)) return sheet;
   TextStyle words = layout.text;
   words.size = std::max(10, words.size * 4 / 5);
   const int bar = layout.width / 3;

@@ -15,6 +15,9 @@ enum class View {
   bones,      ///< the bones and their axes within a pale skin
 };
 
+/// Whether its colours mean values.
+constexpr bool shows_values(View view) { return view != View::surface && view != View::bones; }
+
 struct PictureOptions {
   View view = View::both;
   Camera camera;

@@ -48,6 +48,9 @@ Image plate(const std::vector<Panel>& panels, const PlateOptions& options) {
     x += layout.wide + layout.margin;
   }
   write_text(image, panels.front().shot->caption, 2 * layout.margin, layout.foot, layout.words);
+  if (std::none_of(panels.begin(), panels.end(),
+                   [](const Panel& panel) { return shows_values(panel.view); }))
+    return image;
   const int bar = std::min(options.width / 3, 3 * options.height / 5);
   draw_colour_bar(image, panels.front().painter->scale(),
                   options.width - 2 * layout.margin - bar, layout.foot, bar, layout.words);

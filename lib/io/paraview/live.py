@@ -106,8 +106,8 @@ def live_source(series):
 
 def time_note(source):
     note = AnnotateGlobalData(registrationName="time", Input=source)
-    note.SelectArrays = ["FIELD", "TimeValue"]
-    note.Prefix, note.Postfix, note.Format = "t = ", " s", "%.3f"
+    note.SelectArrays = "TimeValue"
+    note.Prefix, note.Suffix, note.Format = "t = ", " s", "%.3f"
     return note
 
 
@@ -159,9 +159,8 @@ def main():
         (["--patience"], {"type": float, "default": 60, "help": "how long to wait for a frame, s"}),
         (["--picture"], {"metavar": "FILE.png", "help": "leave a picture of the last one there"}))
     folder = run_folder()
-    module = types.ModuleType("sinew_live")
-    module.follower = follower = Follower(folder, options)
-    sys.modules["sinew_live"] = module
+    global follower
+    follower = Follower(folder, options)
     sources = {series: live_source(series) for series in follower.series}
     layout, left = show_all(sources, options, scene_of(folder, follower, options))
     show_time(time_note(sources["particles"]), left, options)
@@ -175,4 +174,16 @@ def main():
         SaveScreenshot(options.picture, layout, ImageResolution=options.size, SeparatorWidth=0)
 
 
-main()
+def main_in_a_module():
+    """Once more, as the module sinew_live: ParaView runs the text of a source in the main module, and
+    puts numpy's max, dot and others there."""
+    path = os.path.join(run_folder(), SCRIPT)
+    module = sys.modules["sinew_live"] = types.ModuleType("sinew_live")
+    with open(path, encoding="utf-8") as text:
+        exec(compile(text.read(), path, "exec"), module.__dict__)
+
+
+if __name__ == "sinew_live":
+    main()
+else:
+    main_in_a_module()
