@@ -118,15 +118,15 @@ def scene_of(folder, follower, options):
     follower.grow_limits()
     scene.limits = options.range or follower.limits
     scene.strongest = range_in(array_or_stop(newest, options.forces or "force_pair"))[1]
-    scene.corners += grown(scene)
+    scene.corners += roomier(scene)
     return scene
 
 
-def grown(scene):
+def roomier(scene):
     """A box around the body at rest with room to bend: where it will go is not known yet."""
-    reach = 0.35 * scene.size
-    return [tuple(m + max(-reach, min(reach, 2 * (c - m))) for c, m in zip(corner, scene.middle))
-            for corner in scene.corners]
+    reach = 0.6 * scene.size
+    return [tuple(m + math.copysign(min(reach, 3 * abs(c - m)), c - m)
+                  for c, m in zip(corner, scene.middle)) for corner in scene.corners]
 
 
 def refresh(sources):

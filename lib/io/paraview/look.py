@@ -9,6 +9,7 @@ import re
 import shlex
 import sys
 
+import paraview.simple
 from paraview.simple import *
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -374,6 +375,7 @@ def look_at(view, corners, back, aspect):
 def show_all(sources, options, scene):
     """`sources` by the names of their series. Left the cut-away body, right the bones within the
     translucent skin. Returns the layout and its left view."""
+    paraview.simple._DisableFirstRenderCameraReset()  # it would undo look_at()
     layout, left, right = two_views()
     show_particles(cut_body(sources["particles"], options, scene), left, options, scene.array,
                    scene.limits)
