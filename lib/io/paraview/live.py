@@ -138,7 +138,9 @@ def refresh(sources):
 
 def follow_in_batch(follower, sources, options):
     """Without a window nobody asks the sources for news, so this does; prints a line per frame."""
-    shown = 0
+    RenderAllViews()
+    shown = 1
+    print(f"frame {follower.shown['particles'][0]}", flush=True)
     end = time.monotonic() + options.patience
     while shown < options.frames:
         if time.monotonic() > end:
