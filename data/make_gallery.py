@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the README's pictures of runs, in pictures/, from the scenes in configs.
 
-usage: make_gallery.py SINEW [RUNS]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps the
-                                        runs, so that a second call only draws; needs Debian's python3-pil
+usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps
+                                                 the runs, so that a second call only draws; NAME: only these
+                                                 pictures. Needs Debian's python3-pil
 """
 import subprocess
 import sys
@@ -59,11 +60,9 @@ def draw(sinew, runs, name):
 
 
 def main():
-    sinew = Path(sys.argv[1]).resolve()
-    with tempfile.TemporaryDirectory() as scratch:
-        runs = Path(sys.argv[2] if len(sys.argv) > 2 else scratch).resolve()
-        for name in PICTURES:
-            draw(sinew, runs, name)
+    sinew, runs = (Path(place).resolve() for place in sys.argv[1:3])
+    for name in sys.argv[3:] or PICTURES:
+        draw(sinew, runs, name)
 
 
 if __name__ == "__main__":

@@ -90,8 +90,7 @@ int Album::pictures() {
   options.camera.frame = frame_of(frames);
   for (const std::size_t frame : frames) {
     const std::vector<Shot> moment = shots(frame);
-    write_png(plate(panels(moment), options),
-              place(name() + '_' + numbered(frame) + ".png"));
+    write_png(plate(panels(moment), options), place(name() + '_' + numbered(frame) + ".png"));
   }
   return static_cast<int>(frames.size());
 }

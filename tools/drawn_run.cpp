@@ -11,9 +11,9 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_arrows = 900;    // more of them hide each other
-constexpr double longest_arrow = 0.25;      // of the body's longest side
-constexpr double shortest_arrow = 0.1;      // of the longest: shorter ones are dots
+constexpr std::size_t most_arrows = 900;  // more of them hide each other
+constexpr double longest_arrow = 0.25;    // of the body's longest side
+constexpr double shortest_arrow = 0.1;    // of the longest: shorter ones are dots
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {
   double most = 0;
@@ -75,8 +75,8 @@ std::size_t DrawnRun::frame_at(double time) const {
   const auto nearer = [time](const PvdRow& a, const PvdRow& b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
   };
-  return static_cast<std::size_t>(std::min_element(rows.begin(), rows.begin() + run_.frames(), nearer) -
-                                  rows.begin());
+  return static_cast<std::size_t>(
+      std::min_element(rows.begin(), rows.begin() + run_.frames(), nearer) - rows.begin());
 }
 
 std::vector<std::size_t> DrawnRun::telling_frames() const {

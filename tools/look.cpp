@@ -64,8 +64,8 @@ ColourMap colour_map_named(const std::string& name) {
 Mat3 view_named(const std::string& text) {
   Vec3 towards = Vec3::Zero();
   char rest = 0;
-  const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &towards.x(), &towards.y(),
-                               &towards.z(), &rest);
+  const int read =
+      std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &towards.x(), &towards.y(), &towards.z(), &rest);
   if (read <= 0) {
     const auto& [x, y, z] = entry_named(views, text, "camera").towards_viewer;
     return view_towards({x, y, z});

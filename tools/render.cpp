@@ -45,7 +45,8 @@ void declare_what(CLI::App& app, Options& options) {
       ->type_name("NAMES");
   app.add_option("--compare", options.other_folder, "Another run, shown beside this one")
       ->type_name("DIR");
-  app.add_option("--times", options.times, "Moments of the pictures, s; the telling ones if not given")
+  app.add_option("--times", options.times,
+                 "Moments of the pictures, s; the telling ones if not given")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("T,T,...");
@@ -104,7 +105,8 @@ Exit render(const Options& options, const Common& common) {
       shown.push_back(
           &runs.emplace_back(folder, looks, options.array, album.view, common.threads != 1));
   const RunFiles& run = runs.front().files();
-  album.folder = options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
+  album.folder =
+      options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
   create({album.folder});
   int pictures = 0;
   for (std::size_t look = 0; look < looks.size(); ++look) {

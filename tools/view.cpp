@@ -34,9 +34,12 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--live", options.live, "Follow a run that is still going");
   app.add_option("--array", options.array, "What colours the particles, displacement if not given");
   app.add_option("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
-  app.add_option("--forces", options.forces, "Arrows of that force: force_pair, force_bone, force ...");
+  app.add_option("--forces", options.forces,
+                 "Arrows of that force: force_pair, force_bone, force ...");
   app.add_option("--time", options.time, "Moment of the picture, s");
-  app.add_option("--size", options.size, "Size of the picture, pixels")->expected(2)->type_name("W H");
+  app.add_option("--size", options.size, "Size of the picture, pixels")
+      ->expected(2)
+      ->type_name("W H");
   app.add_option("--picture", options.picture, "Leave a picture there instead of opening a window")
       ->type_name("FILE.png");
 }
@@ -74,15 +77,16 @@ fs::path program_named(const std::string& name) {
   std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
   for (std::string folder; std::getline(folders, folder, ':');)
     if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
-  throw Error(Exit::not_written, name + " is not installed; install it with: apt-get install paraview");
+  throw Error(Exit::not_written,
+              name + " is not installed; install it with: apt-get install paraview");
 }
 
 /// Where ParaView's Python may lie by itself: Debian's package of it cannot be installed beside
 /// VTK's, which sinew is built with.
 std::vector<fs::path> private_places() {
   const fs::path modules = "usr/lib/python3/dist-packages";
-  std::vector<fs::path> places{
-      fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "paraview-python" / modules};
+  std::vector<fs::path> places{fs::read_symlink("/proc/self/exe").parent_path().parent_path() /
+                               "paraview-python" / modules};
   if (const char* home = std::getenv("HOME"))
     places.push_back(fs::path(home) / ".local/share/sinew/paraview-python" / modules);
   return places;
@@ -95,24 +99,28 @@ void find_python(const fs::path& program) {
   std::istringstream folders(given);
   for (std::string folder; std::getline(folders, folder, ':');)
     if (fs::exists(fs::path(folder) / "paraview", none)) return;
-  if (program.parent_path() != "/usr/bin" || fs::exists("/usr/lib/python3/dist-packages/paraview", none))
+  if (program.parent_path() != "/usr/bin" ||
+      fs::exists("/usr/lib/python3/dist-packages/paraview", none))
     return;
   for (const fs::path& place : private_places())
     if (fs::exists(place / "paraview", none)) {
-      setenv("PYTHONPATH", (given.empty() ? place.string() : place.string() + ':' + given).c_str(), 1);
+      setenv("PYTHONPATH", (given.empty() ? place.string() : place.string() + ':' + given).c_str(),
+             1);
       return;
     }
-  throw Error(Exit::not_written,
-              "ParaView's Python is not installed; install it with: apt-get install python3-paraview, "
-              "or beside VTK's: apt-get download python3-paraview && dpkg -x python3-paraview_*.deb "
-              "~/.local/share/sinew/paraview-python");
+  throw Error(
+      Exit::not_written,
+      "ParaView's Python is not installed; install it with: apt-get install python3-paraview, "
+      "or beside VTK's: apt-get download python3-paraview && dpkg -x python3-paraview_*.deb "
+      "~/.local/share/sinew/paraview-python");
 }
 
 void check_screen() {
   const auto set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
   if (!set("DISPLAY") && !set("WAYLAND_DISPLAY"))
-    throw Error(Exit::not_written,
-                "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
+    throw Error(
+        Exit::not_written,
+        "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
 }
 
 /// Does not return but by throwing.

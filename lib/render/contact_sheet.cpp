@@ -98,8 +98,8 @@ void draw_row(Image& sheet, const SheetRow& row, int y, const Layout& layout,
   write_text(sheet, row.title, layout.margin, y - line_height(layout.text), layout.text);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const Column& column = layout.columns[i];
-    const PictureOptions panel{row.view,          {options.view, column.frame}, column.width,
-                               layout.row_height, 1,                            options.finish};
+    const PictureOptions panel{
+        row.view, {options.view, column.frame}, column.width, layout.row_height, 1, options.finish};
     paste(sheet, row.painter->draw((*row.shots)[i], panel), column.x, y);
   }
 }
@@ -139,8 +139,8 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& optio
 }
 
 Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options) {
-  return contact_sheet({{&painter, &shots, View::surface, ""}, {&painter, &shots, View::particles, ""}},
-                       options);
+  return contact_sheet(
+      {{&painter, &shots, View::surface, ""}, {&painter, &shots, View::particles, ""}}, options);
 }
 
 }  // namespace sinew

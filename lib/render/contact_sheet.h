@@ -21,8 +21,8 @@ struct SheetOptions {
   Finish finish = Finish::fine;
 };
 
-/// All panels to one scale; below them the captions of the first row's shots and the colour scale of
-/// its painter. Throws bad input without rows or shots or with rows of different lengths, and as
+/// All panels to one scale; below them the captions of the first row's shots and the colour scale
+/// of its painter. Throws bad input without rows or shots or with rows of different lengths, and as
 /// Painter::draw does.
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 

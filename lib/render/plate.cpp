@@ -12,9 +12,9 @@ namespace {
 struct Layout {
   TextStyle words;
   int margin = 0;
-  int top = 0;           ///< of the panels
+  int top = 0;             ///< of the panels
   int wide = 0, high = 0;  ///< each panel
-  int foot = 0;          ///< where caption and colours begin
+  int foot = 0;            ///< where caption and colours begin
 };
 
 Layout layout_of(const std::vector<Panel>& panels, const PlateOptions& options) {
@@ -39,8 +39,8 @@ Image plate(const std::vector<Panel>& panels, const PlateOptions& options) {
   Image image(options.width, options.height);
   int x = layout.margin;
   for (const Panel& panel : panels) {
-    const PictureOptions picture{panel.view,  options.camera, layout.wide,
-                                 layout.high, 4,              options.finish};
+    const PictureOptions picture{panel.view, options.camera, layout.wide, layout.high,
+                                 4,          options.finish};
     paste(image, panel.painter->draw(*panel.shot, picture), x, layout.top);
     TextStyle title = layout.words;
     title.align = Align::centre;
@@ -52,8 +52,8 @@ Image plate(const std::vector<Panel>& panels, const PlateOptions& options) {
                    [](const Panel& panel) { return shows_values(panel.view); }))
     return image;
   const int bar = std::min(options.width / 3, 3 * options.height / 5);
-  draw_colour_bar(image, panels.front().painter->scale(),
-                  options.width - 2 * layout.margin - bar, layout.foot, bar, layout.words);
+  draw_colour_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
+                  layout.foot, bar, layout.words);
   return image;
 }
 

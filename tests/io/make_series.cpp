@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // make_series FOLDER [zlib | lz4 | raw | none [FRAMES PAUSE]]: leaves the series of a synthetic run
-// there, for the tests that open them with ParaView and meshio; PAUSE seconds between its frames, for
-// those that watch a run while it goes.
+// there, for the tests that open them with ParaView and meshio; PAUSE seconds between its frames,
+// for those that watch a run while it goes.
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
