@@ -6,6 +6,7 @@ usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/si
                                                  the runs, so that a second call only draws; NAME: only these
                                                  pictures. Needs Debian's python3-pil
 """
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -15,6 +16,7 @@ from PIL import Image
 
 DATA = Path(__file__).resolve().parent
 CONFIGS = DATA.parent / "configs"
+LARGE = 150_000  # bytes, beyond which a picture is made smaller
 # run: scene, and what of it is set otherwise
 RUNS = {
     "box": ("box_bend", []),
@@ -29,7 +31,7 @@ PICTURES = {
     "box_bend": ("box", [], "contact_sheet"),
     "box_twist": ("twist", ["--times", "0,0.5,1"], "contact_sheet"),
     "arm": ("arm", ["--view", "surface", "--times", "0,0.6,1.5"], "surface_sheet"),
-    "fox": ("fox", ["--view", "body", "--times", "0.25,0.75,1.25"], "contact_sheet"),
+    "fox": ("fox", ["--view", "surface", "--times", "0.25,0.5,0.75"], "surface_sheet"),
     "strain": ("box", ["--view", "strain", "--times", "0.5,1,1.4"], "strain_sheet"),
     "forces": ("box", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
     "compare": ("paper", ["--compare", "bonded", "--view", "strain", "--times", "0,1.4,3"],
@@ -53,10 +55,12 @@ def draw(sinew, runs, name):
         subprocess.run([sinew, "render", "--no-movie", "--width", "960", "--height", "540", "-o", folder,
                         *options, simulated(sinew, runs, run)],
                        check=True, stdout=subprocess.DEVNULL)
-        drawn = Image.open(Path(folder) / f"{taken}.png")
-        # 256 colours without dither look the same and take a third of the room
-        few = drawn.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-        few.save(DATA / f"pictures/{name}.png", optimize=True)
+        target = DATA / f"pictures/{name}.png"
+        shutil.copy(Path(folder) / f"{taken}.png", target)
+    if target.stat().st_size > LARGE:
+        # without dither spheres in 256 colours look the same, at a third of the size
+        few = Image.open(target).quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        few.save(target, optimize=True)
 
 
 def main():
