@@ -59,6 +59,14 @@ class Look(unittest.TestCase):
     def render(self, *words, **options):
         return sinew("render", self.run_folder, "-o", self.pictures, *SIZE, *words, **options)
 
+    def display(self):
+        """Of a server without limits."""
+        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-noreset", "-nolisten", "tcp"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(server.communicate)
+        self.addCleanup(server.kill)
+        return ":" + server.stdout.readline().strip()
+
     def names(self):
         return sorted(path.name for path in self.pictures.iterdir())
 
@@ -107,8 +115,9 @@ class Look(unittest.TestCase):
         self.assert_one_line(sinew("render", self.pictures), 2, "is not the folder of a run")
 
     def test_a_disk_that_is_full_is_one_line(self):
-        few = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
-        done = self.render("--no-movie", preexec_fn=few, restore_signals=False)
+        few = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+        done = self.render("--no-movie", preexec_fn=few, restore_signals=False,
+                           env={**os.environ, "DISPLAY": self.display()})
         self.assert_one_line(done, 4, "body_000000.png", "File too large")
         self.assertEqual(self.names(), [])
 
