@@ -16,7 +16,7 @@ from PIL import Image
 
 DATA = Path(__file__).resolve().parent
 CONFIGS = DATA.parent / "configs"
-LARGE = 150_000  # bytes, beyond which a picture is made smaller
+LARGE = 250_000  # bytes, beyond which a picture is made smaller
 # run: scene, and what of it is set otherwise
 RUNS = {
     "box": ("box_bend", []),
