@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-render: pictures and a movie of a run, without ParaView.
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <memory>
 
+#include "album.h"
 #include "command.h"
-#include "core/number_text.h"
 #include "core/stopwatch.h"
-#include "render/contact_sheet.h"
 #include "render/display.h"
-#include "render/movie.h"
 #include "results.h"
-#include "run_files.h"
 #include "run_record.h"
 
 namespace {
@@ -19,150 +15,111 @@ namespace {
 using namespace sinew;
 
 struct Options {
-  std::string folder;
+  std::string folder, other_folder, target, array, camera = "three_quarter", colours = "indigo";
+  std::vector<std::string> views{"body"};
+  std::vector<double> times, range;
   int width = 1280, height = 720;
   bool no_movie = false;
 };
 
-void declare(CLI::App& app, Options& options) {
+std::string help_of_views() {
+  std::string text = "Comma-separated list of";
+  for (const Look& look : looks())
+    ((text += look.name == looks().front().name ? " " : ", ") += look.name) +=
+        " (" + std::string(look.help) + ')';
+  return text;
+}
+
+std::string help_of_colours() {
+  std::string text;
+  for (const NamedColourMap& named : colour_maps())
+    (text += text.empty() ? "One of " : ", ") += named.name;
+  return text;
+}
+
+void declare_what(CLI::App& app, Options& options) {
   app.add_option("DIR", options.folder, "Folder of the run")->required();
+  app.add_option("--view", options.views, help_of_views())
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  app.add_option("--compare", options.other_folder, "Another run, shown beside this one")
+      ->type_name("DIR");
+  app.add_option("--times", options.times,
+                 "Moments of the pictures, s; the telling ones if not given")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("T,T,...");
+  app.add_option("--array", options.array,
+                 "What is shown in colour: displacement, velocity, force_pair, strain, J, ...")
+      ->type_name("NAME");
+  app.add_flag("--no-movie", options.no_movie, "Pictures only");
+  app.add_option("-o", options.target, "Folder of the pictures, by default DIR/pictures");
+}
+
+void declare_how(CLI::App& app, Options& options) {
+  app.add_option("--range", options.range, "Values of the lowest and highest colour")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("LOW,HIGH");
+  app.add_option("--colours", options.colours, help_of_colours())
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_option("--camera", options.camera,
+                 "three_quarter, front, back, left, right, top, or the direction to the viewer")
+      ->type_name("NAME or X,Y,Z")
+      ->capture_default_str();
   app.add_option("--width", options.width, "Width of pictures and movie, pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
   app.add_option("--height", options.height, "Height of pictures and movie, pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
-  app.add_flag("--no-movie", options.no_movie, "Pictures only");
 }
 
-/// What must be known of all frames before the first is drawn.
-struct Story {
-  std::vector<double> angle;  ///< per frame: largest turn of a bone since rest, rad
-  ColourScale scale{"displacement", "m", 0, 0};
-  Camera camera;  ///< sees the whole body at all times
-};
-
-double largest_turn(const RunFiles& run, const RunFrame& frame) {
-  double most = 0;
-  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
-    const Mat3 turn = frame.bones[b].rotation * run.skeleton.bones[b].rest.rotation.transpose();
-    most = std::max(most, Eigen::AngleAxisd(turn).angle());
-  }
-  return most;
+AlbumOptions album_options(const Options& options) {
+  AlbumOptions album;
+  album.width = options.width;
+  album.height = options.height;
+  album.view = view_named(options.camera);
+  album.colours = colour_map_named(options.colours);
+  album.times = options.times;
+  if (options.range.empty()) return album;
+  if (options.range.size() != 2 || !(options.range[0] < options.range[1]))
+    throw bad_input("a range of colours needs two numbers, the lower one first",
+                    "give it as --range 0,0.5");
+  album.range = {options.range[0], options.range[1]};
+  return album;
 }
-
-Shot shot_of(const RunFiles& run, RunFrame frame, double angle) {
-  Shot shot;
-  shot.caption = three_digits(frame.time) + " s,  " +
-                 std::to_string(static_cast<int>(std::lround(degrees(angle)))) + "\u00b0";
-  shot.particles = std::move(frame.positions);
-  shot.radius = run.body.particles.radius;
-  shot.values = std::move(frame.displacement);
-  shot.surface = {std::move(frame.surface_points), run.surface.faces};
-  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
-    const RigidFrame& bone = frame.bones[b];
-    const Vec3 tail = bone.origin + run.skeleton.bones[b].length * bone.rotation.col(0);
-    shot.bones.push_back({bone.origin, tail, bone.rotation});
-  }
-  return shot;
-}
-
-Story read_story(const RunFiles& run, int threads) {
-  Story story;
-  FramesInOrder frames(run, threads != 1);
-  for (std::size_t i = 0; i < run.frames(); ++i) {
-    RunFrame frame = frames.next();
-    story.angle.push_back(largest_turn(run, frame));
-    for (const double value : frame.displacement)
-      story.scale.high = std::max(story.scale.high, value);
-    story.camera.frame.extend(seen(story.camera.view, shot_of(run, std::move(frame), 0)));
-  }
-  if (!(story.scale.high > 0)) story.scale.high = run.body.particles.radius;  // nothing has moved
-  return story;
-}
-
-/// The frames that tell the story: rest, half way, farthest (its last moment), and the end.
-std::vector<std::size_t> telling_frames(const std::vector<double>& angle) {
-  const double most = *std::max_element(angle.begin(), angle.end());
-  std::size_t half = 0, farthest = 0;
-  while (angle[half] < most / 2) ++half;
-  for (std::size_t i = 0; i < angle.size(); ++i)
-    if (angle[i] >= most * (1 - 1e-5)) farthest = i;
-  std::vector<std::size_t> frames{0, half, farthest, angle.size() - 1};
-  std::sort(frames.begin(), frames.end());
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  return frames;
-}
-
-std::string numbered(std::size_t frame) {
-  const std::string digits = std::to_string(frame);
-  return "body_" + std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits + ".png";
-}
-
-class Album {
- public:
-  Album(const RunFiles& run, const Options& options, int threads)
-      : run_(run),
-        options_(options),
-        story_(read_story(run, threads)),
-        painter_(run.surface, story_.scale) {}
-
-  /// The contact sheet, and each of its moments by itself. Returns how many pictures.
-  int pictures() {
-    std::vector<Shot> shots;
-    for (const std::size_t frame : telling_frames(story_.angle)) {
-      shots.push_back(shot(frame));
-      PictureOptions picture;
-      picture.camera = story_.camera;
-      picture.width = options_.width;
-      picture.height = options_.height;
-      write_png(painter_.draw(shots.back(), picture), place(numbered(frame)));
-    }
-    write_png(contact_sheet(painter_, shots, {}), place("contact_sheet.png"));
-    return static_cast<int>(shots.size()) + 1;
-  }
-
-  void movie() {
-    MovieOptions movie;
-    movie.width = options_.width & ~1;  // H.264 wants even sizes
-    movie.height = options_.height & ~1;
-    movie.frames_per_second = std::clamp(1 / run_.settings.output.interval, 0.1, 240.0);
-    Movie film(place("movie.mp4"), movie);
-    FrameOptions frame;
-    frame.camera = story_.camera;
-    frame.width = movie.width;
-    frame.height = movie.height;
-    for (std::size_t i = 0; i < run_.frames(); ++i) film.add(movie_frame(painter_, shot(i), frame));
-    film.finish();
-  }
-
- private:
-  Shot shot(std::size_t frame) const {
-    return shot_of(run_, read_frame(run_, frame), story_.angle[frame]);
-  }
-  std::string place(const std::string& name) const {
-    return (run_.folder.pictures() / name).string();
-  }
-
-  const RunFiles& run_;
-  Options options_;
-  Story story_;
-  Painter painter_;
-};
 
 Exit render(const Options& options, const Common& common) {
+  AlbumOptions album = album_options(options);
+  std::vector<Look> looks;
+  for (const std::string& view : options.views) looks.push_back(look_named(view));
+  ensure_display();
   Stopwatch watch;
-  const RunFiles run = open_run({options.folder});
-  create({run.folder.pictures()});
-  Album album(run, options, common.threads);
-  Results results;
-  results.add("pictures", album.pictures());
-  if (!options.no_movie) {
-    album.movie();
-    results.add("movie_frames", run.frames());
+  std::deque<DrawnRun> runs;
+  std::vector<const DrawnRun*> shown;
+  for (const std::string& folder : {options.folder, options.other_folder})
+    if (!folder.empty())
+      shown.push_back(
+          &runs.emplace_back(folder, looks, options.array, album.view, common.threads != 1));
+  const RunFiles& run = runs.front().files();
+  album.folder =
+      options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
+  create({album.folder});
+  int pictures = 0;
+  for (std::size_t look = 0; look < looks.size(); ++look) {
+    Album pages(shown, look, album);
+    pictures += pages.pictures() + 1;
+    pages.sheet();
+    if (!options.no_movie) pages.movie();
   }
+  Results results;
+  results.add("pictures", pictures);
+  if (!options.no_movie) results.add("movie_frames", run.frames());
   record_stage(run.folder, "rendering", watch.lap());
-  results.add("folder", run.folder.pictures().string());
+  results.add("folder", album.folder.string());
   results.print(common.json);
   return Exit::done;
 }
@@ -171,15 +128,15 @@ Exit render(const Options& options, const Common& common) {
 
 int main(int argc, char** argv) {
   Options options;
-  About about{
-      "render",
-      "Draws pictures and a movie of a run.",
-      {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080"}};
+  About about{"render",
+              "Draws pictures and a movie of a run.",
+              {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080",
+               "sinew render out/box_bend --view strain,section --times 0,0.5,1 --no-movie",
+               "sinew render out/box_bend --view forces --camera front --colours inferno",
+               "sinew render out/paper --compare out/bonded"}};
   about.takes_scene = false;
   return run_command(
-      argc, argv, about, [&](CLI::App& app) { declare(app, options); },
-      [&](const Common& common) {
-        ensure_display();
-        return render(options, common);
-      });
+      argc, argv, about,
+      [&](CLI::App& app) { declare_what(app, options), declare_how(app, options); },
+      [&](const Common& common) { return render(options, common); });
 }

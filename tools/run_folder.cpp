@@ -25,15 +25,15 @@ namespace {
 /// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
-      "\\.?(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics(_bones)?\\.(csv|json)"
-      "|sections\\.csv"
-      "|"
-      "bones\\.csv|surface\\.(obj|pc2)|blowup\\.vtu|"
+      "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|report\\.html|"
+      "metrics(_bones)?\\.(csv|json)|(bones|sections)\\.csv|surface\\.(obj|pc2)|blowup\\.vtu|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
-      "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?)");
+      "pictures/((compare_)?(body|surface|particles|section|strain|forces|bones)"
+      "_([0-9]{6,}|sheet)\\.png|contact_sheet\\.png|\\.?(movie|(compare_)?(body|surface|particles|"
+      "section|strain|forces|bones))\\.mp4(\\.tmp)?)");
   return std::regex_match(relative.generic_string(), ours);
 }
 

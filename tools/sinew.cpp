@@ -24,13 +24,14 @@ struct Known {
   std::string_view name, purpose;
 };
 
-constexpr std::array<Known, 7> commands = {{
+constexpr std::array<Known, 8> commands = {{
     {"run", "the whole job: fill, simulate, measure, render"},
     {"check", "what a run would need, and what is doubtful in its scene"},
     {"fill", "fill a closed mesh with closest-packed particles"},
     {"simulate", "move the bones and let the body follow"},
     {"measure", "metrics and a report of a run"},
     {"render", "pictures and a movie of a run"},
+    {"view", "a run in ParaView, while it goes too"},
     {"info", "what is in a file, and what is wrong with it"},
 }};
 

@@ -119,8 +119,7 @@ vtkNew<vtkUnsignedCharArray> colours_of(const Shot& shot, const ColourScale& sca
   colours->SetNumberOfComponents(3);
   colours->SetNumberOfTuples(static_cast<vtkIdType>(shot.particles.size()));
   for (std::size_t i = 0; i < shot.particles.size(); ++i) {
-    const Colour colour =
-        shot.values.empty() ? plain_colour : mapped_colour(scale.position(shot.values[i]));
+    const Colour colour = shot.values.empty() ? plain_colour : scale.colour(shot.values[i]);
     colours->SetTypedTuple(static_cast<vtkIdType>(i), colour.data());
   }
   return colours;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "render/colour.h"
-#include "render/shot.h"
 #include "render/shading.h"
+#include "render/shot.h"
 
 class vtkRenderer;
 
@@ -22,7 +22,8 @@ struct LineStyle {
 };
 
 /// The skin's sharp edges.
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style);
+void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin,
+                 const LineStyle& style);
 
 /// Its other edges, fainter.
 void add_net(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style);

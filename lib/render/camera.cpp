@@ -17,6 +17,8 @@ Mat3 view_from(const Vec3& towards_viewer) {
 
 Mat3 three_quarter_view() { return view_from({0.42, -1, 0.36}); }
 
+Mat3 view_from_above() { return Mat3::Identity(); }
+
 Box seen(const Mat3& view, const Shot& shot) {
   Box box;
   const auto add = [&](const Vec3& point, double around) {
@@ -27,6 +29,7 @@ Box seen(const Mat3& view, const Shot& shot) {
   };
   for (const Vec3& point : shot.particles) add(point, shot.radius);
   for (const Vec3& point : shot.surface.points) add(point, 0);
+  for (const ShotArrow& arrow : shot.arrows) add(arrow.from + arrow.along, 0);
   for (const ShotBone& bone : shot.bones) add(bone.head, shot.radius), add(bone.tail, shot.radius);
   return box;
 }

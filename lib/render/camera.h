@@ -14,6 +14,9 @@ Mat3 three_quarter_view();
 /// The view of someone who stands in the direction `towards_viewer` (not along z, not zero).
 Mat3 view_from(const Vec3& towards_viewer);
 
+/// The view of someone who looks down, x to the right and y upwards.
+Mat3 view_from_above();
+
 struct Camera {
   Mat3 view = three_quarter_view();
   Box frame;  ///< in the view's directions, m; all of it is in the picture

@@ -11,24 +11,25 @@ namespace sinew {
 namespace {
 
 struct Column {
-  Box frame;  ///< as wide as its shot, as high as all of them
+  Box frame;  ///< as wide as its shots, as high as all of them
   int x = 0, width = 0;
 };
 
 /// Where everything lies on the sheet, pixels.
 struct Layout {
   std::vector<Column> columns;
+  std::vector<int> rows;  ///< where the panels of each begin
   int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
   TextStyle text;
 };
 
-std::vector<Column> columns_of(const std::vector<Shot>& shots, const Mat3& view) {
-  std::vector<Column> columns;
+std::vector<Column> columns_of(const std::vector<SheetRow>& rows, const Mat3& view) {
+  std::vector<Column> columns(rows.front().shots->size());
   Box all;
-  for (const Shot& shot : shots) {
-    columns.push_back({seen(view, shot), 0, 0});
-    all.extend(columns.back().frame);
-  }
+  for (const SheetRow& row : rows)
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].frame.extend(seen(view, (*row.shots)[i]));
+  for (const Column& column : columns) all.extend(column.frame);
   for (Column& column : columns)
     for (int axis : {1, 2}) {
       column.frame.min()[axis] = all.min()[axis];
@@ -53,78 +54,93 @@ int caption_lines(const std::vector<Shot>& shots) {
 
 /// The largest scale at which the columns, with gaps between, fit into the width and the row
 /// height.
-Layout layout_of(const std::vector<Shot>& shots, const SheetOptions& options) {
-  Layout layout;
-  layout.columns = columns_of(shots, options.view);
-  const int count = static_cast<int>(shots.size());
-  const int gap = layout.margin = std::max(12, options.width / 32);
+void lay_columns(Layout& layout, const SheetOptions& options) {
+  const int count = static_cast<int>(layout.columns.size()), gap = layout.margin;
   const double space = options.width - (count + 1) * gap;
   const double high = layout.columns.front().frame.sizes().y();
   const double scale = std::min(space / summed_width(layout.columns), options.row_height / high);
-  layout.text.size = std::max(11, options.width / 64);
   layout.row_height = std::max(16, static_cast<int>(std::lround(scale * high)));
-  int x = gap;
+  layout.width = gap;
   for (Column& column : layout.columns) {
-    column.x = x;
+    column.x = layout.width;
     column.width = std::max(16, static_cast<int>(std::lround(scale * column.frame.sizes().x())));
-    x += column.width + gap;
+    layout.width += column.width + gap;
   }
-  layout.width = x;
-  layout.captions = 2 * layout.margin + 2 * layout.row_height + layout.margin / 2;
-  layout.bar =
-      layout.captions + caption_lines(shots) * line_height(layout.text) + layout.margin / 2;
-  layout.height = layout.bar + colour_bar_height(layout.text) + layout.margin / 2;
+}
+
+bool show_values(const std::vector<SheetRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const SheetRow& row) { return shows_values(row.view); });
+}
+
+Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+  Layout layout;
+  layout.columns = columns_of(rows, options.view);
+  layout.margin = std::max(12, options.width / 32);
+  layout.text.size = std::max(11, options.width / 64);
+  lay_columns(layout, options);
+  int y = 0;
+  for (const SheetRow& row : rows) {
+    y += layout.margin + (row.title.empty() ? 0 : line_height(layout.text));
+    layout.rows.push_back(y);
+    y += layout.row_height;
+  }
+  layout.captions = y + layout.margin / 2;
+  layout.bar = layout.captions + caption_lines(*rows.front().shots) * line_height(layout.text) +
+               layout.margin / 2;
+  layout.height =
+      layout.bar + (show_values(rows) ? colour_bar_height(layout.text) + layout.margin / 2 : 0);
   return layout;
 }
 
-void draw_panel(Painter& painter, Image& sheet, const Shot& shot, int x, int y,
-                const PictureOptions& options) {
-  paste(sheet, painter.draw(shot, options), x, y);
+void draw_row(Image& sheet, const SheetRow& row, int y, const Layout& layout,
+              const SheetOptions& options) {
+  write_text(sheet, row.title, layout.margin, y - line_height(layout.text), layout.text);
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    const Column& column = layout.columns[i];
+    const PictureOptions panel{
+        row.view, {options.view, column.frame}, column.width, layout.row_height, 1, options.finish};
+    paste(sheet, row.painter->draw((*row.shots)[i], panel), column.x, y);
+  }
 }
 
-void draw_column(Painter& painter, Image& sheet, const Shot& shot, const Layout& layout,
-                 const Column& column, const SheetOptions& options) {
-  PictureOptions panel{
-      View::surface, {options.view, column.frame}, column.width, layout.row_height, 1,
-      options.finish};
-  draw_panel(painter, sheet, shot, column.x, layout.margin, panel);
-  panel.view = View::particles;
-  draw_panel(painter, sheet, shot, column.x, 2 * layout.margin + layout.row_height, panel);
+void write_captions(Image& sheet, const std::vector<Shot>& shots, const Layout& layout) {
   TextStyle words = layout.text;
   words.align = Align::centre;
-  write_text(sheet, shot.caption, column.x + column.width / 2, layout.captions, words);
+  for (std::size_t i = 0; i < shots.size(); ++i)
+    write_text(sheet, shots[i].caption, layout.columns[i].x + layout.columns[i].width / 2,
+               layout.captions, words);
+}
+
+void check(const std::vector<SheetRow>& rows) {
+  if (rows.empty() || rows.front().shots->empty())
+    throw bad_input("a contact sheet needs shots", "give at least one");
+  for (const SheetRow& row : rows)
+    if (row.shots->size() != rows.front().shots->size())
+      throw bad_input("rows of a contact sheet differ in length", "give the same moments to each");
 }
 
 }  // namespace
 
-Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options) {
-  if (shots.empty()) throw bad_input("a contact sheet needs shots", "give at least one");
-  const Layout layout = layout_of(shots, options);
+Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+  check(rows);
+  const Layout layout = layout_of(rows, options);
   Image sheet(layout.width, layout.height);
-  for (std::size_t i = 0; i < shots.size(); ++i)
-    draw_column(painter, sheet, shots[i], layout, layout.columns[i], options);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    draw_row(sheet, rows[i], layout.rows[i], layout, options);
+  write_captions(sheet, *rows.front().shots, layout);
+  if (!show_values(rows)) return sheet;
   TextStyle words = layout.text;
   words.size = std::max(10, words.size * 4 / 5);
   const int bar = layout.width / 3;
-  draw_colour_bar(sheet, painter.scale(), (layout.width - bar) / 2, layout.bar, bar, words);
+  draw_colour_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
+                  words);
   return sheet;
 }
 
-Image movie_frame(Painter& painter, const Shot& shot, const FrameOptions& options) {
-  TextStyle words;
-  words.size = std::max(11, options.height / 32);
-  const int margin = options.height / 30, foot = colour_bar_height(words) + margin;
-  const int wide = (options.width - 3 * margin) / 2, high = options.height - foot - 2 * margin;
-  Image frame(options.width, options.height);
-  PictureOptions panel{View::surface, options.camera, wide, high, 4, options.finish};
-  draw_panel(painter, frame, shot, margin, margin, panel);
-  panel.view = View::particles;
-  draw_panel(painter, frame, shot, 2 * margin + wide, margin, panel);
-  const int below = options.height - foot;
-  write_text(frame, shot.caption, 2 * margin, below, words);
-  const int bar = wide * 3 / 5;
-  draw_colour_bar(frame, painter.scale(), options.width - 2 * margin - bar, below, bar, words);
-  return frame;
+Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options) {
+  return contact_sheet(
+      {{&painter, &shots, View::surface, ""}, {&painter, &shots, View::particles, ""}}, options);
 }
 
 }  // namespace sinew

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run in one picture, as in the paper's figure 4: the surface above, the particles below, over
-// time. And the same two side by side, for the frames of a movie.
+// A run in one picture: moments from left to right, ways of looking at them below each other.
 #pragma once
 
 #include "render/picture.h"
 
 namespace sinew {
+
+/// One row: the same moments as in the other rows, seen in one way.
+struct SheetRow {
+  Painter* painter = nullptr;
+  const std::vector<Shot>* shots = nullptr;
+  View view = View::both;
+  std::string title;  ///< above it, or empty
+};
 
 struct SheetOptions {
   Mat3 view = three_quarter_view();
@@ -14,18 +21,12 @@ struct SheetOptions {
   Finish finish = Finish::fine;
 };
 
-/// One column per shot, all to one scale, with the captions and the colour scale below.
-/// Throws bad input without shots, and as Painter::draw does.
+/// All panels to one scale; below them the captions of the first row's shots and the colour scale
+/// of its painter. Throws bad input without rows or shots or with rows of different lengths, and as
+/// Painter::draw does.
+Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
+
+/// As in the paper's figure 4: the surface above, the particles below, over time.
 Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options);
-
-struct FrameOptions {
-  Camera camera;  ///< the same for all frames of a movie
-  int width = 1280, height = 720;
-  Finish finish = Finish::quick;
-};
-
-/// Surface and particles side by side, the caption below on the left, the colour scale on the
-/// right.
-Image movie_frame(Painter& painter, const Shot& shot, const FrameOptions& options);
 
 }  // namespace sinew

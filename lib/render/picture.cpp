@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "render/actors.h"
+#include "render/arrows.h"
 
 namespace sinew {
 namespace {
@@ -48,10 +49,57 @@ void shine_through(Image& image, const Exposure& over, float strength) {
     }
 }
 
+/// So far towards white that what is put over it stands out.
+void pale(Image& image) {
+  constexpr float left = 0.45F;
+  for (std::uint8_t& part : image.rgb)
+    part = static_cast<std::uint8_t>(255 - left * static_cast<float>(255 - part) + 0.5F);
+}
+
 }  // namespace
+
+/// How large and thick things are drawn.
+struct Painter::Sizes {
+  double pixel;  ///< m
+  double grain;  ///< what shadows and bones are measured by: a particle's radius, m
+  double line;   ///< of the skin's edges, in drawn pixels
+};
 
 Painter::Painter(const Triangles& rest, ColourScale scale)
     : skin_(make_shading(rest)), scale_(std::move(scale)) {}
+
+Image Painter::particles(const Shot& shot, const Sizes& sizes, bool skin_and_bones) {
+  add_particles(stage_.renderer(), shot, scale_);
+  if (skin_and_bones) {
+    add_creases(stage_.renderer(), shot, skin_, {sizes.line, 0.35 * shot.radius, sizes.pixel});
+    add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, ivory);
+  }
+  Image image = with_shadows(stage_.shoot(), 2 * sizes.grain);
+  if (!skin_and_bones || shot.bones.empty()) return image;
+  add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, ivory);
+  shine_through(image, stage_.shoot(), 0.6F);
+  return image;
+}
+
+Image Painter::surface(const Shot& shot, const Sizes& sizes) {
+  add_skin(stage_.renderer(), shot, skin_);
+  add_net(stage_.renderer(), shot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
+  add_creases(stage_.renderer(), shot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
+  add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, slate);
+  Image image = with_shadows(stage_.shoot(), 5 * sizes.grain);
+  if (shot.bones.empty()) return image;
+  add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, slate);
+  shine_through(image, stage_.shoot(), 0.6F);
+  return image;
+}
+
+Image Painter::pale_skin(const Shot& shot, const Sizes& sizes) {
+  add_skin(stage_.renderer(), shot, skin_);
+  add_creases(stage_.renderer(), shot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
+  Image image = with_shadows(stage_.shoot(), 5 * sizes.grain);
+  pale(image);
+  return image;
+}
 
 Image Painter::draw(const Shot& shot, const PictureOptions& options) {
   check(shot, skin_, options);
@@ -59,26 +107,18 @@ Image Painter::draw(const Shot& shot, const PictureOptions& options) {
       metres_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim(options.camera, options.width, options.height, pixel, options.finish);
-  const double grain = shot.radius > 0 ? shot.radius : 8 * pixel;
-  const double line = options.finish == Finish::fine ? 2.4 : 1.4;   // in drawn pixels
-  const Colour bones = options.view == View::both ? ivory : slate;  // each stands out
-  vtkRenderer& renderer = stage_.renderer();
+  const Sizes sizes{pixel, shot.radius > 0 ? shot.radius : 8 * pixel,
+                    options.finish == Finish::fine ? 2.4 : 1.4};
+  if (options.view == View::surface) return surface(shot, sizes);
+  if (options.view == View::particles || options.view == View::both)
+    return particles(shot, sizes, options.view == View::both);
 
-  if (options.view == View::surface) {
-    add_skin(renderer, shot, skin_);
-    add_net(renderer, shot, skin_, {line, 0.6 * pixel, pixel});
-    add_creases(renderer, shot, skin_, {line, 0.6 * pixel, pixel});
-  } else {
-    add_particles(renderer, shot, scale_);
-  }
-  if (options.view == View::both)
-    add_creases(renderer, shot, skin_, {line, 0.35 * shot.radius, pixel});
-  if (options.view != View::particles) add_bones(renderer, shot, 1.6 * grain, bones);
-  Image image = with_shadows(stage_.shoot(), (options.view == View::surface ? 5 : 2) * grain);
-  if (options.view == View::particles || shot.bones.empty()) return image;
-
-  add_bones(renderer, shot, 1.6 * grain, bones);
-  shine_through(image, stage_.shoot(), 0.6F);
+  Image image = pale_skin(shot, sizes);
+  if (options.view == View::arrows) add_arrows(stage_.renderer(), shot, scale_);
+  if (options.view == View::bones) add_bones(stage_.renderer(), shot, 2.2 * sizes.grain, slate);
+  Exposure over = stage_.shoot();
+  over.image = with_shadows(over, 2 * sizes.grain);
+  shine_through(image, over, 1);
   return image;
 }
 

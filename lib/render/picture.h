@@ -11,7 +11,12 @@ enum class View {
   surface,    ///< the skin, the bones shining through
   particles,  ///< spheres of their true size in the colours of their values
   both,       ///< the particles within the net of the skin, the bones shining through
+  arrows,     ///< the shot's arrows within a pale skin
+  bones,      ///< the bones and their axes within a pale skin
 };
+
+/// Whether its colours mean values.
+constexpr bool shows_values(View view) { return view != View::surface && view != View::bones; }
 
 struct PictureOptions {
   View view = View::both;
@@ -34,6 +39,11 @@ class Painter {
   Image draw(const Shot& shot, const PictureOptions& options);
 
  private:
+  struct Sizes;
+  Image particles(const Shot& shot, const Sizes& sizes, bool skin_and_bones);
+  Image surface(const Shot& shot, const Sizes& sizes);
+  Image pale_skin(const Shot& shot, const Sizes& sizes);
+
   Shading skin_;
   ColourScale scale_;
   Stage stage_;

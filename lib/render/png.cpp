@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "render/image.h"
 #include "core/file.h"
+#include "render/image.h"
 
 namespace sinew {
 namespace {

@@ -7,12 +7,19 @@
 
 #include "core/triangles.h"
 #include "core/vector.h"
+#include "render/colour.h"
 
 namespace sinew {
 
 struct ShotBone {
   Vec3 head = Vec3::Zero(), tail = Vec3::Zero();  ///< m
   Mat3 axes = Mat3::Identity();                   ///< columns: along the bone, and two sides
+};
+
+/// A vector to be seen: a force at a particle, say.
+struct ShotArrow {
+  Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; as long as it is drawn
+  double value = 0;                                ///< shown in colour
 };
 
 /// One moment. Any part may be empty and is then not drawn.
@@ -23,6 +30,7 @@ struct Shot {
   std::vector<double> values;  ///< one per particle, shown in colour; empty: all alike
   Triangles surface;           ///< the same faces in all shots of a run
   std::vector<ShotBone> bones;
+  std::vector<ShotArrow> arrows;
 };
 
 /// What the colours of the particles mean, the same for all pictures of a run.
@@ -30,9 +38,11 @@ struct ColourScale {
   std::string name;  ///< of the quantity, "displacement"
   std::string unit;  ///< "m", or empty for a plain number
   double low = 0, high = 1;
+  ColourMap map = ColourMap::indigo;
 
   /// Where `value` lies between low and high: 0 .. 1, values outside at the ends.
   double position(double value) const;
+  Colour colour(double value) const { return mapped_colour(position(value), map); }
 };
 
 }  // namespace sinew

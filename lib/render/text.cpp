@@ -74,7 +74,7 @@ void draw_colour_bar(Image& image, const ColourScale& scale, int x, int y, int w
   const std::string unit = scale.unit.empty() ? "" : " (" + scale.unit + ")";
   write_text(image, scale.name + unit, x + width / 2, y, words);
   for (int i = 0; i < width; ++i)
-    fill(image, x + i, y + line, 1, thick, mapped_colour(i / (width - 1.0)));
+    fill(image, x + i, y + line, 1, thick, mapped_colour(i / (width - 1.0), scale.map));
   for (const double part : {0.0, 0.5, 1.0}) {
     const double value = scale.low + part * (scale.high - scale.low);
     words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::centre;

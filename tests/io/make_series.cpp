@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_series FOLDER [zlib | lz4 | raw | none]: leaves the series of a synthetic run there, for the
-// tests that open them with ParaView and meshio.
+// make_series FOLDER [zlib | lz4 | raw | none [FRAMES PAUSE]]: leaves the series of a synthetic run
+// there, for the tests that open them with ParaView and meshio; PAUSE seconds between its frames,
+// for those that watch a run while it goes.
+#include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <map>
+#include <thread>
 
 #include "io/series.h"
 #include "io/view_script.h"
@@ -12,26 +16,27 @@ namespace {
 
 using namespace sinew;
 
-void write(const std::filesystem::path& folder, Encoding encoding) {
+void write(const std::filesystem::path& folder, Encoding encoding, int count, double pause) {
   const SyntheticRun run;
   const auto format = [&](const char* series) {
     return VtuFormat{encoding, false, series, SyntheticRun::radius};
   };
+  std::filesystem::create_directories(folder);
+  write_body(folder / "body.vtu", run.body(), encoding);
+  write_view_script(folder);
   Series particles(folder, format("particles")), surface(folder, format("surface"));
   Series bones(folder, format("bones")), frames(folder, format("frames"));
-  constexpr int last = 30;
-  for (int step = 0; step <= last; ++step) {
-    const Moment moment{SyntheticRun::half_turn * step / last, 100 * step};
+  for (int step = 0; step < count; ++step) {
+    const Moment moment{SyntheticRun::half_turn * step / (count - 1), 100 * step};
     Dataset body = run.particles(moment);
     body.meta = R"({"made_by": "make_series"})";
     particles.add(body);
     surface.add(run.surface(moment));
     bones.add(run.bones(moment));
     frames.add(run.frames(moment));
+    std::this_thread::sleep_for(std::chrono::duration<double>(pause));
   }
   for (Series* series : {&particles, &surface, &bones, &frames}) series->close();
-  write_body(folder / "body.vtu", run.body(), encoding);
-  write_view_script(folder);
 }
 
 }  // namespace
@@ -43,8 +48,9 @@ int main(int argc, char** argv) {
                                                      {"none", Encoding::none}};
   const auto encoding = encodings.find(argc > 2 ? argv[2] : "zlib");
   if (argc < 2 || encoding == encodings.end()) {
-    std::cerr << "usage: make_series FOLDER [zlib | lz4 | raw | none]\n";
+    std::cerr << "usage: make_series FOLDER [zlib | lz4 | raw | none [FRAMES PAUSE]]\n";
     return 2;
   }
-  write(argv[1], encoding->second);
+  const int count = argc > 4 ? std::atoi(argv[3]) : 31;
+  write(argv[1], encoding->second, count, argc > 4 ? std::atof(argv[4]) : 0);
 }

@@ -2,8 +2,11 @@
 #include "io/series.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "core/file.h"
 #include "scratch.h"
@@ -154,6 +157,66 @@ TEST_F(SeriesFiles, APvdThatIsNoneIsRefusedInSilence) {
     EXPECT_EQ(error_of([&] { read_pvd(folder / "f.pvd"); }).exit(), Exit::bad_input) << text;
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
+}
+
+/// Reads the PVD again and again until `job`, in a thread of its own, is done; how often.
+template <class Check, class Job>
+int reads_during(const std::filesystem::path& pvd, Check&& check, Job&& job) {
+  std::atomic<bool> over = false;
+  std::thread writer([&] { job(), over = true; });
+  int reads = 0;
+  while (!over || reads < 1000) {
+    check(read_pvd(pvd));
+    ++reads;
+  }
+  writer.join();
+  return reads;
+}
+
+TEST_F(SeriesFiles, AThousandReadsOfAGrowingRunFindWholeFilesOnly) {
+  const SyntheticRun run;
+  Series series(folder, bones_format());
+  series.add(run.bones({0, 0}));
+  std::size_t before = 0;
+  const auto check = [&](const std::vector<PvdRow>& rows) {
+    ASSERT_GE(rows.size(), std::max<std::size_t>(1, before));
+    if (rows.size() == before) return;
+    before = rows.size();
+    EXPECT_EQ(rows.back().time, static_cast<double>(rows.size() - 1));
+    for (const PvdRow& row : rows)
+      ASSERT_EQ(read_vtu(folder / row.file).time, row.time);  // none is named before it is there
+  };
+  const int reads = reads_during(folder / "bones.pvd", check, [&] {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(2300);
+    for (int i = 1; std::chrono::steady_clock::now() < end; ++i) {
+      series.add(run.bones({static_cast<double>(i), i}));
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  series.close();
+  EXPECT_GE(reads, 1000);
+  EXPECT_GT(before, 10U);
+}
+
+TEST_F(SeriesFiles, APvdReplacedWithoutPauseIsNeverTorn) {
+  std::vector<PvdRow> rows;
+  const auto pvd = folder / "bones.pvd";
+  write_file(pvd, pvd_text(rows));
+  std::size_t before = 0;
+  const auto check = [&](const std::vector<PvdRow>& read) {
+    ASSERT_GE(read.size(), before);
+    before = read.size();
+    if (!read.empty()) {
+      ASSERT_EQ(read.back().time, static_cast<double>(read.size() - 1));
+    }
+  };
+  reads_during(pvd, check, [&] {
+    for (int i = 0; i < 1500; ++i) {
+      rows.push_back({static_cast<double>(i), "bones/bones_" + std::to_string(i) + ".vtu"});
+      write_file(pvd, pvd_text(rows));
+    }
+  });
+  EXPECT_GT(before, 0U);
 }
 
 }  // namespace

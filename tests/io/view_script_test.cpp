@@ -12,9 +12,12 @@ TEST_F(ViewScript, KnowsTheFolderItWasLeftIn) {
   const auto odd = folder / "a \"run\" \\ of Ärms";
   std::filesystem::create_directories(odd);
   write_view_script(odd);
-  const std::string text = text_of(odd / "view.py");
-  EXPECT_TRUE(contains(text, "a \\\"run\\\" \\\\ of Ärms\"\n"));
-  EXPECT_TRUE(contains(text, "Point Gaussian"));
+  for (const char* name : {"view.py", "live.py"}) {
+    const std::string text = text_of(odd / name);
+    EXPECT_TRUE(contains(text, "a \\\"run\\\" \\\\ of Ärms\"\n")) << name;
+    EXPECT_TRUE(contains(text, "Point Gaussian")) << name;  // it is whole: what both share is there
+    EXPECT_FALSE(contains(text, "from look")) << name;
+  }
 }
 
 }  // namespace

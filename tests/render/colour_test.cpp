@@ -12,20 +12,32 @@ namespace sinew {
 namespace {
 
 TEST(ColourMap, grows_lighter_all_the_way) {
-  for (int i = 1; i <= 32; ++i)
-    EXPECT_GT(oklab(mapped_colour(i / 32.0)).x(), oklab(mapped_colour((i - 1) / 32.0)).x());
+  for (const auto& [name, map] : colour_maps())
+    for (int i = 1; i <= 32; ++i)
+      EXPECT_GT(oklab(mapped_colour(i / 32.0, map)).x(),
+                oklab(mapped_colour((i - 1) / 32.0, map)).x())
+          << name << ' ' << i;
 }
 
 TEST(ColourMap, equal_steps_look_equal) {
   const double whole = 51;  // whole steps of the table, whose colours are rounded
-  double length = 0, longest = 0, shortest = 1;
-  for (int i = 1; i <= whole; ++i) {
-    const double step =
-        (oklab(mapped_colour(i / whole)) - oklab(mapped_colour((i - 1) / whole))).norm();
-    length += step, longest = std::max(longest, step), shortest = std::min(shortest, step);
+  for (const auto& [name, map] : colour_maps()) {
+    double length = 0, longest = 0, shortest = 1;
+    for (int i = 1; i <= whole; ++i) {
+      const double step =
+          (oklab(mapped_colour(i / whole, map)) - oklab(mapped_colour((i - 1) / whole, map)))
+              .norm();
+      length += step, longest = std::max(longest, step), shortest = std::min(shortest, step);
+    }
+    EXPECT_LT(longest, 1.35 * length / whole) << name;  // rounding is coarse near black
+    EXPECT_GT(shortest, 0.75 * length / whole) << name;
   }
-  EXPECT_LT(longest, 1.25 * length / whole);
-  EXPECT_GT(shortest, 0.75 * length / whole);
+}
+
+TEST(ColourMap, begin_and_end_as_they_are_known) {
+  EXPECT_EQ(mapped_colour(0, ColourMap::viridis), (Colour{68, 1, 84}));
+  EXPECT_EQ(mapped_colour(1, ColourMap::viridis), (Colour{253, 231, 37}));
+  EXPECT_EQ(mapped_colour(1, ColourMap::cividis), (Colour{254, 232, 56}));
 }
 
 TEST(ColourMap, oklab_of_white_and_black) {

@@ -59,18 +59,24 @@ TEST(ContactSheet, without_shots_is_an_error) {
   EXPECT_EQ(error_of([&] { contact_sheet(painter, {}, {}); }).exit(), Exit::bad_input);
 }
 
-TEST(MovieFrame, shows_both_views_side_by_side) {
-  const Shot shot = bending().back();
-  Painter painter(shot.surface, synthetic_scale());
-  FrameOptions options;
-  options.width = 640, options.height = 360;
-  options.camera.frame = seen(options.camera.view, shot);
-  const Image frame = movie_frame(painter, shot, options);
-  EXPECT_EQ(frame.width, 640);
-  EXPECT_EQ(frame.height, 360);
-  EXPECT_GT(painted(frame, 0, 0, 320, 280), 0.2);
-  EXPECT_GT(painted(frame, 320, 0, 320, 280), 0.2);
-  EXPECT_GT(painted(frame, 0, 300, 320, 60), 0.005);  // the caption
+TEST(ContactSheet, has_a_row_for_each_way_of_looking) {
+  const std::vector<Shot> shots = bending();
+  Painter painter(shots[0].surface, synthetic_scale());
+  SheetOptions options;
+  options.width = 600, options.row_height = 120;
+  const SheetRow row{&painter, &shots, View::both, "a run"};
+  const int one = contact_sheet({row}, options).height;
+  const Image three = contact_sheet({row, row, row}, options);
+  EXPECT_GT(three.height, one + 2 * 100);
+  EXPECT_EQ(groups(three, one, 100), 3);
+}
+
+TEST(ContactSheet, refuses_rows_that_differ_in_length) {
+  const std::vector<Shot> three = bending(), two(three.begin(), three.begin() + 2);
+  Painter painter(three[0].surface, synthetic_scale());
+  const std::vector<SheetRow> rows{{&painter, &three, View::both, ""},
+                                   {&painter, &two, View::both, ""}};
+  EXPECT_EQ(error_of([&] { contact_sheet(rows, {}); }).exit(), Exit::bad_input);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""pvbatch paraview_test.py DIR: what ParaView itself makes of the run in DIR. Works on any run."""
+"""pvbatch paraview_test.py DIR [TESTS]: what ParaView itself makes of the run in DIR. Works on any run."""
 import math
 import os
 import subprocess
@@ -186,14 +186,46 @@ def drawn_share(rows, left, right):
     return drawn / (len(rows) * (right - left))
 
 
+def count(rows, columns, likeness):
+    """Pixels in these columns that look so."""
+    return sum(likeness(*pixel) for row in rows for pixel in row[columns])
+
+
+def red(r, g, b):
+    return r > 100 and r > 1.6 * g and r > 1.6 * b
+
+
+def green(r, g, b):
+    return g > 80 and g > 1.35 * r and g > 1.2 * b
+
+
+def blue(r, g, b):
+    return b > 100 and b > 1.5 * r and b > 1.35 * g
+
+
+def dark(r, g, b):
+    return max(r, g, b) < 110
+
+
 class View(unittest.TestCase):
-    def test_view_draws_the_particles_left_and_the_bones_right(self):
+    def test_view_draws_the_body_left_and_the_bones_right(self):
         width, height, rows = picture()
         self.assertEqual((width, height), (800, 400))
-        for left in (0, width // 2):
-            self.assertGreater(drawn_share(rows, left, left + width // 2), 0.04)
-        colours = {pixel for row in rows for pixel in row[:width // 2]}
+        left, right = slice(0, width // 2), slice(width // 2, width)
+        for half in (left, right):
+            self.assertGreater(drawn_share(rows, half.start, half.stop), 0.04)
+        colours = {pixel for row in rows for pixel in row[left]}
         self.assertGreater(len(colours), 1000)
+        with self.subTest("axes of the bones"):
+            for colour in (red, green, blue):
+                self.assertGreater(count(rows, right, colour), 3, colour.__name__)
+        with self.subTest("time, and name and ends of the colours"):
+            self.assertGreater(count(rows[-height // 10:], slice(0, width // 5), dark), 20)
+            self.assertGreater(count(rows[:height // 5], left, dark), 60)
+        with self.subTest("nothing is cut off"):
+            for row in (rows[0], rows[-1]):
+                self.assertLess(drawn_share([row], left.start, left.stop), 0.02)
+                self.assertLess(drawn_share([row], right.start, right.stop), 0.02)
 
     def test_view_draws_the_moment_asked_for(self):
         first, last = (picture("--time", str(time))[2]
@@ -201,6 +233,12 @@ class View(unittest.TestCase):
         changed = sum(a != b for one, other in zip(first, last) for a, b in zip(one, other))
         self.assertGreater(changed, 0.02 * 800 * 400)
 
+    def test_forces_are_shown_on_demand(self):
+        bare, armed = picture()[2], picture("--forces")[2]
+        orange = lambda r, g, b: r > 140 and 1.5 * b < g < 0.75 * r
+        right = slice(400, 800)
+        self.assertGreater(count(armed, right, orange), count(bare, right, orange) + 100)
+
 
 if __name__ == "__main__":
-    unittest.main(argv=["paraview_test", "-v"])
+    unittest.main(argv=["paraview_test", "-v", *sys.argv[2:]])

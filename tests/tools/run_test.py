@@ -109,7 +109,7 @@ class Commands(unittest.TestCase):
     def test_run_leaves_everything_behind(self):
         sinew("run", self.scene, "-o", self.out, "--no-movie", check=0)
         for name in ["scene.yaml", "run.json", "log.txt", "body.vtu", "metrics.csv", "metrics.json",
-                     "report.html", "view.py", "pictures/contact_sheet.png"]:
+                     "report.html", "view.py", "live.py", "pictures/contact_sheet.png"]:
             self.assertGreater((self.out / name).stat().st_size, 0, name)
         for name in SERIES:
             self.assertEqual(len(list((self.out / name).glob("*.vtu"))), 13, name)
@@ -558,7 +558,7 @@ class Commands(unittest.TestCase):
         self.assert_one_line(done, 2, "no stable time step")
 
     def test_every_command_explains_itself(self):
-        for command in ["run", "check", "fill", "simulate", "measure", "render", "info"]:
+        for command in ["run", "check", "fill", "simulate", "measure", "render", "view", "info"]:
             help_text = sinew(command, "--help", check=0).stdout
             self.assertIn("Examples:", help_text)
             self.assertIn("--threads", help_text)

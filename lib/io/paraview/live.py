@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Follows in ParaView a run that is still going: shows the newest frame as soon as it is there.
+
+    paraview live.py                                        in the window
+    pvbatch live.py --frames 10 --picture out.png           ten frames as they come, and a picture
+    pvbatch live.py --help                                  what else can be chosen
+
+Looks as view.py does. It asks for new frame files ten times a second; those of a run appear whole
+or not at all. The range of colours grows with the run. When the run is over, open view.py.
+"""
+import time
+import types
+
+from look import *
+
+SCRIPT = "live.py"
+SERIES = ["particles", "surface", "bones", "frames", "obstacles"]
+
+
+class Follower:
+    """Knows the newest frame that all series have, and reads it."""
+
+    def __init__(self, folder, options):
+        self.folder, self.options = folder, options
+        self.series = SERIES[:4]
+        self.number = self.ranged = -1
+        self.shown = {}
+        self.limits = None
+        self.wait_for_first()
+        if os.path.exists(self.path("obstacles", 0)):
+            self.series = SERIES
+
+    def path(self, series, number):
+        return os.path.join(self.folder, series, f"{series}_{number:06d}.vtu")
+
+    def complete(self, number):
+        return all(os.path.exists(self.path(series, number)) for series in self.series)
+
+    def wait_for_first(self):
+        end = time.monotonic() + self.options.patience
+        while self.newest() < 0:
+            if time.monotonic() > end:
+                stop(f"no frame within {self.options.patience:g} s; start the run first")
+            time.sleep(0.1)
+
+    def newest(self):
+        """A run that was started again begins anew."""
+        if self.number >= 0 and not self.complete(self.number):
+            self.number = self.ranged = -1
+        while self.complete(self.number + 1):
+            self.number += 1
+        return self.number
+
+    def stamp(self, series):
+        status = os.stat(self.path(series, self.number))
+        return self.number, status.st_ino, status.st_mtime_ns
+
+    def has_news(self, series):
+        """Called by ParaView's window, ten times a second for each source."""
+        try:
+            if self.newest() < 0 or self.shown.get(series) == self.stamp(series):
+                return False
+            if series == "particles":
+                self.grow_colours()
+        except OSError:  # a run that starts anew removes its files
+            return False
+        return True
+
+    def read(self, series, output):
+        try:
+            stamp = self.stamp(series)
+        except OSError:
+            return
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(self.path(series, self.number))
+        reader.Update()
+        output.ShallowCopy(reader.GetOutput())
+        self.shown[series] = stamp
+
+    def grow_limits(self):
+        """Takes in the frames since the last time; whether that changed anything."""
+        before = self.limits
+        for number in range(self.ranged + 1, self.number + 1):
+            low, high = range_in(array_or_stop(self.path("particles", number), self.options.array))
+            old = self.limits or (low, high)
+            self.limits = min(low, old[0]), max(high, old[1])
+        self.ranged = self.number
+        return self.limits != before
+
+    def grow_colours(self):
+        if self.grow_limits() and not self.options.range:
+            colours = GetColorTransferFunction(self.options.array)
+            colours.RescaleTransferFunction(*self.limits)
+
+
+def live_source(series):
+    """It finds the follower as a module of Python's: a source's script is a text of its own."""
+    source = LiveProgrammableSource(registrationName=series)
+    source.OutputDataSetType = "vtkUnstructuredGrid"
+    find = "import sinew_live\n"
+    source.Script = f"{find}sinew_live.follower.read({series!r}, self.GetOutput())"
+    source.ScriptCheckNeedsUpdate = (
+        f"{find}self.SetNeedsUpdate(sinew_live.follower.has_news({series!r}))")
+    return source
+
+
+def time_note(source):
+    note = AnnotateGlobalData(registrationName="time", Input=source)
+    note.SelectArrays = "TimeValue"
+    note.Prefix, note.Suffix, note.Format = "t = ", " s", "%.3f"
+    return note
+
+
+def scene_of(folder, follower, options):
+    scene = Scene(folder)
+    newest = follower.path("particles", follower.number)
+    scene.array = array_or_stop(newest, options.array)
+    follower.grow_limits()
+    scene.limits = options.range or follower.limits
+    scene.strongest = range_in(array_or_stop(newest, options.forces or "force_pair"))[1]
+    scene.corners += roomier(scene)
+    return scene
+
+
+def roomier(scene):
+    """A box around the body at rest with room to bend: where it will go is not known yet."""
+    reach = 0.6 * scene.size
+    return [tuple(m + math.copysign(min(reach, 3 * abs(c - m)), c - m)
+                  for c, m in zip(corner, scene.middle)) for corner in scene.corners]
+
+
+def refresh(sources):
+    for source in sources.values():
+        source.GetClientSideObject().Modified()
+        source.MarkModified(source.SMProxy)
+    RenderAllViews()
+
+
+def follow_in_batch(follower, sources, options):
+    """Without a window nobody asks the sources for news, so this does; prints a line per frame."""
+    RenderAllViews()
+    shown = 1
+    print(f"frame {follower.shown['particles'][0]}", flush=True)
+    end = time.monotonic() + options.patience
+    while shown < options.frames:
+        if time.monotonic() > end:
+            stop(f"no further frame within {options.patience:g} s, {shown} shown")
+        if not follower.has_news("particles"):
+            time.sleep(0.02)
+            continue
+        refresh(sources)
+        shown += 1
+        end = time.monotonic() + options.patience
+        print(f"frame {follower.shown['particles'][0]}", flush=True)
+
+
+def main():
+    options = arguments(
+        "Follows a run that is still going.",
+        (["--frames"], {"type": int, "default": 1, "help": "end after so many, under pvbatch"}),
+        (["--patience"], {"type": float, "default": 60, "help": "how long to wait for a frame, s"}),
+        (["--picture"], {"metavar": "FILE.png", "help": "leave a picture of the last one there"}))
+    folder = run_folder()
+    global follower
+    follower = Follower(folder, options)
+    sources = {series: live_source(series) for series in follower.series}
+    layout, left = show_all(sources, options, scene_of(folder, follower, options))
+    show_time(time_note(sources["particles"]), left, options)
+    SetActiveSource(sources["particles"])
+    if "pvbatch" not in program() and "pvpython" not in program():
+        RenderAllViews()
+        return
+    layout.SetSize(*options.size)
+    follow_in_batch(follower, sources, options)
+    if options.picture:
+        SaveScreenshot(options.picture, layout, ImageResolution=options.size, SeparatorWidth=0)
+
+
+def main_in_a_module():
+    """Once more, as the module sinew_live: ParaView runs the text of a source in the main module, and
+    puts numpy's max, dot and others there."""
+    path = os.path.join(run_folder(), SCRIPT)
+    module = sys.modules["sinew_live"] = types.ModuleType("sinew_live")
+    with open(path, encoding="utf-8") as text:
+        exec(compile(text.read(), path, "exec"), module.__dict__)
+
+
+if __name__ == "sinew_live":
+    main()
+else:
+    main_in_a_module()

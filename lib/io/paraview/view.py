@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Opens this run in ParaView.
+
+    paraview view.py                             in the window
+    pvbatch view.py --picture out.png            a picture of the most deformed moment
+    pvbatch view.py --picture out.png --time 1   of that moment (s)
+    pvbatch view.py --help                       what else can be chosen
+
+Left the body, cut open: particles as spheres of their true size, coloured by one array. Right the
+bones with their x, y, z axes in red, green, blue inside the translucent surface. In the window,
+options stand in the variable SINEW_VIEW: SINEW_VIEW="--array velocity --forces" paraview view.py
+"""
+import xml.etree.ElementTree as ET
+
+from look import *
+
+SCRIPT = "view.py"
+
+
+def frame_files(folder, series):
+    rows = ET.parse(os.path.join(folder, series + ".pvd")).getroot().iter("DataSet")
+    return [(float(row.get("timestep")), os.path.join(folder, row.get("file"))) for row in rows]
+
+
+def open_series(folder):
+    names = ["particles", "surface", "bones", "frames"]
+    if os.path.exists(os.path.join(folder, "obstacles.pvd")):
+        names.append("obstacles")
+    return {name: PVDReader(registrationName=name, FileName=os.path.join(folder, name + ".pvd"))
+            for name in names}
+
+
+def ranges_over_time(frames, name):
+    """(low, high) in every frame."""
+    return [range_in(array_or_stop(path, name)) for _, path in frames]
+
+
+def limits_of(ranges):
+    return min(low for low, _ in ranges), max(high for _, high in ranges)
+
+
+def corners_over_time(source, times, most=16):
+    """Corners of the boxes around the source at times spread over the run."""
+    step = max(1, math.ceil(len(times) / most))
+    corners = []
+    for time in times[::step] + [times[-1]]:
+        source.UpdatePipeline(time)
+        corners += corners_of(bounds_of(source))
+    return corners
+
+
+def time_note(source):
+    note = AnnotateTimeFilter(registrationName="time", Input=source)
+    note.Format = "t = {time:.3f} s"
+    return note
+
+
+def scene_of(folder, frames, particles, options):
+    """The run as a whole, and the moment at which the array is largest."""
+    scene = Scene(folder)
+    scene.array = array_or_stop(frames[0][1], options.array)
+    ranges = ranges_over_time(frames, options.array)
+    scene.limits = options.range or limits_of(ranges)
+    scene.strongest = limits_of(ranges_over_time(frames, options.forces or "force_pair"))[1]
+    times = [time for time, _ in frames]
+    scene.corners += corners_over_time(particles, times)
+    _, scene.size = middle_and_size(scene.corners)
+    return scene, max(zip(ranges, times), key=lambda entry: entry[0][1])[1]
+
+
+def main():
+    options = arguments("Opens this run in ParaView.",
+                        (["--picture"], {"metavar": "FILE.png", "help": "leave a picture there"}),
+                        (["--time"], {"type": float, "help": "moment of the picture, s"}))
+    folder = run_folder()
+    frames = frame_files(folder, "particles")
+    if not frames:
+        stop("the run has no frames yet; live.py follows it")
+    sources = open_series(folder)
+    scene, moment = scene_of(folder, frames, sources["particles"], options)
+    layout, left = show_all(sources, options, scene)
+    show_time(time_note(sources["particles"]), left, options)
+    SetActiveSource(sources["particles"])
+
+    animation = GetAnimationScene()
+    animation.UpdateAnimationUsingDataTimeSteps()
+    moment = moment if options.time is None else options.time
+    animation.AnimationTime = min((time for time, _ in frames), key=lambda t: abs(t - moment))
+    if options.picture:
+        layout.SetSize(*options.size)
+        SaveScreenshot(options.picture, layout, ImageResolution=options.size, SeparatorWidth=0)
+    else:
+        RenderAllViews()
+
+
+main()

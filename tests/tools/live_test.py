@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""live_test.py MAKE_SERIES MODULES: ParaView follows a run while it is written.
+
+MODULES is the folder filled by get_paraview_python.sh."""
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+from pathlib import Path
+
+MAKE_SERIES, MODULES = (str(Path(place).resolve()) for place in sys.argv[1:3])
+PARAVIEW = Path(__file__).resolve().parent / "paraview.sh"
+
+
+def pixels_of(path):
+    """Rows of bytes of a PNG as ParaView writes it: 8 bits a channel, no interlace."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, _, colour = struct.unpack(">IIBB", body[:10])
+        packed += body if kind == b"IDAT" else b""
+        at += size + 12
+    return width, height, {2: 3, 6: 4}[colour], zlib.decompress(packed)
+
+
+class Live(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.run_folder = Path(self.scratch.name) / "a run"
+        self.addCleanup(self.scratch.cleanup)
+
+    def start_run(self, frames, pause):
+        run = subprocess.Popen([MAKE_SERIES, self.run_folder, "zlib", str(frames), str(pause)])
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        while not (self.run_folder / "live.py").exists():
+            time.sleep(0.01)
+        return run
+
+    def follow(self, *options):
+        return subprocess.run([PARAVIEW, MODULES, self.run_folder / "live.py", *options],
+                              capture_output=True, text=True, timeout=100)
+
+    def test_follows_a_growing_run_and_leaves_a_picture(self):
+        run = self.start_run(5000, 0.05)
+        picture = self.run_folder / "live.png"
+        done = self.follow("--frames", "4", "--size", "800", "400", "--picture", str(picture))
+        self.assertIsNone(run.poll(), "the run ended before its viewer")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shown = [int(number) for number in re.findall(r"^frame (\d+)$", done.stdout, re.MULTILINE)]
+        self.assertEqual(len(shown), 4)
+        self.assertEqual(shown, sorted(set(shown)))
+        self.assertNotIn("rror", done.stderr)
+        width, height, channels, bytes_ = pixels_of(picture)
+        self.assertEqual((width, height), (800, 400))
+        self.assertGreater(len(set(bytes_)), 100)
+
+    def test_a_run_that_ends_is_no_failure_of_the_frames_shown(self):
+        self.start_run(3, 0).wait()
+        done = self.follow("--frames", "2", "--patience", "2")
+        self.assertIn("no further frame within 2 s, 1 shown", done.stderr)
+        self.assertNotEqual(done.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["live_test", "-v"])

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""sinew render and sinew view on a small run: what they draw, and what they say when they cannot.
+
+usage: look_test.py BIN SOURCE MODULES      folder of the programs, of the project, and the one filled by
+                                            get_paraview_python.sh
+"""
+import os
+import resource
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+BIN, SOURCE, MODULES = (Path(place).resolve() for place in sys.argv[1:4])
+SMALL = ["--set", "body.radius=0.025", "--set", "solver.duration=0.2", "--set", "output.interval=0.05"]
+SIZE = ["--width", "320", "--height", "200"]
+
+
+def sinew(*words, **options):
+    return subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
+                          timeout=100, **options)
+
+
+def size_of(png):
+    head = png.read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", png
+    return struct.unpack(">II", head[16:24])
+
+
+def without(*names, **changed):
+    """The environment without these variables."""
+    left = {name: value for name, value in os.environ.items() if name not in names}
+    return {**left, **changed}
+
+
+class Look(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.run_folder = Path(cls.scratch.name) / "a run"
+        cls.bonded = Path(cls.scratch.name) / "bonded"
+        for folder, more in ((cls.run_folder, []), (cls.bonded, ["--set", "material.model=bonded"])):
+            done = sinew("simulate", "--quiet", SOURCE / "configs/box_bend.yaml", "-o", folder, *SMALL,
+                         *more)
+            assert done.returncode == 0, done.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.pictures = Path(self.temporary.name)
+
+    def render(self, *words, **options):
+        return sinew("render", self.run_folder, "-o", self.pictures, *SIZE, *words, **options)
+
+    def display(self):
+        """Of a server without limits."""
+        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-noreset", "-nolisten", "tcp"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(server.communicate)
+        self.addCleanup(server.kill)
+        return ":" + server.stdout.readline().strip()
+
+    def names(self):
+        return sorted(path.name for path in self.pictures.iterdir())
+
+    def assert_one_line(self, done, exit_code, *parts):
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        lines = [line for line in done.stderr.splitlines() if line]
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertTrue(lines[0].startswith("sinew: "))
+        for part in ("; ", *parts):
+            self.assertIn(part, lines[0])
+
+    def test_every_view_leaves_its_pictures_and_a_sheet(self):
+        views = ["surface", "particles", "section", "strain", "forces", "bones"]
+        done = self.render("--view", ",".join(views), "--times", "0.1,0.2", "--no-movie")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        expected = [f"{view}_{part}.png" for view in views for part in ("000002", "000004", "sheet")]
+        self.assertEqual(self.names(), sorted(expected))
+        pixels = {name: (self.pictures / name).read_bytes() for name in expected}
+        self.assertEqual(len(set(pixels.values())), len(expected))  # each shows something else
+        self.assertEqual(size_of(self.pictures / "strain_000004.png"), (320, 200))
+
+    def test_camera_colours_range_and_array_change_the_picture(self):
+        ways = [[], ["--camera", "front"], ["--camera", "1,0,0.5"], ["--camera", "top"],
+                ["--colours", "cividis"], ["--range", "0,0.01"], ["--array", "velocity"]]
+        drawn = set()
+        for way in ways:
+            done = self.render("--times", "0.2", "--no-movie", *way)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawn.add((self.pictures / "body_000004.png").read_bytes())
+        self.assertEqual(len(drawn), len(ways))
+
+    def test_two_runs_side_by_side(self):
+        done = self.render("--compare", self.bonded, "--times", "0.2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.names(), ["compare_body.mp4", "compare_body_000004.png",
+                                        "compare_body_sheet.png"])
+
+    def test_mistakes_are_told_with_their_cure(self):
+        for words, part in [(["--view", "secton"], "did you mean section?"),
+                            (["--colours", "jet"], "viridis"),
+                            (["--array", "displacment"], "did you mean displacement?"),
+                            (["--range", "1,0"], "--range 0,0.5"),
+                            (["--camera", "0,0,0"], "--camera 1,-2,0.5"),
+                            (["--camera", "frnt"], "did you mean front?")]:
+            self.assert_one_line(self.render(*words), 2, part)
+        self.assert_one_line(sinew("render", self.pictures), 2, "is not the folder of a run")
+
+    def test_a_disk_that_is_full_is_one_line(self):
+        few = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+        done = self.render("--no-movie", preexec_fn=few, restore_signals=False,
+                           env={**os.environ, "DISPLAY": self.display()})
+        self.assert_one_line(done, 4, "body_000000.png", "File too large")
+        self.assertEqual(self.names(), [])
+
+    def test_a_missing_display_is_one_line(self):
+        done = self.render(env=without("DISPLAY", PATH="/nonexistent"))
+        self.assert_one_line(done, 4, "apt-get install xvfb")
+
+    def test_view_says_what_to_install(self):
+        done = sinew("view", self.run_folder, env=without(PATH="/nonexistent"))
+        self.assert_one_line(done, 4, "apt-get install paraview")
+
+    def test_view_needs_a_screen_and_a_run(self):
+        there = {"PYTHONPATH": str(MODULES / "usr/lib/python3/dist-packages")}
+        done = sinew("view", self.run_folder, env=without("DISPLAY", "WAYLAND_DISPLAY", **there))
+        self.assert_one_line(done, 4, "--picture FILE.png")
+        self.assert_one_line(sinew("view", self.pictures), 2, "is not the folder of a run")
+
+    def test_view_draws_without_a_screen(self):
+        picture = self.pictures / "it's drawn.png"
+        done = sinew("view", self.run_folder, "--picture", picture, "--size", "400", "300", "--forces",
+                     "force_bone", "--cut", "x",
+                     env=without("DISPLAY", PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(size_of(picture), (400, 300))
+
+    def test_view_and_live_explain_what_is_missing(self):
+        done = sinew("view", self.run_folder, "--picture", self.pictures / "a.png", "--array", "none",
+                     env=without(PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("view.py: the particles have no array 'none'; they have id, bone", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["look_test", "-v", *sys.argv[4:]])

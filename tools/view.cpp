@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew-view: becomes ParaView, started on the scripts that lie in a run's folder.
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "command.h"
+#include "io/view_script.h"
+#include "render/display.h"
+#include "run_folder.h"
+
+namespace {
+
+using namespace sinew;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder, picture, array, cut;
+  std::optional<std::string> forces;
+  std::optional<double> time;
+  std::vector<int> size;
+  bool live = false;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("DIR", options.folder, "Folder of the run")->required();
+  app.add_flag("--live", options.live, "Follow a run that is still going");
+  app.add_option("--array", options.array, "What colours the particles, displacement if not given");
+  app.add_option("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
+  app.add_option("--forces", options.forces,
+                 "Arrows of that force: force_pair, force_bone, force ...");
+  app.add_option("--time", options.time, "Moment of the picture, s");
+  app.add_option("--size", options.size, "Size of the picture, pixels")
+      ->expected(2)
+      ->type_name("W H");
+  app.add_option("--picture", options.picture, "Leave a picture there instead of opening a window")
+      ->type_name("FILE.png");
+}
+
+/// What the script understands.
+std::vector<std::string> words_of(const Options& options) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {name, value});
+  };
+  add("--array", options.array);
+  add("--cut", options.cut);
+  add("--forces", options.forces.value_or(""));
+  add("--picture", options.picture.empty() ? "" : fs::absolute(options.picture).string());
+  if (options.time) add("--time", std::to_string(*options.time));
+  if (!options.size.empty()) {
+    words.push_back("--size");
+    for (const int pixels : options.size) words.push_back(std::to_string(pixels));
+  }
+  return words;
+}
+
+/// One text that a shell would split into these words.
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += text.empty() ? "'" : " '";
+    for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+    text += '\'';
+  }
+  return text;
+}
+
+fs::path program_named(const std::string& name) {
+  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
+  throw Error(Exit::not_written,
+              name + " is not installed; install it with: apt-get install paraview");
+}
+
+/// Where ParaView's Python may lie by itself: Debian's package of it cannot be installed beside
+/// VTK's, which sinew is built with.
+std::vector<fs::path> private_places() {
+  const fs::path modules = "usr/lib/python3/dist-packages";
+  std::vector<fs::path> places{fs::read_symlink("/proc/self/exe").parent_path().parent_path() /
+                               "paraview-python" / modules};
+  if (const char* home = std::getenv("HOME"))
+    places.push_back(fs::path(home) / ".local/share/sinew/paraview-python" / modules);
+  return places;
+}
+
+/// Debian's ParaView has its Python in a package of its own; others bring it along.
+void find_python(const fs::path& program) {
+  std::error_code none;
+  const std::string given = std::getenv("PYTHONPATH") ? std::getenv("PYTHONPATH") : "";
+  std::istringstream folders(given);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (fs::exists(fs::path(folder) / "paraview", none)) return;
+  if (program.parent_path() != "/usr/bin" ||
+      fs::exists("/usr/lib/python3/dist-packages/paraview", none))
+    return;
+  for (const fs::path& place : private_places())
+    if (fs::exists(place / "paraview", none)) {
+      setenv("PYTHONPATH", (given.empty() ? place.string() : place.string() + ':' + given).c_str(),
+             1);
+      return;
+    }
+  throw Error(
+      Exit::not_written,
+      "ParaView's Python is not installed; install it with: apt-get install python3-paraview, "
+      "or beside VTK's: apt-get download python3-paraview && dpkg -x python3-paraview_*.deb "
+      "~/.local/share/sinew/paraview-python");
+}
+
+void check_screen() {
+  const auto set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
+  if (!set("DISPLAY") && !set("WAYLAND_DISPLAY"))
+    throw Error(
+        Exit::not_written,
+        "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
+}
+
+/// Does not return but by throwing.
+Exit become(const fs::path& program, std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw bad_input(Place{program.string()},
+                  "cannot be started (" + std::generic_category().message(errno) + ")",
+                  "install ParaView anew");
+}
+
+Exit view(const Options& options) {
+  const RunFolder folder{options.folder};
+  if (!folder.used())
+    throw bad_input(Place{options.folder}, "is not the folder of a run",
+                    "give the folder that sinew run or sinew simulate writes");
+  const fs::path script = folder.path / (options.live ? "live.py" : "view.py");
+  if (!fs::exists(script)) write_view_script(folder.path);
+  const bool window = options.picture.empty();
+  const fs::path program = program_named(window ? "paraview" : "pvbatch");
+  find_python(program);
+  std::vector<std::string> words = words_of(options);
+  if (window) {
+    check_screen();
+    setenv("SINEW_VIEW", quoted(words).c_str(), 1);
+    return become(program, {program.string(), script.string()});
+  }
+  ensure_display();
+  unsetenv("SINEW_VIEW");
+  words.insert(words.begin(), {program.string(), script.string()});
+  return become(program, words);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  About about{"view",
+              "Starts ParaView on a run: the body cut open, its bones within the skin.",
+              {"sinew view out/box_bend", "sinew view --live out/box_bend",
+               "sinew view out/box_bend --array velocity --forces force_pair",
+               "sinew view out/box_bend --picture bent.png --time 1"}};
+  about.takes_scene = false;
+  return run_command(
+      argc, argv, about, [&](CLI::App& app) { declare(app, options); },
+      [&](const Common&) { return view(options); });
+}
