@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 
 #include "config/scene.h"
 #include "expect_error.h"
-#include "io/gltf/find_clip.h"
 #include "io/gltf/read_gltf.h"
 #include "io/gltf_rigs.h"
+#include "rig/clip.h"
 
 namespace sinew {
 namespace {

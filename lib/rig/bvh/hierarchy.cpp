@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/bvh_hierarchy.h"
+#include "rig/bvh/hierarchy.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a BVH file says, in all the forms it is found in.
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 
 #include <gtest/gtest.h>
 
-#include "rig/bvh_files.h"
+#include "rig/bvh/bvh_files.h"
 #include "scratch.h"
 
 namespace sinew {
