@@ -18,7 +18,7 @@ constexpr double reals_per_particle = 23, wholes_per_particle = 6;
 constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
-constexpr double exported_per_point = 12;        // bytes in surface.pc2
+constexpr double exported_per_point = 24;        // bytes in surface.pc2 and surface.glb
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 // Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
 // disk (two copies, and one as numbers in double) with the rest shape and its binding; lists take

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "command.h"
-#include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "render/contact_sheet.h"
 #include "render/display.h"
@@ -13,6 +12,7 @@
 #include "results.h"
 #include "run_files.h"
 #include "run_record.h"
+#include "run_shot.h"
 
 namespace {
 
@@ -49,22 +49,6 @@ double largest_turn(const RunFiles& run, const RunFrame& frame) {
     most = std::max(most, Eigen::AngleAxisd(turn).angle());
   }
   return most;
-}
-
-Shot shot_of(const RunFiles& run, RunFrame frame, double angle) {
-  Shot shot;
-  shot.caption = three_digits(frame.time) + " s,  " +
-                 std::to_string(static_cast<int>(std::lround(degrees(angle)))) + "\u00b0";
-  shot.particles = std::move(frame.positions);
-  shot.radius = run.body.particles.radius;
-  shot.values = std::move(frame.displacement);
-  shot.surface = {std::move(frame.surface_points), run.surface.faces};
-  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
-    const RigidFrame& bone = frame.bones[b];
-    const Vec3 tail = bone.origin + run.skeleton.bones[b].length * bone.rotation.col(0);
-    shot.bones.push_back({bone.origin, tail, bone.rotation});
-  }
-  return shot;
 }
 
 Story read_story(const RunFiles& run, int threads) {

@@ -23,7 +23,7 @@ namespace {
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
       "(scene\\.yaml|run\\.json|log\\.txt|view\\.py|report\\.html|metrics\\.(csv|json)|"
-      "\\.?(bones\\.csv|surface\\.(obj|pc2))(\\.tmp)?|"
+      "\\.?(bones\\.csv|surface\\.(obj|pc2|glb))(\\.tmp)?|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs)\\.pvd|"
       "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs)/\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "pictures/(body_[0-9]{6,}\\.png|contact_sheet\\.png|\\.?movie\\.mp4(\\.tmp)?))");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "rig/pose_cursor.h"
 #include "scene_binding.h"
 #include "scene_body.h"
 #include "scene_rig.h"
@@ -80,8 +81,9 @@ double bone_speed(const Setup& setup, double interval) {
     reach[influence.bone] = std::max(reach[influence.bone], influence.rest_distance);
   double fastest = 0;
   constexpr int samples_per_frame = 4;
+  PoseCursor poses(body.skeleton, setup.motion);
   for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
-    const Pose pose = pose_at(body.skeleton, setup.motion, sample * interval / samples_per_frame);
+    const Pose& pose = poses.at(sample * interval / samples_per_frame);
     for (std::size_t b = 0; b < pose.size(); ++b) {
       const double length = pose[b].stretch * body.skeleton.bones[b].length;
       const Vec3 tail = pose[b].frame.origin + length * pose[b].axis();

@@ -58,7 +58,8 @@ Skeleton make_skeleton(const Settings& settings);
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn);
 
 /// A right-handed frame whose first column is `axis` (need not be unit, must not be zero). Its
-/// second is across the axis and that one of x, y, z which is least along it, the first of equals.
+/// second is across the axis and that one of x, y, z which is least along it, the first of those
+/// that are equal to 1e-6: rounding swaps no sides.
 Mat3 frame_along(const Vec3& axis);
 
 }  // namespace sinew

@@ -175,7 +175,7 @@ TEST(HostileBvh, Braces) {
   expect_refused(with("      {\n        OFFSET 0.0 0.0 0.25\n      }", "      OFFSET 0 0 1"),
                  "'{'");
   expect_refused(with("OFFSET 0.0 0.0 0.25\n", ""), "End Site");
-  expect_refused(with("OFFSET 0.0 0.0 0.25\n", "OFFSET 0 0 1 CHANNELS 0"), "End Site");
+  expect_refused(with("OFFSET 0.0 0.0 0.25\n", "OFFSET 0 0 1 CHANNELS 3 "), "End Site");
   expect_refused(with("End Site", "End"), "'Site'");
 }
 

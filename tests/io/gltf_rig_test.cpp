@@ -42,6 +42,19 @@ TEST_F(ReadGltfRig, GivesBonesAsBound) {
   }
 }
 
+TEST_F(ReadGltfRig, EndsBonesAtTheNodesNamedTheirEnds) {
+  Gltf gltf = bar();
+  Json& nodes = gltf.json["nodes"];
+  nodes[0]["children"].push_back(
+      gltf.node({{"name", "lower_end"}, {"translation", {0.25, 0, 0.5}}}));
+  nodes[1]["children"].push_back(gltf.node({{"name", "hair"}, {"translation", {1, 0, 0}}}));
+  nodes[2]["name"] = "upper_end";
+  const Skeleton skeleton = read(gltf).rig.skeleton;
+  ASSERT_EQ(skeleton.size(), 2u);
+  EXPECT_EQ(skeleton.bones[0].tail(), Vec3(0.25, 0, 0.5)) << "not the joint below";
+  EXPECT_EQ(skeleton.bones[1].tail(), Vec3(0, 0, 2)) << "not the other child";
+}
+
 TEST_F(ReadGltfRig, GivesTheMeshThatReadGltfGives) {
   const auto path = write(folder, bending_bar(), Form::packed);
   const PolygonSoup mesh = read_gltf_rig(path).mesh, expected = read_gltf(path);

@@ -128,6 +128,14 @@ TEST(Bvh, TheFirstEndSiteOfAJointCountsBesideItsChildren) {
   EXPECT_EQ(bvh.joints.size(), 3u);
 }
 
+TEST(Bvh, EndSitesMayHaveANameAndNoChannels) {
+  const Bvh expected = parsed(bvh_files::small);
+  for (const auto& [usual, other] : {std::pair("End Site\n", "End Site rig:toe end\n"),
+                                     {"End Site\n      {", "End Site toe {"},
+                                     {"0.0 0.0 0.25\n", "0.0 0.0 0.25\n        CHANNELS 0\n"}})
+    EXPECT_EQ(parsed(replaced(bvh_files::small, usual, other)), expected) << other;
+}
+
 TEST(Bvh, AHierarchyAloneIsASkeletonWithoutAClip) {
   const std::string& text = bvh_files::small;
   const Bvh bvh = parsed(text.substr(0, text.find("MOTION")));
