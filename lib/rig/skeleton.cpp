@@ -154,9 +154,10 @@ Skeleton make_skeleton(const Settings& settings) {
 
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn) {
   for (Bone& bone : skeleton.bones) {
+    const Mat3 roll = frame_along(bone.axis()).transpose() * bone.rest.rotation;
     bone.length *= scale;
     bone.rest.origin = scale * (turn * bone.rest.origin);
-    bone.rest.rotation = turn * bone.rest.rotation;
+    if (turn != Mat3::Identity()) bone.rest.rotation = frame_along(turn * bone.axis()) * roll;
   }
   return skeleton;
 }
