@@ -67,6 +67,15 @@ void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
     for (Vec3& value : *values) value = scale * (turn * value);
 }
 
+/// Writes down the short ways from key to key, which the pieces of the curve else find anew.
+void find_turns(RotationCurve& curve) {
+  if (curve.empty() || !curve.turns.empty()) return;
+  std::vector<Vec3> turns = {Vec3::Zero()};
+  for (std::size_t k = 1; k < curve.values.size(); ++k)
+    turns.push_back(rotation_vector(curve.values[k] * curve.values[k - 1].conjugate()));
+  curve.turns = std::move(turns);
+}
+
 template <class Curve, class Piece>
 auto sample_of(const Curve& curve, double time, Piece& piece) {
   if (!piece.time.covers(time)) piece = curve.piece_at(time);
@@ -153,6 +162,7 @@ Motion played(Motion clip, const Settings& settings) {
     const bool cyclic = clip.extrapolation == Extrapolation::loop;
     track.rotation.cyclic = track.twist.cyclic = cyclic;
     track.translation.cyclic = track.stretch.cyclic = cyclic;
+    find_turns(track.rotation);
   }
   if (!clip.end) clip.end = last;
   return clip;

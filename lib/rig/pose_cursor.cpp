@@ -39,15 +39,17 @@ void PoseCursor::move(const Link& link, const LocalMotion& local, const BonePose
   const Mat3 rotation = parent.turn * local.rotation.toRotationMatrix();
   const Vec3 offset =
       parent.turn * (link.offset + (parent.stretch - 1) * link.along + local.translation);
+  const Vec3 slide = local.velocity + parent.stretch_rate * link.along;
   pose.turn = rotation;
-  if (local.twist != 0)
+  pose.velocity = parent.velocity + parent.angular_velocity.cross(offset);
+  pose.angular_velocity = parent.angular_velocity + parent.turn * local.angular_velocity;
+  if (!slide.isZero(0)) pose.velocity += parent.turn * slide;
+  if (local.twist != 0 || local.twist_rate != 0) {
     pose.turn = rotation * Eigen::AngleAxisd(local.twist, link.axis).toRotationMatrix();
+    pose.angular_velocity += local.twist_rate * (rotation * link.axis);
+  }
   pose.frame.rotation = pose.turn * link.rest;
   pose.frame.origin = parent.frame.origin + offset;
-  pose.velocity = parent.velocity + parent.angular_velocity.cross(offset) +
-                  parent.turn * (local.velocity + parent.stretch_rate * link.along);
-  pose.angular_velocity = parent.angular_velocity + parent.turn * local.angular_velocity +
-                          local.twist_rate * (rotation * link.axis);
   pose.twist = local.twist;
   pose.stretch = local.stretch;
   pose.stretch_rate = local.stretch_rate;
