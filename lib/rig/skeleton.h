@@ -54,7 +54,8 @@ struct Skeleton {
 /// or with two, connected to nothing, or with limits that allow nothing.
 Skeleton make_skeleton(const Settings& settings);
 
-/// The rig in a scene's directions and lengths: turned about the origin, then times `scale`.
+/// The rig in a scene's directions and lengths: turned about the origin, then times `scale`. The
+/// sides of its bones are those of a rig that has always stood so: all formats give the same.
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn);
 
 /// A right-handed frame whose first column is `axis` (need not be unit, must not be zero). Its
