@@ -142,7 +142,9 @@ Json describe(Moments& moments, std::size_t corners, double interval, Contents& 
   Json json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = listed({{"nodes", listed(0)}});
   json["nodes"] = listed({{"name", "surface"}, {"mesh", 0}});
-  json["meshes"] = listed({{"primitives", listed(surface)}});
+  Json mesh = {{"primitives", listed(surface)}};  // weights are 0 by default, but VTK counts them
+  if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
+  json["meshes"] = listed(mesh);
   if (moments.targets() > 0)
     json["animations"] = listed(animation_of(moments.times(interval), moments.targets(), contents));
   contents.put_into(json);
