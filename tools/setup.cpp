@@ -62,6 +62,7 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   setup.obstacles = std::move(around.obstacles);
   setup.motion = std::move(rig.motion);
   setup.joint_zone = settings.binding.joint_zone;
+  setup.weights_given = settings.binding.method == BindMethod::file;
   setup.steps = steps_of(settings, setup.body);
   if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",

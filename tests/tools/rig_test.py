@@ -112,6 +112,10 @@ class SameMotion(unittest.TestCase):
         self.assertLess(weight.min(), 0.7)  # where two bones share
         self.assertGreater(np.mean(weight > 0.9), 0.2)
 
+    def test_scenes_of_rigs_in_files_have_no_warnings(self):
+        for scene in ("box_bend_bvh", "box_bend_glb", "fox_bvh", "fox_glb"):
+            self.assertNotIn("warning:", sinew("check", SOURCE / f"configs/{scene}.yaml").stderr, scene)
+
     def test_parts_of_a_skin_are_one_body(self):
         glb = info(SOURCE / "data/motions/fox.glb", "--up", "y")
         ply = info(SOURCE / "data/meshes/creature.ply")
