@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/number_text.h"
 #include "render/camera.h"
+#include "run_shot.h"
 
 namespace sinew {
 namespace {
@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t most_arrows = 900;  // more of them hide each other
 constexpr double longest_arrow = 0.25;    // of the body's longest side
 constexpr double shortest_arrow = 0.1;    // of the longest: shorter ones are dots
+constexpr double least_turn = 0.01;       // rad: below it no bone tells the story
+constexpr std::size_t moments_without_turn = 5;
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {
   double most = 0;
@@ -24,18 +26,13 @@ double largest_turn(const RunFiles& run, const RunFrame& frame) {
   return most;
 }
 
-/// All but values, arrows and caption.
-Shot plain_shot(const RunFiles& run, RunFrame frame) {
-  Shot shot;
-  shot.particles = std::move(frame.positions);
-  shot.radius = run.body.particles.radius;
-  shot.surface = {std::move(frame.surface_points), run.surface.faces};
-  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
-    const RigidFrame& bone = frame.bones[b];
-    const Vec3 tail = bone.origin + run.skeleton.bones[b].length * bone.rotation.col(0);
-    shot.bones.push_back({bone.origin, tail, bone.rotation});
-  }
-  return shot;
+/// Evenly over all frames, the first and the last among them.
+std::vector<std::size_t> spread_over(std::size_t frames) {
+  const std::size_t count = std::min(frames, moments_without_turn);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k)
+    chosen.push_back(count == 1 ? 0 : k * (frames - 1) / (count - 1));
+  return chosen;
 }
 
 void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool first) {
@@ -61,7 +58,7 @@ void DrawnRun::read_story(const Mat3& view, bool ahead) {
     story_.angle.push_back(largest_turn(run_, frame));
     for (DrawnLook& drawn : looks_)
       widen(drawn.range, DrawnValues::range_of(drawn.values.at(i, frame)), i == 0);
-    story_.frame.extend(seen(view, plain_shot(run_, std::move(frame))));
+    story_.frame.extend(seen(view, shot_of(run_, std::move(frame), 0)));
   }
 }
 
@@ -82,6 +79,7 @@ std::size_t DrawnRun::frame_at(double time) const {
 std::vector<std::size_t> DrawnRun::telling_frames() const {
   const std::vector<double>& angle = story_.angle;
   const double most = *std::max_element(angle.begin(), angle.end());
+  if (most < least_turn) return spread_over(angle.size());
   std::size_t half = 0, farthest = 0;
   while (angle[half] < most / 2) ++half;
   for (std::size_t i = 0; i < angle.size(); ++i)
@@ -128,12 +126,8 @@ void DrawnRun::add_arrows(Shot& shot, std::size_t index, const DrawnLook& drawn)
 
 Shot DrawnRun::shot(std::size_t index, const DrawnLook& drawn) const {
   RunFrame frame = read_frame(run_, index);
-  const double time = frame.time;
   std::vector<double> values = drawn.values.at(index, frame);
-  Shot shot = plain_shot(run_, std::move(frame));
-  shot.caption = three_digits(time) + " s,  " +
-                 std::to_string(static_cast<int>(std::lround(degrees(story_.angle[index])))) +
-                 "\u00b0";
+  Shot shot = shot_of(run_, std::move(frame), story_.angle[index]);
   shot.values = std::move(values);
   if (drawn.look.cut_open) cut_open(shot);
   if (drawn.look.view == View::arrows) add_arrows(shot, index, drawn);

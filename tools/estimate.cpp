@@ -24,7 +24,7 @@ constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
 // Positions, velocities and order of three checkpoints, one of them in the making; and their bonds.
 constexpr double checkpoints_per_particle = 3 * 52, bonds_per_particle = 3 * (12 * 8 + 4);
-constexpr double exported_per_point = 12;        // bytes in surface.pc2
+constexpr double exported_per_point = 24;        // bytes in surface.pc2 and surface.glb
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 // Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
 // disk (two copies, and one as numbers in double) with the rest shape and its binding; lists take

@@ -2,6 +2,7 @@
 // sinew-info: what is in a mesh, a rig, a clip or a scene, and what is wrong with it.
 #include "body_options.h"
 #include "command.h"
+#include "config/rig.h"
 #include "config/scene.h"
 #include "mesh_info.h"
 #include "mesh_input.h"
@@ -24,8 +25,7 @@ void add_scene(const Settings& settings, Results& results) {
   SceneRig scene = rig_of(settings);
   results.add("mesh", settings.body.mesh);
   results.add("tracks", scene.motion.tracks.size());
-  Clip clip{"scene", std::move(scene.motion)};
-  clip.duration = clip_length(clip.motion);
+  Clip clip = clip_of(std::move(scene.motion), "scene", settings.motion.frame_rate);
   add_rig_info({std::move(scene.skeleton), {std::move(clip)}}, settings.body.radius, results);
 }
 
@@ -36,9 +36,23 @@ BodySettings body_of_mesh(const Options& options, const Common& common) {
   return settings_of_mesh(options.path, overrides).body;
 }
 
+/// Whether the file was a rig or a clip of YAML, which holds nothing else.
+bool add_rig_alone(const Options& options, Results& results) {
+  if (!is_scene(options.path)) return false;
+  const auto alone = read_rig_alone(options.path);
+  if (!alone) return false;
+  const std::string name = std::filesystem::path(options.path).stem().string();
+  add_rig_alone_info(*alone, name, options.radius, results);
+  return true;
+}
+
 Exit info(const Options& options, const Common& common) {
   Results results;
   results.add("file", options.path);
+  if (add_rig_alone(options, results)) {
+    results.print(common.json);
+    return Exit::done;
+  }
   if (holds_rig(options.path)) add_rig_info(read_rig(options.path, {}), options.radius, results);
   if (!holds_mesh(options.path)) {
     results.print(common.json);
@@ -73,7 +87,7 @@ int main(int argc, char** argv) {
       [&](CLI::App& app) {
         app.add_option("FILE", options.path,
                        std::string("Mesh (").append(mesh_formats) + "), rig (" + rig_formats +
-                           ") or scene (YAML)")
+                           ") or scene, rig or clip (YAML)")
             ->required();
         app.add_option("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
             ->type_name("FILE.vtu");

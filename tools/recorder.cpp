@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/requested_arrays.h"
+#include "io/gltf/moving_surface.h"
 #include "measured_body.h"
 #include "metrics/particle_arrays.h"
 
@@ -100,7 +101,9 @@ std::vector<double> weights_of_particles(const Body& body) {
 Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
                    const Body& body, const Triangles& surface, std::vector<Triangles> obstacles,
                    std::span<const double> kept)
-    : skeleton_(body.skeleton),
+    : folder_(folder),
+      interval_(output.interval),
+      skeleton_(body.skeleton),
       rest_(body.rest),
       skin_(make_skin(surface.points, rest_, body.material.pair.r, body.skeleton, body.binding)),
       surface_(surface),
@@ -224,7 +227,9 @@ void Recorder::close() {
   if (obstacle_series_) obstacle_series_->close();
   for (const Skinned& skinned : skinned_) skinned.series->close();
   bone_table_.close();
-  if (export_) export_->close();
+  if (!export_) return;
+  export_->close();
+  write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_);
 }
 
 }  // namespace sinew

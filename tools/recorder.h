@@ -78,6 +78,8 @@ class Recorder {
   static void take(Simulation& simulation, double time, Moved& frame);
   void write(const Moved& frame);
 
+  std::filesystem::path folder_;
+  double interval_;  ///< s between frames
   Skeleton skeleton_;
   Points rest_;  ///< of the particles, in the written order
   Skin skin_;

@@ -25,19 +25,29 @@ std::string plain(const Json& value) {
 }  // namespace
 
 void Results::add(std::string key, Json value, std::string unit) {
-  lines_.push_back({std::move(key), std::move(unit), std::move(value)});
+  entries_.push_back({std::move(key), std::move(unit), std::move(value), In::both});
+}
+
+void Results::add_line(std::string key, Json value, std::string unit) {
+  entries_.push_back({std::move(key), std::move(unit), std::move(value), In::lines});
+}
+
+void Results::add_value(std::string key, Json value) {
+  entries_.push_back({std::move(key), "", std::move(value), In::object});
 }
 
 std::string Results::text() const {
   std::string text;
-  for (const Line& line : lines_)
-    text += line.key + ": " + plain(line.value) + (line.unit.empty() ? "" : ' ' + line.unit) + '\n';
+  for (const Entry& one : entries_)
+    if (one.in != In::object)
+      text += one.key + ": " + plain(one.value) + (one.unit.empty() ? "" : ' ' + one.unit) + '\n';
   return text;
 }
 
 std::string Results::json() const {
   Json object = Json::object();
-  for (const Line& line : lines_) object[line.key] = line.value;
+  for (const Entry& one : entries_)
+    if (one.in != In::lines) object[one.key] = one.value;
   return object.dump(2, ' ', false, replace_wrong_bytes) + '\n';
 }
 

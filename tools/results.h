@@ -14,6 +14,9 @@ class Results {
  public:
   /// A text, a number, a flag or a list; the unit stands behind it for people.
   void add(std::string key, nlohmann::ordered_json value, std::string unit = "");
+  /// For the lines alone, where a key may come twice, and for the object alone.
+  void add_line(std::string key, nlohmann::ordered_json value, std::string unit = "");
+  void add_value(std::string key, nlohmann::ordered_json value);
 
   std::string text() const;  ///< "key: value" lines
   std::string json() const;  ///< one object; numbers that are not finite become null
@@ -22,11 +25,13 @@ class Results {
   void print(bool as_json) const;
 
  private:
-  struct Line {
+  enum class In { both, lines, object };
+  struct Entry {
     std::string key, unit;
     nlohmann::ordered_json value;
+    In in;
   };
-  std::vector<Line> lines_;
+  std::vector<Entry> entries_;
 };
 
 /// Writes to standard output, and makes sure that it arrived. Throws Error (not_written).

@@ -107,6 +107,7 @@ void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
     const Points x = vectors(data.point_columns, "axis_x");
     const Points y = vectors(data.point_columns, "axis_y");
     const Points z = vectors(data.point_columns, "axis_z");
+    frame.bone_lengths = numbers(data.point_columns, "length");
     for (std::size_t b = 0; b < data.points.size(); ++b) {
       RigidFrame bone{data.points[b], Mat3::Identity()};
       bone.rotation << x[b], y[b], z[b];

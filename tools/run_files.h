@@ -44,6 +44,7 @@ struct RunFrame {
   Points positions, velocities, surface_points;  ///< m, m/s, m
   std::vector<double> displacement;              ///< its size per particle, m
   std::vector<RigidFrame> bones;                 ///< heads and axes
+  std::vector<double> bone_lengths;              ///< head to tail, m: some stretch
   Energies energies;
 };
 

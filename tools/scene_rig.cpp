@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "core/words.h"
-#include "io/gltf/find_clip.h"
 #include "io/gltf/read_rig.h"
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
+#include "rig/clip.h"
 #include "scene_body.h"
 
 namespace sinew {

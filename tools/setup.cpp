@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "physics/thin_body.h"
+#include "rig/pose_cursor.h"
 #include "scene_binding.h"
 #include "scene_body.h"
 #include "scene_rig.h"
@@ -61,6 +62,7 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   setup.obstacles = std::move(around.obstacles);
   setup.motion = std::move(rig.motion);
   setup.joint_zone = settings.binding.joint_zone;
+  setup.weights_given = settings.binding.method == BindMethod::file;
   setup.steps = steps_of(settings, setup.body);
   if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
@@ -80,8 +82,9 @@ double bone_speed(const Setup& setup, double interval) {
     reach[influence.bone] = std::max(reach[influence.bone], influence.rest_distance);
   double fastest = 0;
   constexpr int samples_per_frame = 4;
+  PoseCursor poses(body.skeleton, setup.motion);
   for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
-    const Pose pose = pose_at(body.skeleton, setup.motion, sample * interval / samples_per_frame);
+    const Pose& pose = poses.at(sample * interval / samples_per_frame);
     for (std::size_t b = 0; b < pose.size(); ++b) {
       const double length = pose[b].stretch * body.skeleton.bones[b].length;
       const Vec3 tail = pose[b].frame.origin + length * pose[b].axis();

@@ -16,6 +16,7 @@ struct Setup {
   StepChoice steps;
   std::vector<Triangles> obstacles;  ///< of the world, as surfaces about their own middle
   double joint_zone = 0;             ///< in square roots of the bones' cross-section
+  bool weights_given = false;        ///< by a file: they spread turns as it pleases
   int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
 

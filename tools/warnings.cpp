@@ -18,7 +18,7 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_stable_b = 2.75;
 constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
 constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
-constexpr double least_shift = 0.1;   // radii that a bone may jump unnoticed
+constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
 // In square roots of what a bone holds of the cross-section: 0.6 is the rim of a round limb.
 constexpr double far_from_bone = 3;
 constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
@@ -74,7 +74,7 @@ double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
 
 void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
   const Bone& bone = setup.body.skeleton.bones[track.bone];
-  if (bone.parent == no_bone) return;
+  if (bone.parent == no_bone || setup.weights_given) return;
   const double turn = turn_about_bone(bone, track);
   const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
   if (step > steepest_joint)

@@ -73,10 +73,13 @@ void check_arrays(const Settings& settings) {
 }
 
 void check_axes(const Settings& settings) {
+  const char* cure = "name two different axes, as in up: y and forward: z";
+  if (to_scene(settings.body).determinant() < 0.5)
+    throw bad_input(place_of(settings, "body.forward", "body.up"),
+                    "up and forward of the mesh lie along one axis", cure);
   if (to_scene(settings.skeleton).determinant() < 0.5)
     throw bad_input(place_of(settings, "skeleton.forward", "skeleton.up"),
-                    "up and forward of the rig lie along one axis",
-                    "name two different axes, as in up: y and forward: z");
+                    "up and forward of the rig lie along one axis", cure);
 }
 
 void check_clip(const Settings& settings) {

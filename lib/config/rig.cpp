@@ -131,4 +131,19 @@ void read_rig_files(Settings& settings) {
   }
 }
 
+std::optional<Settings> read_rig_alone(const std::filesystem::path& path) {
+  const YamlNode tree = parse_yaml(read_text(path), path.string());
+  Settings settings;
+  settings.places[""] = {path.string()};
+  if (tree.find("body") != nullptr) return std::nullopt;
+  if (tree.find("bones") != nullptr)
+    settings.skeleton.file = path.string();
+  else if (tree.find("tracks") != nullptr)
+    settings.motion.file = path.string();
+  else
+    return std::nullopt;
+  read_rig_files(settings);
+  return settings;
+}
+
 }  // namespace sinew

@@ -3,6 +3,9 @@
 // a list of tracks and, if its keys count frames, their frame_rate.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 #include "config/yaml_tree.h"
 #include "core/settings.h"
 
@@ -18,5 +21,9 @@ void read_bound(const YamlNode& binding, Settings& settings);
 /// settings then hold all there is. Other files stay for their readers. The scene's own frame_rate
 /// goes before the clip's. Throws bad input naming the line of the file.
 void read_rig_files(Settings& settings);
+
+/// The bones or the tracks of a file that holds nothing else, beside defaults; none for others.
+/// Throws bad input naming the line.
+std::optional<Settings> read_rig_alone(const std::filesystem::path& path);
 
 }  // namespace sinew

@@ -9,18 +9,21 @@ Vec3 direction(Axis axis) {
   return axis < Axis::minus_x ? Vec3::Unit(index) : Vec3(-Vec3::Unit(index));
 }
 
-}  // namespace
-
-Mat3 to_scene(const SkeletonSettings& settings) {
-  const Vec3 up = direction(settings.up);
-  const Axis after_up = static_cast<Axis>((static_cast<int>(settings.up) + 1) % 3);
-  const Vec3 forward = direction(settings.forward.value_or(after_up));
+Mat3 turn_of(Axis up_axis, std::optional<Axis> forward_axis) {
+  const Vec3 up = direction(up_axis);
+  const Axis after_up = static_cast<Axis>((static_cast<int>(up_axis) + 1) % 3);
+  const Vec3 forward = direction(forward_axis.value_or(after_up));
   Mat3 turn;
   turn.row(0) = forward;
   turn.row(1) = up.cross(forward);
   turn.row(2) = up;
   return turn;
 }
+
+}  // namespace
+
+Mat3 to_scene(const BodySettings& body) { return turn_of(body.up, body.forward); }
+Mat3 to_scene(const SkeletonSettings& skeleton) { return turn_of(skeleton.up, skeleton.forward); }
 
 double metres(LengthUnit unit) {
   switch (unit) {

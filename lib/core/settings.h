@@ -18,6 +18,7 @@ enum class Packing { fcc, hcp };
 enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
 enum class FillRule { unite, hollow };
 enum class Keep { centre, sphere };
+enum class Axis { x, y, z, minus_x, minus_y, minus_z };
 
 /// One of the unit, m.
 double metres(LengthUnit unit);
@@ -26,6 +27,8 @@ struct BodySettings {
   std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
   LengthUnit unit = LengthUnit::m;
   double scale = 1;
+  Axis up = Axis::z;
+  std::optional<Axis> forward;
   double weld = 0;
   FillRule rule = FillRule::unite;
   bool close_holes = false;
@@ -66,8 +69,6 @@ struct MaterialSettings {
   double creep_rate = 1;
 };
 
-enum class Axis { x, y, z, minus_x, minus_y, minus_z };
-
 struct SkeletonSettings {
   std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
   double scale = 1;
@@ -75,7 +76,8 @@ struct SkeletonSettings {
   std::optional<Axis> forward;
 };
 
-/// Turns the rig's own directions into the scene's: up becomes z, forward x.
+/// Turns the own directions of a mesh or a rig into the scene's: up becomes z, forward x. Exact.
+Mat3 to_scene(const BodySettings& settings);
 Mat3 to_scene(const SkeletonSettings& settings);
 
 struct LimitSettings {

@@ -158,6 +158,8 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
 #define SINEW_AT(Owner, member) \
   [](Owner & owner) -> auto& { return owner.member; }
 
+std::vector<std::string_view> axes() { return {"x", "y", "z", "-x", "-y", "-z"}; }
+
 std::vector<Field<Settings>> make_body() {
   using S = Settings;
   return {
@@ -167,6 +169,10 @@ std::vector<Field<Settings>> make_body() {
                 "what the mesh's lengths are given in"),
       field<S>("body", "scale", SINEW_AT(S, body.scale), "",
                "factor on the mesh's lengths, beside the unit", positive),
+      choice<S>("body", "up", SINEW_AT(S, body.up), axes(),
+                "axis of the mesh that becomes the scene's z"),
+      choice<S>("body", "forward", SINEW_AT(S, body.forward), axes(),
+                "axis of the mesh that becomes the scene's x; auto: the one after up (x, y, z, x)"),
       field<S>("body", "weld", SINEW_AT(S, body.weld), "m",
                "points of the mesh closer than this become one; 0 joins equal ones only",
                not_negative),
@@ -255,16 +261,15 @@ std::vector<Field<Settings>> make_material() {
 
 std::vector<Field<Settings>> make_skeleton_section() {
   using S = Settings;
-  const std::vector<std::string_view> axes = {"x", "y", "z", "-x", "-y", "-z"};
   return {
       path(may_lack("none",
                     field<S>("skeleton", "file", SINEW_AT(S, skeleton.file), "",
                              "rig instead of bones: YAML with a list of bones, BVH, glTF or GLB"))),
       field<S>("skeleton", "scale", SINEW_AT(S, skeleton.scale), "",
                "factor on the lengths of the rig and its motion", positive),
-      choice<S>("skeleton", "up", SINEW_AT(S, skeleton.up), axes,
+      choice<S>("skeleton", "up", SINEW_AT(S, skeleton.up), axes(),
                 "axis of the rig that becomes the scene's z"),
-      choice<S>("skeleton", "forward", SINEW_AT(S, skeleton.forward), axes,
+      choice<S>("skeleton", "forward", SINEW_AT(S, skeleton.forward), axes(),
                 "axis of the rig that becomes the scene's x; auto: the one after up (x, y, z, x)"),
   };
 }
@@ -375,7 +380,8 @@ std::vector<Field<Settings>> make_output() {
       field<S>("output", "skin_dqs", SINEW_AT(S, output.skin_dqs), "",
                "write the surface moved by dual-quaternion skinning too, for comparison"),
       field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
-               "write surface.obj (rest) and surface.pc2 (its motion) for Blender, 3ds Max, Maya"),
+               "write the moving surface for Blender, 3ds Max, Maya: surface.obj (rest) with "
+               "surface.pc2 (point cache), and surface.glb (morph targets)"),
       may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
                                 "more arrays of particles, as in \"J, stress\", or all: F, J, "
                                 "stretch, strain, hencky_strain, strain_eq, stress, von_mises, "

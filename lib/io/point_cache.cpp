@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/number_text.h"
 
 namespace sinew {
 namespace {
 
+constexpr char magic[] = {'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
 constexpr std::size_t place_of_samples = 28, header_size = 32;  // bytes
 constexpr std::size_t point_size = 12;
 
@@ -21,6 +23,17 @@ void add_bytes(std::uint32_t value, std::string& text) {
 
 std::uint32_t bits_of(double value) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+std::uint32_t word_of(const char* bytes) {
+  std::uint32_t word = 0;
+  for (int byte = 0; byte < 4; ++byte)
+    word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[byte])) << (8 * byte);
+  return word;
+}
+
+Error no_cache(const std::filesystem::path& path) {
+  return bad_input({path.string()}, "is no whole point cache", "run the scene again");
 }
 
 }  // namespace
@@ -50,7 +63,7 @@ PointCache::PointCache(const std::filesystem::path& path, std::size_t points, st
     count_samples();
     return;
   }
-  std::string header("POINTCACHE2\0", 12);
+  std::string header(magic, sizeof magic);
   add_bytes(1, header);
   add_bytes(static_cast<std::uint32_t>(points), header);
   add_bytes(bits_of(0), header);  // first frame
@@ -77,5 +90,26 @@ void PointCache::count_samples() {
 }
 
 void PointCache::close() { file_.close(); }
+CachedPoints::CachedPoints(const std::filesystem::path& path)
+    : path_(path), file_(path, std::ios::binary) {
+  char header[header_size] = {};
+  if (!file_.read(header, sizeof header) || std::memcmp(header, magic, sizeof magic) != 0)
+    throw no_cache(path_);
+  points_ = word_of(header + 16);
+  samples_ = word_of(header + place_of_samples);
+  std::error_code unreadable;
+  if (std::filesystem::file_size(path_, unreadable) != header_size + 12 * points_ * samples_)
+    throw no_cache(path_);
+}
+
+std::vector<float> CachedPoints::sample(std::size_t index) {
+  std::vector<char> bytes(12 * points_);
+  file_.seekg(static_cast<std::streamoff>(header_size + index * bytes.size()));
+  if (!file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) throw no_cache(path_);
+  std::vector<float> coordinates(3 * points_);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    coordinates[i] = std::bit_cast<float>(word_of(bytes.data() + 4 * i));
+  return coordinates;
+}
 
 }  // namespace sinew

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <vector>
 
 #include "core/file.h"
 #include "core/triangles.h"
@@ -32,6 +34,22 @@ class PointCache {
 
   std::size_t points_, samples_;
   GrowingFile file_;
+};
+
+/// Reads a PC2 file again, sample by sample.
+class CachedPoints {
+ public:
+  /// Throws bad input where it is none, or not whole.
+  explicit CachedPoints(const std::filesystem::path& path);
+
+  std::size_t points() const { return points_; }
+  std::size_t samples() const { return samples_; }
+  std::vector<float> sample(std::size_t index);  ///< x y z of each point; throws bad input
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::size_t points_ = 0, samples_ = 0;
 };
 
 }  // namespace sinew

@@ -13,12 +13,13 @@
 namespace sinew {
 namespace {
 
-void scale(PolygonSoup& soup, const BodySettings& body) {
+void place(PolygonSoup& soup, const BodySettings& body) {
   const double by = metres(body.unit) * body.scale;
   if (!(by > 0) || !std::isfinite(by))
     throw bad_input("the scale is " + number_text(body.scale), "give a number above 0");
-  if (by == 1) return;
-  for (Vec3& point : soup.points) point *= by;
+  const Mat3 turn = to_scene(body);
+  if (by == 1 && turn == Mat3::Identity()) return;
+  for (Vec3& point : soup.points) point = by * (turn * point);
 }
 
 PolygonSoup soup_of(const Triangles& triangles) {
@@ -75,7 +76,7 @@ Surface wrapped(const Surface& surface, double alpha, FillRule rule) {
 
 Surface prepare(PolygonSoup soup, const BodySettings& body) {
   check_soup(soup);
-  scale(soup, body);
+  place(soup, body);
   Surface surface = clean(std::move(soup), {body.weld, body.rule});
   if (body.close_holes) surface = without_holes(surface, body.rule);
   if (body.wrap) surface = wrapped(surface, *body.wrap, body.rule);

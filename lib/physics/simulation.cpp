@@ -42,9 +42,10 @@ Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& 
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        kernel::InstructionSet instructions)
     : body_(std::make_shared<const Body>(std::move(body))),
-      motion_(std::move(motion)),
+      motion_(std::make_shared<const Motion>(std::move(motion))),
+      cursor_(body_->skeleton, *motion_),
       stepping_(stepping),
-      stepper_(make_stepper(body_, motion_, stepping, checked(particles), instructions)),
+      stepper_(make_stepper(body_, *motion_, stepping, checked(particles), instructions)),
       book_(stepping.step),
       world_book_(stepping.step),
       particles_(std::move(particles)) {
@@ -52,7 +53,7 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
 }
 
 void Simulation::step() {
-  const Pose now = pose();
+  const Pose& now = pose();
   tell_time();
   StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
   if (sums.failure) {
@@ -97,7 +98,7 @@ void Simulation::fail(const Offender& first) const {
 
 const Particles& Simulation::particles() const {
   if (!read_) {
-    const Pose now = pose();
+    const Pose& now = pose();
     tell_time();
     std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
     read_ = true;
@@ -107,7 +108,7 @@ const Particles& Simulation::particles() const {
 
 void Simulation::evaluate() {
   if (evaluated_) return;
-  const Pose now = pose();
+  const Pose& now = pose();
   tell_time();
   balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
   evaluated_ = true;

@@ -22,7 +22,7 @@
 #include "physics/forces.h"
 #include "physics/lists/list_stepper.h"
 #include "physics/stepper.h"
-#include "rig/motion.h"
+#include "rig/pose_cursor.h"
 
 namespace sinew {
 
@@ -49,7 +49,7 @@ class Simulation {
   std::int64_t steps() const { return steps_; }
   const Body& body() const { return *body_; }
   const Particles& particles() const;
-  Pose pose() const { return pose_at(body_->skeleton, motion_, time()); }
+  const Pose& pose() const { return cursor_.at(time()); }  ///< until the next step
 
   /// At the present moment.
   const Forces& forces();
@@ -85,7 +85,8 @@ class Simulation {
   [[noreturn]] void fail(const Offender& first) const;
 
   std::shared_ptr<const Body> body_;
-  Motion motion_;
+  std::shared_ptr<const Motion> motion_;
+  mutable PoseCursor cursor_;
   Stepping stepping_;
   std::int64_t steps_ = 0;
   mutable Stepper stepper_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rig/motion.h"
@@ -22,5 +23,8 @@ struct Rig {
   Skeleton skeleton;
   std::vector<Clip> clips;
 };
+
+/// Throws bad input (without the path) for a name that is not there, with the nearest one that is.
+const Clip& find_clip(const std::vector<Clip>& clips, std::string_view name);
 
 }  // namespace sinew

@@ -10,12 +10,7 @@
 namespace sinew {
 namespace {
 
-/// A place between two keys.
-struct Span {
-  std::size_t key;  ///< the earlier one; the later is key + 1
-  double s;         ///< share of the way, 0 to 1
-  double duration;  ///< s
-};
+using Vec4 = Eigen::Vector4d;
 
 /// The last key not after `time`, which lies between the first and the last. Most clips have even
 /// times: the guess then is right.
@@ -30,48 +25,45 @@ std::size_t key_before(const std::vector<double>& times, double time) {
          1;
 }
 
+/// A place between two keys.
+struct Span {
+  std::size_t key;  ///< the earlier one; the later is key + 1
+  double duration;  ///< s
+  PieceTime time;
+};
+
 Span span_at(const std::vector<double>& times, double time) {
   const std::size_t key = key_before(times, time);
-  const double duration = times[key + 1] - times[key];
-  return {key, (time - times[key]) / duration, duration};
+  const double begin = times[key], end = times[key + 1];
+  return {key, end - begin, {begin, end, begin, 1 / (end - begin)}};
 }
 
-struct Eased {
-  double value, rate;  // of the way from one key to the next, 0 to 1, and per second
+/// Where a curve holds: before its first key and after its last.
+struct Hold {
+  std::size_t key;
+  PieceTime time;
 };
 
-Eased ease(Interpolation interpolation, const Span& span) {
-  const double s = span.s;
-  switch (interpolation) {
-    case Interpolation::step:
-      return {0, 0};
-    case Interpolation::smooth:
-      return {s * s * (3 - 2 * s), 6 * s * (1 - s) / span.duration};
-    case Interpolation::linear:
-    case Interpolation::cubic:
-      break;
-  }
-  return {s, 1 / span.duration};
+std::optional<Hold> hold_at(const std::vector<double>& times, double time) {
+  constexpr double ever = PieceTime::never;
+  if (time < times.front()) return Hold{0, {-ever, times.front()}};
+  if (time >= times.back()) return Hold{times.size() - 1, {times.back(), ever}};
+  return std::nullopt;
 }
 
-/// Hermite's polynomials and their slopes.
-struct Hermite {
-  double from, leave, to, arrive;
-};
-
-Hermite hermite(double s) {
-  const double s2 = s * s, s3 = s2 * s;
-  return {2 * s3 - 3 * s2 + 1, s3 - 2 * s2 + s, 3 * s2 - 2 * s3, s3 - s2};
+/// The way from one key to the next, 0 to 1, as a polynomial without a constant; not of cubic.
+std::array<double, 3> way_of(Interpolation interpolation) {
+  if (interpolation == Interpolation::step) return {0, 0, 0};
+  if (interpolation == Interpolation::smooth) return {0, 3, -2};
+  return {1, 0, 0};
 }
 
-Hermite hermite_slope(double s) {
-  return {6 * s * (s - 1), (3 * s - 4) * s + 1, 6 * s * (1 - s), (3 * s - 2) * s};
-}
-
+/// Hermite's polynomial; the tangents are those at the keys times the duration between them.
 template <class Value>
-Value mix(const Hermite& h, const Value& from, const Value& leave, const Value& to,
-          const Value& arrive) {
-  return h.from * from + h.leave * leave + h.to * to + h.arrive * arrive;
+std::array<Value, 4> hermite(const Value& from, const Value& leave, const Value& to,
+                             const Value& arrive) {
+  const Value way = to - from;
+  return {from, leave, 3 * way - 2 * leave - arrive, leave + arrive - 2 * way};
 }
 
 /// The slope at a key of the parabola through it and its neighbours, from the slopes of the ways to
@@ -118,14 +110,12 @@ Value made_tangent(const Curve<Value>& curve, std::size_t key) {
 }
 
 template <class Value>
-typename Curve<Value>::Sample cubic(const Curve<Value>& curve, const Span& span) {
+std::array<Value, 4> cubic(const Curve<Value>& curve, const Span& span) {
   const std::size_t k = span.key;
-  const double h = span.duration;
-  const Value leave = h * (curve.out.empty() ? made_tangent(curve, k) : curve.out[k]);
-  const Value arrive = h * (curve.in.empty() ? made_tangent(curve, k + 1) : curve.in[k + 1]);
-  const Value &from = curve.values[k], &to = curve.values[k + 1];
-  return {mix(hermite(span.s), from, leave, to, arrive),
-          mix(hermite_slope(span.s), from, leave, to, arrive) / h};
+  const Value leave = curve.out.empty() ? made_tangent(curve, k) : curve.out[k];
+  const Value arrive = curve.in.empty() ? made_tangent(curve, k + 1) : curve.in[k + 1];
+  return hermite<Value>(curve.values[k], span.duration * leave, curve.values[k + 1],
+                        span.duration * arrive);
 }
 
 /// The rotation vector from key - 1 to key.
@@ -156,83 +146,64 @@ bool parallel(const Vec3& a, const Vec3& b) {
   return a.cross(b).norm() <= 1e-12 * a.norm() * b.norm();
 }
 
+Vec4 as_4(const Vec3& v) { return {v.x(), v.y(), v.z(), 0}; }
+
 /// The way between two keys as three turns, one after the other, each along its own polynomial.
-struct Turns {
-  Vec3 first, second, third;
-};
-
-Turns turns_between(const RotationCurve& curve, const Span& span) {
+void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const Vec3 turn = turn_to(curve, span.key + 1);
-  Turns w;
-  w.first = span.duration / 3 * made_velocity(curve, span.key);
-  w.third = span.duration / 3 * made_velocity(curve, span.key + 1);
-  w.second = turn - w.first - w.third;
-  if (parallel(turn, w.first) && parallel(turn, w.third) && parallel(w.first, w.third)) return w;
-  const Quat second = rotation_by(-w.third) * rotation_by(turn) * rotation_by(-w.first);
-  w.second = rotation_vector_near(second, w.second);
-  return w;
+  const Vec3 first = span.duration / 3 * made_velocity(curve, span.key);
+  const Vec3 third = span.duration / 3 * made_velocity(curve, span.key + 1);
+  Vec3 second = turn - first - third;
+  if (!parallel(turn, first) || !parallel(turn, third) || !parallel(first, third))
+    second =
+        rotation_vector_near(rotation_by(-third) * rotation_by(turn) * rotation_by(-first), second);
+  piece.form = RotationPiece::Form::turns;
+  piece.c = {curve.values[span.key].coeffs(), as_4(first), as_4(second), as_4(third)};
 }
 
-RotationCurve::Sample along_turns(const RotationCurve& curve, const Span& span) {
-  const Turns w = turns_between(curve, span);
-  const double s = span.s, r = 1 - s;
-  const Quat first = rotation_by((1 - r * r * r) * w.first),
-             second = rotation_by(s * s * (3 - 2 * s) * w.second),
-             third = rotation_by(s * s * s * w.third);
-  const Vec3 rate =
-      3 * s * s * w.third + third * (6 * s * r * w.second + second * (3 * r * r * w.first));
-  return {third * second * first * curve.values[span.key], rate / span.duration};
-}
-
-/// glTF's: components one by one, then made a unit quaternion.
-RotationCurve::Sample along_tangents(const RotationCurve& curve, const Span& span) {
-  using Vec4 = Eigen::Vector4d;
+/// glTF's: components one by one.
+void put_tangents(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const std::size_t k = span.key;
-  const double h = span.duration;
-  const Vec4 from = curve.values[k].coeffs(), to = curve.values[k + 1].coeffs();
-  const Vec4 leave = h * curve.out[k].coeffs(), arrive = h * curve.in[k + 1].coeffs();
-  const Vec4 mixed = mix<Vec4>(hermite(span.s), from, leave, to, arrive);
-  const Vec4 slope = mix<Vec4>(hermite_slope(span.s), from, leave, to, arrive) / h;
-  const double size = mixed.norm();
-  if (size == 0) return {curve.values[k].normalized(), Vec3::Zero()};
-  const Vec4 unit = mixed / size;
-  const Quat value(unit), rate(Vec4((slope - unit * unit.dot(slope)) / size));
-  return {value, 2 * (rate * value.conjugate()).vec()};
+  piece.form = RotationPiece::Form::tangents;
+  piece.c = hermite<Vec4>(curve.values[k].coeffs(), span.duration * curve.out[k].coeffs(),
+                          curve.values[k + 1].coeffs(), span.duration * curve.in[k + 1].coeffs());
 }
 
 }  // namespace
 
 template <class Value>
-typename Curve<Value>::Sample Curve<Value>::at(double time) const {
-  if (time < times.front()) return {values.front(), zero_of<Value>()};
-  if (time >= times.back()) return {values.back(), zero_of<Value>()};
+CurvePiece<Value> Curve<Value>::piece_at(double time) const {
+  const Value zero = zero_of<Value>();
+  if (const auto hold = hold_at(times, time))
+    return {hold->time, {values[hold->key], zero, zero, zero}};
   const Span span = span_at(times, time);
-  if (interpolation == Interpolation::cubic) return cubic(*this, span);
-  const Eased way = ease(interpolation, span);
+  if (interpolation == Interpolation::cubic) return {span.time, cubic(*this, span)};
+  const auto [linear, square, cube] = way_of(interpolation);
   const Value &from = values[span.key], difference = values[span.key + 1] - from;
-  return {from + way.value * difference, way.rate * difference};
+  return {span.time, {from, linear * difference, square * difference, cube * difference}};
 }
 
 template struct Curve<double>;
 template struct Curve<Vec3>;
 
-void find_turns(RotationCurve& curve) {
-  if (curve.empty() || !curve.turns.empty()) return;
-  std::vector<Vec3> turns = {Vec3::Zero()};
-  for (std::size_t k = 1; k < curve.values.size(); ++k) turns.push_back(turn_to(curve, k));
-  curve.turns = std::move(turns);
-}
-
-RotationCurve::Sample RotationCurve::at(double time) const {
-  if (time < times.front()) return {values.front(), Vec3::Zero()};
-  if (time >= times.back()) return {values.back(), Vec3::Zero()};
+RotationPiece RotationCurve::piece_at(double time) const {
+  RotationPiece piece;
+  if (const auto hold = hold_at(times, time)) {
+    piece.time = hold->time;
+    piece.c = {values[hold->key].coeffs(), Vec4::Zero()};
+    return piece;
+  }
   const Span span = span_at(times, time);
-  if (interpolation == Interpolation::step) return {values[span.key], Vec3::Zero()};
-  if (interpolation == Interpolation::cubic)
-    return in.empty() || out.empty() ? along_turns(*this, span) : along_tangents(*this, span);
-  const Eased way = ease(interpolation, span);
-  const Vec3 turn = turn_to(*this, span.key + 1);
-  return {rotation_by(way.value * turn) * values[span.key], way.rate * turn};
+  piece.time = span.time;
+  if (interpolation != Interpolation::cubic) {
+    piece.way = way_of(interpolation);
+    piece.c = {values[span.key].coeffs(), as_4(turn_to(*this, span.key + 1))};
+  } else if (in.empty() || out.empty()) {
+    put_turns(*this, span, piece);
+  } else {
+    put_tangents(*this, span, piece);
+  }
+  return piece;
 }
 
 }  // namespace sinew

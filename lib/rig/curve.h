@@ -11,23 +11,19 @@
 // C.
 //
 // Times are in seconds and ascend; before the first key and after the last a curve holds. A curve
-// without keys is no curve: at() must not be asked.
+// without keys is no curve: it must not be asked.
 #pragma once
 
 #include <vector>
 
 #include "core/settings.h"
-#include "core/vector.h"
+#include "rig/curve_piece.h"
 
 namespace sinew {
 
 /// Value: double or Vec3.
 template <class Value>
 struct Curve {
-  struct Sample {
-    Value value, rate;  ///< rate per second, exact
-  };
-
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> times;  ///< s, ascending
   std::vector<Value> values;
@@ -35,18 +31,14 @@ struct Curve {
   bool cyclic = false;
 
   bool empty() const { return times.empty(); }
-  Sample at(double time) const;
+  CurvePiece<Value> piece_at(double time) const;
+  CurveSample<Value> at(double time) const { return piece_at(time).at(time); }
 };
 
 extern template struct Curve<double>;
 extern template struct Curve<Vec3>;
 
 struct RotationCurve {
-  struct Sample {
-    Quat value;             ///< a unit quaternion
-    Vec3 angular_velocity;  ///< in the directions the rotations are given in, rad/s
-  };
-
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> times;  ///< s, ascending
   std::vector<Quat> values;   ///< unit quaternions of either sign
@@ -57,10 +49,8 @@ struct RotationCurve {
   bool cyclic = false;
 
   bool empty() const { return times.empty(); }
-  Sample at(double time) const;
+  RotationPiece piece_at(double time) const;
+  RotationSample at(double time) const { return piece_at(time).at(time); }
 };
-
-/// Writes down the short ways, which at() else finds anew each time: for curves asked often.
-void find_turns(RotationCurve& curve);
 
 }  // namespace sinew

@@ -67,27 +67,53 @@ void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
     for (Vec3& value : *values) value = scale * (turn * value);
 }
 
+/// Writes down the short ways from key to key, which the pieces of the curve else find anew.
+void find_turns(RotationCurve& curve) {
+  if (curve.empty() || !curve.turns.empty()) return;
+  std::vector<Vec3> turns = {Vec3::Zero()};
+  for (std::size_t k = 1; k < curve.values.size(); ++k)
+    turns.push_back(rotation_vector(curve.values[k] * curve.values[k - 1].conjugate()));
+  curve.turns = std::move(turns);
+}
+
+template <class Curve, class Piece>
+auto sample_of(const Curve& curve, double time, Piece& piece) {
+  if (!piece.time.covers(time)) piece = curve.piece_at(time);
+  return piece.at(time);
+}
+
 }  // namespace
 
+TrackCursor::TrackCursor(const Track& track)
+    : turns(!track.rotation.empty()),
+      twists(!track.twist.empty()),
+      shifts(!track.translation.empty()),
+      stretches(!track.stretch.empty()) {}
+
 LocalMotion Track::at(double time) const {
+  TrackCursor cursor(*this);
+  return at(time, cursor);
+}
+
+LocalMotion Track::at(double time, TrackCursor& cursor) const {
   LocalMotion motion;
-  if (!rotation.empty()) {
-    const auto sample = rotation.at(time);
+  if (cursor.turns) {
+    const auto sample = sample_of(rotation, time, cursor.rotation);
     motion.rotation = sample.value;
     motion.angular_velocity = sample.angular_velocity;
   }
-  if (!twist.empty()) {
-    const auto sample = twist.at(time);
+  if (cursor.twists) {
+    const auto sample = sample_of(twist, time, cursor.twist);
     motion.twist = sample.value;
     motion.twist_rate = sample.rate;
   }
-  if (!translation.empty()) {
-    const auto sample = translation.at(time);
+  if (cursor.shifts) {
+    const auto sample = sample_of(translation, time, cursor.translation);
     motion.translation = sample.value;
     motion.velocity = sample.rate;
   }
-  if (!stretch.empty()) {
-    const auto sample = stretch.at(time);
+  if (cursor.stretches) {
+    const auto sample = sample_of(stretch, time, cursor.stretch);
     const bool held = sample.value < least_stretch;
     motion.stretch = held ? least_stretch : sample.value;
     motion.stretch_rate = held ? 0 : sample.rate;
@@ -151,20 +177,29 @@ Motion placed(Motion motion, double scale, const Mat3& turn) {
   return motion;
 }
 
+ClipMoment clip_moment(const Motion& motion, double time) {
+  const ClipTime clip = clip_time(motion, time - motion.preroll);
+  if (time >= motion.preroll || motion.preroll <= 0) return {clip.time, clip.speed};
+  const double s = std::max(0.0, time / motion.preroll);
+  return {clip.time, clip.speed, true, s * s * (3 - 2 * s), 6 * s * (1 - s) / motion.preroll};
+}
+
+LocalMotion local_motion(const Track& track, const ClipMoment& moment, TrackCursor& cursor) {
+  LocalMotion local = track.at(moment.time, cursor);
+  if (moment.ramps) return ramped(local, moment.way, moment.rate);
+  slow_down(local, moment.speed);
+  return local;
+}
+
 std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion,
                                        double time) {
   std::vector<LocalMotion> local(skeleton.size());
-  const ClipTime moment = clip_time(motion, time - motion.preroll);
-  const bool ramp = time < motion.preroll && motion.preroll > 0;
-  const double s = ramp ? std::max(0.0, time / motion.preroll) : 1;
+  const ClipMoment moment = clip_moment(motion, time);
   for (const Track& track : motion.tracks) {
-    LocalMotion& its = local[static_cast<std::size_t>(track.bone)];
-    its = track.at(moment.time);
-    if (ramp)
-      its = ramped(its, s * s * (3 - 2 * s), 6 * s * (1 - s) / motion.preroll);
-    else
-      slow_down(its, moment.speed);
-    limit(skeleton.bones[static_cast<std::size_t>(track.bone)], its);
+    const auto bone = static_cast<std::size_t>(track.bone);
+    TrackCursor cursor(track);
+    local[bone] = local_motion(track, moment, cursor);
+    limit(skeleton.bones[bone], local[bone]);
   }
   return local;
 }

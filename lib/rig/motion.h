@@ -32,6 +32,8 @@ struct LocalMotion {
   double stretch = 1, stretch_rate = 0;  ///< of the bone's length, 1/s
 };
 
+struct TrackCursor;
+
 /// What moves of one bone; a curve without keys leaves its part at rest.
 struct Track {
   int bone = no_bone;
@@ -41,6 +43,17 @@ struct Track {
   Curve<double> stretch;    ///< > 0
 
   LocalMotion at(double time) const;  ///< time of the clip, s
+  LocalMotion at(double time, TrackCursor& cursor) const;
+};
+
+/// Where in its curves a track was last: near moments find the same pieces.
+struct TrackCursor {
+  explicit TrackCursor(const Track& track);
+
+  bool turns, twists, shifts, stretches;  ///< which curves there are
+  RotationPiece rotation;
+  CurvePiece<double> twist, stretch;
+  CurvePiece<Vec3> translation;
 };
 
 struct Motion {
@@ -62,7 +75,7 @@ double clip_length(const Motion& motion);
 bool stretches(const Motion& motion);
 
 /// A clip's motion with what a scene's section motion says of it: start, end, extrapolation and
-/// preroll; made ready to be asked for many poses. Throws bad input for a clip that would end
+/// preroll. Throws bad input for a clip that would end
 /// before it starts.
 Motion played(Motion clip, const Settings& settings);
 
@@ -74,10 +87,24 @@ Motion placed(Motion motion, double scale, const Mat3& turn);
 /// rate, or with a rotation given in two ways, by half, or by a quaternion that is no rotation.
 Motion make_motion(const Settings& settings, const Skeleton& skeleton);
 
+/// What a time of the scene is for a clip.
+struct ClipMoment {
+  double time = 0;           ///< of the clip, s
+  double speed = 1;          ///< s of the clip per s; 0 where it holds, -1 on the way back
+  bool ramps = false;        ///< within the preroll:
+  double way = 1, rate = 0;  ///< how much of the pose is reached, and its growth, 1/s
+};
+
+ClipMoment clip_moment(const Motion& motion, double time);
+
+/// What a track asks of its bone then, whatever its limits.
+LocalMotion local_motion(const Track& track, const ClipMoment& moment, TrackCursor& cursor);
+
 /// What each bone does at `time` (s of the scene), held within its limits.
 std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion, double time);
 
-/// The pose at `time` (s of the scene), with the velocities of the moving bones.
+/// The pose at `time` (s of the scene), with the velocities of the moving bones. For many times:
+/// pose_cursor.h.
 Pose pose_at(const Skeleton& skeleton, const Motion& motion, double time);
 
 }  // namespace sinew

@@ -130,6 +130,16 @@ Bone make_bone(const Settings& settings, std::size_t index, const Skeleton& earl
   return bone;
 }
 
+/// Which of x, y, z a unit vector has least of. Rounding must not choose between equals: their
+/// cross products with it are far apart.
+int least_along(const Vec3& unit) {
+  constexpr double equal = 1e-6;
+  const Vec3 sizes = unit.cwiseAbs();
+  int first = 0;
+  while (sizes[first] > sizes.minCoeff() + equal) ++first;
+  return first;
+}
+
 }  // namespace
 
 Skeleton make_skeleton(const Settings& settings) {
@@ -144,9 +154,10 @@ Skeleton make_skeleton(const Settings& settings) {
 
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn) {
   for (Bone& bone : skeleton.bones) {
+    const Mat3 roll = frame_along(bone.axis()).transpose() * bone.rest.rotation;
     bone.length *= scale;
     bone.rest.origin = scale * (turn * bone.rest.origin);
-    bone.rest.rotation = turn * bone.rest.rotation;
+    if (turn != Mat3::Identity()) bone.rest.rotation = frame_along(turn * bone.axis()) * roll;
   }
   return skeleton;
 }
@@ -154,9 +165,7 @@ Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn) {
 Mat3 frame_along(const Vec3& axis) {
   Mat3 frame;
   frame.col(0) = axis.normalized();
-  int flattest = 0;
-  frame.col(0).cwiseAbs().minCoeff(&flattest);
-  frame.col(1) = frame.col(0).cross(Vec3::Unit(flattest)).normalized();
+  frame.col(1) = frame.col(0).cross(Vec3::Unit(least_along(frame.col(0)))).normalized();
   frame.col(2) = frame.col(0).cross(frame.col(1));
   return frame;
 }

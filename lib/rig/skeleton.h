@@ -54,11 +54,13 @@ struct Skeleton {
 /// or with two, connected to nothing, or with limits that allow nothing.
 Skeleton make_skeleton(const Settings& settings);
 
-/// The rig in a scene's directions and lengths: turned about the origin, then times `scale`.
+/// The rig in a scene's directions and lengths: turned about the origin, then times `scale`. The
+/// sides of its bones are those of a rig that has always stood so: all formats give the same.
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn);
 
 /// A right-handed frame whose first column is `axis` (need not be unit, must not be zero). Its
-/// second is across the axis and that one of x, y, z which is least along it, the first of equals.
+/// second is across the axis and that one of x, y, z which is least along it, the first of those
+/// that are equal to 1e-6: rounding swaps no sides.
 Mat3 frame_along(const Vec3& axis);
 
 }  // namespace sinew

@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "rig/bvh.h"
-#include "rig/bvh_files.h"
+#include "rig/bvh/bvh.h"
+#include "rig/bvh/bvh_files.h"
 
 namespace {
 

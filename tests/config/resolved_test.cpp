@@ -119,7 +119,7 @@ class Chance {
     drawn.material.preset = MaterialPresetName::none;
     drawn.skeleton.file.clear();
     drawn.motion.file.clear();
-    drawn.skeleton.up = static_cast<Axis>(below(6));
+    drawn.body.forward.reset();
     drawn.skeleton.forward.reset();
     drawn.motion.end = drawn.motion.start + 1;
     drawn.output.interval = std::min(drawn.output.interval, drawn.solver.duration);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 
 #include <cmath>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // BVH files that are cut short, lie, or are something else: each gives exit code 2 and one line
 // that names the file, the line and a cure; none a crash.
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 
 #include <gtest/gtest.h>
 
 #include <cctype>
 #include <random>
 
-#include "rig/bvh_files.h"
+#include "rig/bvh/bvh_files.h"
 #include "scratch.h"
 
 namespace sinew {
@@ -175,7 +175,7 @@ TEST(HostileBvh, Braces) {
   expect_refused(with("      {\n        OFFSET 0.0 0.0 0.25\n      }", "      OFFSET 0 0 1"),
                  "'{'");
   expect_refused(with("OFFSET 0.0 0.0 0.25\n", ""), "End Site");
-  expect_refused(with("OFFSET 0.0 0.0 0.25\n", "OFFSET 0 0 1 CHANNELS 0"), "End Site");
+  expect_refused(with("OFFSET 0.0 0.0 0.25\n", "OFFSET 0 0 1 CHANNELS 3 "), "End Site");
   expect_refused(with("End Site", "End"), "'Site'");
 }
 

@@ -3,9 +3,9 @@
 
 #include "config/scene.h"
 #include "expect_error.h"
-#include "io/gltf/find_clip.h"
 #include "io/gltf/read_gltf.h"
 #include "io/gltf_rigs.h"
+#include "rig/clip.h"
 
 namespace sinew {
 namespace {
@@ -40,6 +40,19 @@ TEST_F(ReadGltfRig, GivesBonesAsBound) {
     EXPECT_EQ(skeleton.bones[0].tail(), Vec3(0, 0, 1));
     EXPECT_EQ(skeleton.bones[1].tail(), Vec3(0, 0, 2)) << "the only child of a last joint ends it";
   }
+}
+
+TEST_F(ReadGltfRig, EndsBonesAtTheNodesNamedTheirEnds) {
+  Gltf gltf = bar();
+  Json& nodes = gltf.json["nodes"];
+  nodes[0]["children"].push_back(
+      gltf.node({{"name", "lower_end"}, {"translation", {0.25, 0, 0.5}}}));
+  nodes[1]["children"].push_back(gltf.node({{"name", "hair"}, {"translation", {1, 0, 0}}}));
+  nodes[2]["name"] = "upper_end";
+  const Skeleton skeleton = read(gltf).rig.skeleton;
+  ASSERT_EQ(skeleton.size(), 2u);
+  EXPECT_EQ(skeleton.bones[0].tail(), Vec3(0.25, 0, 0.5)) << "not the joint below";
+  EXPECT_EQ(skeleton.bones[1].tail(), Vec3(0, 0, 2)) << "not the other child";
 }
 
 TEST_F(ReadGltfRig, GivesTheMeshThatReadGltfGives) {

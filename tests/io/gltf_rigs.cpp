@@ -44,6 +44,8 @@ std::vector<Affine> vtk_joints(const std::filesystem::path& path, int animation,
   return {};
 }
 
+}  // namespace
+
 Points vtk_corners(const std::filesystem::path& path, int animation, double time) {
   vtkNew<vtkGLTFReader> reader;
   reader->SetFileName(path.c_str());
@@ -61,8 +63,6 @@ Points vtk_corners(const std::filesystem::path& path, int animation, double time
   }
   return corners;
 }
-
-}  // namespace
 
 VtkPose vtk_pose(const std::filesystem::path& path, int animation, double time) {
   return {vtk_joints(path, animation, time), vtk_corners(path, animation, time)};

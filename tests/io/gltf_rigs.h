@@ -94,6 +94,7 @@ struct VtkPose {
 };
 
 VtkPose vtk_pose(const std::filesystem::path& path, int animation, double time);
+Points vtk_corners(const std::filesystem::path& path, int animation, double time);
 
 /// Where our rig puts the corners of its mesh, each carried by its bones as they are weighted.
 Points skinned_corners(const GltfRig& rig, const Pose& pose);

@@ -71,6 +71,20 @@ TEST(Read, TakesSeveralSolidsOfAnStl) {
   EXPECT_EQ(read_surface(mesh_files::body_at(path)).components, 2);
 }
 
+TEST(Read, TurnsTheMeshAsTheBodySays) {
+  const Folder folder;
+  BodySettings body = mesh_files::body_at(folder.file(
+      "a.obj", mesh_files::obj(shapes::box(Vec3::Zero(), Vec3(1, 2, 3)))));  // x 1, y 2, z 3 long
+  const auto sizes = [&] { return Vec3(bounds(read_surface(body).triangles.points).sizes()); };
+  body.scale = 2;
+  body.up = Axis::y;
+  EXPECT_EQ(sizes(), Vec3(6, 2, 4)) << "z is forward where y is up";
+  EXPECT_GT(volume(read_surface(body).triangles), 0) << "turned, not mirrored";
+  body.forward = Axis::minus_x;
+  EXPECT_EQ(sizes(), Vec3(2, 6, 4));
+  EXPECT_LT(bounds(read_surface(body).triangles.points).min().x(), -1.5);
+}
+
 TEST(Read, TakesObjAsProgramsWriteIt) {
   const Folder folder;
   const std::string text =

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "rig/pose_cursor.h"
 #include "world.h"
 
 namespace sinew {
@@ -176,6 +177,31 @@ TEST(Pose, VelocitiesAreTheDerivativesOfThePose) {
   for (const auto kind : every_way)
     for (const double time : {0.1, 0.35, 0.69, 0.9, 1.2, 1.7, 1.95})
       expect_derivatives(busy_chain(kind), time);
+}
+
+TEST(PoseCursor, GivesTheSameBitsInAnyOrderOfTimes) {
+  for (const auto kind : every_way)
+    for (const auto after : {Extrapolation::hold, Extrapolation::loop, Extrapolation::ping_pong}) {
+      Settings settings = busy_chain(kind);
+      settings.tracks.erase(settings.tracks.begin() + 1);  // b1 goes with its parent
+      settings.bones[2].limits.swing = 60;
+      settings.motion.extrapolation = after;
+      settings.motion.preroll = 0.5;
+      const Skeleton skeleton = make_skeleton(settings);
+      const Motion motion = make_motion(settings, skeleton);
+      PoseCursor cursor(skeleton, motion);
+      for (const double time : {0.0, 0.2, 0.5, 1.1, 1.2, 1.21, 3.9, 2.5, 2.4, 0.1, 7.0, 1.2}) {
+        const Pose& pose = cursor.at(time);
+        const Pose alone = pose_at(skeleton, motion, time);
+        for (std::size_t b = 0; b < pose.size(); ++b) {
+          EXPECT_EQ(pose[b].frame.origin, alone[b].frame.origin) << time;
+          EXPECT_EQ(pose[b].frame.rotation, alone[b].frame.rotation) << time;
+          EXPECT_EQ(pose[b].velocity, alone[b].velocity) << time;
+          EXPECT_EQ(pose[b].angular_velocity, alone[b].angular_velocity) << time;
+          EXPECT_EQ(pose[b].stretch_rate, alone[b].stretch_rate) << time;
+        }
+      }
+    }
 }
 
 TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {

@@ -195,9 +195,26 @@ TEST(Placed, RigAndMotionTurnAndGrowTogether) {
     const BonePose a = pose_at(one, make_motion(settings, one), time)[1];
     const BonePose b = pose_at(two, make_motion(other, two), time)[1];
     EXPECT_LT((b.frame.origin - 0.01 * turn * a.frame.origin).norm(), 1e-15);
-    EXPECT_LT((b.frame.rotation - turn * a.frame.rotation).norm(), 1e-14);
+    EXPECT_LT((b.turn - turn * a.turn * turn.transpose()).norm(), 1e-14);
+    EXPECT_LT((b.axis() - turn * a.axis()).norm(), 1e-14);
     EXPECT_LT((b.velocity - 0.01 * turn * a.velocity).norm(), 1e-15);
     EXPECT_LT((b.angular_velocity - turn * a.angular_velocity).norm(), 1e-14);
+  }
+}
+
+TEST(Placed, BonesHaveTheSidesOfBonesThatStandSoFromTheStart) {
+  Settings standing = bending(), turned = bending();
+  standing.bones[1].tail = Vec3(0.1, 0.3, 2);
+  standing.bones[1].roll = turned.bones[1].roll = 25;
+  turned.skeleton.up = Axis::y;
+  const Mat3 back = to_scene(turned.skeleton).transpose();
+  for (BoneSettings& bone : turned.bones) bone.head.reset();
+  turned.bones[0].head = Vec3::Zero();
+  for (std::size_t b = 0; b < 2; ++b) turned.bones[b].tail = back * *standing.bones[b].tail;
+  const Skeleton one = make_skeleton(standing), two = make_skeleton(turned);
+  for (std::size_t b = 0; b < 2; ++b) {
+    EXPECT_LT((two.bones[b].tail() - one.bones[b].tail()).norm(), 1e-15);
+    EXPECT_LT((two.bones[b].rest.rotation - one.bones[b].rest.rotation).norm(), 1e-14) << b;
   }
 }
 

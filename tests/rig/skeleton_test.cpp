@@ -53,6 +53,17 @@ TEST(Skeleton, FramesAreRightHandedForEveryDirection) {
   }
 }
 
+TEST(Skeleton, RoundingSwapsNoSidesOfAFrame) {
+  const std::vector<Vec3> axes = {Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ(), {1, 1, 0},
+                                  {1, 0, -1},    {1, 1, 1},     {3, -3, 3},     {2, 1, 1}};
+  for (const Vec3& axis : axes)
+    for (int other = 0; other < 27; ++other) {
+      const Vec3 residue(other % 3 - 1, other / 3 % 3 - 1, other / 9 - 1);
+      EXPECT_LT((frame_along(axis + 1e-15 * residue) - frame_along(axis)).norm(), 1e-14)
+          << axis.transpose() << " and " << residue.transpose();
+    }
+}
+
 TEST(Skeleton, TakesLengthAndDirectionInPlaceOfATail) {
   Settings settings = two_bones();
   settings.bones[1].tail.reset();

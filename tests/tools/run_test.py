@@ -153,8 +153,15 @@ class Commands(unittest.TestCase):
         rest = struct.unpack(f"<{3 * points}f", cache[32:32 + 12 * points])
         for found, expected in zip(rest, [float(x) for vertex in vertices for x in vertex]):
             self.assertAlmostEqual(found, expected, 6)
+        moving = (self.out / "surface.glb").read_bytes()
+        size = struct.unpack("<I", moving[12:16])[0]
+        document = json.loads(moving[20:20 + size])
+        self.assertEqual(len(document["meshes"][0]["primitives"][0]["targets"]), 12)
+        self.assertEqual(document["buffers"][0]["byteLength"], len(moving) - size - 28)
+        again = json.loads(sinew("info", self.out / "surface.glb", "--up", "y", "--json", check=0).stdout)
+        self.assertEqual((again["points"], again["closed"]), (points, True))
         self.simulate("--force")
-        for name in ("skin_lbs.pvd", "skin_dqs.pvd", "surface.pc2", "surface.obj"):
+        for name in ("skin_lbs.pvd", "skin_dqs.pvd", "surface.pc2", "surface.obj", "surface.glb"):
             self.assertFalse((self.out / name).exists(), name)
 
     def test_bindings_are_all_of_the_scenes_choice(self):

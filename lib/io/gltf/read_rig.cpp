@@ -36,11 +36,21 @@ void check_size(const GltfDocument& document) {
                     "export fewer of them");
 }
 
-/// Where the bone of a joint without joints below it ends.
-std::optional<Vec3> end_of(const GltfDocument& document, const GltfJoint& joint) {
-  const auto& children = document.nodes[static_cast<std::size_t>(joint.node)].children;
-  if (children.size() != 1) return std::nullopt;
-  const GltfNode& child = document.nodes[static_cast<std::size_t>(children[0])];
+const GltfNode& node_of(const GltfDocument& document, int node) {
+  return document.nodes[static_cast<std::size_t>(node)];
+}
+
+/// Where the bone of a joint ends, as far as its nodes tell: at the child that is named its end,
+/// or, where no joints hang on it, at its only one.
+std::optional<Vec3> end_of(const GltfDocument& document, const GltfJoint& joint, bool is_leaf) {
+  const GltfNode& node = node_of(document, joint.node);
+  std::string end = node.name;
+  end += "_end";
+  for (const int child : node.children)
+    if (!node.name.empty() && node_of(document, child).name == end)
+      return joint.bind * place_of(node_of(document, child)).translation;
+  if (!is_leaf || node.children.size() != 1) return std::nullopt;
+  const GltfNode& child = node_of(document, node.children[0]);
   if (child.mesh >= 0) return std::nullopt;
   return joint.bind * place_of(child).translation;
 }
@@ -50,11 +60,9 @@ Skeleton skeleton_in(const GltfDocument& document, const GltfBindPose& bind) {
   for (const GltfJoint& joint : bind.joints)
     if (joint.parent >= 0) leaf[static_cast<std::size_t>(joint.parent)] = false;
   std::vector<Joint> joints;
-  for (const GltfJoint& joint : bind.joints) {
-    const bool ends = leaf[joints.size()];
-    joints.push_back({document.nodes[static_cast<std::size_t>(joint.node)].name, joint.parent,
-                      joint.bind.translation(), ends ? end_of(document, joint) : std::nullopt});
-  }
+  for (const GltfJoint& joint : bind.joints)
+    joints.push_back({node_of(document, joint.node).name, joint.parent, joint.bind.translation(),
+                      end_of(document, joint, leaf[joints.size()])});
   return skeleton_of(joints);
 }
 

@@ -3,8 +3,9 @@
 //
 // Bones are the joints of all skins that move a mesh of the default scene (of all skins where none
 // does), each node once; their rest is the pose in which the skins were bound, placed and scaled
-// in the scene as bind_pose.h says. Their tails are those of rig/joints.h; a joint without joints
-// below it ends at its only child node, if it has one without a mesh. Every animation is a clip.
+// in the scene as bind_pose.h says. Their tails are those of rig/joints.h; a joint "x" ends at its
+// child node "x_end", as Blender names ends; without one, and without joints below it, at its only
+// child node, if that has no mesh. Every animation is a clip.
 // Keys stay keys; where that cannot be (scale, moving nodes between joints) the bone is sampled,
 // as joint_tracks.h says. Bones are rigid: scale that changes over time moves the heads below it,
 // but sizes nothing; stretch is not used. Morph targets do not move.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 
 #include <algorithm>
 
 #include "core/file.h"
 #include "core/number_text.h"
-#include "rig/bvh_hierarchy.h"
+#include "rig/bvh/hierarchy.h"
 
 namespace sinew {
 namespace {

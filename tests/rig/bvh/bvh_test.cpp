@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a BVH file says, in all the forms it is found in.
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 
 #include <gtest/gtest.h>
 
-#include "rig/bvh_files.h"
+#include "rig/bvh/bvh_files.h"
 #include "scratch.h"
 
 namespace sinew {
@@ -126,6 +126,14 @@ TEST(Bvh, TheFirstEndSiteOfAJointCountsBesideItsChildren) {
   const Bvh bvh = parsed(replaced(bvh_files::small, "  JOINT knee", ends));
   EXPECT_EQ(bvh.joints[0].end, Vec3(1, 2, 3));
   EXPECT_EQ(bvh.joints.size(), 3u);
+}
+
+TEST(Bvh, EndSitesMayHaveANameAndNoChannels) {
+  const Bvh expected = parsed(bvh_files::small);
+  for (const auto& [usual, other] : {std::pair("End Site\n", "End Site rig:toe end\n"),
+                                     {"End Site\n      {", "End Site toe {"},
+                                     {"0.0 0.0 0.25\n", "0.0 0.0 0.25\n        CHANNELS 0\n"}})
+    EXPECT_EQ(parsed(replaced(bvh_files::small, usual, other)), expected) << other;
 }
 
 TEST(Bvh, AHierarchyAloneIsASkeletonWithoutAClip) {

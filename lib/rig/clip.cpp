@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf/find_clip.h"
+#include "rig/clip.h"
 
 #include <algorithm>
 

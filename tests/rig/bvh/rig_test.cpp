@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "expect_error.h"
-#include "rig/bvh.h"
-#include "rig/bvh_files.h"
+#include "rig/bvh/bvh.h"
+#include "rig/bvh/bvh_files.h"
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/bvh_hierarchy.h"
+#include "rig/bvh/hierarchy.h"
 
 #include <algorithm>
 #include <array>
@@ -125,9 +125,12 @@ class Hierarchy {
 
   void read_end() {
     text_.expect("Site", "write End Site");
+    text_.name();
     text_.expect("{", "open the End Site with '{'");
     text_.expect("OFFSET", "give the End Site its OFFSET, and nothing else");
     const Vec3 end = vector();
+    if (text_.take("CHANNELS") && text_.integer("the number of channels") != 0)
+      throw text_.wrong("an End Site with channels", "make it a JOINT, or take them out");
     text_.expect("}", "close the End Site with '}'");
     if (!joint().end) joint().end = end;
   }

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/words.h"
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 #include "rig/joints.h"
 
 namespace sinew {

@@ -5,8 +5,9 @@
 // (M. Meredith, S. Maddock: Motion Capture File Formats Explained, 2001). Taken as well: words in
 // any case, any spaces and ends of lines, frames that are split over lines, numbers as "+1", ".5"
 // or "1e-3", a byte order mark, names with spaces, several roots, joints without channels, channels
-// in any order, an End Site beside child joints (of several in one joint the first counts). A file
-// that ends after its HIERARCHY is a skeleton without a clip. Not taken: comments, scale channels.
+// in any order, an End Site beside child joints (of several in one joint the first counts), with a
+// name or "CHANNELS 0". A file that ends after its HIERARCHY is a skeleton without a clip. Not
+// taken: comments, scale channels.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/bvh_text.h"
+#include "rig/bvh/text.h"
 
 #include <algorithm>
 #include <charconv>

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "rig/bvh.h"
-#include "rig/bvh_text.h"
+#include "rig/bvh/bvh.h"
+#include "rig/bvh/text.h"
 
 namespace sinew {
 

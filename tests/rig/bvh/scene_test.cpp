@@ -6,7 +6,7 @@
 #include <string>
 
 #include "config/scene.h"
-#include "rig/bvh.h"
+#include "rig/bvh/bvh.h"
 #include "rig/motion.h"
 
 namespace sinew {

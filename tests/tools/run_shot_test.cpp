@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What pictures show of a run, from the files that a run has left.
+#include "run_shot.h"
+
+#include <gtest/gtest.h>
+
+#include "tools/run_program.h"
+
+namespace sinew {
+namespace {
+
+const std::string source = SINEW_SOURCE_DIR;
+
+/// The box at a coarse radius; its upper bone stretches by half in a tenth of a second.
+std::string stretching_scene() {
+  return "body: {mesh: " + source + R"(/data/meshes/box.obj, radius: 0.03}
+skeleton:
+  bones:
+    - {name: lower, head: [0, 0, 0], tail: [0, 0, 0.34648]}
+    - {name: upper, parent: lower, tail: [0, 0, 0.69296]}
+motion:
+  tracks:
+    - {bone: upper, keys: [{time: 0}, {time: 0.1, stretch: 1.5}]}
+solver: {duration: 0.1}
+output: {interval: 0.05}
+)";
+}
+
+TEST(RunShot, ShowsStretchedBonesAsLongAsTheyAre) {
+  const TempFolder folder;
+  const std::string scene = folder.write("scene.yaml", stretching_scene()).string();
+  const RunFolder run_at{folder.path() / "run"};
+  const Ran ran = run(std::string(FRONT) + " simulate " + scene + " -o " + run_at.path.string());
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const RunFiles files = open_run(run_at);
+  for (const auto& [frame, stretch] : {std::pair(0, 1.0), {1, 1.25}, {2, 1.5}}) {
+    const Shot shot = shot_of(files, read_frame(files, static_cast<std::size_t>(frame)), 0);
+    const ShotBone &lower = shot.bones.at(0), &upper = shot.bones.at(1);
+    EXPECT_NEAR((lower.tail - lower.head).norm(), 0.34648, 1e-6);
+    EXPECT_NEAR((upper.tail - upper.head).norm(), stretch * 0.34648, 1e-6) << frame;
+    EXPECT_LT((upper.head - lower.tail).norm(), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace sinew
