@@ -10,6 +10,7 @@
 #include "core/number_text.h"
 #include "core/scene_text.h"
 #include "core/settings_table.h"
+#include "measured_body.h"
 #include "mesh/surface_gap.h"
 #include "metrics/json.h"
 #include "metrics/measure.h"
@@ -130,8 +131,8 @@ void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, co
   for (Side* side : {&first, &second}) side->film = plan_film(side->rest, pairs.size(), 0.5);
   second.film.wanted = first.film.wanted;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const FrameState one = state_of(read_frame(first.run, pairs[k][0]));
-    const FrameState other = state_of(read_frame(second.run, pairs[k][1]));
+    const FrameState one = measured_frame(read_frame(first.run, pairs[k][0]));
+    const FrameState other = measured_frame(read_frame(second.run, pairs[k][1]));
     add_distances(second.measured.frames[pairs[k][1]], one, other, first, second, same);
     add_shot(first, k, one);
     add_shot(second, k, other);

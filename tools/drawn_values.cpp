@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/words.h"
 #include "io/arrays.h"
-#include "law_curves.h"
+#include "measured_body.h"
 #include "metrics/particle_values.h"
 
 namespace sinew {
@@ -44,21 +44,6 @@ Error unknown(const std::string& name) {
   return bad_input("particles have no array " + shown(name), suggestion(name, names));
 }
 
-std::shared_ptr<const RestBody> rest_of(const RunFiles& run) {
-  RestInput input;
-  input.positions = positions_of(run.body.particles);
-  input.surface = run.surface;
-  input.bone.assign(run.body.bone->begin(), run.body.bone->end());
-  for (const Bone& bone : run.skeleton.bones)
-    input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
-  input.radius = run.body.particles.radius;
-  input.interaction_range = run.settings.material.b * input.radius;
-  const MaterialSettings& material = run.settings.material;
-  if (material.model == MaterialModel::paper && material.cohesion == Cohesion::all)
-    input.pair_force = [pair = material_of(run).pair](double d) { return pair.force(d); };
-  return std::make_shared<RestBody>(rest_body(std::move(input)));
-}
-
 Dataset columns_of(const RunFiles& run, std::size_t index, const std::string& name) {
   const auto file = run.folder.path / run.particle_rows[index].file;
   Dataset data = read_vtu(file, {name.c_str()});
@@ -76,8 +61,8 @@ Dataset columns_of(const RunFiles& run, std::size_t index, const std::string& na
 DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&run), name_(name) {
   if (const MeasuredArray* array = find_measured(name)) {
     unit_ = array->unit;
-    rest_ = rest_of(run);
-    if (name == "von_mises" && !rest_->pair_force)
+    rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
+    if (name == "von_mises" && !rest_->law.force)
       throw bad_input("von_mises cannot be measured in a run with this material", "show strain");
     return;
   }
@@ -88,8 +73,7 @@ DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&r
 }
 
 std::vector<double> DrawnValues::measured(const RunFrame& frame) const {
-  const FrameState state{frame.time,           frame.positions, frame.velocities,
-                         frame.surface_points, frame.bones,     frame.energies};
+  const FrameState state = measured_frame(frame);
   return particle_values(*rest_, state).*find_measured(name_)->values;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/closest_packing.h"
 #include "core/number_text.h"
+#include "measured_body.h"
 #include "physics/bone_force.h"
 #include "rig/binding.h"
 
@@ -79,12 +80,6 @@ Curve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skele
 }
 
 }  // namespace
-
-Material material_of(const RunFiles& run) {
-  return make_material(run.settings.material,
-                       shape_of(positions_of(run.body.particles), run.body.particles.radius,
-                                run.body.particles.mass));
-}
 
 std::vector<Curve> law_curves(const RunFiles& run) {
   const Material material = material_of(run);

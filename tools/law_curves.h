@@ -5,13 +5,9 @@
 #include <vector>
 
 #include "metrics/report/report.h"
-#include "physics/material.h"
 #include "run_files.h"
 
 namespace sinew {
-
-/// The constants that the run's particles had.
-Material material_of(const RunFiles& run);
 
 std::vector<Curve> law_curves(const RunFiles& run);
 

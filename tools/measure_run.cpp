@@ -19,7 +19,7 @@ void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   for (const std::string_view name : telling_metrics()) {
     const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
     if (!worst || measured.film.has(*worst)) continue;
-    const FrameState state = state_of(read_frame(run, *worst));
+    const FrameState state = measured_frame(read_frame(run, *worst));
     add_frame(measured.film, *worst, rest, state, particle_values(rest, state));
   }
 }
@@ -84,7 +84,7 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   FramesInOrder frames(run, how.ahead);
   ValueSeries values(run, how.arrays);
   for (std::size_t i = 0; i < run.frames(); ++i) {
-    const FrameState state = state_of(frames.next());
+    const FrameState state = measured_frame(frames.next());
     measure_one(measured, course, rest, run, state, how);
     values.add(rest, state);
   }
@@ -95,22 +95,9 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
 }  // namespace
 
 RestBody rest_of(const RunFiles& run) {
-  RestInput input = measured_body(material_of(run), run.skeleton);
-  input.positions = positions_of(run.body.particles);
-  input.surface = run.surface;
-  input.bone.assign(run.body.bone->begin(), run.body.bone->end());
-  if (run.body.weight) input.weight = *run.body.weight;
+  RestInput input = measured_body(run);
   input.start = read_frame(run, 0).energies;
   return rest_body(std::move(input));
-}
-
-FrameState state_of(RunFrame frame) {
-  return {frame.time,
-          std::move(frame.positions),
-          std::move(frame.velocities),
-          std::move(frame.surface_points),
-          std::move(frame.bones),
-          frame.energies};
 }
 
 Measured measure_run(const RunFiles& run, const HowToMeasure& how) {

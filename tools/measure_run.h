@@ -36,9 +36,6 @@ struct HowToMeasure {
 /// The body of a run at rest.
 RestBody rest_of(const RunFiles& run);
 
-/// Takes a frame's numbers.
-FrameState state_of(RunFrame frame);
-
 /// Two frames are in memory at a time. Throws what reading them does, and not written.
 Measured measure_run(const RunFiles& run, const HowToMeasure& how);
 

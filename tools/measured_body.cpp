@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "measured_body.h"
 
+#include <utility>
+
 namespace sinew {
+
+Material material_of(const RunFiles& run) {
+  return make_material(run.settings.material,
+                       shape_of(positions_of(run.body.particles), run.body.particles.radius,
+                                run.body.particles.mass));
+}
 
 PairLaw pair_law(const Material& material) {
   const PairForce pair = material.pair;
@@ -26,6 +34,25 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton) {
   input.mass = material.mass;
   input.law = pair_law(material);
   return input;
+}
+
+RestInput measured_body(const RunFiles& run) {
+  RestInput input = measured_body(material_of(run), run.skeleton);
+  input.positions = positions_of(run.body.particles);
+  input.surface = run.surface;
+  input.bone.assign(run.body.bone->begin(), run.body.bone->end());
+  if (run.body.weight) input.weight = *run.body.weight;
+  return input;
+}
+
+FrameState measured_frame(RunFrame frame) {
+  return {frame.time,
+          std::move(frame.positions),
+          std::move(frame.velocities),
+          std::move(frame.surface_points),
+          std::move(frame.bones),
+          frame.energies,
+          std::move(frame.bone_lengths)};
 }
 
 }  // namespace sinew

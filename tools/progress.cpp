@@ -12,6 +12,7 @@ namespace sinew {
 namespace {
 
 constexpr auto between_lines = std::chrono::milliseconds(100);  // a terminal needs no more
+constexpr double worth_telling = 0.05;  // share of the time that writing holds up the stepping
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));
@@ -28,10 +29,12 @@ ProgressStyle progress_style(bool quiet) {
 }
 
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
-                          double seconds_left) {
+                          double seconds_left, double share_waited) {
   std::string text = fmt::format("frame {}/{}  time {:.4g} s", frame, frames, time);
   if (steps_per_second > 0) text += fmt::format("  {:.0f} steps/s", steps_per_second);
   if (seconds_left > 0) text += fmt::format("  {} left", duration_text(seconds_left));
+  if (share_waited > worth_telling)
+    text += fmt::format("  {:.0f} % spent waiting for the disk", 100 * share_waited);
   return text;
 }
 
@@ -42,7 +45,7 @@ Progress::~Progress() {
   if (width_ > 0) std::fputc('\n', out_);
 }
 
-void Progress::frame(int frame, double time, std::int64_t steps) {
+void Progress::frame(int frame, double time, std::int64_t steps, double waited) {
   if (style_ == ProgressStyle::none) return;
   const auto now = Clock::now();
   if (!std::exchange(begun_, true)) {
@@ -55,7 +58,7 @@ void Progress::frame(int frame, double time, std::int64_t steps) {
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double speed = seconds > 0 ? static_cast<double>(steps - first_steps_) / seconds : 0;
   const double left = seconds * (frames_ - frame) / std::max(1, frame - first_frame_);
-  const std::string line = progress_text(frame, frames_, time, speed, left);
+  const std::string line = progress_text(frame, frames_, time, speed, left, seconds > 0 ? waited / seconds : 0);
   const int tenths = frames_ > 0 ? static_cast<int>(std::int64_t{frame} * 10 / frames_) : 0;
   if (style_ == ProgressStyle::rewritten) {
     if (now - shown_ >= between_lines || frame >= frames_) rewrite(line);

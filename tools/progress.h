@@ -15,9 +15,10 @@ enum class ProgressStyle { none, lines, rewritten };
 /// No colours and no escape sequences anywhere, so NO_COLOR and plain terminals get what they ask.
 ProgressStyle progress_style(bool quiet);
 
-/// "frame 30/90  time 1 s  1234 steps/s  0:52 left"; unknown parts (0, negative) are left out.
+/// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts
+/// (0, negative) and waits below a twentieth are left out.
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
-                          double seconds_left);
+                          double seconds_left, double share_waited = 0);
 
 class Progress {
  public:
@@ -27,9 +28,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Frame number `frame` is done, at `time` (s of the scene), after `steps` steps of this run.
-  /// The first call starts the clock.
-  void frame(int frame, double time, std::int64_t steps);
+  /// Frame number `frame` is done, at `time` (s of the scene), after `steps` steps of this run, of
+  /// which it has waited (s) for frames to be written. The first call starts the clock.
+  void frame(int frame, double time, std::int64_t steps, double waited = 0);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -46,6 +46,9 @@ class Recorder {
   /// Waits until all frames are written and named by the PVDs. Throws not written.
   void close();
 
+  /// How long add() has waited for frames before to be written, s.
+  double waited() const { return writer_.waited(); }
+
   /// Frames that every series holds.
   int written() const { return written_; }
 

@@ -24,6 +24,7 @@
 #include "scene_body.h"
 #include "setup.h"
 #include "stop_signal.h"
+#include "warnings.h"
 
 namespace {
 
@@ -111,7 +112,7 @@ Exit step_through(Simulation& simulation, const Course& course, Recorder& record
       recorder.add(simulation, time);
       journal.frame(frame, time);
       journal.spend("writing", watch.lap());  // what the stepping waited for it
-      progress.frame(frame++, time, simulation.steps());
+      progress.frame(frame++, time, simulation.steps(), recorder.waited());
     }
     if (frame > course.frames) return Exit::done;
     // However little time there is, a run that is resumed again and again comes to its end.
@@ -266,6 +267,10 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
   say(common, "step " + three_digits(made.setup.steps.step) + " s, " +
                   three_digits(made.setup.steps.factor()) + " of the stability limit " +
                   three_digits(made.setup.steps.limit) + " s");
+
+  for (const std::string& warning : warnings_of(
+           made.setup, settings.solver, bone_speed(made.setup, settings.output.interval)))
+    say(common, "sinew: warning: " + warning);
 
   catch_stop_signals();
   const Exit exit = run_to_end(settings, std::move(made), folder, journal, keeper, state, common);

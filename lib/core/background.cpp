@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/stopwatch.h"
+
 namespace sinew {
 
 Background::Background(std::size_t most) : most_(most), thread_([this] { work(); }) {}
@@ -17,10 +19,12 @@ Background::~Background() {
 }
 
 void Background::hand(const std::function<Job()>& make) {
+  Stopwatch watch;
   {
     std::unique_lock lock(mutex_);
     wait_for_fewer(lock, most_);
   }
+  waited_ += watch.lap();
   Job job = make();  // only this thread adds: the room found above stays
   {
     const std::lock_guard lock(mutex_);

@@ -31,6 +31,8 @@ class Background {
   void hand(const std::function<Job()>& make);
   /// Waits until all is done. Throws what a job has thrown, each time it is called.
   void finish();
+  /// How long hand() has waited for room in all, s: what the jobs have held up the caller.
+  double waited() const { return waited_; }
 
  private:
   void work();
@@ -38,6 +40,7 @@ class Background {
   void wait_for_fewer(std::unique_lock<std::mutex>& lock, std::size_t most);
 
   std::size_t most_;
+  double waited_ = 0;
   std::mutex mutex_;
   std::condition_variable handed_, done_;
   std::deque<Job> waiting_;

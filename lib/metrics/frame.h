@@ -29,6 +29,7 @@ struct FrameState {
   Points surface_points;          ///< in the order of the surface at rest, m
   std::vector<RigidFrame> bones;  ///< where each bone is
   Energies energies;
+  std::vector<double> bone_lengths;  ///< head to tail, m; empty: as at rest
 };
 
 /// What is measured of one frame: units, meaning and formula of each stand in table.cpp.

@@ -78,6 +78,17 @@ TEST(Film, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
 }
 
+TEST(Film, DrawsBonesAsLongAsTheyAre) {
+  const RestBody body = rest_body(box_input());
+  FrameState state = at_rest(body);
+  for (const MeasuredBone& bone : body.bones) state.bone_lengths.push_back(2 * bone.length);
+  Film film = plan_film(body, 1);
+  add_frame(film, 0, body, state, particle_values(body, state));
+  const std::vector<float>& ends = film.frames[0].bones;  // head and tail of each
+  const double length = Vec3(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]).norm();
+  EXPECT_NEAR(length, 2 * body.bones[0].length, 1e-6);
+}
+
 TEST(Film, LeavesOutWhatWasNotMeasured) {
   const auto json = nlohmann::json::parse(film_json(whole_film(rest_body(box_input()), 1)));
   for (const auto& field : json["fields"]) EXPECT_NE(field["name"], "von Mises stress");

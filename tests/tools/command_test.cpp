@@ -193,6 +193,9 @@ TEST(Progress, TextLeavesOutWhatIsUnknown) {
   EXPECT_EQ(progress_text(30, 90, 1, 1234.4, 52), "frame 30/90  time 1 s  1234 steps/s  0:52 left");
   EXPECT_EQ(progress_text(30, 90, 1, 0, 3725), "frame 30/90  time 1 s  1:02:05 left");
   EXPECT_EQ(progress_text(90, 90, 3, 0, 0), "frame 90/90  time 3 s");
+  EXPECT_EQ(progress_text(30, 90, 1, 0, 0, 0.314),
+            "frame 30/90  time 1 s  31 % spent waiting for the disk");
+  EXPECT_EQ(progress_text(30, 90, 1, 0, 0, 0.04), "frame 30/90  time 1 s");
 }
 
 TEST(Progress, OnATerminalOneLineIsRewrittenAndEnded) {

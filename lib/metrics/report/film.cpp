@@ -145,7 +145,9 @@ void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameS
   for (std::size_t b = 0; b < rest.bones.size(); ++b) {
     const RigidFrame& bone = state.bones[b];
     append(shot.bones, bone.origin);
-    append(shot.bones, bone.origin + rest.bones[b].length * bone.rotation.col(0));
+    const double length =
+        state.bone_lengths.empty() ? rest.bones[b].length : state.bone_lengths[b];
+    append(shot.bones, bone.origin + length * bone.rotation.col(0));
   }
   for (const FilmField& field : film_fields())
     shot.values.push_back(chosen_values(particles.*field.values, film.particles));
