@@ -79,7 +79,7 @@ class Run:
 
 def files_of(out):
     """All that a run tells, but when, where and how it was done (body.vtu: how long filling took)."""
-    beside = {"run.json", "log.txt", ".lock", "view.py", "body.vtu", "checkpoint/a.bin", "checkpoint/b.bin"}
+    beside = {"run.json", "log.txt", ".lock", "view.py", "live.py", "body.vtu", "checkpoint/a.bin", "checkpoint/b.bin"}
     files = {str(file.relative_to(out)): file.read_bytes() for file in out.rglob("*") if file.is_file()}
     return {name: content for name, content in files.items() if name not in beside}
 

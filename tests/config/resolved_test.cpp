@@ -99,6 +99,7 @@ class Chance {
       drawn.body.radius = 0.01;
     else
       drawn.body.count = 1000;
+    if (!drawn.output.arrays.empty()) drawn.output.arrays = "J, stress";
     if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
     if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;

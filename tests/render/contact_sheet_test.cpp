@@ -64,7 +64,7 @@ TEST(ContactSheet, has_a_row_for_each_way_of_looking) {
   Painter painter(shots[0].surface, synthetic_scale());
   SheetOptions options;
   options.width = 600, options.row_height = 120;
-  const SheetRow row{&painter, &shots, View::both, "a run"};
+  const SheetRow row{&painter, &shots, View::both, ""};
   const int one = contact_sheet({row}, options).height;
   const Image three = contact_sheet({row, row, row}, options);
   EXPECT_GT(three.height, one + 2 * 100);

@@ -199,7 +199,7 @@ def letters(options, share):
 def show_plain(source, view, colour, opacity=1.0):
     shown = Show(source, view)
     shown.SetRepresentationType("Surface")
-    ColorBy(shown, None)
+    shown.ColorArrayName = ["POINTS", ""]  # ColorBy(shown, None) fails where there are no lines
     shown.AmbientColor = shown.DiffuseColor = colour
     shown.Opacity = opacity
     return shown
@@ -262,7 +262,7 @@ def show_heads(source, view, radius):
     shown = Show(source, view)
     as_spheres(shown)
     shown.GaussianRadius = 1.8 * radius
-    ColorBy(shown, None)
+    shown.ColorArrayName = ["POINTS", ""]
     shown.AmbientColor = shown.DiffuseColor = INK
 
 
