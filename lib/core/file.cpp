@@ -40,8 +40,9 @@ void sync_folder_of(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;  // a folder that may be written but not read: there is no more to be done
-  ::fsync(file);
+  const int error = ::fsync(file) == 0 ? 0 : errno;
   ::close(file);
+  if (error != 0 && error != EINVAL) throw refused(folder, error);  // EINVAL: not for folders here
 }
 
 /// At the file's own place, or `place` bytes from its beginning.
@@ -132,8 +133,9 @@ void GrowingFile::close() {
 void sync_all(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;
-  ::syncfs(file);
+  const int error = ::syncfs(file) == 0 ? 0 : errno;
   ::close(file);
+  if (error != 0) throw refused(folder, error);
 }
 
 void write_file(const fs::path& path, std::string_view text) {

@@ -9,13 +9,12 @@ import json
 import math
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-BIN, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+from small_run import SOURCE, sinew
 
 SCENE = """
 body:
@@ -54,13 +53,6 @@ FOREIGN = """<?xml version="1.0"?>
   </Piece></UnstructuredGrid>
 </VTKFile>
 """
-
-
-def sinew(*words, check=None):
-    done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True, timeout=120)
-    if check is not None and done.returncode != check:
-        raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
-    return done
 
 
 def rows(path):

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "metrics/report/charts.h"
-#include "metrics/report/embedded.h"
 #include "metrics/report/markup.h"
 #include "metrics/report/page.h"
 #include "metrics/report/page_data.h"
@@ -106,7 +105,7 @@ std::string film_section(const ComparisonInput& input) {
                      escaped(name_of(input.comparison, true)) +
                      ", at the same time and in the same colours.",
                  "class=\"quiet\"") +
-         std::string(view_markup());
+         view_section("Largest difference of");
 }
 
 }  // namespace

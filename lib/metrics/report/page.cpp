@@ -102,4 +102,10 @@ std::string folded(const std::string& title, const std::string& text) {
   return element("details", element("summary", escaped(title)) + element("pre", escaped(text)));
 }
 
+std::string view_section(std::string_view worst) {
+  constexpr std::string_view place = "{worst}";
+  std::string markup(view_markup());
+  return markup.replace(markup.find(place), place.size(), worst);
+}
+
 }  // namespace sinew

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "metrics/frame.h"
@@ -35,5 +36,8 @@ std::string fact_lists(const std::vector<FactGroup>& groups);
 
 /// Text to be opened, such as a scene; empty where there is none.
 std::string folded(const std::string& title, const std::string& text);
+
+/// The 3D view and its controls; `worst` stands before the buttons that lead to a frame.
+std::string view_section(std::string_view worst);
 
 }  // namespace sinew

@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "metrics/report/charts.h"
-#include "metrics/report/embedded.h"
 #include "metrics/report/markup.h"
 #include "metrics/report/page.h"
 #include "metrics/report/page_data.h"
@@ -57,7 +56,7 @@ std::string thinned_text(const Film& film) {
 
 std::string film_section(const ReportInput& input) {
   if (input.film.frames.empty()) return "";
-  return element("h2", "In space") + std::string(view_markup()) +
+  return element("h2", "In space") + view_section("Worst frame of") +
          element("p", thinned_text(input.film), "class=\"quiet\"");
 }
 

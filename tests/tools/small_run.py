@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A small scene and the programs that run it, for tests of whole commands. The test is called with the
+folder of the programs and the folder of the project.
+"""
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+BIN, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+
+SCENE = """
+body:
+  mesh: {mesh}
+  radius: 0.025
+skeleton:
+  bones:
+    - name: lower
+      head: [0, 0, 0]
+      tail: [0, 0, 0.34648]
+    - name: upper
+      parent: lower
+      tail: [0, 0, 0.69296]
+motion:
+  tracks:
+    - bone: upper
+      keys:
+        - time: 0
+        - time: 0.2
+          axis: [0, 1, 0]
+          angle: 30
+        - time: 0.4
+          axis: [0, 1, 0]
+          angle: 0
+solver:
+  duration: 0.4
+"""
+
+SERIES = ["particles", "surface", "bones", "frames"]
+
+
+def sinew(*words, check=None, **options):
+    done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
+                          timeout=120, **options)
+    if check is not None and done.returncode != check:
+        raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
+    return done
+
+
+class SmallRun(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.scene = self.folder / "small.yaml"
+        self.scene.write_text(SCENE.format(mesh=SOURCE / "data/meshes/box.obj"))
+        self.out = self.folder / "run"
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def simulate(self, *words, check=0):
+        return sinew("simulate", self.scene, "-o", self.out, *words, check=check)
+
+    def record(self, folder=None):
+        return json.loads(((folder or self.out) / "run.json").read_text())
+
+    def wait_for(self, child, file):
+        for _ in range(1000):
+            if (self.out / file).exists():
+                return
+            self.assertIsNone(child.poll(), "the run ended by itself")
+            time.sleep(0.02)
+        self.fail(f"no {file} after 20 s")
+
+    def assert_one_line(self, done, exit_code, *parts):
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        said = [line for line in done.stderr.splitlines() if line.startswith("sinew: ")]
+        errors = [line for line in said if not line.startswith("sinew: warning: ")]
+        self.assertEqual(len(errors), 1, done.stderr)
+        self.assertIn("; ", errors[0])
+        for part in parts:
+            self.assertIn(part, errors[0])
+
+    def assert_series_are_whole(self, frames):
+        """Every series has these frames, in the order of their times, and nothing torn beside."""
+        for name in SERIES:
+            expected = [f"{name}/{name}_{i:06}.vtu" for i in range(frames)]
+            pvd = (self.out / f"{name}.pvd").read_text()
+            self.assertEqual(re.findall(r'file="([^"]*)"', pvd), expected)
+            times = [float(time) for time in re.findall(r'timestep="([^"]*)"', pvd)]
+            self.assertEqual(times, sorted(times))
+            for file in expected:
+                self.assertTrue((self.out / file).read_bytes().endswith(b"</VTKFile>\n"), file)
+            self.assertEqual(len(list((self.out / name).iterdir())), frames, name)

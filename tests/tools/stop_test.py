@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How runs end before their time, and how they go on.
+
+usage: stop_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import os
+import pty
+import re
+import resource
+import shlex
+import signal
+import socket
+import subprocess
+import sys
+import time
+import unittest
+
+from small_run import BIN, SERIES, SOURCE, SmallRun, sinew
+
+
+class Stops(SmallRun):
+    def test_unstable_run_ends_with_3_and_keeps_its_good_frames(self):
+        done = self.simulate("--set", "solver.time_step=0.0166", "--set", "solver.duration=2", check=3)
+        self.assert_one_line(done, 3, "particle", "solver.time_step")
+        self.assertEqual(self.record()["status"], "unstable")
+        self.assertGreater(self.record()["frames"], 0)
+        self.assert_series_are_whole(self.record()["frames"])
+        self.assertIn("blowup.vtu", done.stderr)
+        text = (self.out / "blowup.vtu").read_text()
+        offender = re.search(r'Name="offender"[^>]*RangeMin="([^"]*)" RangeMax="([^"]*)"', text)
+        self.assertEqual(offender.groups(), ("0", "1"))
+        moved = re.search(r'Name="moved"[^>]*RangeMax="([^"]*)"', text)
+        self.assertGreater(float(moved[1]), 0.25)
+        for file in self.out.rglob("*.vtu"):
+            self.assertNotRegex(file.read_text(), r'Range(Min|Max)="[^"]*(nan|inf)', file)
+        self.simulate("--force")
+        self.assertFalse((self.out / "blowup.vtu").exists())
+
+    def test_disk_that_fills_up_while_frames_are_written_ends_with_4(self):
+        words = ["--set", "body.radius=0.012", "--set", "solver.duration=0.4"]
+        self.simulate(*words)
+        frames = sorted((self.out / "particles").glob("*.vtu"))
+        limit = frames[1].stat().st_size  # stands for the full disk: larger files fail
+        bad = next(i for i, file in enumerate(frames) if file.stat().st_size > limit)
+        limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        done = sinew("simulate", self.scene, "-o", self.out, "--force", *words, preexec_fn=limited)
+        self.assert_one_line(done, 4, frames[bad].name, "cannot be written: File too large",
+                             "free some space")
+        self.assertEqual(self.record()["status"], "failed")
+        self.assertEqual(self.record()["frames"], bad)
+        self.assert_series_are_whole(bad)
+
+    def everything(self, folder):
+        return {file.relative_to(folder): file.read_bytes() for name in SERIES
+                for file in [*(folder / name).iterdir(), folder / f"{name}.pvd", folder / "bones.csv"]}
+
+    def assert_same_as_unbroken(self, *words):
+        whole = self.folder / "whole"
+        sinew("simulate", self.scene, "-o", whole, *words, check=0)
+        self.assertEqual(self.record()["state_hash"], self.record(whole)["state_hash"])
+        self.assertEqual(self.everything(self.out), self.everything(whole))
+
+    def test_wall_time_stops_a_run_that_resumes_with_the_same_bits(self):
+        words = ["--set", "solver.precision=single", "--set", "solver.duration=2"]
+        done = self.simulate(*words, "--set", "solver.wall_time=0.05", check=130)
+        self.assertIn("--resume", done.stderr)
+        self.assertEqual(self.record()["status"], "stopped")
+        self.assert_series_are_whole(self.record()["frames"])
+        self.assertIn("going on from step", self.simulate("--resume", "--threads", 1, *words).stderr)
+        self.assertEqual((self.record()["status"], self.record()["resumed"]), ("finished", 1))
+        self.assert_same_as_unbroken(*words)
+
+    def test_another_scene_or_a_broken_checkpoint_is_not_resumed(self):
+        self.simulate("--set", "solver.wall_time=0.01", "--set", "solver.duration=2", check=130)
+        done = self.simulate("--resume", "--set", "solver.duration=3", check=2)
+        self.assert_one_line(done, 2, "duration: 2", "duration: 3")
+        for file in (self.out / "checkpoint").iterdir():
+            file.write_bytes(file.read_bytes()[:-1])
+        self.assert_one_line(self.simulate("--resume", "--set", "solver.duration=2", check=2), 2, "torn")
+        self.simulate("--force", "--set", "solver.duration=0")
+        self.assertEqual(list((self.out / "checkpoint").iterdir()), [])
+
+    def test_run_whose_disk_was_full_resumes_when_there_is_space(self):
+        words = ["--set", "body.radius=0.012", "--set", "output.checkpoint_interval=0"]
+        whole = self.folder / "sizes"
+        sinew("simulate", self.scene, "-o", whole, *words, check=0)
+        sizes = sorted(file.stat().st_size for file in (whole / "particles").glob("*.vtu"))
+        limit = max(sizes[1], (whole / "checkpoint/a.bin").stat().st_size + 1000)
+        self.assertLess(limit, sizes[-1])
+        limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        done = sinew("simulate", self.scene, "-o", self.out, *words, preexec_fn=limited)
+        self.assert_one_line(done, 4, "cannot be written")
+        self.assertIn("going on from step", self.simulate("--resume", *words).stderr)
+        self.assert_same_as_unbroken(*words)
+
+    def test_other_content_of_the_scenes_files_is_not_resumed(self):
+        mesh = self.folder / "mine.obj"
+        mesh.write_bytes((SOURCE / "data/meshes/box.obj").read_bytes())
+        words = ["--set", f"body.mesh={mesh}", "--set", "solver.duration=2"]
+        self.simulate(*words, "--set", "solver.wall_time=0.01", check=130)
+        mesh.write_text(mesh.read_text() + "# another text, the same mesh\n")
+        self.assertIn("going on from", self.simulate(*words, "--set", "solver.wall_time=0.01", "--resume",
+                                                     check=130).stderr)
+        self.simulate(*words, "--resume")
+        lines = mesh.read_text().splitlines()
+        vertex = next(i for i, line in enumerate(lines) if line.startswith("v "))
+        word = lines[vertex].split()
+        lines[vertex] = " ".join([word[0], str(float(word[1]) + 0.001), *word[2:4]])
+        self.simulate(*words, "--force", "--set", "solver.wall_time=0.01", check=130)
+        mesh.write_text("\n".join(lines) + "\n")
+        self.assert_one_line(self.simulate(*words, "--resume", check=2), 2, "body is another")
+
+    def test_lock_names_its_process_and_is_taken_over_when_that_died(self):
+        words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
+        with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.DEVNULL) as child:
+            self.wait_for(child, "particles/particles_000002.vtu")
+            holder = f"process {child.pid} on {socket.gethostname()}"
+            self.assertEqual((self.out / ".lock").read_text(), holder + "\n")
+            for word in ["--force", "--resume"]:
+                self.assert_one_line(sinew("simulate", self.scene, "-o", self.out, word), 2, holder)
+            child.kill()
+        said = self.simulate("--force").stderr
+        self.assertIn(f"taking over from {holder}", said)
+        self.assertEqual((self.out / ".lock").read_text(), "")
+        self.assertNotIn("taking over", self.simulate("--force").stderr)
+
+    def test_run_killed_while_it_removes_an_older_one_can_be_replaced(self):
+        self.simulate("--set", "output.checkpoint_interval=0")
+        (self.out / "run.json").rename(self.out / ".run.json.old")  # the first thing it does
+        (self.out / "checkpoint/a.bin").unlink()
+        (self.out / "particles.pvd").unlink()
+        self.assert_one_line(self.simulate(check=2), 2, "--force")
+        self.simulate("--force")
+        self.assertFalse((self.out / ".run.json.old").exists())
+        self.assert_series_are_whole(self.record()["frames"])
+
+    def test_resume_command_can_be_typed(self):
+        odd = self.folder / "it's mine.yaml"
+        odd.write_text(self.scene.read_text())
+        self.out = self.folder / "a run"
+        done = sinew("simulate", odd, "-o", self.out, "--set", "solver.wall_time=0.01", "--set",
+                     "solver.gravity=[0, 0, -1]", check=130)
+        command = done.stderr.split("go on with: ")[1].splitlines()[0]
+        self.assertTrue(command.startswith("sinew simulate "))
+        typed = subprocess.run(command.replace("sinew", shlex.quote(str(BIN / "sinew")), 1), shell=True,
+                               capture_output=True, text=True, timeout=60)
+        self.assertEqual(typed.returncode, 0, typed.stderr)
+        self.assertEqual(self.record()["status"], "finished")
+
+    def test_interrupt_finishes_the_frame_and_says_how_to_go_on(self):
+        for name in [signal.SIGINT, signal.SIGTERM]:
+            self.out = self.folder / name.name
+            words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
+            with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.PIPE, text=True) as child:
+                self.wait_for(child, "particles/particles_000002.vtu")
+                self.assert_one_line(sinew("simulate", self.scene, "-o", self.out, "--force"), 2,
+                                     "another sinew")
+                child.send_signal(name)
+                said = child.stderr.read()
+                self.assertEqual(child.wait(30), 130)
+            self.assertIn("--resume", said)
+            self.assertEqual(self.record()["status"], "stopped")
+            self.assert_series_are_whole(self.record()["frames"])
+            sinew("measure", self.out, check=0)
+
+    def test_interrupt_from_a_terminal_stops_a_whole_run(self):
+        words = ["sinew", "run", str(self.scene), "-o", str(self.out), "--set", "solver.duration=1000"]
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.execv(BIN / "sinew", words)
+        for _ in range(1000):
+            if (self.out / "particles/particles_000002.vtu").exists():
+                break
+            time.sleep(0.02)
+        os.write(terminal, b"\x03")  # Ctrl-C goes to all programs of the terminal
+        said = b""
+        try:
+            while part := os.read(terminal, 4096):
+                said += part
+        except OSError:
+            pass  # the terminal closes with its last program
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 130)
+        self.assertEqual(self.record()["status"], "stopped")
+        self.assertIn(b"sinew run ", said)
+        self.assertIn(b"--resume", said)
+
+    def test_run_dies_with_its_parts(self):
+        words = [BIN / "sinew", "run", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
+        with subprocess.Popen(words, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as child:
+            self.wait_for(child, "particles/particles_000001.vtu")
+            child.kill()
+        time.sleep(1)
+        words = subprocess.run(["pgrep", "-f", f"sinew-simulate.*{self.out}"], capture_output=True)
+        self.assertEqual(words.stdout, b"")
+
+    def test_places_that_cannot_be_written_end_with_4(self):
+        self.assert_one_line(sinew("simulate", self.scene, "-o", "/proc/run"), 4, "/proc/run")
+        self.assert_one_line(sinew("fill", self.scene, "-o", "/proc/body.vtu"), 4, "/proc/body.vtu")
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([BIN / "sinew", "info", SOURCE / "data/meshes/box.obj"], stdout=full,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assert_one_line(done, 4)
+
+    def test_disk_too_small_for_the_run_is_said_before_it_begins(self):
+        done = self.simulate("--set", "solver.duration=3e4", "--set", "body.radius=0.003", check=4)
+        self.assert_one_line(done, 4, "needs about")
+        self.assertFalse((self.out / "particles.pvd").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["stop_test", "-v", *sys.argv[3:]])
