@@ -35,14 +35,19 @@ Error unreadable(const fs::path& path, int error) {
                    "check the path and the permissions");
 }
 
-/// The new name is an entry of its folder, which is written by itself.
-void sync_folder_of(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+/// Calls sync (fsync, syncfs) on a folder. A file system that does not know it is no failure.
+void sync_folder(const fs::path& folder, int (*sync)(int)) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;  // a folder that may be written but not read: there is no more to be done
-  const int error = ::fsync(file) == 0 ? 0 : errno;
+  const int error = sync(file) == 0 ? 0 : errno;
   ::close(file);
-  if (error != 0 && error != EINVAL) throw refused(folder, error);  // EINVAL: not for folders here
+  if (error != 0 && error != EINVAL && error != ENOSYS && error != EOPNOTSUPP)
+    throw refused(folder, error);
+}
+
+/// The new name is an entry of its folder, which is written by itself.
+void sync_folder_of(const fs::path& path) {
+  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."), ::fsync);
 }
 
 /// At the file's own place, or `place` bytes from its beginning.
@@ -130,13 +135,7 @@ void GrowingFile::close() {
   if (::close(std::exchange(file_, -1)) != 0) throw refused(path_, errno);
 }
 
-void sync_all(const fs::path& folder) {
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  const int error = ::syncfs(file) == 0 ? 0 : errno;
-  ::close(file);
-  if (error != 0) throw refused(folder, error);
-}
+void sync_all(const fs::path& folder) { sync_folder(folder, ::syncfs); }
 
 void write_file(const fs::path& path, std::string_view text) {
   NewFile file(path);

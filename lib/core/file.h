@@ -58,7 +58,7 @@ class GrowingFile {
 };
 
 /// Waits until all that was written so far on the folder's disk is there even after the machine's
-/// power fails, as far as the disk takes such wishes.
+/// power fails, as far as the file system can. Throws not written.
 void sync_all(const std::filesystem::path& folder);
 
 /// Writes `text` as the file `path`. Throws not written.

@@ -20,7 +20,7 @@ constexpr double margin = 0.99;                  // the iteration comes from bel
 constexpr double small = 1e-6;                   // of displacements, in radii
 constexpr std::size_t most_particles = 100'000;  // beyond, a start would take many seconds
 
-/// Places and speeds of all particles, one below the other.
+/// Of all particles, a column each.
 using Vector = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// What the forces about rest do to small motions.
@@ -99,7 +99,11 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
     return near.driven(u, dt).cwiseProduct(u).sum() / u.squaredNorm();
   };
   for (int round = 0; round < rounds; ++round) {
-    for (int n = 0; n < iterations; ++n) u = scaled(near.driven(u, step));
+    for (int n = 0; n < iterations; ++n) {
+      const Vector next = near.driven(u, step);
+      if (!(next.cwiseAbs().maxCoeff() > 0)) return step;  // nothing holds the particles
+      u = scaled(next);
+    }
     // Of the mode found: a t^2 + b t for a step t times as long.
     const double whole = share(step), half = share(step / 2);
     const double a = 2 * whole - 4 * half, b = 4 * half - whole;

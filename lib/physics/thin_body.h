@@ -14,7 +14,8 @@ bool is_thin(const Points& rest, double radius);
 
 /// The largest step of symplectic Euler and velocity Verlet, s: small motions about rest, forces
 /// -K u - D v, grow by turns of sign once an eigenvalue of dt^2 / 4 K + dt / 2 D reaches the mass.
-/// Found by power iteration on the body's own forces, less 1 %.
+/// Found by power iteration on the body's own forces, less 1 %. That of the packing where no force
+/// answers to motion.
 double power_step_limit(const Body& body, const WorldLoad& world = {});
 
 /// The largest stable step of a body, s: by power iteration where it is thin, up to 100,000

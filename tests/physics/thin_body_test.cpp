@@ -68,6 +68,14 @@ TEST(ThinBody, BearsItWithVelocityVerletToo) {
   expect_limit(settings, test::fcc_box(3, 11, 25, r));
 }
 
+TEST(ThinBody, ThatNothingHoldsHasTheLimitOfThePacking) {
+  Settings settings = test::unbound(scene(MaterialModel::paper, DampingForm::paper, 0.5));
+  settings.binding.bone_damping = 0;
+  const Body body = test::make_body(settings, {{0.05, 0, 0.1}});
+  EXPECT_EQ(step_limit(Integrator::symplectic_euler, body),
+            step_limit(Integrator::symplectic_euler, body.material, body.springs));
+}
+
 TEST(ThinBody, HasNoParticleUnderTwoLayers) {
   EXPECT_TRUE(is_thin(test::fcc_box(4, 11, 11, r), r));
   EXPECT_FALSE(is_thin(test::fcc_box(5, 11, 11, r), r));
