@@ -74,14 +74,20 @@ void check_region(const RegionSettings& region, const std::string& path, const S
 
 bool has_region(const RegionSettings& region) { return region.low || region.centre; }
 
+/// Throws unless a key that `owner` needs is given.
+void require(bool given, const std::string& path, const std::string& key, const std::string& owner,
+             const Settings& settings) {
+  if (!given)
+    throw bad_input(settings.place(path),
+                    path + '.' + key + " is missing, which a " + owner + " needs",
+                    "add " + key + ':');
+}
+
 /// Throws unless the keys that a shape needs are given.
 void check_shape(const ObstacleSettings& obstacle, const std::string& path,
                  const Settings& settings) {
   const auto need = [&](bool given, const char* key, const char* shape) {
-    if (!given)
-      throw bad_input(settings.place(path),
-                      path + '.' + key + " is missing, which a " + shape + " needs",
-                      std::string("add ") + key + ':');
+    require(given, path, key, shape, settings);
   };
   switch (obstacle.shape) {
     case ObstacleShape::plane:
@@ -132,11 +138,8 @@ void read_pin(const YamlNode& item, const std::string& path, PinSettings& pin, S
 
 /// Throws unless the keys that a field's shape needs are given.
 void check_field(const FieldSettings& field, const std::string& path, const Settings& settings) {
-  const auto need = [&](bool given, const char* key, const char* shape) {
-    if (!given)
-      throw bad_input(settings.place(path),
-                      path + '.' + key + " is missing, which a field of shape " + shape + " needs",
-                      std::string("add ") + key + ':');
+  const auto need = [&](bool given, const char* key, const std::string& shape) {
+    require(given, path, key, "field of shape " + shape, settings);
   };
   const auto need_centre = [&](const char* shape) {
     need(field.point.has_value(), "point", shape);
