@@ -52,7 +52,8 @@ FrameState measured_frame(RunFrame frame) {
           std::move(frame.surface_points),
           std::move(frame.bones),
           frame.energies,
-          std::move(frame.bone_lengths)};
+          std::move(frame.bone_lengths),
+          std::move(frame.broken_bonds)};
 }
 
 }  // namespace sinew

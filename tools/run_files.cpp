@@ -78,7 +78,7 @@ Energies energies_of(const Dataset& data) {
 
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
-  const Dataset data = read_vtu(file, {"displacement", "velocity"});
+  const Dataset data = read_vtu(file, {"displacement", "velocity", "broken_bonds"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
     frame.positions = vectors(data.point_columns, "displacement");
@@ -89,6 +89,8 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
     }
     frame.velocities = vectors(data.point_columns, "velocity");
     frame.energies = energies_of(data);
+    if (find(data.point_columns, "broken_bonds"))
+      frame.broken_bonds = integers(data.point_columns, "broken_bonds");
   });
 }
 

@@ -46,6 +46,7 @@ struct RunFrame {
   std::vector<RigidFrame> bones;                 ///< heads and axes
   std::vector<double> bone_lengths;              ///< head to tail, m: some stretch
   Energies energies;
+  std::vector<std::int32_t> broken_bonds;  ///< of each particle; empty: it has no bonds
 };
 
 /// Throws bad input, naming the file, when it is damaged or of another body.

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/parallel.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <vector>
 
-namespace sinew {
+#include "core/threads.h"
 
-void with_threads(int threads, const std::function<void()>& job) {
-  const int count = threads > 0 ? threads : tbb::this_task_arena::max_concurrency();
-  // Both are needed: the control alone gives no more threads than cores, the arena alone no
-  // workers.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
-  tbb::task_arena(count).execute(job);
-}
+namespace sinew {
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
@@ -25,23 +15,22 @@ void parallel_for(std::size_t count, std::size_t grain,
     if (count > 0) body(0, count);
     return;
   }
-  tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
+  run_pieces(pieces, Deal::as_free, [&](std::size_t piece) {
     body(piece * grain, std::min(count, (piece + 1) * grain));
   });
 }
 
 void parallel_split(std::size_t count, std::size_t least,
                     const std::function<void(std::size_t, std::size_t)>& body) {
-  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const auto threads = static_cast<std::size_t>(threads_allowed());
   const std::size_t parts = std::min(threads, count / std::max<std::size_t>(least, 1));
   if (parts <= 1) {
     if (count > 0) body(0, count);
     return;
   }
-  tbb::parallel_for(
-      std::size_t{0}, parts,
-      [&](std::size_t part) { body(part * count / parts, (part + 1) * count / parts); },
-      tbb::static_partitioner());
+  run_pieces(parts, Deal::evenly, [&](std::size_t part) {
+    body(part * count / parts, (part + 1) * count / parts);
+  });
 }
 
 double parallel_sum(std::size_t count, std::size_t grain,

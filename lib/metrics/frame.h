@@ -2,6 +2,7 @@
 // One frame of a run: what is measured, and what comes out.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct FrameState {
   std::vector<RigidFrame> bones;  ///< where each bone is
   Energies energies;
   std::vector<double> bone_lengths;  ///< head to tail, m; empty: as at rest
+  std::vector<std::int32_t> broken_bonds = {};  ///< of each particle; empty: it has no bonds
 };
 
 /// What is measured of one frame: units, meaning and formula of each stand in table.cpp.
@@ -52,6 +54,7 @@ struct FrameMetrics {
   double pose_error_rms = not_measured, pose_error_max = not_measured;
   double pose_error_far_rms = not_measured;
   double broken_neighbours = not_measured, new_neighbours = not_measured;
+  double broken_bonds = not_measured;
   double inverted = not_measured, J_min = not_measured, J_mean = not_measured;
   double stretch_max = not_measured;
   double strain_50 = not_measured, strain_95 = not_measured, strain_99 = not_measured;

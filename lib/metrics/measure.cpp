@@ -29,6 +29,14 @@ void check(const RestBody& rest, const FrameState& state) {
   require(state.bones.size() == rest.bones.size(), "has " + std::to_string(state.bones.size()) +
                                                        " bones and the body " +
                                                        std::to_string(rest.bones.size()));
+  require(state.broken_bonds.empty() || state.broken_bonds.size() == n,
+          "tells the broken bonds of " + std::to_string(state.broken_bonds.size()) +
+              " particles and the body has " + std::to_string(n));
+  for (std::size_t i = 0; i < state.broken_bonds.size(); ++i)
+    require(0 <= state.broken_bonds[i] &&
+                std::size_t(state.broken_bonds[i]) <= rest.shape.neighbours.of(i).size(),
+            "has " + std::to_string(state.broken_bonds[i]) + " broken bonds at particle " +
+                std::to_string(i) + " of " + std::to_string(rest.shape.neighbours.of(i).size()));
   bool finite = std::isfinite(state.time) && all_finite(state.positions) &&
                 all_finite(state.velocities) && all_finite(state.surface_points);
   for (const RigidFrame& bone : state.bones)
@@ -151,6 +159,12 @@ void add_neighbours(FrameMetrics& out, const RestBody& rest, const ParticleValue
   out.new_neighbours = statistics_of(particles.gained).sum / from_both_sides;
 }
 
+void add_bonds(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+  if (state.broken_bonds.empty() || rest.rest_pairs() == 0) return;
+  const auto broken = [&](std::size_t i) { return state.broken_bonds[i]; };
+  out.broken_bonds = statistics(rest.particles(), broken).sum / (2 * rest.rest_pairs());
+}
+
 void add_sections(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   Statistics ratios;
   for (const Section& section : rest.sections)
@@ -210,6 +224,7 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_adherence(out, rest, state);
   add_pose_error(out, rest, frame.particles);
   add_neighbours(out, rest, frame.particles);
+  add_bonds(out, rest, state);
   add_gradients(out, frame.particles, rest.radius);
   add_strain(out, frame.particles);
   add_surface(out, rest, state);

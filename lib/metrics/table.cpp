@@ -82,6 +82,8 @@ constexpr std::array table = {
            "pairs with d0 < 2.2 r and d >= b / pairs with d0 < 2.2 r", &M::broken_neighbours},
     Metric{"new_neighbours", "", "Pairs that became neighbours, relative to the rest neighbours",
            "pairs with d < 2.2 r and d0 >= 2.2 r / pairs with d0 < 2.2 r", &M::new_neighbours},
+    Metric{"broken_bonds", "", "Share of the bonds of a bonded material that have broken",
+           "broken bonds / pairs with d0 < 2.2 r", &M::broken_bonds},
     Metric{"inverted", "", "Particles whose surroundings are turned inside out",
            "count of J <= 0, J = det F", &M::inverted},
     Metric{"J_min", "", "Smallest local volume ratio",

@@ -17,7 +17,7 @@ HEAVY = {
     r"(CGAL|boost)/": ("mesh", "fill", "metrics"),
     r"vtk\w*\.h": ("io", "render"),
     r"yaml-cpp/": ("config",),
-    r"(tbb|oneapi)/": ("core/parallel.cpp",),
+    r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
     r"nlohmann/": ("io", "metrics"),
     r"(libdeflate|lz4)\.h": ("io",),
     r"X11/": ("render",),

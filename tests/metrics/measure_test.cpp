@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "expect_error.h"
 #include "metrics/table.h"
 #include "world.h"
 
@@ -198,6 +199,22 @@ TEST(Measure, PairsAreBrokenFromTheInteractionRangeOn) {
   };
   EXPECT_EQ(broken_at(std::nextafter(b, 0.0)), 0);
   EXPECT_EQ(broken_at(b), 1);
+}
+
+TEST(Measure, BrokenBondsAreAShareOfThoseAtRest) {
+  RestInput input = box_input();
+  input.positions = {{0, 0, h}, {2 * r, 0, h}, {4 * r, 0, h}};
+  input.bone = {0, 0, 0};
+  const RestBody body = rest_body(input);
+  FrameState state = at_rest(body);
+  EXPECT_TRUE(std::isnan(measure(body, state).broken_bonds));  // of a body without bonds
+  state.broken_bonds = {0, 1, 1};
+  EXPECT_EQ(measure(body, state).broken_bonds, 0.5);
+  for (const std::vector<std::int32_t>& impossible :
+       {std::vector{0, 1}, std::vector{2, 1, 1}, std::vector{0, -1, 1}}) {
+    state.broken_bonds = impossible;
+    expect_bad_input([&] { measure(body, state); }, {"broken bonds"});
+  }
 }
 
 TEST(Measure, NewNeighboursAreThoseThatWereNoneAtRest) {

@@ -180,6 +180,17 @@ TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
   EXPECT_EQ(items[4].value, "0.10 r");
 }
 
+TEST(Verdict, CountsBondsWhereThereAreSome) {
+  std::vector<FrameMetrics> frames(1);
+  frames[0].broken_neighbours = 1;
+  EXPECT_EQ(verdict(frames, summarize(frames, r), r)[2].label, "broken neighbours");
+  frames[0].broken_bonds = 0.005;
+  const VerdictItem item = verdict(frames, summarize(frames, r), r)[2];
+  EXPECT_EQ(item.label, "broken bonds");
+  EXPECT_EQ(item.value, "0.50 %");
+  EXPECT_EQ(item.level, Level::good);
+}
+
 TEST(Verdict, JudgesTheTipWhereThereIsNoReturn) {
   std::vector<FrameMetrics> frames(1);
   frames[0].tip_angle = 87;

@@ -105,6 +105,18 @@ class Measure(unittest.TestCase):
         self.assertNotIn('class="remarks"', report)
         self.assertEqual(json.loads((self.out / "metrics.json").read_text())["remarks"], [])
 
+    def test_broken_bonds_are_counted(self):
+        torn = self.out / "torn"
+        sinew("simulate", self.scene, "-o", torn, "--set", "material.model=bonded",
+              "--set", "material.breaking_strain=0.02", check=0)
+        done = sinew("measure", torn, "--fail-on", "broken_bonds > 0.001")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        broken = [row["broken_bonds"] for row in rows(torn / "metrics.csv")]
+        self.assertEqual(broken[0], 0)
+        self.assertGreater(broken[-1], 0.001)
+        self.assertEqual(broken, sorted(broken))
+        self.assertIn("broken bonds", (torn / "report.html").read_text())
+
     def test_two_models_of_one_body_are_compared_particle_by_particle(self):
         done = sinew("measure", self.runs / "paper", self.runs / "bonded", "-o", self.out, "--json", check=0)
         found = json.loads(done.stdout)

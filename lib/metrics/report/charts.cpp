@@ -26,7 +26,7 @@ std::vector<ChartPlan> plans_of_shape() {
       {"Neighbours",
        "Pairs lost and won, as a share of the pairs at rest",
        "%",
-       {"broken_neighbours", "new_neighbours"},
+       {"broken_neighbours", "new_neighbours", "broken_bonds"},
        Shown::in_percent},
       {"Tip",
        "Turn of the last bone's outermost particles, and of the bone that turns most",
