@@ -113,7 +113,10 @@ size_t fwrite(const void* bytes, size_t size, size_t count, FILE* file) {
   return next_of<size_t(const void*, size_t, size_t, FILE*)>("fwrite")(bytes, size, count, file);
 }
 
-// Not fflush: the log is the only one to use it, and does not hear of it.
+int fflush(FILE* file) {
+  if (file != nullptr && refuses(fileno(file))) return EOF;
+  return next_of<int(FILE*)>("fflush")(file);
+}
 
 int fsync(int file) {
   if (refuses(file)) return -1;

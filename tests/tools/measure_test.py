@@ -14,34 +14,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from small_run import SOURCE, sinew
+from small_run import SCENE, SOURCE, sinew
 
-SCENE = """
-body:
-  mesh: {mesh}
-  radius: 0.025
-skeleton:
-  bones:
-    - name: lower
-      head: [0, 0, 0]
-      tail: [0, 0, 0.34648]
-    - name: upper
-      parent: lower
-      tail: [0, 0, 0.69296]
-motion:
-  tracks:
-    - bone: upper
-      keys:
-        - time: 0
-        - time: 0.2
-          axis: [0, 1, 0]
-          angle: 30
-solver:
-  duration: 0.3
-output:
-  skin_lbs: true
-  skin_dqs: true
-"""
+SETTINGS = ["--set", "output.skin_lbs=true", "--set", "output.skin_dqs=true", "--set", "solver.duration=0.3"]
 
 FOREIGN = """<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
@@ -69,7 +44,7 @@ class Measure(unittest.TestCase):
         cls.scene.write_text(SCENE.format(mesh=SOURCE / "data/meshes/box.obj"))
         for name, words in {"paper": [], "bonded": ["--set", "material.model=bonded"],
                             "coarse": ["--set", "body.radius=0.03"]}.items():
-            sinew("simulate", cls.scene, "-o", cls.runs / name, *words, check=0)
+            sinew("simulate", cls.scene, "-o", cls.runs / name, *SETTINGS, *words, check=0)
 
     @classmethod
     def tearDownClass(cls):
@@ -108,7 +83,7 @@ class Measure(unittest.TestCase):
     def test_broken_bonds_are_counted(self):
         torn = self.out / "torn"
         sinew("simulate", self.scene, "-o", torn, "--set", "material.model=bonded",
-              "--set", "material.breaking_strain=0.02", check=0)
+              "--set", "material.breaking_strain=0.02", *SETTINGS, check=0)
         done = sinew("measure", torn, "--fail-on", "broken_bonds > 0.001")
         self.assertEqual(done.returncode, 1, done.stderr)
         broken = [row["broken_bonds"] for row in rows(torn / "metrics.csv")]
@@ -152,7 +127,8 @@ class Measure(unittest.TestCase):
 
     def test_frames_are_matched_by_their_time(self):
         rarer = self.runs / "rarer"
-        sinew("simulate", self.scene, "-o", rarer, "--set", "output.interval=0.1", "--force", check=0)
+        sinew("simulate", self.scene, "-o", rarer, *SETTINGS, "--set", "output.interval=0.1", "--force",
+              check=0)
         done = sinew("measure", rarer, self.runs / "paper", "-o", self.out, "--json", check=0)
         self.assertEqual([round(row["time"], 9) for row in rows(self.out / "compare.csv")], [0, 0.1, 0.2, 0.3])
         self.assertIn("6 frames have no counterpart", json.loads(done.stdout)["remarks"][0])
@@ -196,7 +172,7 @@ class Measure(unittest.TestCase):
 
     def test_arrays_come_on_request_from_both_programs_alike(self):
         run = self.out
-        sinew("simulate", self.scene, "-o", run, "--set", "output.arrays=all", "--set",
+        sinew("simulate", self.scene, "-o", run, *SETTINGS, "--set", "output.arrays=all", "--set",
               "output.encoding=none", check=0)
         sinew("measure", run, "--arrays", "all", check=0)
         wanted = {"F": 9, "J": 1, "stretch": 3, "strain": 6, "hencky_strain": 6, "strain_eq": 1, "stress": 6,
@@ -211,7 +187,7 @@ class Measure(unittest.TestCase):
                 if components == 6:
                     for k, axis in enumerate(["XX", "YY", "ZZ", "XY", "YZ", "XZ"]):
                         self.assertIn(f'ComponentName{k}="{axis}"', tag[0])
-        sinew("simulate", self.scene, "-o", run, "--force", check=0)
+        sinew("simulate", self.scene, "-o", run, *SETTINGS, "--force", check=0)
         self.assertFalse((run / "values.pvd").exists())
         self.assertFalse((run / "sections.csv").exists())
         plain = (run / "particles" / "particles_000000.vtu").read_bytes()

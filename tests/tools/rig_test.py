@@ -4,11 +4,11 @@
 
 usage: /usr/bin/python3 rig_test.py BIN SOURCE      folder of the programs, folder of the project
 """
+import functools
 import json
 import math
 import re
 import struct
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -17,15 +17,13 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-BIN, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+import small_run
+
+SOURCE = small_run.SOURCE
 KEY_TIME = {"bvh": 1 / 120, "glb": 1 / 60}  # s between the keys of our clips; ways between are straight
 
 
-def sinew(*words, check=0):
-    done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True, timeout=200)
-    if done.returncode != check:
-        raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
-    return done
+sinew = functools.partial(small_run.sinew, check=0)
 
 
 def info(*words):
@@ -161,7 +159,7 @@ class HostileFiles(unittest.TestCase):
         self.temporary.cleanup()
 
     def refuse(self, file, *words):
-        done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True, timeout=60)
+        done = small_run.sinew(*words)
         self.assertEqual(done.returncode, 2, (file, done.stderr))
         self.assertRegex(done.stderr, r"\Asinew: [^\n]*; [^\n]*\n\Z", file)
         self.assertIn(file, done.stderr)

@@ -5,15 +5,17 @@
 usage: world_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import csv
+import functools
 import json
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-BIN, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+import small_run
+
+SOURCE = small_run.SOURCE
 
 SCENE = """
 body:
@@ -54,12 +56,7 @@ solver:
 """
 
 
-def sinew(*words, check=0):
-    done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
-                          timeout=100)
-    if done.returncode != check:
-        raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
-    return done
+sinew = functools.partial(small_run.sinew, check=0)
 
 
 class World(unittest.TestCase):
