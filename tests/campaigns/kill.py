@@ -41,7 +41,7 @@ class Campaign:
         return self.whole[way]
 
     def keep(self, run):
-        if self.arguments.keep and self.kills % 10 == 0:
+        if self.arguments.keep and self.kills % 10 == 0 and run.begun():
             shutil.copytree(run.out, self.arguments.keep / f"kill{self.kills:03}",
                             ignore=shutil.ignore_patterns("checkpoint"))
 
