@@ -82,9 +82,12 @@ void remove_old_run(const RunFolder& folder) {
 }
 
 void refuse_foreign_files(const RunFolder& folder) {
-  for (const fs::path& file : files_of_run(folder))
+  for (const fs::path& file : files_of_run(folder)) {
+    // Of a run killed before it had its record.
+    if (file.filename().string().front() == '.' && file.extension() == ".tmp") continue;
     throw bad_input(Place{file.string()}, "is there, but no run.json of a run beside it",
                     "choose another folder with -o, or move the file away");
+  }
 }
 
 std::uint64_t size_of_old_run(const RunFolder& folder) {

@@ -15,9 +15,8 @@ void parallel_for(std::size_t count, std::size_t grain,
     if (count > 0) body(0, count);
     return;
   }
-  run_pieces(pieces, Deal::as_free, [&](std::size_t piece) {
-    body(piece * grain, std::min(count, (piece + 1) * grain));
-  });
+  run_pieces(pieces, Deal::as_free,
+             [&](std::size_t piece) { body(piece * grain, std::min(count, (piece + 1) * grain)); });
 }
 
 void parallel_split(std::size_t count, std::size_t least,
@@ -28,9 +27,8 @@ void parallel_split(std::size_t count, std::size_t least,
     if (count > 0) body(0, count);
     return;
   }
-  run_pieces(parts, Deal::evenly, [&](std::size_t part) {
-    body(part * count / parts, (part + 1) * count / parts);
-  });
+  run_pieces(parts, Deal::evenly,
+             [&](std::size_t part) { body(part * count / parts, (part + 1) * count / parts); });
 }
 
 double parallel_sum(std::size_t count, std::size_t grain,

@@ -37,6 +37,12 @@ class Stops(SmallRun):
         self.simulate("--force")
         self.assertFalse((self.out / "blowup.vtu").exists())
 
+    def test_a_run_killed_before_it_had_its_record_is_begun_anew(self):
+        self.out.mkdir()
+        (self.out / ".run.json.tmp").write_text("{")
+        self.simulate()
+        self.assertFalse((self.out / ".run.json.tmp").exists())
+
     def test_disk_that_fills_up_while_frames_are_written_ends_with_4(self):
         words = ["--set", "body.radius=0.012", "--set", "solver.duration=0.4"]
         self.simulate(*words)

@@ -6,42 +6,9 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "core/stopwatch.h"
-#include "physics/lists/order.h"
 #include "physics/solid/solid.h"
 
 namespace sinew {
-namespace {
-
-// Columns of sorted particles, in diameters; how much longer lists may become before a sort is
-// tried anew.
-constexpr double column_edge = 1.2, most_growth = 1.3;
-// When the order of the particles is looked at, which the last bits of sums depend on, follows from
-// the count of steps alone, so that a run that is resumed sorts when an unbroken one does. The
-// lists made for it cost about one step in a hundred.
-constexpr std::int64_t steps_between_looks_at_order = 1024;
-// A barrier costs more than the work below this many particles per thread.
-constexpr std::size_t particles_per_thread = 8192;
-
-template <class Real>
-constexpr std::size_t pieces_per_thread = particles_per_thread /
-                                          (kernel::blocks_per_piece * BlockState<Real>::block);
-
-template <class Real>
-Box box_of(const BlockState<Real>& state, const Measure& measure) {
-  std::vector<Box> boxes(state.size() / particles_per_thread + 1);
-  parallel_for(state.size(), particles_per_thread, [&](std::size_t begin, std::size_t end) {
-    Box& box = boxes[begin / particles_per_thread];
-    for (std::size_t k = begin; k < end; ++k) box.extend(state.position(k, measure));
-  });
-  Box all;
-  for (const Box& box : boxes)
-    if (!box.isEmpty()) all.extend(box);
-  return all;
-}
-
-}  // namespace
-
 template <class Real>
 bool ListStepper<Real>::serves(const Body& body) {
   return !body.world && !remembers_neighbours(body.material) &&
@@ -117,13 +84,6 @@ void ListStepper<Real>::place_carriers(const Pose& pose) {
 }
 
 template <class Real>
-void ListStepper<Real>::choose_carriers(const Pose& pose) {
-  carriers_.choose(*body_, pose, state_, measure_, {id_.data() + block, caller_.size()});
-  carrier_slots_ = carrier_slots<Real>(carriers_.of_particles());
-  place_carriers(pose);
-}
-
-template <class Real>
 kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
@@ -164,96 +124,6 @@ Riders<Real> ListStepper<Real>::riders() {
 }
 
 template <class Real>
-void ListStepper<Real>::keep_lists_true(const Pose& pose) {
-  const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
-  const bool anew = remeasure();
-  if (must_look_at_order()) {
-    rebuild(pose);
-    if (lists_.mean_of_wide() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
-    return;
-  }
-  if (anew || !lists_.made()) return rebuild(pose);
-  place_carriers(pose);
-  if (fastest && !lists_.follow(riders(), *fastest)) rebuild(pose);
-}
-
-/// A second look before the same step, as in a run resumed there, would change nothing.
-template <class Real>
-bool ListStepper<Real>::must_look_at_order() {
-  return steps_ % steps_between_looks_at_order == 0 &&
-         std::exchange(order_looked_at_, steps_) != steps_;
-}
-
-/// Puts the particles into columns where that makes the lists shorter.
-template <class Real>
-bool ListStepper<Real>::sort() {
-  Stopwatch watch;
-  const auto order =
-      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / measure_.length);
-  reorder(state_, order, next_);
-  const double sorted = lists_.wide_of(next_, measure_).mean(), unsorted = lists_.mean_of_wide();
-  mean_when_sorted_ = std::min(sorted, unsorted);
-  sorting_ += watch.lap();
-  if (sorted > 0.95 * unsorted) return false;
-  ++sorts_;
-  std::swap(state_, next_);
-  std::vector<std::int32_t> id(id_.size(), 0);
-  std::vector<std::uint32_t> caller(caller_.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    id[k + block] = id_[order[k] + block];
-    caller[k] = caller_[order[k]];
-  }
-  id_ = std::move(id);
-  caller_ = std::move(caller);
-  find_slots();
-  sorting_ += watch.lap();
-  return true;
-}
-
-/// Takes a new measure where the body may have come to the end of the present one's range, and has.
-/// When that is looked at follows from the bones' motion alone: lists differ in a run that is
-/// resumed.
-template <class Real>
-bool ListStepper<Real>::remeasure() {
-  if (sizeof(Real) == 8 || travelled_ <= free_travel<Real>(measure_)) return false;
-  const std::size_t n = caller_.size();
-  measured_box_ = box_of(state_, measure_);
-  travelled_ = 0;
-  if (sinew::serves<Real>(measure_, measured_box_)) return false;
-  const Measure before = std::exchange(
-      measure_, measure_for<Real>(measured_box_, body_->material.pair, stepping_.step));
-  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      state_.set_velocity(k, state_.velocity(k, before), measure_);
-      state_.set_position(k, state_.position(k, before), measure_);
-    }
-  });
-  find_slots();
-  return true;
-}
-
-/// How far a particle may come in a step that is sound: its bone's way and what it moves beside.
-template <class Real>
-double ListStepper<Real>::travel_of_step(const Pose& pose) const {
-  double fastest = 0;
-  for (const BonePose& bone : pose) {
-    const double spread = bone.angular_velocity.norm() * travelled_;
-    for (int corner = 0; corner < 8 && !measured_box_.isEmpty(); ++corner) {
-      const Vec3 at = measured_box_.corner(static_cast<Box::CornerType>(corner));
-      fastest = std::max(fastest, bone.velocity_at(at).norm() + spread);
-    }
-  }
-  return 1.001 * (fastest * stepping_.step + most_radii_per_step * body_->material.pair.r);
-}
-
-template <class Real>
-void ListStepper<Real>::rebuild(const Pose& pose) {
-  place_bones(pose);
-  choose_carriers(pose);
-  lists_.make(riders());
-}
-
-template <class Real>
 ListCounts ListStepper<Real>::counts() const {
   ListCounts counts = lists_.counts();
   counts.sorts = sorts_;
@@ -279,7 +149,7 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   place_bones(pose);
   keep_lists_true(pose);
   const auto now = job();
-  parallel_split(totals_.size(), pieces_per_thread<Real>,
+  parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
   StepSums sums = sums_of_totals();
   double fastest = 0;
@@ -345,7 +215,7 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
     now.probed.bone[axis] = told[6 + axis].data();
   }
   now.probed.partners = partners.data();
-  parallel_split(totals_.size(), pieces_per_thread<Real>,
+  parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.probe(now, begin, end); });
   const double newtons = mass_ * measure_.length / (measure_.time * measure_.time);
   forces.pair.resize(n);
@@ -389,63 +259,6 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
     particles.set_velocity(
         i, particles.velocity(i) +
                stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
-}
-
-template <class Real>
-void ListStepper<Real>::save(SimulationState& state) const {
-  state.moving = state_.columns();
-  state.kicked = kicked_;
-  state.order = caller_;
-  state.whole_numbers = {measure_.length, measure_.origin, measured_box_, travelled_};
-  state.mean_when_sorted = mean_when_sorted_;
-}
-
-template <class Real>
-void ListStepper<Real>::restore(const SimulationState& state) {
-  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
-  const auto* moving = std::get_if<Columns>(&state.moving);
-  if (moving == nullptr) throw not_a_state("it is in another precision");
-  check_moving(*moving, caller_.size());
-  if (!state.rest_length.empty()) throw not_a_state("it has bonds");
-  restore_order(state.order);
-  restore_measure(state.whole_numbers);
-  state_.set_columns(*moving);
-  next_ = state_;
-  find_slots();
-  kicked_ = state.kicked;
-  mean_when_sorted_ = state.mean_when_sorted;
-  steps_ = state.steps;
-  order_looked_at_ = -1;
-  fastest_.reset();
-  lists_ = PartnerLists<Real>(kernel_, body_->material.pair, stepping_.step);
-}
-
-/// `order` names each particle's place in the caller's order once.
-template <class Real>
-void ListStepper<Real>::restore_order(const std::vector<std::uint32_t>& order) {
-  std::vector<std::int32_t> id_of(caller_.size(), -1);
-  for (std::size_t k = 0; k < caller_.size(); ++k) id_of[caller_[k]] = id_[k + block];
-  if (order.size() != id_of.size()) throw not_a_state("it has no order of the particles");
-  std::vector<std::int32_t> id(id_.size(), 0);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (order[k] >= id_of.size() || id_of[order[k]] < 0)
-      throw not_a_state("its order of the particles names one twice");
-    id[k + block] = std::exchange(id_of[order[k]], -1);
-  }
-  id_ = std::move(id);
-  caller_ = order;
-}
-
-template <class Real>
-void ListStepper<Real>::restore_measure(const WholeNumbers& saved) {
-  const bool sane = saved.length > 0 && std::isfinite(saved.length) && saved.origin.allFinite() &&
-                    saved.box.min().allFinite() && saved.box.max().allFinite() &&
-                    saved.travelled >= 0 && std::isfinite(saved.travelled);
-  if (!sane) throw not_a_state("its measure is none");
-  measure_.length = saved.length;
-  measure_.origin = saved.origin;
-  measured_box_ = saved.box;
-  travelled_ = saved.travelled;
 }
 
 template class ListStepper<double>;

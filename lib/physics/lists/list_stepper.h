@@ -35,6 +35,10 @@ class ListStepper {
 
  private:
   static constexpr int block = BlockState<Real>::block;
+  /// A barrier costs more than the work below this many of them.
+  static constexpr std::size_t particles_per_thread = 8192;
+  static constexpr std::size_t pieces_per_thread =
+      particles_per_thread / (kernel::blocks_per_piece * BlockState<Real>::block);
 
   void load(const Particles& particles);
   void place_bones(const Pose& pose);
