@@ -11,7 +11,7 @@
 #include "core/settings_table.h"
 #include "io/series.h"
 #include "io/vtk_messages.h"
-#include "io/xml_depth.h"
+#include "io/xml_bounds.h"
 
 namespace sinew {
 namespace {
@@ -71,7 +71,7 @@ std::string pvd_text(const std::vector<PvdRow>& rows) {
 
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path, largest_pvd);
-  if (!nests_moderately(text)) throw refused("it is not a PVD file").within({path.string()});
+  if (!is_within_bounds(text)) throw refused("it is not a PVD file").within({path.string()});
   const VtkMessages messages;
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
       vtkXMLUtilities::ReadElementFromString(text.c_str()));
