@@ -242,7 +242,8 @@ void check_vtu_header(const std::filesystem::path& path) {
   check_start_and_end(document);
   read_xml(document);
   leave_data_out(document);
-  if (!is_within_bounds(document.bare)) throw refused("its elements nest too deeply or its tags are too long");
+  if (!is_within_bounds(document.bare))
+    throw refused("its elements nest too deeply or its tags are too long");
   check_xml(document);
 }
 

@@ -57,6 +57,7 @@ void vtu(std::string_view bytes) {
   expect_sound_or_refused([&] {
     const Dataset data = read_vtu(path);
     const auto points = static_cast<std::int32_t>(data.points.size());
+    for (const Vec3& point : data.points) require(point.allFinite());
     for (const std::int32_t point : data.connectivity) require(point >= 0 && point < points);
   });
 }

@@ -78,8 +78,7 @@ def stl():
     for name, (old, new) in {"nan": ("vertex 0 0 0", "vertex nan 0 0"), "infinite": ("vertex 0 0 0", "vertex 0 inf 0"),
                              "too_large": ("vertex 0 0 0", "vertex 0 0 1e999"), "words": ("vertex 0 0 0", "vertex a b c"),
                              "two_numbers": ("vertex 0 0 0", "vertex 0 0"), "two_corners": ("vertex 0 0 0\n", ""),
-                             "four_corners": ("endloop", "vertex 1 1 1\nendloop"), "no_loop": ("outer loop\n", ""),
-                             "open_loop": ("endloop\n", ""), "open_facet": ("endfacet\n", ""),
+                             "four_corners": ("endloop", "vertex 1 1 1\nendloop"), "open_facet": ("endfacet\n", ""),
                              "misspelt": ("vertex", "vertx"), "no_facets": (STL_TEXT[8:-11], "")}.items():
         files[f"text_{name}"] = replaced(STL_TEXT, old, new)
     return STL, files
@@ -116,6 +115,6 @@ def ply():
                          "huge_size": (255, 0, 2, 1), "no_corners": (0, 0, 2, 1)}.items():
         files[f"binary_{name}"] = PLY_BINARY[:face] + struct.pack("<B3i", *record) + PLY_BINARY[face + 13:]
     files["binary_turned"] = PLY_BINARY.replace(b"little", b"big")
-    files["long_head"] = PLY.replace(b"end_header", b"comment " + b"x" * 5_000_000 + b"\nend_header")
+    files["endless_head"] = PLY.replace(b"end_header", b"comment " + b"x" * 5_000_000)
     files["many_properties"] = PLY.replace(b"element face", b"property float w\n" * 200_000 + b"element face")
     return PLY, files

@@ -55,7 +55,7 @@ CHANGES = {
     "keys_twice": ("time: 0.2", "time: 0"), "no_time": ("time: 0.2", "twist: 1"), "axis_of_no_length": ("[0, 1, 0]", "[0, 0, 0]"),
     "duration_negative": ("duration: 0.2", "duration: -1"), "duration_endless": ("duration: 0.2", "duration: 1e300"), "interval": ("duration: 0.2", "duration: 0.2\noutput:\n  interval: 9"),
     "step_zero": ("duration: 0.2", "duration: 0.2\n  time_step: 0"), "step_tiny": ("duration: 0.2", "duration: 0.2\n  time_step: 1e-300"),
-    "step_huge": ("duration: 0.2", "duration: 0.2\n  time_step: 1e300"), "interval_tiny": ("duration: 0.2", "duration: 0.2\noutput:\n  interval: 1e-300"),
+    "interval_tiny": ("duration: 0.2", "duration: 0.2\noutput:\n  interval: 1e-300"),
     "a_beyond_b": ("solver:", "material:\n  a: 2.7\nsolver:"), "density_nan": ("solver:", "material:\n  density: .nan\nsolver:"),
     "modulus_twice": ("solver:", "material:\n  young_modulus: 1\n  k1: 1\nsolver:"), "array_unknown": ("solver:", "output:\n  arrays: speeed\nsolver:"),
     "integrator": ("solver:\n", "solver:\n  integrator: euler\n"), "obstacle_of_no_shape": ("solver:", "world:\n  obstacles: [{name: a}]\nsolver:"),
@@ -70,7 +70,8 @@ def alias_bomb():
 
 
 def scene():
-    files = {name: text for name, text in (FOREIGN | NOT_FILES).items()}
+    files = FOREIGN | NOT_FILES
+    del files["pipe"]  # a scene may come through one, and waits for it
     for name, (old, new) in CHANGES.items():
         files[name] = replaced(SCENE, old, new)
     files["alias_bomb"] = alias_bomb() + SCENE

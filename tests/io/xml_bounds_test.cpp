@@ -15,7 +15,8 @@ std::string times(int count, const std::string& text) {
 }
 
 TEST(XmlBounds, OurFilesAreWithin) {
-  EXPECT_TRUE(is_within_bounds("<?xml version=\"1.0\"?>\n<a b=\"1 > 0\">\n <c/>text &amp; more</a>\n"));
+  EXPECT_TRUE(
+      is_within_bounds("<?xml version=\"1.0\"?>\n<a b=\"1 > 0\">\n <c/>text &amp; more</a>\n"));
   EXPECT_TRUE(is_within_bounds("<a>" + times(100'000, "<b c='d'/>") + "</a>"));
   EXPECT_TRUE(is_within_bounds("<a>" + std::string(3'000'000, 'x') + "</a>"));
   EXPECT_TRUE(is_within_bounds("<a>" + times(20, "<b>") + times(20, "</b>") + "</a>"));

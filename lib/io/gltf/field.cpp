@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/gltf/field.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -158,6 +159,13 @@ std::string GltfField::text() const {
   if (!given()) throw damaged_gltf(name_ + " is missing");
   if (!json(value_).is_string()) throw wrong(name_, json(value_), "text");
   return json(value_).get<std::string>();
+}
+
+std::string GltfField::name() const {
+  std::string name = (*this)["name"].text_or_none();
+  const auto unprintable = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  std::replace_if(name.begin(), name.end(), unprintable, '?');
+  return name;
 }
 
 std::vector<std::string> GltfField::texts() const {
