@@ -161,7 +161,7 @@ std::string GltfField::text() const {
   return json(value_).get<std::string>();
 }
 
-std::string GltfField::name() const {
+std::string GltfField::given_name() const {
   std::string name = (*this)["name"].text_or_none();
   const auto unprintable = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   std::replace_if(name.begin(), name.end(), unprintable, '?');

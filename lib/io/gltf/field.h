@@ -41,7 +41,7 @@ class GltfField {
   std::string text() const;
   std::string text_or_none() const { return given() ? text() : std::string(); }
   /// Of an object, "" where it has none. It will be printed: what no line can hold becomes '?'.
-  std::string name() const;
+  std::string given_name() const;
   std::vector<std::string> texts() const;
   bool flag() const;  ///< false where it is not given
 
