@@ -241,5 +241,8 @@ def record(run):
         files[name] = text
     for key, value in {"program": "another", "program_number": 7}.items():
         files[f"{key}"] = json.dumps(document | {"program": value}).encode()
+    for k, value in enumerate([{"seconds": 7}, {"seconds": {"stepping": "long"}}, {"resumed": "often"}, {"resumed": 1e300}, {"resumed": -1},
+                               {"resumed": 2 ** 63}, {"started": [1]}, {"status": {}}, {"seconds": [1]}]):
+        files[f"{next(iter(value))}_{k}"] = json.dumps(document | value).encode()
     files["not_utf8"] = replaced(whole, b'"sinew"', b'"sin\xffew"')
     return files
