@@ -19,7 +19,7 @@ namespace sinew {
 class GltfField {
  public:
   /// The whole of a JSON text. Throws bad input when it is damaged, nests more than 100 deep or
-  /// holds more than 20 million values.
+  /// holds more than 4 million values.
   explicit GltfField(std::string_view json);
 
   bool given() const { return value_ != nullptr; }
