@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -37,7 +38,7 @@ bool is_seconds(const nlohmann::ordered_json& value) {
 }
 
 bool is_count(const nlohmann::ordered_json& value) {
-  return value.is_number_unsigned() && value <= 1'000'000'000;
+  return value.is_number_unsigned() && value.get<std::uint64_t>() <= 1'000'000'000;
 }
 
 /// Whether it is of sinew, and what a run that goes on takes from it is of the right kind.
