@@ -243,7 +243,7 @@ void check_vtu_header(const std::filesystem::path& path) {
   read_xml(document);
   leave_data_out(document);
   if (!is_within_bounds(document.bare))
-    throw refused("its elements nest too deeply or its tags are too long");
+    throw refused("its elements are too many, too deep or too long");
   check_xml(document);
 }
 

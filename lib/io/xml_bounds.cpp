@@ -7,6 +7,7 @@ namespace sinew {
 namespace {
 
 constexpr int deepest = 32;
+constexpr int most_elements = 200'000;
 constexpr std::size_t longest_tag = 1 << 16, longest_entity = 16;  // bytes
 
 /// The end of the tag that begins at `at`: its '>', quoted ones passed over.
@@ -36,7 +37,7 @@ bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") 
 }  // namespace
 
 bool is_within_bounds(std::string_view xml) {
-  int depth = 0;
+  int depth = 0, elements = 0;
   for (std::size_t text = 0; text < xml.size();) {
     const std::size_t tag = std::min(xml.find('<', text), xml.size());
     const std::string_view between = xml.substr(text, tag - text);
@@ -45,6 +46,7 @@ bool is_within_bounds(std::string_view xml) {
     const char first = tag + 1 < xml.size() ? xml[tag + 1] : 0;
     const std::size_t end = end_of_tag(xml, tag);
     if (first == '!' || end - tag > longest_tag) return false;
+    if (first != '/' && ++elements > most_elements) return false;
     const bool closed_at_once = end < xml.size() && xml[end - 1] == '/';
     if (first == '/')
       --depth;

@@ -37,6 +37,10 @@ TEST(XmlBounds, WhatTheParserWouldLookAtAgainAndAgainIsNot) {
   EXPECT_FALSE(is_within_bounds("<a>&" + endless + "</a>"));
 }
 
+TEST(XmlBounds, ElementsWithoutNumberAreNot) {
+  EXPECT_FALSE(is_within_bounds("<a>" + times(200'000, "<b/>") + "</a>"));
+}
+
 TEST(XmlBounds, CommentsAndTypesAreNot) {
   EXPECT_FALSE(is_within_bounds("<a><!-- b --></a>"));
   EXPECT_FALSE(is_within_bounds("<a><![CDATA[b]]></a>"));
