@@ -54,8 +54,7 @@ Json lists_of(const ListCounts& counts) {
 void go_on_from(const Json& before, Json& record) {
   for (const char* key : {"started", "seconds"})
     if (before.contains(key)) record[key] = before[key];
-  const auto times = before.find("resumed");
-  record["resumed"] = 1 + (times != before.end() && times->is_number() ? times->get<int>() : 0);
+  record["resumed"] = 1 + before.value("resumed", 0);
 }
 
 }  // namespace

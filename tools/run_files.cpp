@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "config/scene.h"
 #include "core/dataset.h"
@@ -67,7 +68,10 @@ void read_rest_surface(RunFiles& run) {
 
 double field(const Dataset& data, const char* name) {
   const auto& values = numbers(data.field_columns, name);
-  return values.empty() ? 0 : values.front();
+  const double value = values.empty() ? 0 : values.front();
+  if (!std::isfinite(value))
+    throw bad_input(std::string(name) + " is not finite", "run the scene again with --force");
+  return value;
 }
 
 Energies energies_of(const Dataset& data) {
@@ -101,6 +105,15 @@ void read_surface_points(const RunFiles& run, std::size_t index, RunFrame& frame
   frame.surface_points = std::move(data.points);
 }
 
+/// Axes that are no rotation, or a length that is none, would be measured without a word.
+void check_bone(const RigidFrame& bone, double length, std::size_t index) {
+  constexpr double rounding = 1e-3;  // of single precision, by far
+  const Mat3 product = bone.rotation.transpose() * bone.rotation;
+  if (!product.isIdentity(rounding) || !(std::isfinite(length) && length > 0))
+    throw bad_input("bone " + std::to_string(index) + " has no length or axes at no right angles",
+                    "run the scene again with --force");
+}
+
 void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.frame_rows[index].file;
   const Dataset data = read_vtu(file);
@@ -113,6 +126,7 @@ void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
     for (std::size_t b = 0; b < data.points.size(); ++b) {
       RigidFrame bone{data.points[b], Mat3::Identity()};
       bone.rotation << x[b], y[b], z[b];
+      check_bone(bone, frame.bone_lengths[b], b);
       frame.bones.push_back(bone);
     }
   });

@@ -3,7 +3,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -30,12 +32,30 @@ std::string utc_now() {
   return text.data();
 }
 
+bool is_seconds(const nlohmann::ordered_json& value) {
+  return value.is_object() && std::all_of(value.begin(), value.end(),
+                                          [](const auto& spent) { return spent.is_number(); });
+}
+
+bool is_count(const nlohmann::ordered_json& value) {
+  return value.is_number_unsigned() && value.get<std::uint64_t>() <= 1'000'000'000;
+}
+
+/// Whether it is of sinew, and what a run that goes on takes from it is of the right kind.
+bool is_record(const nlohmann::ordered_json& record) {
+  using Json = nlohmann::ordered_json;
+  return record.is_object() && record.value("program", Json()) == "sinew" &&
+         record.value("status", Json("")).is_string() &&
+         record.value("started", Json("")).is_string() &&
+         is_seconds(record.value("seconds", Json::object())) &&
+         is_count(record.value("resumed", Json(0u)));
+}
+
 }  // namespace
 
 nlohmann::ordered_json read_record(const RunFolder& folder) {
   auto record = nlohmann::ordered_json::parse(read_file(folder.record()), nullptr, false);
-  if (record.is_object() && record.value("program", nlohmann::ordered_json()) == "sinew")
-    return record;
+  if (is_record(record)) return record;
   throw bad_input(Place{folder.record().string()}, "is not the record of a run",
                   "run the scene again with --force");
 }

@@ -148,6 +148,16 @@ void write_last_state(const Simulation& simulation, const std::filesystem::path&
                {simulation.time(), static_cast<std::int32_t>(simulation.steps())});
 }
 
+/// Frames up to a state; one that lies after the end is not of this run.
+int frames_until(const SimulationState& state, const Course& course) {
+  const std::int64_t last = std::int64_t{course.frames} * course.steps_per_frame;
+  if (state.steps > last)
+    throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
+                        ", and the run ends with step " + std::to_string(last),
+                    "begin again with --force");
+  return static_cast<int>(state.steps / course.steps_per_frame + 1);
+}
+
 /// Steps through and closes the series; the good frames of an unstable run too.
 Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder, Journal& journal,
                 RunKeeper& keeper, const RunFolder& folder, const Common& common) {
@@ -183,7 +193,7 @@ Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder
     made.body = {};  // millions of numbers that nobody needs any more
     if (state) {
       simulation.restore(*state);
-      course.there = static_cast<int>(state->steps / course.steps_per_frame + 1);
+      course.there = frames_until(*state, course);
       journal.frames(course.there);
     }
     Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles,
@@ -268,8 +278,8 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
                   three_digits(made.setup.steps.factor()) + " of the stability limit " +
                   three_digits(made.setup.steps.limit) + " s");
 
-  for (const std::string& warning : warnings_of(
-           made.setup, settings.solver, bone_speed(made.setup, settings.output.interval)))
+  for (const std::string& warning :
+       warnings_of(made.setup, settings.solver, bone_speed(made.setup, settings.output.interval)))
     say(common, "sinew: warning: " + warning);
 
   catch_stop_signals();

@@ -33,6 +33,13 @@ void check(const Dataset& data) {
     throw refused("its ids are not 0, 1, 2, ...");
 }
 
+void check_weights(const std::vector<double>& weights) {
+  constexpr double rounding = 1e-9;
+  for (const double weight : weights)
+    if (!(weight >= 0 && weight <= 1 + rounding))
+      throw refused("the weight " + std::to_string(weight) + " of a bone is not between 0 and 1");
+}
+
 BodyFile body_of(const Dataset& data) {
   check(data);
   BodyFile body;
@@ -42,6 +49,7 @@ BodyFile body_of(const Dataset& data) {
   body.component = integers(data.point_columns, "component");
   if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
   if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
+  if (body.weight) check_weights(*body.weight);
   body.meta = data.meta;
   return body;
 }

@@ -11,12 +11,12 @@
 #include "core/settings_table.h"
 #include "io/series.h"
 #include "io/vtk_messages.h"
-#include "io/xml_depth.h"
+#include "io/xml_bounds.h"
 
 namespace sinew {
 namespace {
 
-constexpr std::uint64_t largest_pvd = std::uint64_t{256} << 20;  // bytes: two million rows
+constexpr std::uint64_t largest_pvd = std::uint64_t{256} << 20;  // bytes
 
 Error refused(const std::string& what) { return bad_input(what, "use a PVD file of a run"); }
 
@@ -71,7 +71,8 @@ std::string pvd_text(const std::vector<PvdRow>& rows) {
 
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path, largest_pvd);
-  if (!nests_moderately(text)) throw refused("it is not a PVD file").within({path.string()});
+  if (!is_within_bounds(text))
+    throw refused("it is not a PVD file, or one of over 200000 frames").within({path.string()});
   const VtkMessages messages;
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
       vtkXMLUtilities::ReadElementFromString(text.c_str()));

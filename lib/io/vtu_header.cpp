@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "io/vtu_blocks.h"
-#include "io/xml_depth.h"
+#include "io/xml_bounds.h"
 
 namespace sinew {
 namespace {
@@ -242,7 +242,8 @@ void check_vtu_header(const std::filesystem::path& path) {
   check_start_and_end(document);
   read_xml(document);
   leave_data_out(document);
-  if (!nests_moderately(document.bare)) throw refused("its elements are nested too deeply");
+  if (!is_within_bounds(document.bare))
+    throw refused("its elements are too many, too deep or too long");
   check_xml(document);
 }
 

@@ -50,6 +50,13 @@ std::string_view attribute(std::string_view tag, const std::string& name) {
   return value;
 }
 
+/// Whether a line is that tag and nothing else.
+bool is_tag(std::string_view line, std::string_view name) {
+  const bool named = line.starts_with('<') && line.substr(1, name.size()) == name &&
+                     line.find_first_of(" >") == name.size() + 1;
+  return named && line.find('>') == line.size() - 1 && line.find('<', 1) == line.npos;
+}
+
 /// No count is above `most`.
 std::uint64_t count_of(std::string_view tag, const std::string& name, std::uint64_t most) {
   const auto text = attribute(tag, name);
@@ -68,7 +75,7 @@ struct Element {
 };
 
 Element next_element(std::string_view tag, Lines& lines) {
-  require(tag.starts_with("<DataArray ") && attribute(tag, "format") == "binary");
+  require(is_tag(tag, "DataArray") && attribute(tag, "format") == "binary");
   Element element{tag, lines.next()};
   if (!attribute(tag, "NumberOfComponents").empty())
     element.components = count_of(tag, "NumberOfComponents", most_components);
@@ -83,7 +90,7 @@ Element next_element(std::string_view tag, Lines& lines) {
 }
 
 std::vector<Element> next_group(const std::string& name, Lines& lines) {
-  require(lines.next().starts_with('<' + name));
+  require(is_tag(lines.next(), name));
   const std::string end = "</" + name + '>';
   std::vector<Element> elements;
   for (auto line = lines.next(); line != end; line = lines.next())
@@ -112,7 +119,7 @@ Parts parts_of(std::string_view text) {
   Lines lines(text);
   parts.field = next_group("FieldData", lines);
   const auto piece = lines.next();
-  require(piece.starts_with("<Piece "));
+  require(is_tag(piece, "Piece"));
   parts.points = count_of(piece, "NumberOfPoints", most);
   parts.cells = count_of(piece, "NumberOfCells", most);
   parts.of_points = next_group("PointData", lines);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -45,20 +43,22 @@ bool fits_int32(vtkDataArray& array) {
   return true;
 }
 
-template <class Value, class Array>
-std::vector<Value> converted_values(Array& array) {
-  const auto* first = array.GetPointer(0);
+template <class Value>
+using Typed = vtkAOSDataArrayTemplate<Value>;
+
+template <class Value, class Given>
+std::vector<Value> converted_values(Typed<Given>& array) {
+  const Given* first = array.GetPointer(0);
   return {first, first + array.GetNumberOfValues()};
 }
 
-template <class Array>
-std::vector<typename Array::ValueType> values_of(vtkDataArray& array) {
-  using Value = typename Array::ValueType;
+template <class Value>
+std::vector<Value> values_of(vtkDataArray& array) {
   // What our own files hold, without a copy between.
-  if (auto* same = Array::FastDownCast(&array)) return converted_values<Value>(*same);
-  if (auto* reals = vtkFloatArray::FastDownCast(&array); reals && std::is_same_v<Value, double>)
+  if (auto* same = Typed<Value>::FastDownCast(&array)) return converted_values<Value>(*same);
+  if (auto* reals = Typed<float>::FastDownCast(&array); reals && std::is_same_v<Value, double>)
     return converted_values<Value>(*reals);
-  vtkNew<Array> converted;
+  vtkNew<Typed<Value>> converted;
   converted->DeepCopy(&array);
   return converted_values<Value>(*converted);
 }
@@ -66,9 +66,9 @@ std::vector<typename Array::ValueType> values_of(vtkDataArray& array) {
 Column column_of(vtkDataArray& array) {
   Column column{array.GetName() ? array.GetName() : "", array.GetNumberOfComponents(), {}};
   if (fits_int32(array))
-    column.values = values_of<vtkTypeInt32Array>(array);
+    column.values = values_of<std::int32_t>(array);
   else
-    column.values = values_of<vtkDoubleArray>(array);
+    column.values = values_of<double>(array);
   return column;
 }
 
@@ -88,7 +88,7 @@ std::vector<Column> columns_of(vtkFieldData& from, vtkIdType rows) {
 
 Points points_of(vtkUnstructuredGrid& grid) {
   if (!grid.GetPoints()) return {};
-  const auto flat = values_of<vtkDoubleArray>(*grid.GetPoints()->GetData());
+  const auto flat = values_of<double>(*grid.GetPoints()->GetData());
   Points points;
   points.reserve(flat.size() / 3);
   for (std::size_t i = 0; i + 2 < flat.size(); i += 3) points.emplace_back(&flat[i]);
@@ -111,11 +111,11 @@ CellKind kind_of(vtkUnstructuredGrid& grid) {
 /// Checked here because VTK believes what the file says: every cell of `size` points, all existing.
 std::vector<std::int32_t> connectivity_of(vtkUnstructuredGrid& grid, int size) {
   vtkCellArray& cells = *grid.GetCells();
-  const auto offsets = values_of<vtkDoubleArray>(*cells.GetOffsetsArray());
+  const auto offsets = values_of<double>(*cells.GetOffsetsArray());
   for (std::size_t i = 0; i < offsets.size(); ++i)
     if (offsets[i] != static_cast<double>(i) * size)
       throw refused("a cell does not have " + std::to_string(size) + " point(s)");
-  const auto ids = values_of<vtkDoubleArray>(*cells.GetConnectivityArray());
+  const auto ids = values_of<double>(*cells.GetConnectivityArray());
   if (ids.size() != static_cast<std::size_t>(grid.GetNumberOfCells()) * size)
     throw refused("its cells are cut short");
   for (const double id : ids)
@@ -183,9 +183,16 @@ Dataset read_checked(const std::filesystem::path& path, const std::optional<Name
   return dataset_of(*reader->GetOutput());
 }
 
+void check_points(const Points& points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite()) throw refused("point " + std::to_string(i) + " is not finite");
+}
+
 Dataset read_told(const std::filesystem::path& path, const std::optional<Names>& names) {
   try {
-    return read_checked(path, names);
+    Dataset data = read_checked(path, names);
+    check_points(data.points);
+    return data;
   } catch (const Error& error) {
     throw error.within({path.string()});
   } catch (const std::exception&) {

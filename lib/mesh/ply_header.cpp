@@ -45,7 +45,7 @@ class HeaderReader {
         return header_;
       }
       if (keyword == "format")
-        encoded = true, format(words.next());
+        encoded = true, format(words);
       else if (keyword == "element")
         element(words);
       else if (keyword == "property")
@@ -61,9 +61,12 @@ class HeaderReader {
     return file_.broken(lines_.number(), what, "export the mesh again as PLY");
   }
 
-  void format(std::string_view word) {
+  void format(Words& words) {
+    const std::string_view word = words.next(), version = words.next();
     const auto* found = std::find(encodings.begin(), encodings.end(), word);
     if (found == encodings.end()) throw broken("unknown format " + shown(word));
+    if (!version.empty() && version != "1.0")
+      throw broken("PLY of version " + shown(version) + ", not 1.0");
     header_.encoding = static_cast<PlyEncoding>(found - encodings.begin());
   }
 

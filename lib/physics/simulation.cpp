@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/simulation.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -19,6 +20,10 @@ const Particles& checked(const Particles& particles) {
           "particle " + std::to_string(particles.id[i]) + " has a position that is not finite",
           "fill the body again");
   return particles;
+}
+
+bool is_finite(const BookEntries& book) {
+  return std::isfinite(book.work) && std::isfinite(book.dissipation) && std::isfinite(book.power);
 }
 
 }  // namespace
@@ -90,9 +95,9 @@ void Simulation::fail(const Offender& first) const {
               "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
                   std::to_string(id) + where +
                   (first.finite ? " moved over " + three_digits(most_radii_per_step) +
-                                        (bones.empty() ? " r off its motion before in one step"
-                                                       : " r relative to its bone in one step")
-                                  : std::string(" reached a value that is not finite")) +
+                                      (bones.empty() ? " r off its motion before in one step"
+                                                     : " r relative to its bone in one step")
+                                : std::string(" reached a value that is not finite")) +
                   "; use solver.time_step " + three_digits(stepping_.step / 2) + " or less");
 }
 
@@ -177,6 +182,8 @@ SimulationState Simulation::save() const {
 
 void Simulation::restore(const SimulationState& state) {
   if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  if (!is_finite(state.book) || !is_finite(state.world_book) || !std::isfinite(state.held_at_start))
+    throw not_a_state("its energies are not finite");
   std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
   steps_ = state.steps;
   book_.restore(state.book);

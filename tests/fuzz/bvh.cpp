@@ -11,7 +11,8 @@ namespace {
 void require_sound(const Rig& rig, const Bvh& bvh) {
   require(rig.skeleton.size() == bvh.joints.size());
   for (const Bone& bone : rig.skeleton.bones)
-    require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite());
+    require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite() &&
+            is_one_line(bone.name));
   for (const Clip& clip : rig.clips)
     for (const Track& track : clip.motion.tracks)
       for (const Quat& turn : track.rotation.values) require(std::abs(turn.norm() - 1) < 1e-9);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -29,6 +30,11 @@ struct Folder {
 
 void require(bool holds) {
   if (!holds) std::abort();
+}
+
+bool is_one_line(std::string_view text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](unsigned char c) { return c == '\n' || c == '\r' || c == 0x1b; });
 }
 
 std::filesystem::path file_of(std::string_view bytes, const char* name) {

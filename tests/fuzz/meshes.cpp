@@ -38,7 +38,9 @@ void gltf(std::string_view bytes) {
     const GltfRig rig = read_gltf_rig(path);
     require_sound(rig.mesh);
     for (const Bone& bone : rig.rig.skeleton.bones)
-      require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite());
+      require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite() &&
+              is_one_line(bone.name));
+    for (const Clip& clip : rig.rig.clips) require(is_one_line(clip.name));
   });
 }
 

@@ -22,6 +22,9 @@ void vtu(std::string_view bytes);
 /// Ends the program where something that always holds does not.
 void require(bool holds);
 
+/// Whether there is nothing in it that a terminal would obey.
+bool is_one_line(std::string_view text);
+
 /// Does `job`; what it throws must be bad input in one line.
 template <class Job>
 void expect_sound_or_refused(Job&& job);

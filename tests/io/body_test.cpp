@@ -52,6 +52,9 @@ TEST_F(Body, IsRefusedWhenAnArrayIsMissingOrWrong) {
       contains(message([](Dataset& d) { std::get<0>(d.point_columns[0].values)[3] = 4; }), "ids"));
   EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, 1)[3] = 1; }), "radius"));
   EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, 2)[0] = 0; }), "mass"));
+  EXPECT_TRUE(contains(
+      message([&](Dataset& d) { numbers_in(d, int(d.point_columns.size()) - 1)[2] = NAN; }),
+      "weight"));
   EXPECT_TRUE(contains(message([](Dataset& d) { d.points[2].x() = NAN; }), "finite"));
   EXPECT_TRUE(contains(message([](Dataset& d) { d = {}; }), "no particles"));
 }

@@ -189,6 +189,15 @@ TEST_F(ReadGltfRig, NamesClipsOnceEach) {
   EXPECT_EQ(clips[2].name, "animation_2");
 }
 
+TEST_F(ReadGltfRig, TakesNamesIntoOneLine) {
+  Gltf gltf = bending_bar();
+  gltf.json["nodes"][0]["name"] = "low\ner\x1b[31m";
+  gltf.json["animations"][0]["name"] = "\tclip\x7f";
+  const Rig rig = read(gltf).rig;
+  EXPECT_EQ(rig.skeleton.bones[0].name, "low?er?[31m");
+  EXPECT_EQ(rig.clips[0].name, "?clip?");
+}
+
 TEST_F(ReadGltfRig, KnowsDurationAndFrames) {
   const GltfRig even = read(bending_bar());
   EXPECT_EQ(even.rig.clips[0].duration, 1);

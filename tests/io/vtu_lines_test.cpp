@@ -177,6 +177,8 @@ TEST_F(VtuLines, LeaveOtherFilesToVtk) {
            {"Name=\"offsets\"", "Name=\"ofsets\""},
            {"type=\"Float32\"", "type=\"Float64\""},
            {"NumberOfComponents=\"3\"", "NumberOfComponents=\"18446744073709551615\""},
+           {"<FieldData>", "<FieldData><a>"},
+           {"<Cells>", "<Cellss>"},
            {"format=\"binary\"", "format=\"ascii\""},
            {"Name=\"displacement\"", "Name=\"a&amp;b\""}}) {
     std::string changed = text;

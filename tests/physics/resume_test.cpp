@@ -278,6 +278,9 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   bad = good;
   bad.steps = -1;
   refuse(bend("", binary64), bad, "steps");
+  bad = good;
+  bad.world_book.work = NAN;
+  refuse(bend("", binary64), bad, "energies");
   bad = bend("", binary32).begin().save();
   bad.whole_numbers.length = 0;
   refuse(bend("", binary32), bad, "measure");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/gltf/field.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest = 100;               // real files nest to about 10
-constexpr std::int64_t most_values = 2e7;  // each takes some 50 bytes once parsed
+constexpr std::int64_t most_values = 4e6;  // each takes some 100 bytes once parsed
+constexpr std::size_t most_items = 100'000;
 
 /// Index of the quote that ends the string beginning at `at`.
 std::size_t end_of_string(std::string_view json, std::size_t at) {
@@ -36,7 +38,7 @@ void check_extent(std::string_view json) {
     if (c == '[' || c == '{') ++depth;
     if (c == '[' || c == '{' || c == ',') ++values;
     if (depth > deepest) throw damaged_gltf("its JSON is nested more than 100 deep");
-    if (values > most_values) throw damaged_gltf("its JSON holds more than 20 million values");
+    if (values > most_values) throw damaged_gltf("its JSON holds more than 4 million values");
   }
 }
 
@@ -118,7 +120,11 @@ GltfField GltfField::operator[](const char* key) const {
 
 std::vector<GltfField> GltfField::items() const {
   std::vector<GltfField> items;
-  for (const Json& item : array_in(value_, name_))
+  const Json& list = array_in(value_, name_);
+  if (list.size() > most_items)
+    throw bad_input(name_ + " lists " + std::to_string(list.size()) + " items, more than 100000",
+                    "export only what is needed");
+  for (const Json& item : list)
     items.push_back({std::shared_ptr<const void>(value_, &item), nth(name_.c_str(), items.size())});
   return items;
 }
@@ -158,6 +164,13 @@ std::string GltfField::text() const {
   if (!given()) throw damaged_gltf(name_ + " is missing");
   if (!json(value_).is_string()) throw wrong(name_, json(value_), "text");
   return json(value_).get<std::string>();
+}
+
+std::string GltfField::given_name() const {
+  std::string name = (*this)["name"].text_or_none();
+  const auto unprintable = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  std::replace_if(name.begin(), name.end(), unprintable, '?');
+  return name;
 }
 
 std::vector<std::string> GltfField::texts() const {

@@ -19,7 +19,7 @@ namespace sinew {
 class GltfField {
  public:
   /// The whole of a JSON text. Throws bad input when it is damaged, nests more than 100 deep or
-  /// holds more than 20 million values.
+  /// holds more than 4 million values.
   explicit GltfField(std::string_view json);
 
   bool given() const { return value_ != nullptr; }
@@ -40,6 +40,8 @@ class GltfField {
 
   std::string text() const;
   std::string text_or_none() const { return given() ? text() : std::string(); }
+  /// Of an object, "" where it has none. It will be printed: what no line can hold becomes '?'.
+  std::string given_name() const;
   std::vector<std::string> texts() const;
   bool flag() const;  ///< false where it is not given
 

@@ -64,7 +64,7 @@ GltfPrimitive primitive_in(const Field& field) {
 }
 
 GltfMesh mesh_in(const Field& field) {
-  GltfMesh mesh{field["name"].text_or_none(), {}};
+  GltfMesh mesh{field.given_name(), {}};
   for (const Field& primitive : field["primitives"].items())
     mesh.primitives.push_back(primitive_in(primitive));
   return mesh;
@@ -81,7 +81,7 @@ std::vector<double> rotation_in(const Field& field) {
 
 GltfNode node_in(const Field& field) {
   GltfNode node;
-  node.name = field["name"].text_or_none();
+  node.name = field.given_name();
   node.children = field["children"].indices();
   node.mesh = field["mesh"].index_or_none();
   node.skin = field["skin"].index_or_none();
@@ -139,7 +139,7 @@ std::vector<Element> all(const Field& field, Element (*one)(const Field&)) {
 }
 
 GltfAnimation animation_in(const Field& field) {
-  return {field["name"].text_or_none(), all(field["samplers"], sampler_in),
+  return {field.given_name(), all(field["samplers"], sampler_in),
           all(field["channels"], channel_in)};
 }
 
