@@ -10,13 +10,6 @@
 namespace sinew::fuzz {
 namespace {
 
-struct Target {
-  const char* name;
-  void (*try_one)(std::string_view);
-};
-
-void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
-
 class Corpus : public testing::TestWithParam<Target> {};
 
 TEST_P(Corpus, IsSoundOrRefused) {
@@ -36,12 +29,7 @@ TEST_P(Corpus, IsSoundOrRefused) {
   EXPECT_GT(files, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Corpus,
-                         testing::Values(Target{"bvh", bvh}, Target{"checkpoint", checkpoint},
-                                         Target{"gltf", gltf}, Target{"obj", obj},
-                                         Target{"off", off}, Target{"ply", ply}, Target{"pvd", pvd},
-                                         Target{"scene", scene}, Target{"stl", stl},
-                                         Target{"vtu", vtu}),
+INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::ValuesIn(tried_targets()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

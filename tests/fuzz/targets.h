@@ -4,7 +4,9 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <string_view>
+#include <vector>
 
 namespace sinew::fuzz {
 
@@ -18,6 +20,16 @@ void pvd(std::string_view bytes);
 void scene(std::string_view bytes);
 void stl(std::string_view bytes);
 void vtu(std::string_view bytes);
+
+/// A reader by its name, which is that of its corpus too.
+struct Target {
+  const char* name;
+  void (*try_one)(std::string_view bytes);
+};
+inline void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
+
+/// Those that this program tries on their corpora.
+std::vector<Target> tried_targets();
 
 /// Ends the program where something that always holds does not.
 void require(bool holds);

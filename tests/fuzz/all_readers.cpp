@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "targets.h"
+
+namespace sinew::fuzz {
+
+std::vector<Target> tried_targets() {
+  return {{"bvh", bvh}, {"checkpoint", checkpoint}, {"gltf", gltf}, {"obj", obj}, {"off", off},
+          {"ply", ply}, {"pvd", pvd}, {"scene", scene}, {"stl", stl}, {"vtu", vtu}};
+}
+
+}  // namespace sinew::fuzz

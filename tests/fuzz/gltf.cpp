@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/gltf/read_gltf.h"
+#include "io/gltf/read_rig.h"
+#include "sound_mesh.h"
+
+namespace sinew::fuzz {
+
+void gltf(std::string_view bytes) {
+  const bool binary = bytes.substr(0, 4) == "glTF";
+  const auto path = file_of(bytes, binary ? "fuzz.glb" : "fuzz.gltf");
+  expect_sound_or_refused([&] { require_sound(read_gltf(path)); });
+  expect_sound_or_refused([&] {
+    const GltfRig rig = read_gltf_rig(path);
+    require_sound(rig.mesh);
+    for (const Bone& bone : rig.rig.skeleton.bones)
+      require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite() &&
+              is_one_line(bone.name));
+    for (const Clip& clip : rig.rig.clips) require(is_one_line(clip.name));
+  });
+}
+
+}  // namespace sinew::fuzz
