@@ -5,7 +5,9 @@
 // answers the velocity of half a step before, which makes it first order with it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <complex>
+#include <functional>
 
 #include "physics/ways.h"
 
