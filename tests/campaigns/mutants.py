@@ -17,6 +17,7 @@ import random
 import re
 import resource
 import selectors
+import shlex
 import shutil
 import signal
 import subprocess
@@ -24,6 +25,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from mutations import mutants_of, sample
@@ -31,6 +33,9 @@ from mutations import mutants_of, sample
 PROGRAMS = {"physics": ["physics_tests", "laws_tests"], "metrics": ["metrics_tests"]}
 LEFT_OUT = shutil.ignore_patterns("build*", "out", ".git", "__pycache__")
 ENOUGH = 0.9
+FAST = ["-O1", "-DNDEBUG", "-w"]
+COMMON_HEADERS = ["Eigen/Core", "Eigen/Geometry", "algorithm", "array", "cmath", "functional", "map", "memory",
+                  "optional", "string", "variant", "vector"]
 MEMORY = 6 << 30  # bytes a test may take
 
 
@@ -76,9 +81,9 @@ class Program:
         self.stages = [[name for name, seconds in self.seconds.items() if low <= seconds < high]
                        for low, high in ((0, 0.1), (0.1, min(0.5, slowest)), (0.5, slowest))]
 
-    def run(self, names):
+    def run(self, path, names):
         """None, or what noticed: the first test that fails, or takes far longer than it should."""
-        with subprocess.Popen([self.path, "--gtest_fail_fast", "--gtest_filter=" + ":".join(names)],
+        with subprocess.Popen([path, "--gtest_fail_fast", "--gtest_filter=" + ":".join(names)],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, preexec_fn=within_limits) as child:
             try:
                 test, in_time = self.follow(child)
@@ -102,24 +107,81 @@ class Program:
                         deadline = time.monotonic() + self.patience + 10 * self.seconds.get(test, 0)
         return test, False
 
-    def notice(self):
-        return next((noticed for names in self.stages if names and (noticed := self.run(names))), None)
+    def notice(self, path):
+        """The same for the program at that path, by all tests, the cheapest first."""
+        return next((noticed for names in self.stages if names and (noticed := self.run(path, names))), None)
+
+
+class Build:
+    """A whole build, and how single objects of it are made anew beside it."""
+
+    def __init__(self, folder, beside):
+        self.folder, self.beside = folder, beside
+        entries = json.loads((folder / "compile_commands.json").read_text())
+        self.entries = {entry["output"]: entry for entry in entries}
+        self.users = {}  # of a file, by its path: objects made of it
+        said = subprocess.run(["ninja", "-t", "deps"], cwd=folder, check=True, capture_output=True, text=True).stdout
+        for block in said.split("\n\n"):
+            made, *needed = block.splitlines() or [""]
+            for file in needed:
+                self.users.setdefault((folder / file.strip()).resolve(), []).append(made.partition(":")[0])
+        beside.mkdir(parents=True, exist_ok=True)
+        self.common = beside / "common.h"
+        self.common.write_text("".join(f"#include <{name}>\n" for name in COMMON_HEADERS))
+        self.precompile("of_lib", ["-fPIC"])
+        self.precompile("of_tests", [])
+
+    def precompile(self, name, words):
+        """What takes most of the time of compiling; the compiler takes the one that fits, or none."""
+        target = Path(f"{self.common}.gch") / name
+        target.parent.mkdir(exist_ok=True)
+        subprocess.run(["c++", "-x", "c++-header", "-std=gnu++20", "-isystem", "/usr/include/eigen3", *words,
+                        "-ffp-contract=off", *FAST, self.common, "-o", target], check=True)
+
+    def beside_of(self, made):
+        return str(self.beside / made.replace("/", "_"))
+
+    def compiles(self, made):
+        entry = self.entries[made]
+        words = [word for word in shlex.split(entry["command"]) if not word.endswith("ccache")]
+        words[words.index("-o") + 1] = self.beside_of(made)
+        words[1:1] = ["-include", str(self.common)]
+        return subprocess.run([*words, *FAST], cwd=entry["directory"], capture_output=True).returncode == 0
+
+    def link(self, name, made):
+        """The program of that name with these objects in place of those of the build; its path."""
+        target = f"tests/{name}"
+        said = subprocess.run(["ninja", "-t", "commands", target], cwd=self.folder, check=True,
+                              capture_output=True, text=True).stdout.splitlines()[-1]
+        words = shlex.split(next(piece for piece in said.split("&&") if f"-o {target} " in piece))
+        words = [self.beside_of(word) if word in made else word for word in words]
+        words[words.index("-o") + 1] = self.beside_of(target)
+        # What an archive holds of the same names is not taken from there.
+        library = next(at for at, word in enumerate(words) if word.endswith(".a"))
+        words[library:library] = [self.beside_of(one) for one in made if one.startswith("lib/")]
+        subprocess.run(words, cwd=self.folder, check=True, capture_output=True)
+        return Path(self.beside_of(target))
 
 
 class Workshop:
     """A copy of the project with a build of its own."""
 
     def __init__(self, source, folder, room, slowest):
-        self.tree, self.build = folder / "tree", folder / "build"
+        self.tree = folder / "tree"
         self.copy(source)
+        build, names = folder / "build", PROGRAMS[room]
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
         # Neither asserts nor warnings notice anything: only tests do. Headers compiled beforehand would
         # need another room's tests.
-        self.call("cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-                  "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -w", "-DSINEW_STRICT=OFF", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", *launcher)
-        names = PROGRAMS[room]
-        self.call("cmake", "--build", self.build, "-j2", "--target", *names)
-        self.programs = [Program(self.build / "tests" / name, slowest) for name in names]
+        self.call("cmake", "-S", self.tree, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+                  f"-DCMAKE_CXX_FLAGS={' '.join(FAST)}", "-DSINEW_STRICT=OFF",
+                  "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", *launcher)
+        self.call("cmake", "--build", build, "-j2", "--target", *names)
+        self.set_out(build, folder / "beside", room, slowest)
+
+    def set_out(self, build, beside, room, slowest):
+        self.build = Build(build, beside)
+        self.programs = [Program(build / "tests" / name, slowest) for name in PROGRAMS[room]]
 
     def copy(self, source):
         shutil.copytree(source, self.tree, ignore=LEFT_OUT, copy_function=copy_if_other, dirs_exist_ok=True)
@@ -128,27 +190,33 @@ class Workshop:
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
 
-    def compiles(self, program):
-        command = ["cmake", "--build", self.build, "-j2", "--target", program.path.name]
-        return subprocess.run(command, capture_output=True).returncode == 0
+    def compile(self, objects):
+        with ThreadPoolExecutor(2) as pool:
+            return all(pool.map(self.build.compiles, objects))
 
-    def fate(self):
-        """Of the copy as it is."""
+    def fate(self, file):
+        """Of the copy as it is, when that file of it is another."""
+        users = self.build.users.get((self.tree / file).resolve(), [])
+        of_lib = [made for made in users if made.startswith("lib/")]
+        if not self.compile(of_lib):
+            return "does not compile", ""
         for program in self.programs:
-            if not self.compiles(program):
+            of_tests = [made for made in users if f"/{program.path.name}.dir/" in made]
+            if not self.compile(of_tests):
                 return "does not compile", ""
-            if noticed := program.notice():
+            if noticed := program.notice(self.build.link(program.path.name, of_lib + of_tests)):
                 return noticed[1], noticed[0]
         return "survived", ""
 
     def fate_of(self, mutant):
         path = self.tree / mutant.file
-        text = path.read_text()
+        text, times = path.read_text(), path.stat()
         path.write_text(mutant.applied_to(text))
         try:
-            return self.fate()
+            return self.fate(mutant.file)
         finally:
             path.write_text(text)
+            os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
 def share(fates):
@@ -174,6 +242,7 @@ def go(arguments, mutants, folder):
 
 
 def main():
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the copy is put right before
     parser = argparse.ArgumentParser()
     parser.add_argument("source", type=lambda text: Path(text).resolve())
     parser.add_argument("room", choices=PROGRAMS)

@@ -90,8 +90,8 @@ class Trial(mutants.Workshop):
         self.tree = folder / "tree"
         self.copy(source)
 
-    def fate(self):
-        return (self.tree / "lib/physics/pair_force.h").read_text()
+    def fate(self, file):
+        return (self.tree / file).read_text()
 
 
 class Copy(unittest.TestCase):
@@ -103,7 +103,7 @@ class Copy(unittest.TestCase):
             trial = Trial(SOURCE, Path(folder))
             self.assertEqual(trial.fate_of(mutant), mutant.applied_to(text))
             self.assertNotEqual(mutant.applied_to(text), text)
-            self.assertEqual(trial.fate(), text)
+            self.assertEqual(trial.fate(file), text)
             self.assertFalse((trial.tree / ".git").exists())
         self.assertEqual((SOURCE / file).read_text(), text)
 
@@ -121,10 +121,11 @@ class Runs(unittest.TestCase):
     def fate(self, body):
         with tempfile.TemporaryDirectory() as folder:
             program = object.__new__(mutants.Program)
-            program.path, program.seconds, program.patience = Path(folder) / "tests", {}, 0.5
-            program.path.write_text("#!/bin/sh\necho '[ RUN      ] A.b'\n" + body)
-            program.path.chmod(0o755)
-            return program.run(["A.b"])
+            program.seconds, program.patience = {}, 0.5
+            path = Path(folder) / "tests"
+            path.write_text("#!/bin/sh\necho '[ RUN      ] A.b'\n" + body)
+            path.chmod(0o755)
+            return program.run(path, ["A.b"])
 
     def test_tell_what_noticed(self):
         self.assertIsNone(self.fate("exit 0"))
