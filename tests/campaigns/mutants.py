@@ -118,7 +118,7 @@ class Build:
     def __init__(self, folder, beside):
         self.folder, self.beside = folder, beside
         entries = json.loads((folder / "compile_commands.json").read_text())
-        self.entries = {entry["output"]: entry for entry in entries}
+        self.entries = {entry["command"].partition(" -o ")[2].split()[0]: entry for entry in entries}
         self.users = {}  # of a file, by its path: objects made of it
         said = subprocess.run(["ninja", "-t", "deps"], cwd=folder, check=True, capture_output=True, text=True).stdout
         for block in said.split("\n\n"):
