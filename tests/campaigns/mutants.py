@@ -148,12 +148,20 @@ class Build:
         words[1:1] = ["-include", str(self.common)]
         return subprocess.run([*words, *FAST], cwd=entry["directory"], capture_output=True).returncode == 0
 
-    def link(self, name, made):
-        """The program of that name with these objects in place of those of the build; its path."""
+    def link_words(self, name):
         target = f"tests/{name}"
         said = subprocess.run(["ninja", "-t", "commands", target], cwd=self.folder, check=True,
                               capture_output=True, text=True).stdout.splitlines()[-1]
-        words = shlex.split(next(piece for piece in said.split("&&") if f"-o {target} " in piece))
+        return shlex.split(next(piece for piece in said.split("&&") if f"-o {target} " in piece))
+
+    def parts_of(self, name, made):
+        """Those of the objects that the program of that name is made of: its own, and of its rooms."""
+        rooms = {str(Path(word).parent) for word in self.link_words(name) if word.endswith(".a")}
+        return [one for one in made if f"/{name}.dir/" in one or one.partition("/CMakeFiles/")[0] in rooms]
+
+    def link(self, name, made):
+        """The program of that name with these objects in place of those of the build; its path."""
+        target, words = f"tests/{name}", self.link_words(name)
         words = [self.beside_of(word) if word in made else word for word in words]
         words[words.index("-o") + 1] = self.beside_of(target)
         # What an archive holds of the same names is not taken from there.
@@ -196,15 +204,13 @@ class Workshop:
 
     def fate(self, file):
         """Of the copy as it is, when that file of it is another."""
-        users = self.build.users.get((self.tree / file).resolve(), [])
-        of_lib = [made for made in users if made.startswith("lib/")]
-        if not self.compile(of_lib):
-            return "does not compile", ""
+        users, compiled = self.build.users.get((self.tree / file).resolve(), []), set()
         for program in self.programs:
-            of_tests = [made for made in users if f"/{program.path.name}.dir/" in made]
-            if not self.compile(of_tests):
+            parts = self.build.parts_of(program.path.name, users)
+            if not self.compile([made for made in parts if made not in compiled]):
                 return "does not compile", ""
-            if noticed := program.notice(self.build.link(program.path.name, of_lib + of_tests)):
+            compiled.update(parts)
+            if noticed := program.notice(self.build.link(program.path.name, parts)):
                 return noticed[1], noticed[0]
         return "survived", ""
 
