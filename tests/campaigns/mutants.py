@@ -262,10 +262,12 @@ def main():
     mutants = all_mutants(arguments.source, arguments.room)
     if arguments.at:
         mutants = [mutant for mutant in mutants if any(is_at(mutant, place) for place in arguments.at)]
-    mutants = sample(mutants, arguments.count, random.Random(arguments.seed))
+    chance = random.Random(arguments.seed)
+    mutants = sample(mutants, arguments.count, chance)
     if arguments.list:
         print(*mutants, sep="\n")
         return 0
+    chance.shuffle(mutants)  # what is tried first is a fair sample too
     with tempfile.TemporaryDirectory() as temporary:
         return go(arguments, mutants, arguments.work or Path(temporary))
 
