@@ -99,7 +99,8 @@ class Program:
             while waiting.select(max(0, deadline - time.monotonic())):
                 more = os.read(child.stdout.fileno(), 1 << 16)
                 if not more:
-                    return test, True
+                    failed = re.search(rb"\[  FAILED  \] (\S+)", said)
+                    return failed[1].decode() if failed else test, True
                 said = (said + more)[-(1 << 16):]
                 if begun := re.findall(rb"\[ RUN      \] (\S+)", said):
                     if begun[-1].decode() != test:
@@ -190,6 +191,9 @@ class Workshop:
     def set_out(self, build, beside, room, slowest):
         self.build = Build(build, beside)
         self.programs = [Program(build / "tests" / name, slowest) for name in PROGRAMS[room]]
+        for program in self.programs:
+            noticed = program.notice(program.path)
+            assert noticed is None, f"{program.path} notices {noticed} without any change"
 
     def copy(self, source):
         shutil.copytree(source, self.tree, ignore=LEFT_OUT, copy_function=copy_if_other, dirs_exist_ok=True)
