@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small changes of C++ text, one at a time: operators and constants of code, never of comments, strings,
+includes, messages or checks at compile time."""
+import re
+from typing import NamedTuple
+
+SWAPS = [(" + ", " - "), (" * ", " / "), (" += ", " -= "), (" *= ", " /= "), (" == ", " != "), (" && ", " || "),
+         ("++", "--"), ("std::min(", "std::max("), ("minCoeff", "maxCoeff"), ("cwiseMin", "cwiseMax"),
+         ("min_element", "max_element"), (" < ", " <= "), (" > ", " >= ")]
+NUMBER = re.compile(r"(?<![\w.'])(\d+\.\d*(?:e[+-]?\d+)?|\d+(?:e[+-]?\d+)?)(?![\w.'])")
+COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|'
+                             r"^[ ]*#(?:\\\n|[^\n])*", re.DOTALL | re.MULTILINE)
+# Calls whose arguments are messages, checked by the compiler, or of no effect on what is computed.
+UNTOUCHED = re.compile(r"\b(?:bad_input|not_a_state|Error|static_assert|to_string|reserve)\(")
+# Kinds of code whose numbers are sizes of types: the compiler's matter.
+SIZES = re.compile(r"<[^<>;()]*>|\b(?:double|int|float|Real|char|V|Vec3|T) \w+\[[^\]]*\]|\balignas\([^)]*\)")
+
+# What no test can notice: (file, line, reason). Few, and looked at one by one.
+EQUIVALENT = [
+    (r".*", r"_per_(piece|thread|task) = ", "how work is split: results do not depend on it"),
+]
+
+
+class Mutant(NamedTuple):
+    file: str  # below the project's folder
+    begin: int
+    old: str
+    new: str
+    line: int
+
+    def applied_to(self, text):
+        assert text[self.begin:self.begin + len(self.old)] == self.old, self
+        return text[:self.begin] + self.new + text[self.begin + len(self.old):]
+
+    def __str__(self):
+        return f"{self.file}:{self.line}: {self.old.strip()} -> {self.new.strip()}"
+
+
+def blank(match):
+    """As long as before, so that places stay; the ends of a text are kept."""
+    text = match.group()
+    inside = "".join("\n" if letter == "\n" else " " for letter in text[1:-1])
+    return '"' + inside + '"' if text.endswith('"') else " " + inside + " " if len(text) > 1 else " "
+
+
+def end_of_call(code, opening):
+    depth = 0
+    for place in range(opening, len(code)):
+        depth += {"(": 1, ")": -1}.get(code[place], 0)
+        if depth == 0:
+            return place
+    raise ValueError(f"parenthesis at {opening} is not closed")
+
+
+def code_of(text):
+    """The text with everything that is not to be changed as blanks, and of the same length."""
+    code = COMMENT_OR_TEXT.sub(blank, text)
+    while call := UNTOUCHED.search(code):
+        end = end_of_call(code, call.end() - 1) + 1
+        code = code[:call.start()] + re.sub(r"[^\n]", " ", code[call.start():end]) + code[end:]
+    return code
+
+
+def swaps(code):
+    for one, other in SWAPS:
+        for old, new in ((one, other), (other, one)):
+            # An operator at the end of a line has no blank behind it.
+            pattern = re.escape(old.rstrip()) + (r"(?=\s)" if old.endswith(" ") else "")
+            for match in re.finditer(pattern, code):
+                beside = code[:match.start()].rstrip()[-1:] + code[match.end():].lstrip()[:1]
+                if '"' not in beside:  # texts are joined, not added
+                    yield match.start(), match.group(), new.rstrip()
+
+
+def another_number(old):
+    if re.fullmatch(r"\d+", old):
+        return str(int(old) + 1)
+    return "1.0" if float(old) == 0 else f"{1.2 * float(old):.6g}"
+
+
+def constants(code):
+    for match in NUMBER.finditer(SIZES.sub(lambda sized: " " * len(sized.group()), code)):
+        yield match.start(), match.group(), another_number(match.group())
+
+
+def negations(code):
+    for match in re.finditer(r"\b(?:if|while) \(", code):
+        end = end_of_call(code, match.end() - 1)
+        condition = code[match.end():end]
+        if ";" not in condition and not re.match(r"(?:const )?[\w:<>*&]+ \w+ =|auto", condition):
+            yield match.end(), condition, f"!({condition})"
+
+
+def is_equivalent(file, line):
+    return any(re.fullmatch(name, file) and re.search(words, line) for name, words, _ in EQUIVALENT)
+
+
+def mutants_of(file, text):
+    """All of a file, in their order."""
+    code, lines = code_of(text), text.splitlines()
+    found = []
+    for begin, old, new in [*swaps(code), *constants(code), *negations(code)]:
+        if "\n" in old:
+            continue
+        line = code.count("\n", 0, begin) + 1
+        # What a condition says may hold text that was blanked.
+        old = text[begin:begin + len(old)]
+        new = f"!({old})" if new.startswith("!(") else new
+        if not is_equivalent(file, lines[line - 1]):
+            found.append(Mutant(file, begin, old, new, line))
+    return sorted(set(found))
+
+
+def sample(mutants, count, chance):
+    """Every n-th of the list from a random start: each file has its share."""
+    if count >= len(mutants):
+        return list(mutants)
+    width = len(mutants) / count
+    start = chance.uniform(0, width)
+    return [mutants[int(start + k * width)] for k in range(count)]

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a body does knows no direction, no place, no hand, no even motion of everything, and no
+// numbers of its particles: runs that differ only in these are the same, turned, but for rounding.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "physics/ways.h"
+
+namespace sinew {
+namespace {
+
+constexpr double r = 0.01;
+constexpr int half_planes = 25;
+constexpr int steps = 120;
+
+/// A bend, a twist and a shift at once, under gravity and with a joint zone.
+Settings everything_at_once() {
+  Settings settings = test::box_scene(half_planes);
+  settings.binding.joint_zone = 2;
+  settings.solver.gravity = {0.5, 0, -2};
+  KeySettings end = test::bend_key(0.3, 50);
+  end.twist = 40;
+  end.translation = {0.3 * r, 0, 0.5 * r};
+  settings.tracks = {test::track("lower", {test::bend_key(0, 0), test::bend_key(0.3, -20)}),
+                     test::track("upper", {test::bend_key(0, 0), end})};
+  return settings;
+}
+
+Points box() { return test::fcc_box(5, 5, half_planes, r); }
+
+/// A body of its own start, in the ways that serve it.
+struct Way {
+  std::string name;
+  Settings settings;
+  double tolerance;  ///< radii
+};
+
+std::vector<Way> ways() {
+  const Settings lists = everything_at_once();
+  Settings bonded = lists;
+  bonded.material.model = MaterialModel::bonded_volume;
+  Settings central = lists;
+  central.material.damping_form = DampingForm::central;
+  Settings anchored = lists;
+  anchored.binding.force = BoneForce::anchor;
+  return {{"lists", lists, 1e-10},
+          {"lists in single precision", test::in(Precision::binary32, lists), 1e-3},
+          {"cells", test::with_cells(lists), 1e-10},
+          {"bonded_volume", bonded, 1e-10},
+          {"central damping", central, 1e-10},
+          {"anchors", anchored, 1e-10}};
+}
+
+Particles shaken_box(const Settings& settings, const Points& rest) {
+  return test::shaken(rest, test::material_of(settings), 0.02 * r, 0.05);
+}
+
+/// Where the particles are after a while.
+Points run(const Settings& settings, const Points& rest, const Particles& start) {
+  const Body body = test::make_body(settings, rest);
+  Simulation simulation =
+      test::simulation_from(settings, rest, start, test::step_of(settings, body, 0.4));
+  while (simulation.steps() < steps) simulation.step();
+  return positions_of(simulation.particles());
+}
+
+double largest_distance(const Points& a, const Points& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+/// The whole scene turned about the origin and shifted.
+Settings moved(Settings settings, const Mat3& turn, const Vec3& shift) {
+  for (BoneSettings& bone : settings.bones) {
+    if (bone.head) *bone.head = turn * *bone.head + shift;
+    if (bone.tail) *bone.tail = turn * *bone.tail + shift;
+  }
+  for (TrackSettings& track : settings.tracks)
+    for (KeySettings& key : track.keys) {
+      if (key.axis) *key.axis = turn * *key.axis;
+      key.translation = turn * key.translation;
+    }
+  settings.solver.gravity = turn * settings.solver.gravity;
+  return settings;
+}
+
+Particles moved(Particles particles, const Mat3& turn, const Vec3& shift) {
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.set_position(i, turn * particles.position(i) + shift);
+    particles.set_velocity(i, turn * particles.velocity(i));
+  }
+  return particles;
+}
+
+/// Runs the scene as it is and moved: the one moved is the other.
+void expect_same_when_moved(const Mat3& turn, const Vec3& shift) {
+  const Points rest = box();
+  for (const Way& way : ways()) {
+    const Particles start = shaken_box(way.settings, rest);
+    const Points here = run(way.settings, rest, start),
+                 there = run(moved(way.settings, turn, shift), test::affine(rest, turn, shift),
+                             moved(start, turn, shift));
+    EXPECT_LT(largest_distance(test::affine(here, turn, shift), there), way.tolerance * r)
+        << way.name;
+  }
+}
+
+TEST(Symmetry, ATurnedSceneRunsTurned) {
+  expect_same_when_moved(test::turned({1, -2, 3}, 77), Vec3::Zero());
+}
+
+TEST(Symmetry, AShiftedSceneRunsShifted) {
+  expect_same_when_moved(Mat3::Identity(), {0.4, -1.7, 0.9});
+}
+
+/// A twist turns with the hand: mirrored it is the opposite one, as are angles about an axis.
+TEST(Symmetry, AMirroredSceneRunsMirrored) {
+  const Points rest = box();
+  const Mat3 mirror = Vec3(1, -1, 1).asDiagonal();
+  for (const Way& way : ways()) {
+    Settings other = moved(way.settings, mirror, Vec3::Zero());
+    for (TrackSettings& track : other.tracks)
+      for (KeySettings& key : track.keys) key.angle = -*key.angle, key.twist = -key.twist;
+    const Particles start = shaken_box(way.settings, rest);
+    const Points here = run(way.settings, rest, start),
+                 there = run(other, test::affine(rest, mirror), moved(start, mirror, Vec3::Zero()));
+    EXPECT_LT(largest_distance(test::affine(here, mirror), there), way.tolerance * r) << way.name;
+  }
+}
+
+/// The place of each point's image by y -> -y.
+std::vector<std::size_t> images(const Points& points) {
+  std::vector<std::size_t> image;
+  for (const Vec3& point : points) {
+    const Vec3 wanted(point.x(), -point.y(), point.z());
+    image.push_back(static_cast<std::size_t>(std::min_element(points.begin(), points.end(),
+                                                              [&](const Vec3& a, const Vec3& b) {
+                                                                return (a - wanted).squaredNorm() <
+                                                                       (b - wanted).squaredNorm();
+                                                              }) -
+                                             points.begin()));
+  }
+  return image;
+}
+
+/// Without a joint zone: within one, flesh inside a bend may come to the far side of a bone's axis,
+/// 180 degrees about it from where it belongs, and rounding tells which way it is turned back.
+TEST(Symmetry, ASymmetricBodyThatBendsStaysSymmetric) {
+  const Points rest = box();
+  const std::vector<std::size_t> image = images(rest);
+  for (Way way : ways()) {
+    way.settings.binding.joint_zone = 0;
+    way.settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 60)})};
+    const Particles start = particles_at(rest, r, test::material_of(way.settings).mass);
+    const Points bent = run(way.settings, rest, start);
+    EXPECT_GT(largest_distance(bent, rest), 2 * r) << way.name;
+    for (std::size_t i = 0; i < bent.size(); ++i) {
+      const Vec3 other(bent[image[i]].x(), -bent[image[i]].y(), bent[image[i]].z());
+      ASSERT_LT((bent[i] - other).norm(), way.tolerance * r) << way.name << ", particle " << i;
+    }
+  }
+}
+
+std::vector<std::size_t> shuffled(std::size_t size) {
+  std::vector<std::size_t> order(size);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(11));
+  return order;
+}
+
+TEST(Symmetry, RenumberedParticlesGoTheSameWays) {
+  const Points rest = box();
+  const std::vector<std::size_t> order = shuffled(rest.size());
+  Points other_rest;
+  for (const std::size_t i : order) other_rest.push_back(rest[i]);
+  for (const Way& way : ways()) {
+    const Particles start = shaken_box(way.settings, rest);
+    Particles other = test::reordered(start, order);
+    std::iota(other.id.begin(), other.id.end(), 0);
+    const Points a = run(way.settings, rest, start), b = run(way.settings, other_rest, other);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      ASSERT_LT((b[i] - a[order[i]]).norm(), way.tolerance * r) << way.name << ", " << i;
+  }
+}
+
+/// The paper's damping and the bones' know only differences of velocity.
+TEST(Symmetry, AnEvenMotionOfEverythingChangesNothing) {
+  const Points rest = box();
+  const Vec3 wind(0.3, -0.2, 0.4);
+  for (const Way& way : ways()) {
+    Settings still = way.settings;
+    still.tracks.erase(still.tracks.begin());
+    Settings carried = still;
+    KeySettings begin = test::bend_key(-1, 0), end = test::bend_key(1, 0);
+    begin.translation = -wind, end.translation = wind;
+    carried.tracks.push_back(test::track("lower", {begin, end}));
+    carried.tracks.back().interpolation = Interpolation::linear;
+    const Particles start = shaken_box(still, rest);
+    Particles moving = start;
+    for (std::size_t i = 0; i < rest.size(); ++i) moving.set_velocity(i, start.velocity(i) + wind);
+    const Body body = test::make_body(still, rest);
+    const double time = steps * test::step_of(still, body, 0.4);
+    EXPECT_LT(largest_distance(test::affine(run(still, rest, start), Mat3::Identity(), time * wind),
+                               run(carried, rest, moving)),
+              way.tolerance * r)
+        << way.name;
+  }
+}
+
+}  // namespace
+}  // namespace sinew
