@@ -329,8 +329,8 @@ TEST_F(HostileGltf, OfANodeWithTwoParentsIsRefused) {
 
 TEST_F(HostileGltf, OfVeryDeepNodesIsRefused) {
   Gltf gltf = one_tetrahedron();
-  for (int i = 0; i < 100000; ++i) gltf.node({{"children", {i}}});
-  gltf.json["scenes"][0]["nodes"] = {100000};
+  for (int i = 0; i < 99000; ++i) gltf.node({{"children", {i}}});
+  gltf.json["scenes"][0]["nodes"] = {99000};
   expect_refused(gltf, "its nodes are nested more than 1000 deep");
 }
 
@@ -339,12 +339,18 @@ TEST_F(HostileGltf, ThatShowsMoreThanMemoryHoldsIsRefusedSoon) {
   const std::size_t corners = 3 << 20;
   const int indices = gltf.accessor(gltf.view(std::string(corners, '\0')), corners, "SCALAR", 5121);
   gltf.json["meshes"][0]["primitives"][0]["indices"] = indices;
-  std::vector<int> nodes(100000);
+  std::vector<int> nodes(99000);
   for (int& node : nodes) node = gltf.node({{"mesh", 0}});
   gltf.json["scenes"][0]["nodes"] = nodes;
   const auto path = write(folder, gltf, Form::packed);
   EXPECT_TRUE(
-      contains(answer(path), "its scene shows 104857600000 triangles, too many for memory"));
+      contains(answer(path), "its scene shows 103809024000 triangles, too many for memory"));
+}
+
+TEST_F(HostileGltf, OfEndlessListsIsRefused) {
+  Gltf gltf = one_tetrahedron();
+  for (int i = 0; i < 100000; ++i) gltf.node({{"mesh", 0}});
+  expect_refused(gltf, "nodes lists 100001 items");
 }
 
 TEST_F(HostileGltf, ThatNeedsAnExtensionNamesIt) {
