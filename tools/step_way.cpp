@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "step_way.h"
 
-#include "physics/lists/list_stepper.h"
+#include "physics/simulation.h"
 
 namespace sinew {
 namespace {
@@ -42,8 +42,7 @@ Unserved unserved_by_lists(const Body& body, const Motion& motion) {
 
 StepWay step_way(const SolverSettings& solver, const Body& body, const Motion& motion) {
   StepWay way{solver.neighbour_search, solver.precision};
-  const bool served = ListStepper<double>::serves(body) && !stretches(motion);
-  if (way.search == NeighbourSearch::lists && !served) {
+  if (way.search == NeighbourSearch::lists && !lists_serve(body, motion)) {
     way.search = NeighbourSearch::cells;
     way.unserved = unserved_by_lists(body, motion);
   }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
+#include "physics/solid/solid.h"
 
 namespace sinew {
 namespace {
@@ -32,12 +34,19 @@ Stepping stepping_of(const SolverSettings& solver, double step) {
   return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbour_search};
 }
 
+bool lists_serve(const Body& body, const Motion& motion) {
+  return !body.world && !stretches(motion) && !remembers_neighbours(body.material) &&
+         body.material.damping_form == DampingForm::paper &&
+         std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
+           return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
+         });
+}
+
 Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& body,
                                              const Motion& motion, const Stepping& stepping,
                                              const Particles& particles,
                                              kernel::InstructionSet instructions) {
-  if (stepping.neighbour_search == NeighbourSearch::cells || !ListStepper<double>::serves(*body) ||
-      stretches(motion))
+  if (stepping.neighbour_search == NeighbourSearch::cells || !lists_serve(*body, motion))
     return CellStepper(body, stepping, particles);
   if (stepping.precision == Precision::binary32)
     return ListStepper<float>(body, stepping, particles, instructions);

@@ -29,6 +29,10 @@ namespace sinew {
 /// What a scene's solver section says of stepping, with the step chosen for it, s.
 Stepping stepping_of(const SolverSettings& solver, double step);
 
+/// Whether steps with lists of partners know all that the body is subject to; those with the
+/// paper's cells always do.
+bool lists_serve(const Body& body, const Motion& motion);
+
 class Simulation {
  public:
   /// `particles` in any order, their id telling their place in body.rest. The kernel is compiled

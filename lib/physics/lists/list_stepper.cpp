@@ -6,18 +6,8 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "physics/solid/solid.h"
 
 namespace sinew {
-template <class Real>
-bool ListStepper<Real>::serves(const Body& body) {
-  return !body.world && !remembers_neighbours(body.material) &&
-         body.material.damping_form == DampingForm::paper &&
-         std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
-           return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
-         });
-}
-
 template <class Real>
 ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
                                const Particles& particles, kernel::InstructionSet instructions)

@@ -19,9 +19,6 @@ namespace sinew {
 template <class Real>
 class ListStepper {
  public:
-  /// Whether this way knows all that the body is subject to.
-  static bool serves(const Body& body);
-
   ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
               const Particles& particles, kernel::InstructionSet instructions);
 
