@@ -38,7 +38,7 @@ std::string from_environment(const char* name) {
 
 bool is_on_disk(const std::string& path) {
   static const std::string disk = from_environment("SINEW_DISK") + '/';
-  return disk.size() > 1 && path.compare(0, disk.size(), disk) == 0;
+  return disk.size() > 1 && (path + '/').compare(0, disk.size(), disk) == 0;
 }
 
 bool is_on_disk(int file) {
