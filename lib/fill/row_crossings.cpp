@@ -111,13 +111,13 @@ class Caster {
       if (up < low - 8 * rounding * side_.extent() || up > high + 8 * rounding * side_.extent())
         continue;
       const double rise = high - low, run = b.across - a.across;
-      const double slip = 8 * rounding * side_.extent() * (1 + std::abs(run) / rise);
-      if (slip < std::abs(run)) {
+      const double pad = 8 * rounding * side_.extent();
+      if (pad * (rise + std::abs(run)) < rise * std::abs(run)) {
+        const double slip = pad * (1 + std::abs(run) / rise);
         const double at = a.across + run * std::clamp((up - a.up) / (b.up - a.up), 0.0, 1.0);
         reach = {std::min(reach.low, at - slip), std::max(reach.high, at + slip)};
       } else {  // nearly level
         const auto [left, right] = std::minmax(a.across, b.across);
-        const double pad = 8 * rounding * side_.extent();
         reach = {std::min(reach.low, left - pad), std::max(reach.high, right + pad)};
       }
     }
