@@ -59,10 +59,9 @@ std::vector<Box> sliced(const Box& whole, std::span<const Box> parts) {
   const double length = whole.sizes().maxCoeff(&axis);
   std::vector<Box> slices(std::min(most_slices, parts.size()));
   for (const Box& part : parts) {
-    const double at = (part.center()[axis] - whole.min()[axis]) / length;
+    const double at = length > 0 ? (part.center()[axis] - whole.min()[axis]) / length : 0;
     const auto count = static_cast<double>(slices.size());
-    slices[length > 0 ? static_cast<std::size_t>(std::clamp(at * count, 0.0, count - 1)) : 0]
-        .extend(part);
+    slices[static_cast<std::size_t>(std::clamp(at * count, 0.0, count - 1))].extend(part);
   }
   std::erase_if(slices, [](const Box& slice) { return slice.isEmpty(); });
   return slices;
