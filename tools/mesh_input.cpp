@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "io/gltf/read_gltf.h"
-#include "mesh/mesh_text.h"
 #include "mesh/read_surface.h"
+#include "mesh/readers/mesh_text.h"
 
 namespace sinew {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fill/near_surface.h"
+#include "fill/near/near_surface.h"
 #include "fill/runs.h"
 #include "fill/volume_inside.h"
 

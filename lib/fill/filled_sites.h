@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "fill/inside_runs.h"
+#include "fill/inside/inside_runs.h"
 #include "fill/pack_options.h"
 #include "fill/placement.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fill/inside_runs.h"
+#include "fill/inside/inside_runs.h"
 
 namespace sinew {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fill/fill_report.h"
-#include "fill/inside_runs.h"
+#include "fill/inside/inside_runs.h"
 
 namespace sinew {
 

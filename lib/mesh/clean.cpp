@@ -8,9 +8,9 @@
 #include "core/number_text.h"
 #include "mesh/border.h"
 #include "mesh/caps.h"
+#include "mesh/cleaning/merge.h"
+#include "mesh/cleaning/orient.h"
 #include "mesh/flat_faces.h"
-#include "mesh/merge.h"
-#include "mesh/orient.h"
 
 namespace sinew {
 namespace {

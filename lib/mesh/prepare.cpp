@@ -8,7 +8,7 @@
 #include "core/number_text.h"
 #include "mesh/check_soup.h"
 #include "mesh/clean.h"
-#include "mesh/repair.h"
+#include "mesh/repair/repair.h"
 
 namespace sinew {
 namespace {

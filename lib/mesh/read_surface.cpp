@@ -2,8 +2,8 @@
 #include "mesh/read_surface.h"
 
 #include "core/stopwatch.h"
-#include "mesh/mesh_readers.h"
 #include "mesh/prepare.h"
+#include "mesh/readers/mesh_readers.h"
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/triangulate.h"
+#include "mesh/cleaning/triangulate.h"
 
 #include <gtest/gtest.h>
 

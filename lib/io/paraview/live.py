@@ -11,7 +11,7 @@ or not at all. The range of colours grows with the run. When the run is over, op
 import time
 import types
 
-from look import *
+from options import *
 
 SCRIPT = "live.py"
 SERIES = ["particles", "surface", "bones", "frames", "obstacles"]

@@ -12,7 +12,7 @@ options stand in the variable SINEW_VIEW: SINEW_VIEW="--array velocity --forces"
 """
 import xml.etree.ElementTree as ET
 
-from look import *
+from options import *
 
 SCRIPT = "view.py"
 

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The files of a run: where they lie, and what must be known of them before anything is shown."""
+import mmap
+import os
+import re
+import sys
+
+from paraview.simple import *
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+from camera import *
+
+LEFT_IN = ""
+
+
+def stop(what):
+    sys.exit(f"{SCRIPT}: {what}")
+
+
+def program():
+    """The name of the program that runs this."""
+    return os.path.basename(os.path.realpath("/proc/self/exe"))
+
+
+def run_folder():
+    """Where the series lie. In ParaView's window a script does not know its own path."""
+    places = [globals().get("__file__", "")] + sys.argv
+    try:
+        with open("/proc/self/cmdline", encoding="utf-8", errors="surrogateescape") as command:
+            places += command.read().split("\0")
+    except OSError:
+        pass
+    folders = [os.path.dirname(os.path.abspath(place)) for place in places if place.endswith(".py")]
+    for folder in folders + [os.getcwd(), LEFT_IN]:
+        if os.path.exists(os.path.join(folder, "run.json")):
+            return folder
+        if os.path.exists(os.path.join(folder, "particles.pvd")):
+            return folder
+    stop("no run beside this script; start it in the folder of a run")
+
+
+def described_array(path, name):
+    """What a VTU file says of one of its points' arrays: its attributes and its unit, without the
+    data. None where there is no such array."""
+    with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as text:
+        begin = text.find(b'Name="' + name.encode() + b'"', max(0, text.find(b"<PointData")))
+        if begin < 0:
+            return None
+        tag = text[text.rfind(b"<", 0, begin):text.find(b">", begin)]
+        array = {key.decode(): value.decode()
+                 for key, value in re.findall(rb'(\w+)="([^"]*)"', tag)}
+        end = text.find(b"</DataArray>", begin)
+        label = re.search(rb'"UNITS_LABEL"[^>]*>\s*([^<]*?)\s*<', text[max(begin, end - 4096):end])
+        array["unit"] = label[1].decode() if label else "1"
+        return array
+
+
+def range_in(array):
+    """Lowest and highest value; of vectors, of their magnitudes."""
+    return float(array.get("RangeMin", 0)), float(array.get("RangeMax", 1))
+
+
+def body_at_rest(folder):
+    """The bounds and the number of its particles."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(os.path.join(folder, "body.vtu"))
+    reader.Update()
+    return reader.GetOutput().GetBounds(), reader.GetOutput().GetNumberOfPoints()
+
+
+class Scene:
+    """What must be known before anything is shown."""
+
+    def __init__(self, folder):
+        bounds, self.count = body_at_rest(folder)
+        self.corners = corners_of(bounds)  # of the boxes around the body at all times
+        self.middle, self.size = middle_and_size(self.corners)
+        self.array = {}         # what its file says of the array shown
+        self.limits = (0, 1)    # its lowest and highest value
+        self.strongest = 0      # the largest of the forces shown, N
+
+
+def array_or_stop(path, name):
+    array = described_array(path, name)
+    if array is None:
+        with open(path, "rb") as file:
+            named = re.findall(rb'Name="([A-Za-z_]\w*)"', file.read().split(b"<PointData")[-1])
+        known = [word.decode() for word in named if word != b"UNITS_LABEL"]
+        known = known[:known.index("Points")] if "Points" in known else known
+        stop(f"the particles have no array '{name}'; they have {', '.join(known)}")
+    return array
+
+
+def is_vector(array):
+    return int(array.get("NumberOfComponents", 1)) > 1
