@@ -14,7 +14,7 @@
 #include "core/closest_packing.h"
 #include "core/parallel.h"
 #include "fill/filled_sites.h"
-#include "fill/inside_runs.h"
+#include "fill/inside/inside_runs.h"
 #include "fill/side_of.h"
 #include "mesh/clean.h"
 #include "mesh/shapes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/inside_runs.h"
+#include "fill/inside/inside_runs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/near_surface.h"
+#include "fill/near/near_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -26,6 +26,12 @@ TEST(Axis, TightOnesEndWhereTheValuesDo) {
   EXPECT_EQ(axis.texts, (std::vector<std::string>{"0", "0.5", "1.0", "1.5", "2.0", "2.5"}));
 }
 
+TEST(Axis, AFlatCurveLiesInTheMiddle) {
+  const Axis axis = tight_axis(2000, 2000, 4);
+  EXPECT_DOUBLE_EQ(axis.low, 1999);
+  EXPECT_DOUBLE_EQ(axis.high, 2001);
+}
+
 TEST(Axis, HoldsForEveryRange) {
   for (const double size : {0.0, 1e-300, 1e-12, 1.0, 1e9, 1e299})
     for (const double offset : {0.0, size, -size, 1e6 * size}) {

@@ -82,6 +82,12 @@ TEST(MetricsJson, ReadsBackToTheSummary) {
   EXPECT_EQ(file["holds"][0]["from"], frames[0].time);
 }
 
+TEST(MetricsJson, IsIndentedForReading) {
+  const std::vector<FrameMetrics> frames(1);
+  EXPECT_EQ(metrics_json(frames, summarize(frames, r), {}).substr(0, 23),
+            "{\n  \"schema_version\": 1");
+}
+
 TEST(MetricsJson, SaysNullForWhatWasNotMeasured) {
   const std::vector<FrameMetrics> frames(1);
   const auto file = nlohmann::json::parse(metrics_json(frames, summarize(frames, r), {}));

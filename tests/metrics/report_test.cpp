@@ -202,5 +202,42 @@ TEST(Verdict, JudgesTheTipWhereThereIsNoReturn) {
   EXPECT_EQ(verdict(frames, summarize(frames, r), r)[0].level, Level::unknown);
 }
 
+TEST(Verdict, EachScaleChangesAtItsTwoValues) {
+  struct Judged {
+    double FrameMetrics::*metric;
+    int item;
+    double good, fair;
+  };
+  constexpr double above = 1 + 1e-9;
+  const auto level = [](const Judged& judged, double value) {
+    std::vector<FrameMetrics> frames(1);
+    frames[0].bone_angle = 0;
+    frames[0].*judged.metric = value;
+    return verdict(frames, summarize(frames, 1), 1)[static_cast<std::size_t>(judged.item)].level;
+  };
+  for (const Judged& judged :
+       {Judged{&FrameMetrics::volume_error, 0, 0.02, 0.1},
+        Judged{&FrameMetrics::pose_error_far_rms, 1, 2, 5},
+        Judged{&FrameMetrics::broken_neighbours, 2, 0.01, 0.05},
+        Judged{&FrameMetrics::inverted, 3, 0, 3}, Judged{&FrameMetrics::tip_angle, 4, 1, 5}}) {
+    EXPECT_EQ(level(judged, judged.good), Level::good) << judged.item;
+    EXPECT_EQ(level(judged, judged.good * above + 1e-9), Level::fair) << judged.item;
+    EXPECT_EQ(level(judged, judged.fair), Level::fair) << judged.item;
+    EXPECT_EQ(level(judged, judged.fair * above), Level::poor) << judged.item;
+  }
+}
+
+TEST(Verdict, ScalesTheResidualToo) {
+  const std::vector<FrameMetrics> frames(1);
+  Summary summary = summarize(frames, 1);
+  for (const auto& [residual, level] : {std::pair{0.2, Level::good},
+                                        {0.21, Level::fair},
+                                        {1.0, Level::fair},
+                                        {1.01, Level::poor}}) {
+    summary.residual_rms = residual * r;
+    EXPECT_EQ(verdict(frames, summary, r)[4].level, level) << residual;
+  }
+}
+
 }  // namespace
 }  // namespace sinew::test

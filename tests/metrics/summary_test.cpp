@@ -124,6 +124,13 @@ TEST(Settling, TakesUntilTheBodyStaysNearItsEnd) {
   EXPECT_EQ(settling_time({3, 5}, times, r, positions), 0);
 }
 
+TEST(Settling, BeginsWithTheHoldHoweverEarlyTheFleshWasThere) {
+  const std::vector<double> times{0, 1, 2, 3};
+  const auto still = [](std::size_t) { return Points(7, Vec3(1, 2, 3)); };
+  EXPECT_EQ(settling_time({2, 3}, times, r, still), 0);
+  EXPECT_EQ(settling_time({0, 3}, times, r, still), 0);
+}
+
 TEST(Settling, TheLongestSettlingOfAllHoldsIsTheRuns) {
   const std::vector<FrameMetrics> frames(4);
   EXPECT_EQ(summarize(frames, r, {{0, 1, 0.1}, {1, 2, 0.4}, {2, 3, 0.2}}).settling_time, 0.4);

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A small body goes through everything that is measured of bodies; what comes of it, numbers and
+// pages, is compared with the files in golden/ line by line. With SINEW_GOLDEN=update in the
+// environment the files are written anew: look at what `git diff` shows of them, and at the pages
+// in a browser.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "core/requested_arrays.h"
+#include "metrics/bone_metrics.h"
+#include "metrics/csv.h"
+#include "metrics/json.h"
+#include "metrics/particle_arrays.h"
+#include "metrics/report/comparison_page.h"
+#include "metrics/report/embedded.h"
+#include "metrics/report/report.h"
+#include "metrics/settling.h"
+#include "scratch.h"
+#include "world.h"
+
+namespace sinew::test {
+namespace {
+
+/// Between -1 and 1, without pattern, the same every time.
+double chance(std::size_t i) {
+  return static_cast<double>((i + 1) * 2654435761u % 10007) / 5003 - 1;
+}
+
+Vec3 jitter(std::size_t i) { return {chance(3 * i), chance(3 * i + 1), chance(3 * i + 2)}; }
+
+/// About x by the angle whose half has this tangent: no function of the C library rounds here.
+Mat3 tilted(double tangent) {
+  const double c = (1 - tangent * tangent) / (1 + tangent * tangent);
+  const double s = 2 * tangent / (1 + tangent * tangent);
+  return (Mat3() << 1, 0, 0, 0, c, -s, 0, s, c).finished();
+}
+
+RestInput lively_input() {
+  RestInput input = box_input();
+  for (std::size_t i = 0; i < input.positions.size(); ++i) {
+    input.positions[i] += 0.02 * r * jitter(i);
+    input.weight.push_back(0.75 + 0.25 * chance(i));
+  }
+  input.bone[7] = -1;
+  input.mass = 0.004;
+  input.start.kinetic = 0.25;
+  input.start.pair = 1.5;
+  input.law.force = [](double d) { return 40 * (2 * r - d) / r; };
+  input.law.bond = [](double d, double before) { return 70 * (before - d) / r; };
+  input.law.volume_stiffness = 2e4;
+  return input;
+}
+
+/// The upper half tilts and bulges with `tangent`, the lower is pinched; everything shakes by
+/// `shake`.
+FrameState lively_state(const RestBody& body, double time, double tangent, double shake) {
+  const Vec3 joint(0, 0, half_length);
+  const auto way = [&](const Vec3& point) -> Vec3 {
+    const double up = (point.z() - half_length) / half_length, more = std::max(0.0, up);
+    const double wide = 1 + tangent * (up > 0 ? 0.5 * up : 0.7 * up * (1 + up));
+    const Vec3 place(wide * point.x(), wide * point.y() + 0.1 * tangent * point.x(), point.z());
+    return joint + tilted(tangent * more) * (place - joint);
+  };
+  FrameState state = moved(body, way);
+  state.time = time;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    state.positions[i] += shake * r * jitter(i + 31);
+    state.velocities[i] = tangent * jitter(i + 7) + Vec3(0.1, -0.2, 0.3 * shake);
+    state.broken_bonds.push_back(i % 5 == 0 ? static_cast<std::int32_t>(7.5 * tangent) : 0);
+  }
+  const Mat3 turn = tilted(tangent);
+  state.bones[1].rotation = turn * state.bones[1].rotation;
+  state.bone_lengths = {half_length, half_length * (1 + 0.1 * tangent)};
+  state.energies.kinetic = 0.25 + tangent;
+  state.energies.pair = 1.5 + shake;
+  state.energies.bone = 3 * tangent * tangent;
+  state.energies.dissipation = 0.01 * time;
+  return state;
+}
+
+/// There and back, and held at the end; particle 11 is inside out at the third frame.
+std::vector<FrameState> lively_run(const RestBody& body, double strength) {
+  std::vector<FrameState> run;
+  const double tangents[] = {0.02, 0.15, 0.4, 0.25, 0, 0, 0, 0},
+               shakes[] = {0.01, 0.1, 0.3, 0.2, 0.15, 0.06, 0.03, 0.02};
+  for (std::size_t i = 0; i < std::size(tangents); ++i)
+    run.push_back(
+        lively_state(body, 0.05 * static_cast<double>(i), strength * tangents[i], shakes[i]));
+  std::swap(run[2].positions[120], run[2].positions[127]);
+  return run;
+}
+
+struct Measured {
+  RestBody body;
+  std::vector<FrameState> states;
+  std::vector<FrameMetrics> frames;
+  std::vector<BoneMetrics> bones;
+  std::vector<SectionMetrics> sections;
+  Summary summary;
+  Film film;
+};
+
+Measured measured(double strength, double share) {
+  Measured all{rest_body(lively_input()), {}, {}, {}, {}, {}, {}};
+  all.states = lively_run(all.body, strength);
+  all.film = plan_film(all.body, all.states.size(), share);
+  std::vector<std::vector<RigidFrame>> poses;
+  std::vector<std::vector<std::int64_t>> worst;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < all.states.size(); ++i) {
+    const FrameState& state = all.states[i];
+    const MeasuredFrame frame = measure_frame(all.body, state);
+    all.frames.push_back(frame.metrics);
+    worst.push_back(frame.worst_particles);
+    const auto bones = measure_bones(all.body, state, frame.particles);
+    all.bones.insert(all.bones.end(), bones.begin(), bones.end());
+    const auto sections = measure_sections(all.body.sections, state.surface_points, state.time);
+    all.sections.insert(all.sections.end(), sections.begin(), sections.end());
+    if (all.film.wants(i)) add_frame(all.film, i, all.body, state, frame.particles);
+    poses.push_back(state.bones);
+    times.push_back(state.time);
+  }
+  std::vector<Hold> held = holds(poses, r);
+  for (Hold& hold : held)
+    hold.settled =
+        settling_time(hold, times, r, [&](std::size_t i) { return all.states[i].positions; });
+  all.summary = summarize(all.frames, r, held);
+  add_worst_particles(all.summary, worst);
+  return all;
+}
+
+/// Of its last digits a number keeps what no rounding of another compiler can touch.
+std::string rounded(double value) {
+  if (std::abs(value) < 1e-15) return "0";
+  std::ostringstream text;
+  text.precision(9);
+  text << value;
+  return text.str();
+}
+
+/// The same of all numbers of a text that stand in columns.
+std::string rounded_columns(const std::string& csv) {
+  std::string out, cell;
+  for (const char c : csv) {
+    if (c != ',' && c != '\n') {
+      cell += c;
+      continue;
+    }
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    out += (*end == '\0' ? rounded(value) : cell) + c;
+    cell.clear();
+  }
+  return out;
+}
+
+/// Of every array that can be asked for, its values at some particles of a frame.
+std::string arrays_text(const Measured& run) {
+  std::string out;
+  for (const Column& column : particle_arrays(run.body, run.states[2], requestable_arrays())) {
+    out += column.name;
+    const auto some = [&](const auto& values) {
+      for (std::size_t i = 0; i < values.size(); i += 61)
+        out += ',' + rounded(static_cast<double>(values[i]));
+    };
+    std::visit(some, column.values);
+    out += '\n';
+  }
+  return out;
+}
+
+/// Without the style, the libraries and the scripts of all pages.
+std::string own_part(std::string page) {
+  for (const std::string_view part :
+       {page_style(), chart_library(), scene_library(), page_script()})
+    if (const std::size_t at = page.find(part); at != page.npos) page.erase(at, part.size());
+  const std::size_t licences = page.find("<summary>Licences");
+  return page.erase(licences, page.find("</details>", licences) - licences);
+}
+
+ReportInput report_of(const Measured& run) {
+  ReportInput input;
+  input.title = "lively";
+  input.version = "1.2.3";
+  input.radius = r;
+  input.facts = {{"Run", {{"particles", "250"}}}};
+  input.frames = run.frames;
+  input.summary = run.summary;
+  for (const char* limit : {"J_min < 0.1", "final(volume_error) > 0.01", "mean(tip_angle) >= 90",
+                            "residual_rms > 0.01"})
+    input.checks.push_back(check_limit(parse_limit(limit), run.frames, run.summary));
+  input.curves = {{"Law", "f", "d (r)", "f (N)", {{"pair", {0, 1, 2.5}, {3, 0.125, -1}}}}};
+  input.film = run.film;
+  return input;
+}
+
+ComparedRun compared(const char* name, const Measured& run) {
+  return {name, run.frames, run.summary, r};
+}
+
+class Golden : public testing::Test {
+ protected:
+  /// Compares with the file of that name, or writes it.
+  static void expect(const std::string& name, const std::string& text) {
+    const std::filesystem::path path =
+        std::filesystem::path(SINEW_SOURCE_DIR) / "tests/metrics/golden" / name;
+    if (const char* wish = std::getenv("SINEW_GOLDEN"); wish && std::string(wish) == "update")
+      put(path, text);
+    std::istringstream found(text), held(text_of(path));
+    std::string line, golden;
+    for (int number = 1; std::getline(held, golden); ++number) {
+      ASSERT_TRUE(std::getline(found, line)) << name << " ends before line " << number;
+      ASSERT_EQ(line, golden) << name << ":" << number
+                              << " is not what it was; see golden_test.cpp";
+    }
+    ASSERT_FALSE(std::getline(found, line)) << name << " goes on with " << line;
+  }
+};
+
+TEST_F(Golden, MetricsAreWhatTheyWere) {
+  const Measured run = measured(1, 1);
+  expect("metrics.csv", rounded_columns(metrics_csv(run.frames)));
+  expect("metrics_bones.csv", rounded_columns(bone_metrics_csv(run.bones)));
+  expect("sections.csv", rounded_columns(sections_csv(run.sections)));
+  expect("particle_arrays.csv", arrays_text(run));
+}
+
+TEST_F(Golden, TheReportIsWhatItWas) {
+  const Measured run = measured(1, 1);
+  expect("report.html", own_part(report_html(report_of(run))));
+}
+
+/// Of more frames than a chart is wide, with gaps; most is not measured.
+std::vector<FrameMetrics> many_frames() {
+  std::vector<FrameMetrics> frames(1201);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const double at = static_cast<double>(i) / 1201, bow = 4 * at * (1 - at);
+    frames[i].time = 0.05 * static_cast<double>(i);
+    if (i / 100 != 7) frames[i].volume_error = 0.02 * bow + 1e-3 * chance(i);
+    frames[i].volume_ratio = 1 + frames[i].volume_error;
+    frames[i].tip_angle = 60 * bow - 15;
+  }
+  return frames;
+}
+
+TEST_F(Golden, TheReportOfALongRunIsWhatItWas) {
+  const RestBody body = rest_body(lively_input());
+  ReportInput input;
+  input.title = "long";
+  input.version = "1.2.3";
+  input.radius = r;
+  input.frames = many_frames();
+  input.summary = summarize(input.frames, r);
+  input.film = plan_film(body, input.frames.size(), 4e-3);
+  for (const std::size_t frame : input.film.wanted) {
+    const FrameState state = lively_state(body, 0.05 * static_cast<double>(frame), 0.3, 0.2);
+    add_frame(input.film, frame, body, state, particle_values(body, state));
+  }
+  expect("long_report.html", own_part(report_html(input)));
+}
+
+TEST_F(Golden, TheComparisonIsWhatItWas) {
+  const Measured one = measured(1, 2e-3), other = measured(0.8, 2e-3);
+  const RunComparison both = compare(compared("one", one), compared("other", other));
+  const ComparisonInput input{
+      "1.2.3", both, side_by_side(one.film, other.film, {"one: ", "other: "}), {}, "a", "b"};
+  expect("comparison.csv", rounded_columns(comparison_csv(both)));
+  expect("comparison.html", own_part(comparison_html(input)));
+}
+
+}  // namespace
+}  // namespace sinew::test
