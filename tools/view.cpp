@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-view: becomes ParaView, started on the scripts that lie in a run's folder.
+// sinew-view: becomes ParaView, started on sinew's own scripts. Those in a run's folder are for
+// other machines: whatever a folder from elsewhere holds, nothing in it is run.
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,7 +13,6 @@
 #include <vector>
 
 #include "command.h"
-#include "io/view_script.h"
 #include "render/display.h"
 #include "run_folder.h"
 
@@ -123,6 +123,15 @@ void check_screen() {
         "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
 }
 
+/// In the build and where sinew is installed alike.
+fs::path own_script(const std::string& name) {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path script = program.parent_path().parent_path() / "share/sinew" / name;
+  if (!fs::exists(script))
+    throw bad_input(Place{script.string()}, "is missing", "install all files of sinew");
+  return script;
+}
+
 /// Does not return but by throwing.
 Exit become(const fs::path& program, std::vector<std::string> words) {
   std::vector<char*> arguments;
@@ -139,8 +148,8 @@ Exit view(const Options& options) {
   if (!folder.used())
     throw bad_input(Place{options.folder}, "is not the folder of a run",
                     "give the folder that sinew run or sinew simulate writes");
-  const fs::path script = folder.path / (options.live ? "live.py" : "view.py");
-  if (!fs::exists(script)) write_view_script(folder.path);
+  const fs::path script = own_script(options.live ? "live.py" : "view.py");
+  setenv("SINEW_RUN", fs::absolute(folder.path).c_str(), 1);
   const bool window = options.picture.empty();
   const fs::path program = program_named(window ? "paraview" : "pvbatch");
   find_python(program);

@@ -7,6 +7,7 @@ usage: look_test.py BIN SOURCE MODULES      folder of the programs, of the proje
 """
 import os
 import resource
+import shutil
 import struct
 import subprocess
 import sys
@@ -142,6 +143,19 @@ class Look(unittest.TestCase):
                      env=without("DISPLAY", PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(size_of(picture), (400, 300))
+
+    def test_view_runs_nothing_that_lies_in_the_folder(self):
+        foreign = self.pictures / "from elsewhere"
+        shutil.copytree(self.run_folder, foreign)
+        ran = self.pictures / "it ran"
+        for name in ("view.py", "live.py", "paraview.py", "camera.py"):
+            (foreign / name).write_text(f"open({str(ran)!r}, 'w')")
+        picture = self.pictures / "drawn.png"
+        done = sinew("view", foreign, "--picture", picture, "--size", "200", "150", cwd=foreign,
+                     env=without(PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(size_of(picture), (200, 150))
+        self.assertFalse(ran.exists())
 
     def test_view_and_live_explain_what_is_missing(self):
         done = sinew("view", self.run_folder, "--picture", self.pictures / "a.png", "--array", "none",

@@ -23,7 +23,8 @@ def program():
 
 
 def run_folder():
-    """Where the series lie. In ParaView's window a script does not know its own path."""
+    """Where the series lie: the folder that sinew view names, or that of this script. In ParaView's
+    window a script does not know its own path."""
     places = [globals().get("__file__", "")] + sys.argv
     try:
         with open("/proc/self/cmdline", encoding="utf-8", errors="surrogateescape") as command:
@@ -31,7 +32,7 @@ def run_folder():
     except OSError:
         pass
     folders = [os.path.dirname(os.path.abspath(place)) for place in places if place.endswith(".py")]
-    for folder in folders + [os.getcwd(), LEFT_IN]:
+    for folder in [os.environ.get("SINEW_RUN", ""), *folders, os.getcwd(), LEFT_IN]:
         if os.path.exists(os.path.join(folder, "run.json")):
             return folder
         if os.path.exists(os.path.join(folder, "particles.pvd")):
