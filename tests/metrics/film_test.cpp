@@ -134,6 +134,7 @@ TEST(ThinSurface, KeepsShapeWithFewerPoints) {
   Triangles coarse{{}, thin.faces};
   for (const auto i : thin.points) coarse.points.push_back(grid.points[i]);
   EXPECT_NEAR(area(coarse), 1, 0.2);
+  for (const auto& [a, b, c] : thin.faces) EXPECT_TRUE(a != b && b != c && c != a);
 }
 
 }  // namespace

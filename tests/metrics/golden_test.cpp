@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small body goes through everything that is measured of bodies; what comes of it, numbers and
-// pages, is compared with the files in golden/ line by line. With SINEW_GOLDEN=update in the
-// environment the files are written anew: look at what `git diff` shows of them, and at the pages
-// in a browser.
+// pages, is compared with the files in golden/.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <sstream>
-
 #include "core/requested_arrays.h"
+#include "golden.h"
 #include "metrics/bone_metrics.h"
 #include "metrics/csv.h"
 #include "metrics/json.h"
@@ -17,7 +13,6 @@
 #include "metrics/report/embedded.h"
 #include "metrics/report/report.h"
 #include "metrics/settling.h"
-#include "scratch.h"
 #include "world.h"
 
 namespace sinew::test {
@@ -131,16 +126,7 @@ Measured measured(double strength, double share) {
   return all;
 }
 
-/// Of its last digits a number keeps what no rounding of another compiler can touch.
-std::string rounded(double value) {
-  if (std::abs(value) < 1e-15) return "0";
-  std::ostringstream text;
-  text.precision(9);
-  text << value;
-  return text.str();
-}
-
-/// The same of all numbers of a text that stand in columns.
+/// rounded() of all numbers of a text that stand in columns.
 std::string rounded_columns(const std::string& csv) {
   std::string out, cell;
   for (const char c : csv) {
@@ -200,36 +186,17 @@ ComparedRun compared(const char* name, const Measured& run) {
   return {name, run.frames, run.summary, r};
 }
 
-class Golden : public testing::Test {
- protected:
-  /// Compares with the file of that name, or writes it.
-  static void expect(const std::string& name, const std::string& text) {
-    const std::filesystem::path path =
-        std::filesystem::path(SINEW_SOURCE_DIR) / "tests/metrics/golden" / name;
-    if (const char* wish = std::getenv("SINEW_GOLDEN"); wish && std::string(wish) == "update")
-      put(path, text);
-    std::istringstream found(text), held(text_of(path));
-    std::string line, golden;
-    for (int number = 1; std::getline(held, golden); ++number) {
-      ASSERT_TRUE(std::getline(found, line)) << name << " ends before line " << number;
-      ASSERT_EQ(line, golden) << name << ":" << number
-                              << " is not what it was; see golden_test.cpp";
-    }
-    ASSERT_FALSE(std::getline(found, line)) << name << " goes on with " << line;
-  }
-};
-
-TEST_F(Golden, MetricsAreWhatTheyWere) {
+TEST(Golden, MetricsAreWhatTheyWere) {
   const Measured run = measured(1, 1);
-  expect("metrics.csv", rounded_columns(metrics_csv(run.frames)));
-  expect("metrics_bones.csv", rounded_columns(bone_metrics_csv(run.bones)));
-  expect("sections.csv", rounded_columns(sections_csv(run.sections)));
-  expect("particle_arrays.csv", arrays_text(run));
+  expect_golden("metrics/golden/metrics.csv", rounded_columns(metrics_csv(run.frames)));
+  expect_golden("metrics/golden/metrics_bones.csv", rounded_columns(bone_metrics_csv(run.bones)));
+  expect_golden("metrics/golden/sections.csv", rounded_columns(sections_csv(run.sections)));
+  expect_golden("metrics/golden/particle_arrays.csv", arrays_text(run));
 }
 
-TEST_F(Golden, TheReportIsWhatItWas) {
+TEST(Golden, TheReportIsWhatItWas) {
   const Measured run = measured(1, 1);
-  expect("report.html", own_part(report_html(report_of(run))));
+  expect_golden("metrics/golden/report.html", own_part(report_html(report_of(run))));
 }
 
 /// Of more frames than a chart is wide, with gaps; most is not measured.
@@ -245,7 +212,7 @@ std::vector<FrameMetrics> many_frames() {
   return frames;
 }
 
-TEST_F(Golden, TheReportOfALongRunIsWhatItWas) {
+TEST(Golden, TheReportOfALongRunIsWhatItWas) {
   const RestBody body = rest_body(lively_input());
   ReportInput input;
   input.title = "long";
@@ -258,16 +225,16 @@ TEST_F(Golden, TheReportOfALongRunIsWhatItWas) {
     const FrameState state = lively_state(body, 0.05 * static_cast<double>(frame), 0.3, 0.2);
     add_frame(input.film, frame, body, state, particle_values(body, state));
   }
-  expect("long_report.html", own_part(report_html(input)));
+  expect_golden("metrics/golden/long_report.html", own_part(report_html(input)));
 }
 
-TEST_F(Golden, TheComparisonIsWhatItWas) {
+TEST(Golden, TheComparisonIsWhatItWas) {
   const Measured one = measured(1, 2e-3), other = measured(0.8, 2e-3);
   const RunComparison both = compare(compared("one", one), compared("other", other));
   const ComparisonInput input{
       "1.2.3", both, side_by_side(one.film, other.film, {"one: ", "other: "}), {}, "a", "b"};
-  expect("comparison.csv", rounded_columns(comparison_csv(both)));
-  expect("comparison.html", own_part(comparison_html(input)));
+  expect_golden("metrics/golden/comparison.csv", rounded_columns(comparison_csv(both)));
+  expect_golden("metrics/golden/comparison.html", own_part(comparison_html(input)));
 }
 
 }  // namespace
