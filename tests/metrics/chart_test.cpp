@@ -20,6 +20,13 @@ TEST(Axis, TicksAreRoundAndEncloseTheValues) {
             (std::vector<std::string>{"-4", "-2", "0", "2", "4", "6", "8"}));
 }
 
+TEST(Axis, GivesAllItsNumbersAsManyDecimalsUnlessTheyAreVerySmallOrLarge) {
+  EXPECT_EQ(tight_axis(0, 1.1e-3, 4).texts.back(), "0.0010");
+  EXPECT_EQ(tight_axis(0, 0.9e-3, 2).texts.back(), readable(5e-4));
+  EXPECT_EQ(tight_axis(0, 1.1e5, 2).texts.back(), readable(1e5));
+  EXPECT_EQ(tight_axis(0, 0.9e5, 4).texts.back(), "80000");
+}
+
 TEST(Axis, TightOnesEndWhereTheValuesDo) {
   const Axis axis = tight_axis(0, 2.9, 6);
   EXPECT_EQ(axis.high, 2.9);

@@ -18,6 +18,15 @@ TEST(Slices, AreTheHalfPlanesOfALatticeAlongTheBones) {
     for (const auto i : body.slices.all[k].particles) EXPECT_EQ(plane_of(body.shape.points[i]), k);
 }
 
+TEST(Slices, RunOnFromBoneToBoneWithinAThousandthOfALine) {
+  for (const double aside : {0.9e-3, 1.1e-3}) {
+    RestInput input = box_input();
+    input.bones[1].rest.origin.x() += aside * input.bones[1].length;
+    const std::size_t joined = rest_body(input).slices.neighbours.size();
+    EXPECT_EQ(joined, static_cast<std::size_t>(aside < 1e-3 ? along - 1 : along - 2));
+  }
+}
+
 TEST(Slices, UniformTwistTurnsEverySliceByTheSameStep) {
   const RestBody body = rest_body(box_input());
   const double per_plane = 4.5;
