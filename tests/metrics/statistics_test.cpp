@@ -26,6 +26,11 @@ TEST(Statistics, OfNothingAreNotANumber) {
     EXPECT_TRUE(std::isnan(value));
 }
 
+TEST(Statistics, OfOneNumberAreThatNumber) {
+  const Statistics one = statistics(1, [](std::size_t) { return 3.0; });
+  for (const double value : {one.mean(), one.rms(), one.min(), one.max()}) EXPECT_EQ(value, 3);
+}
+
 TEST(Statistics, PercentilesAreNearestRanksOfWhatWasMeasured) {
   std::vector<double> values;
   for (int i = 100; i > 0; --i) values.push_back(i);
