@@ -67,5 +67,14 @@ TEST(SurfaceDistortion, AFaceWithoutAreaAtRestDoesNotCount) {
   EXPECT_NEAR(d.dirichlet, 4, 1e-12);
 }
 
+TEST(SurfaceDistortion, AnEdgeWithoutLengthAtRestDoesNotCount) {
+  Triangles flat = sheet(2);
+  flat.points.push_back(flat.points[4]);
+  flat.faces.push_back({4, 5, 9});
+  Points now = flat.points;
+  now[9] += Vec3(0.1, 0, 0);
+  EXPECT_LT(surface_distortion(flat, now).edge_stretch, 1.2);
+}
+
 }  // namespace
 }  // namespace sinew::test
