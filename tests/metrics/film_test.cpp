@@ -21,20 +21,6 @@ Film whole_film(const RestBody& body, std::size_t frames) {
   return film;
 }
 
-/// A square of side 1 as n x n small ones, each of two faces.
-Triangles fine_square(int n) {
-  Triangles grid;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) grid.points.push_back(Vec3(i, j, 0) / n);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = (n + 1) * j + i;
-      grid.faces.push_back({a, a + 1, a + n + 2});
-      grid.faces.push_back({a, a + n + 2, a + n + 1});
-    }
-  return grid;
-}
-
 TEST(Film, KeepsAllOfASmallRun) {
   const RestBody body = rest_body(box_input());
   const Film film = whole_film(body, 4);
@@ -70,7 +56,7 @@ TEST(Film, TakesAsManyBytesAsItMay) {
   RestInput input = box_input();
   input.positions = fcc_box(81, 41);
   input.bone.assign(input.positions.size(), 0);
-  input.surface = fine_square(400);
+  input.surface = sheet(400, 1.0 / 400);
   const RestBody body = rest_body(input);
   const Film film = plan_film(body, 100, 0.5);
   const std::size_t shots = film.wanted.size() + 8, each = 6 + film_fields().size();
@@ -122,12 +108,12 @@ TEST(Film, LeavesOutWhatWasNotMeasured) {
 }
 
 TEST(ThinSurface, KeepsAllThatIsNotTooMuch) {
-  const Triangles square = fine_square(40);
+  const Triangles square = sheet(40, 1.0 / 40);
   EXPECT_EQ(thin_surface(square, square.points.size()).faces, square.faces);
 }
 
 TEST(ThinSurface, KeepsShapeWithFewerPoints) {
-  const Triangles grid = fine_square(40);
+  const Triangles grid = sheet(40, 1.0 / 40);
   const ThinSurface thin = thin_surface(grid, 200);
   EXPECT_LE(thin.points.size(), 200u);
   EXPECT_GE(thin.points.size(), 80u);

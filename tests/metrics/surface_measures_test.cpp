@@ -8,20 +8,6 @@
 namespace sinew::test {
 namespace {
 
-/// A flat square of n x n cells of edge 1 in the plane z = 0.
-Triangles sheet(int n) {
-  Triangles out;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) out.points.push_back({double(i), double(j), 0});
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = (n + 1) * j + i;
-      out.faces.push_back({a, a + 1, a + n + 2});
-      out.faces.push_back({a, a + n + 2, a + n + 1});
-    }
-  return out;
-}
-
 TEST(SurfaceDistortion, AStretchedSheetHasItsStretches) {
   const Triangles flat = sheet(3);
   const Mat3 turn = turned(50, {1, 1, 2});

@@ -42,6 +42,20 @@ inline Triangles box_surface(const Vec3& low, const Vec3& high) {
   return box;
 }
 
+/// A flat square of n x n cells, each of two faces, in the plane z = 0.
+inline Triangles sheet(int n, double edge = 1) {
+  Triangles out;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) out.points.push_back(edge * Vec3(i, j, 0));
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = (n + 1) * j + i;
+      out.faces.push_back({a, a + 1, a + n + 2});
+      out.faces.push_back({a, a + n + 2, a + n + 1});
+    }
+  return out;
+}
+
 /// Columns: z (the axis), x, y.
 inline Mat3 upright() { return (Mat3() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished(); }
 
