@@ -39,13 +39,16 @@ class Changes(unittest.TestCase):
         self.assertEqual(changes(TEXT), [
             (4, "0.5", "0.6"),
             (8, "n < 2 && text[0] == 'a'", "!(n < 2 && text[0] == 'a')"),
-            (8, "<", "<="), (8, "2", "3"), (8, "&&", "||"), (8, "0", "1"), (8, "==", "!="),
+            (8, "<", ">="), (8, "2", "3"), (8, "&&", "||"), (8, "0", "1"), (8, "==", "!="),
             (9, "0", "1"), (9, "<", "<="), (9, "++", "--"),
             (10, "+=", "-="), (10, "std::min(", "std::max("), (10, "*", "/"), (11, "-", "+")])
 
     def test_go_both_ways(self):
         self.assertEqual(changes("a - b / c;"), [(1, "-", "+"), (1, "/", "*")])
-        self.assertEqual(changes("a <= b || c >= d;"), [(1, "<=", "<"), (1, "||", "&&"), (1, ">=", ">")])
+        self.assertEqual(changes("a <= b || c >= d;"), [(1, "<=", ">"), (1, "||", "&&"), (1, ">=", "<")])
+        self.assertEqual(changes("for (int i = f(0, n); a[i] < b; ++i) {"),
+                         [(1, "0", "1"), (1, "<", "<="), (1, "++", "--")])
+        self.assertEqual(changes("if (a < b) c();"), [(1, "<", ">=")])
         self.assertEqual(changes("x != 1e-3; --y;"), [(1, "!=", "=="), (1, "1e-3", "0.0012"), (1, "--", "++")])
         self.assertEqual(changes("a.minCoeff() + 0.0"), [(1, "minCoeff", "maxCoeff"), (1, "+", "-"), (1, "0.0", "1.0")])
 

@@ -6,7 +6,12 @@ from typing import NamedTuple
 
 SWAPS = [(" + ", " - "), (" * ", " / "), (" += ", " -= "), (" *= ", " /= "), (" == ", " != "), (" && ", " || "),
          ("++", "--"), ("std::min(", "std::max("), ("minCoeff", "maxCoeff"), ("cwiseMin", "cwiseMax"),
-         ("min_element", "max_element"), (" < ", " <= "), (" > ", " >= ")]
+         ("min_element", "max_element"), (" < ", " >= "), (" > ", " <= ")]
+# Of a loop its end moves by one; elsewhere most comparisons are of lengths and forces, which meet their
+# limit itself by chance only, so that a change there is the other answer everywhere.
+IN_LOOPS = {" < ": " <=", " <= ": " <", " > ": " >=", " >= ": " >"}
+LOOP = re.compile(r"\bfor \([^;()]*(?:\([^()]*\)[^;()]*)*;[^;]*$")
+COMPARISON = re.compile(r" (?:[<>]=?|[!=]=) ")
 NUMBER = re.compile(r"(?<![\w.'])(\d+\.\d*(?:e[+-]?\d+)?|\d+(?:e[+-]?\d+)?)(?![\w.'])")
 COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|'
                              r"^[ ]*#(?:\\\n|[^\n])*", re.DOTALL | re.MULTILINE)
@@ -83,7 +88,9 @@ def swaps(code):
             for match in re.finditer(pattern, code):
                 beside = code[:match.start()].rstrip()[-1:] + code[match.end():].lstrip()[:1]
                 if '"' not in beside:  # texts are joined, not added
-                    yield match.start(), match.group(), new.rstrip()
+                    before = code[code.rfind("\n", 0, match.start()) + 1:match.start()]
+                    in_loop = old in IN_LOOPS and LOOP.search(before)
+                    yield match.start(), match.group(), IN_LOOPS[old] if in_loop else new.rstrip()
 
 
 def another_number(old):
@@ -101,6 +108,8 @@ def negations(code):
     for match in re.finditer(r"\b(?:if|while) \(", code):
         end = end_of_call(code, match.end() - 1)
         condition = code[match.end():end]
+        if COMPARISON.search(condition) and not re.search(r"&&|\|\|", condition):
+            continue  # its comparison is changed already
         if ";" not in condition and not re.match(r"(?:const )?[\w:<>*&]+ \w+ =|auto", condition):
             yield match.end(), condition, f"!({condition})"
 
