@@ -35,7 +35,8 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--array", options.array, "What colours the particles, displacement if not given");
   app.add_option("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
   app.add_option("--forces", options.forces,
-                 "Arrows of that force: force_pair, force_bone, force ...");
+                 "Arrows of a force: force_pair if none is named, force_bone, force ...")
+      ->expected(0, 1);
   app.add_option("--time", options.time, "Moment of the picture, s");
   app.add_option("--size", options.size, "Size of the picture, pixels")
       ->expected(2)
@@ -52,7 +53,8 @@ std::vector<std::string> words_of(const Options& options) {
   };
   add("--array", options.array);
   add("--cut", options.cut);
-  add("--forces", options.forces.value_or(""));
+  if (options.forces) words.push_back("--forces");
+  if (options.forces && !options.forces->empty()) words.push_back(*options.forces);
   add("--picture", options.picture.empty() ? "" : fs::absolute(options.picture).string());
   if (options.time) add("--time", std::to_string(*options.time));
   if (!options.size.empty()) {

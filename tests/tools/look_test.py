@@ -151,7 +151,7 @@ class Look(unittest.TestCase):
         for name in ("view.py", "live.py", "paraview.py", "camera.py"):
             (foreign / name).write_text(f"open({str(ran)!r}, 'w')")
         picture = self.pictures / "drawn.png"
-        done = sinew("view", foreign, "--picture", picture, "--size", "200", "150", cwd=foreign,
+        done = sinew("view", foreign, "--picture", picture, "--size", "200", "150", "--forces", cwd=foreign,
                      env=without(PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(size_of(picture), (200, 150))
