@@ -36,6 +36,14 @@ TEST(Comparison, TakesTheFirstFromTheSecondAndLeavesDistancesAsTheyAre) {
   EXPECT_EQ(compared.summary.metrics[metric_index("volume")].final, 6);
 }
 
+TEST(ComparisonJson, LastsAsLongAsTheFramesThatBothHave) {
+  ComparedRun first = some_run("a", 1), second = some_run("b", 2);
+  first.frames.erase(first.frames.begin());
+  second.frames.erase(second.frames.begin());
+  const auto file = nlohmann::json::parse(comparison_json(compare(first, second)));
+  EXPECT_EQ(file["duration"], 0.5);
+}
+
 TEST(Comparison, OfARunWithItselfIsNothing) {
   const RunComparison compared = compare(some_run("a", 2), some_run("a", 2));
   for (const Metric& metric : metrics_table().subspan(1))

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "physics/lists/drift.h"
+#include "physics/lists/group_cells.h"
 #include "ways.h"
 
 namespace sinew {
@@ -250,6 +251,35 @@ TEST(ExcessOfStep, FallsWithTheSquareOfTheStepAndVanishesForSteadyTravel) {
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
   settings.tracks[0].interpolation = Interpolation::linear;
   EXPECT_LT(excess(1e-3), 1e-14);
+}
+
+TEST(GroupCells, MeetWhereverAPairOfTwoGroupsIsWithinReach) {
+  std::mt19937 random(5);
+  const Measure metres;
+  constexpr std::size_t count = 1500, groups = 300;
+  BlockState<double> state(count);
+  Points points;
+  std::vector<std::uint32_t> group;
+  for (std::size_t k = 0; k < count; ++k) {
+    points.push_back(40 * r * test::random_vector(random));
+    group.push_back(static_cast<std::uint32_t>(random() % groups));
+    state.set_position(k, points[k], metres);
+  }
+  const auto met = GroupCells(state, metres, group, range).meetings();
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j) {
+      const double apart = (points[i] - points[j]).norm();
+      if (group[i] >= group[j] || apart >= range) continue;
+      const auto found = met.find({group[i], group[j]});
+      ASSERT_NE(found, met.end()) << (points[i] - points[j]).transpose() / range;
+      EXPECT_LE(found->second.gap, apart);
+      EXPECT_TRUE(found->second.near_a.contains(points[i]));
+      EXPECT_TRUE(found->second.near_b.contains(points[j]));
+      ++pairs;
+    }
+  EXPECT_GT(pairs, 1000u);
+  EXPECT_LT(met.size(), 2 * pairs);  // not all groups with all
 }
 
 }  // namespace
