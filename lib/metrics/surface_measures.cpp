@@ -75,8 +75,9 @@ double dirichlet(const Corners& rest, const Corners& now) {
 
 std::array<double, 2> face_stretches(const Corners& rest, const Corners& now) {
   const Eigen::Matrix2d F = flattened(now) * flattened(rest).inverse();
-  const double like = std::hypot(F(0, 0) + F(1, 1), F(1, 0) - F(0, 1));
-  const double unlike = std::hypot(F(0, 0) - F(1, 1), F(1, 0) + F(0, 1));
+  // Both faces were laid down with the first edge along x: F(1, 0) is 0.
+  const double like = std::hypot(F(0, 0) + F(1, 1), F(0, 1));
+  const double unlike = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
   return {(like + unlike) / 2, std::abs(like - unlike) / 2};
 }
 

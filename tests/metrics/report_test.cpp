@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.h"
 #include "metrics/report/charts.h"
 #include "metrics/report/embedded.h"
+#include "metrics/report/page_data.h"
 #include "metrics/table.h"
 #include "metrics/verdict.h"
 #include "world.h"
@@ -155,6 +158,18 @@ TEST(Report, StandsWithOneFrameAndNothingMeasured) {
 
 TEST(Report, StaysSmallHoweverLongTheRun) {
   EXPECT_LT(own_part(report_html(some_report(50000))).size(), 2u << 20);
+}
+
+TEST(Report, OffersTheWorstFramesOfWhatWentWrong) {
+  ReportInput input = some_report(3);
+  input.frames = std::vector<FrameMetrics>(3);
+  input.frames[1].broken_neighbours = 0;
+  input.frames[2].volume_error = 0.1;
+  input.summary = summarize(input.frames, r);
+  const auto worst = nlohmann::json::parse(page_data(input, {}))["worst"];
+  ASSERT_EQ(worst.size(), 1u);  // no neighbours are broken, and the rest was not measured
+  EXPECT_EQ(worst[0]["metric"], "volume_error");
+  EXPECT_EQ(worst[0]["frame"], 2);
 }
 
 TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
