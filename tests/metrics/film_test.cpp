@@ -91,6 +91,15 @@ TEST(Film, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
 }
 
+TEST(Film, HasABoxAroundAllOfIt) {
+  Film film;
+  EXPECT_TRUE(box_of(film).isEmpty());
+  film.frames.push_back({0, 0, {1, 2, 3, -1, 5, 0}, {0, 0, 7}, {4, 0, 0, 0, -2, 0}, {}});
+  film.frames.push_back({1, 0.1, {0, 0, -3}, {}, {}, {}});
+  EXPECT_EQ(box_of(film).min(), Vec3(-1, -2, -3));
+  EXPECT_EQ(box_of(film).max(), Vec3(4, 5, 7));
+}
+
 TEST(Film, DrawsBonesAsLongAsTheyAre) {
   const RestBody body = rest_body(box_input());
   FrameState state = at_rest(body);

@@ -108,6 +108,15 @@ std::span<const FilmField> film_fields() {
   return fields;
 }
 
+Box box_of(const Film& film) {
+  Box box;
+  for (const FilmFrame& frame : film.frames)
+    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones})
+      for (std::size_t i = 0; i + 2 < places->size(); i += 3)
+        box.extend(Vec3((*places)[i], (*places)[i + 1], (*places)[i + 2]));
+  return box;
+}
+
 bool Film::wants(std::size_t frame) const {
   return std::binary_search(wanted.begin(), wanted.end(), frame);
 }
@@ -145,8 +154,7 @@ void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameS
   for (std::size_t b = 0; b < rest.bones.size(); ++b) {
     const RigidFrame& bone = state.bones[b];
     append(shot.bones, bone.origin);
-    const double length =
-        state.bone_lengths.empty() ? rest.bones[b].length : state.bone_lengths[b];
+    const double length = state.bone_lengths.empty() ? rest.bones[b].length : state.bone_lengths[b];
     append(shot.bones, bone.origin + length * bone.rotation.col(0));
   }
   for (const FilmField& field : film_fields())

@@ -48,6 +48,9 @@ struct Film {
   bool has(std::size_t frame) const;
 };
 
+/// Around all places of all frames, m; empty where there are none.
+Box box_of(const Film& film);
+
 /// A film of no frames, with the choice made of what will be kept: all of a small run; of a large
 /// one frames at even distances, the first and the last among them, particles picked at random (the
 /// same ones every time) and a coarser skin.

@@ -19,16 +19,8 @@ struct Cube {
   double edge = 1;
 };
 
-void extend(Box& box, const std::vector<float>& places) {
-  for (std::size_t i = 0; i + 2 < places.size(); i += 3)
-    box.extend(Vec3(places[i], places[i + 1], places[i + 2]));
-}
-
 Cube cube_of(const Film& film) {
-  Box box;
-  for (const FilmFrame& frame : film.frames)
-    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones})
-      extend(box, *places);
+  const Box box = box_of(film);
   if (box.isEmpty()) return {};
   const double edge = box.sizes().maxCoeff();
   return {box.min(), edge > 0 ? edge : 1};

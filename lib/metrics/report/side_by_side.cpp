@@ -9,19 +9,6 @@ namespace {
 
 constexpr double gap = 0.15;  // between the two, of the size of the first
 
-void extend(Box& box, const std::vector<float>& places) {
-  for (std::size_t i = 0; i + 2 < places.size(); i += 3)
-    box.extend(Vec3(places[i], places[i + 1], places[i + 2]));
-}
-
-Box box_of(const Film& film) {
-  Box box;
-  for (const FilmFrame& frame : film.frames)
-    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones})
-      extend(box, *places);
-  return box;
-}
-
 /// From where the second film is to where it stands beside the first. The camera looks along x or
 /// y, whichever has less: it sees both when they stand along the other.
 Vec3 way_aside(const Film& first, const Film& second) {
