@@ -3,7 +3,7 @@
 """Flips operators and constants of a room of lib one at a time, in a copy of the project, builds the
 room's tests and runs them, cheapest first: shows which changes the tests notice and which survive.
 
-usage: mutants.py SOURCE ROOM [--count 60] [--seed 1] [--work FOLDER] [--at FILE[:LINE]] [--slowest 2] [--list]
+usage: mutants.py SOURCE ROOM [--count 60] [--seed 1] [--work FOLDER] [--at FILE[:LINE]] [--slowest 6] [--list]
 SOURCE: of the project, which is only read; ROOM: physics or metrics; --work: where the copy and its build
 are, kept for the next time (a temporary folder otherwise); --at: only changes there; --slowest: leaves out
 tests that take longer, s; --list: shows the changes and builds nothing.
@@ -271,7 +271,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--work", type=lambda text: Path(text).resolve())
     parser.add_argument("--at", action="append", default=[])
-    parser.add_argument("--slowest", type=float, default=2)
+    parser.add_argument("--slowest", type=float, default=6)
     parser.add_argument("--list", action="store_true")
     arguments = parser.parse_args()
     mutants = all_mutants(arguments.source, arguments.room)

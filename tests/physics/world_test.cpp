@@ -34,8 +34,8 @@ World busy_world(const Points& rest) {
     pose.velocity = {-0.3, 0.1, 0};
     pose.angular_velocity = {0, 2, 5};
     pose.frame.origin = time * pose.velocity;
-    const Vec3 turn = time * pose.angular_velocity;
-    pose.frame.rotation = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).matrix();
+    const Vec3& spin = pose.angular_velocity;
+    pose.frame.rotation = Eigen::AngleAxisd(time * spin.norm(), spin.normalized()).matrix();
     return pose;
   };
   world.drag = {0.7, {0.1, 0.2, 0}};
