@@ -36,6 +36,8 @@ EQUIVALENT = [
      "only its work is asked for"),
     (r".*solid\.cpp", r"_\.assign\(n, 0\)", r"0", "each is found before it is asked for"),
     (r".*physics/simulation\.h", r"double held_at_start_ = 0;", r"0", "the first step finds it"),
+    (r".*contacts\.cpp", r"sizes\(\)\.maxCoeff\(&axis\)", r"maxCoeff",
+     "slices along any side bound as well, less closely"),
     (r".*bone_slots\.cpp", r"\[\]\(Real share\)", r" ==", "shares of one that are kept give the same forces, later"),
     (r".*metrics/body\.cpp", r"i < input\.bones\.size\(\)", r"0", "the first bone has no parent, so no joint"),
     (r".*settling\.cpp", r"first < bones\.size\(\);\) \{", r" <", "nothing is held beyond the last frame"),

@@ -129,10 +129,10 @@ TEST(Golden, MaterialsEndWhereTheyDid) {
     bonded.settings.material.model = model;
     text += bonded.end();
     bonded.name += " that creeps and breaks";
-    bonded.shake = 0.2 * r;
+    bonded.shake = 0.3 * r;
     bonded.settings.material.yield_strain = 0.05;
     bonded.settings.material.creep_rate = 40;
-    bonded.settings.material.breaking_strain = 0.15;
+    bonded.settings.material.breaking_strain = 0.1;
     text += bonded.end();
   }
   test::expect_golden("physics/golden/materials.csv", text);
