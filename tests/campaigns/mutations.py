@@ -36,6 +36,7 @@ EQUIVALENT = [
      "only its work is asked for"),
     (r".*solid\.cpp", r"_\.assign\(n, 0\)", r"0", "each is found before it is asked for"),
     (r".*physics/simulation\.h", r"double held_at_start_ = 0;", r"0", "the first step finds it"),
+    (r".*carriers\.cpp", r"return angle == 0", r"0", "a turn by 0 about no axis is none either"),
     (r".*contacts\.cpp", r"sizes\(\)\.maxCoeff\(&axis\)", r"maxCoeff",
      "slices along any side bound as well, less closely"),
     (r".*bone_slots\.cpp", r"\[\]\(Real share\)", r" ==", "shares of one that are kept give the same forces, later"),
