@@ -10,7 +10,8 @@ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="-O1 
 cmake --build "$build"
 tests/tools/get_paraview_python.sh "$build/paraview-python"
 # A program outside, as tools.package builds one, cannot link what counts.
-ctest --test-dir "$build" --parallel "$(nproc)" --exclude-regex '^tools\.package$' "$@" || echo "coverage.sh: some tests failed" >&2
+ctest --test-dir "$build" --parallel "$(nproc)" --exclude-regex '^tools\.package$' "$@" ||
+  echo "coverage.sh: some tests failed" >&2
 # Counters of lines that several threads run may come out negative: gcovr is told to go on.
 gcovr --root . --filter lib/ --gcov-ignore-parse-errors \
   --json-summary "$build/coverage.json" --txt "$build/coverage.txt" "$build"

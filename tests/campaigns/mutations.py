@@ -34,7 +34,7 @@ EQUIVALENT = [
     (r".*slices\.cpp", r"double last = -2;", r"2", "what comes before the first is none of its neighbours"),
     (r".*physics/simulation\.cpp", r"world_book_\.add_step\(sums\.world_power, 0\)", r"0",
      "only its work is asked for"),
-    (r".*solid\.cpp", r"_\.assign\(n, 0\)", r"0", "each is found before it is asked for"),
+    (r".*solid\.cpp", r"volume_\.assign\(n, 0\)", r"0", "each is found before it is asked for"),
     (r".*physics/simulation\.h", r"double held_at_start_ = 0;", r"0", "the first step finds it"),
     (r".*carriers\.cpp", r"return angle == 0", r"0", "a turn by 0 about no axis is none either"),
     (r".*contacts\.cpp", r"sizes\(\)\.maxCoeff\(&axis\)", r"maxCoeff",

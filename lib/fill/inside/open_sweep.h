@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Along a row of sites an open surface's winding number jumps at crossings and changes smoothly
-// between them, by what its caps add (fill/open_winding.h).
+// between them, by what its caps add (fill/inside/open_winding.h).
 #pragma once
 
 #include "fill/inside/open_winding.h"
