@@ -40,4 +40,6 @@ cmake --build "$work/build" >/dev/null
 "$work/build/outside"
 "$work/installed/bin/sinew" --version
 "$work/installed/bin/sinew" info --help >/dev/null
-test -s "$work/installed/share/sinew/view.py" && test -s "$work/installed/share/sinew/live.py"  # what sinew view starts
+for script in view live; do  # what sinew view starts
+  test -s "$work/installed/share/sinew/$script.py"
+done
