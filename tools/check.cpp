@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "command.h"
+#include "command/command.h"
+#include "command/results.h"
 #include "config/scene.h"
 #include "core/available_memory.h"
 #include "core/closest_packing.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
-#include "estimate.h"
+#include "folder/run_folder.h"
 #include "physics/rest_stability.h"
 #include "physics/thin_body.h"
-#include "results.h"
-#include "run_folder.h"
-#include "scene_body.h"
-#include "scene_world.h"
-#include "setup.h"
-#include "step_way.h"
-#include "warnings.h"
+#include "scene/body.h"
+#include "scene/estimate.h"
+#include "scene/setup.h"
+#include "scene/step_way.h"
+#include "scene/warnings.h"
+#include "scene/world.h"
 
 namespace {
 

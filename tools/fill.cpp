@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "body_options.h"
-#include "command.h"
+#include "command/command.h"
+#include "command/results.h"
 #include "config/scene.h"
-#include "mesh_input.h"
-#include "results.h"
-#include "scene_body.h"
+#include "scene/body.h"
+#include "scene/body_options.h"
+#include "scene/mesh_input.h"
 
 namespace {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-info: what is in a mesh, a rig, a clip or a scene, and what is wrong with it.
-#include "body_options.h"
-#include "command.h"
+#include "command/command.h"
 #include "config/rig.h"
 #include "config/scene.h"
-#include "mesh_info.h"
-#include "mesh_input.h"
+#include "inspect/mesh_info.h"
+#include "inspect/rig_info.h"
 #include "rig/motion.h"
-#include "rig_info.h"
-#include "scene_body.h"
-#include "scene_rig.h"
+#include "scene/body.h"
+#include "scene/body_options.h"
+#include "scene/mesh_input.h"
+#include "scene/rig.h"
 
 namespace {
 

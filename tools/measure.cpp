@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; or what two runs have in common, and what not.
-#include "command.h"
-#include "compare_runs.h"
+#include "command/command.h"
+#include "command/results.h"
 #include "core/file.h"
 #include "core/requested_arrays.h"
 #include "core/stopwatch.h"
+#include "folder/run_record.h"
+#include "measure/compare_runs.h"
+#include "measure/report_input.h"
 #include "metrics/csv.h"
 #include "metrics/json.h"
 #include "metrics/table.h"
-#include "report_input.h"
-#include "results.h"
-#include "run_record.h"
 
 namespace {
 

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "album.h"
-#include "command.h"
+#include "command/command.h"
+#include "command/results.h"
 #include "core/stopwatch.h"
+#include "draw/album.h"
+#include "folder/run_record.h"
 #include "render/display.h"
-#include "results.h"
-#include "run_record.h"
 
 namespace {
 

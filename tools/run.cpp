@@ -2,11 +2,11 @@
 // sinew-run: the whole job, each part by its own program.
 #include <filesystem>
 
-#include "child.h"
-#include "command.h"
-#include "results.h"
-#include "run_folder.h"
-#include "run_options.h"
+#include "command/child.h"
+#include "command/command.h"
+#include "command/results.h"
+#include "command/run_options.h"
+#include "folder/run_folder.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <system_error>
 #include <vector>
 
-#include "command.h"
+#include "command/command.h"
+#include "command/results.h"
 #include "core/words.h"
-#include "results.h"
 
 namespace {
 

@@ -2,14 +2,14 @@
 // sinew-tables NAME: prints a table of the README as Markdown. For developers; not installed.
 #include <string>
 
-#include "command.h"
+#include "command/command.h"
+#include "command/markdown.h"
+#include "command/results.h"
+#include "command/settings_list.h"
 #include "io/arrays.h"
-#include "markdown.h"
 #include "metrics/bone_metrics.h"
 #include "metrics/sections.h"
 #include "metrics/table.h"
-#include "results.h"
-#include "settings_list.h"
 
 namespace {
 

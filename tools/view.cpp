@@ -12,9 +12,9 @@
 #include <system_error>
 #include <vector>
 
-#include "command.h"
+#include "command/command.h"
+#include "folder/run_folder.h"
 #include "render/display.h"
-#include "run_folder.h"
 
 namespace {
 

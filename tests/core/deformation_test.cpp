@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/closest_packing.h"
+#include "core/parallel.h"
 #include "world.h"
 
 namespace sinew {
@@ -48,6 +49,15 @@ TEST(DeformationGradient, KeepsDigitsFarFromTheOrigin) {
   const RestShape rest = box_shape({100, -100, 50});
   for (const Mat3& found : deformation_gradients(rest, affine(rest.points, turned({0, 1, 0}, 90))))
     ASSERT_LT((found - turned({0, 1, 0}, 90)).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(RestShape, HasTheSameBitsForEveryThreadCount) {
+  const Points points = test::fcc_box(15, 15, 21, 0.01);
+  const RestShape expected = rest_shape(points, rest_neighbour_range(0.01));
+  for (const int threads : {1, 2, 3, 8})
+    with_threads(threads, [&] {
+      EXPECT_EQ(rest_shape(points, rest_neighbour_range(0.01)).inverse, expected.inverse);
+    });
 }
 
 TEST(DeformationGradient, UsesOnlyTheNeighboursOfItsOwnPoint) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the house's arrows: which room of lib may see which, and which packages, and where.
+"""Holds the house's arrows: which room of lib and of tools may see which, and which packages, and where.
 
 usage: house_test.py SOURCE_DIR      prints one line per breach, exit code 1 if there is any
 """
@@ -11,6 +11,10 @@ from pathlib import Path
 ARROWS = {
     "core": set(), "config": {"core"}, "mesh": {"core"}, "fill": {"core", "mesh"}, "rig": {"core"}, "metrics": {"core"},
     "physics": {"core", "rig"}, "io": {"core", "rig"}, "render": {"core", "rig"},
+}
+TOOL_ARROWS = {
+    "command": set(), "scene": {"command"}, "folder": {"command", "scene"}, "inspect": {"command", "scene"},
+    "measure": {"command", "scene", "folder"}, "draw": {"command", "scene", "folder"},
 }
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
@@ -90,10 +94,22 @@ def rounding_breaches(lib, room):
     text = (lib / room / "CMakeLists.txt").read_text()
     own = re.search(r"CGAL_SOURCES([^)A-Z]*)", text)
     own = own.group(1).split() if own else []
-    for path in sorted((lib / room).glob("*.cpp")):
+    for path in sorted((lib / room).rglob("*.cpp")):
+        name = path.relative_to(lib / room).as_posix()
         uses = re.search(r"#include <CGAL/", path.read_text()) is not None
-        if uses != (path.name in own):
-            yield f"lib/{room}/{path.name}: files that include CGAL, and no others, are CGAL_SOURCES"
+        if uses != (name in own):
+            yield f"lib/{room}/{name}: files that include CGAL, and no others, are CGAL_SOURCES"
+
+
+def tool_breaches(tools, path):
+    name, room = path.relative_to(tools).as_posix(), path.relative_to(tools).parts[0]
+    if room not in TOOL_ARROWS:
+        yield f"tools/{room} is a room without arrows: add it to this test"
+        return
+    for kind, included in INCLUDE.findall(path.read_text()):
+        owner = included.split("/")[0]
+        if kind == '"' and owner in TOOL_ARROWS.keys() - TOOL_ARROWS[room] - {room}:
+            yield f"tools/{name} includes {included}: {room} must not see {owner}"
 
 
 def licence_breaches(source, path):
@@ -121,6 +137,8 @@ def breaches(source):
         for path in sorted((lib / room).rglob("*")):
             if path.suffix in (".h", ".cpp", ".in"):
                 yield from include_breaches(lib, path)
+    for path in sorted((source / "tools").glob("*/*.[ch]*")):
+        yield from tool_breaches(source / "tools", path)
     for path in source_files(source):
         yield from licence_breaches(source, path)
 

@@ -162,6 +162,19 @@ TEST(Contacts, OnlyTheSurroundingsOfAJointCountInABend) {
   EXPECT_GT(scene.contacts.approach(bend), 2 * r * radians(1));
 }
 
+TEST(Contacts, ATurnBringsParticlesNearerTheFurtherTheyHaveStrayed) {
+  const Scene scene = bar(2);
+  const Vec3 joint(0, 0, 41 * half_plane_spacing(r) / 2);
+  const Mat3 turn = test::turned(Vec3::UnitY(), 1);
+  const std::vector<RigidMotion> rest(2), bend{{}, {turn, joint - turn * joint}};
+  const double near = scene.contacts.approach_since(rest, bend, 0);
+  for (const double strayed : {r, 10 * r, 1000 * r}) {
+    const double most = scene.contacts.approach_since(rest, bend, strayed);
+    EXPECT_GE(most, 2 * std::sin(radians(0.5)) * strayed);
+    EXPECT_LE(most, near + 1.5 * radians(1) * strayed);
+  }
+}
+
 TEST(Contacts, GroupsFarApartMayMoveFreelyAtFirst) {
   const Scene scene = two_bars();  // 10 r between their surfaces
   const auto pushed = [](double way) {

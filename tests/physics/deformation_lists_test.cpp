@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whatever a body goes through, its lists hold the pairs that the cells find, at every moment
 // looked at.
+#include "golden.h"
 #include "ways.h"
 
 namespace sinew {
@@ -311,11 +312,13 @@ struct Shots {
   }
 };
 
+Simulation begin(const Shots& shots) {
+  return {shots.body, make_motion(shots.settings, shots.body.skeleton), shots.particles,
+          stepping_of(shots.settings.solver, test::step_of(shots.settings, shots.body, 0.2))};
+}
+
 void expect_pairs_through_shots(Precision precision, bool moving) {
-  const Shots shots(precision, moving);
-  Simulation simulation(
-      shots.body, make_motion(shots.settings, shots.body.skeleton), shots.particles,
-      stepping_of(shots.settings.solver, test::step_of(shots.settings, shots.body, 0.2)));
+  Simulation simulation = begin(Shots(precision, moving));
   for (int moment = 0; moment < 150; ++moment) {
     while (simulation.time() < moment * 0.4 / 150) simulation.step();
     test::expect_pairs_of_cells(simulation, precision);
@@ -343,6 +346,30 @@ TEST(ListsThrough, LongWaysKeepTheirPlaceInBothPrecisions) {
   }
 }
 
+std::string counts_after_250_steps(const std::string& name, Simulation simulation) {
+  while (simulation.steps() < 250) simulation.step();
+  const ListCounts counts = simulation.list_counts();
+  std::string row = name;
+  for (const auto count :
+       {counts.rebuilds, counts.sifts, counts.looks, counts.strays, counts.sorts})
+    row += ',' + std::to_string(count);
+  return row + ',' + test::rounded(counts.wide) + ',' + test::rounded(counts.narrow) + '\n';
+}
+
+/// A change of these numbers changes how long a run takes, not where its body goes: look whether
+/// it was meant.
+TEST(ListsThrough, StoriesAreMadeAsOftenAndAsLongAsTheyWere) {
+  std::string text = "story,rebuilds,sifts,looks,strays,sorts,wide,narrow\n";
+  for (const Precision precision : test::precisions) {
+    const std::string in = precision == Precision::binary64 ? " in double" : " in single";
+    for (const Story& story :
+         {bend(), twist(), crush(), collide(), melt(), shake(), travel(), part(), spin(), jump()})
+      text += counts_after_250_steps(story.name + in, begin(story, precision));
+    text += counts_after_250_steps("Shots" + in, begin(Shots(precision, true)));
+  }
+  test::expect_golden("physics/golden/lists.csv", text);
+}
+
 std::string name_of(const testing::TestParamInfo<std::tuple<Story, Precision>>& info) {
   const auto& [story, precision] = info.param;
   return story.name + (precision == Precision::binary64 ? "InDoubles" : "InFloats");
@@ -354,5 +381,4 @@ INSTANTIATE_TEST_SUITE_P(All, ListsThroughStories,
                          name_of);
 
 }  // namespace
-
 }  // namespace sinew

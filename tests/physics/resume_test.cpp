@@ -255,6 +255,24 @@ TEST(Resume, GoesThroughSortsMeasuresAndBrokenBonds) {
   EXPECT_GT(std::count_if(broken.begin(), broken.end(), [](int n) { return n > 0; }), 0);
 }
 
+TEST(Resume, ParticlesThatComeTogetherInAnotherOrderAreSortedAgain) {
+  const World world = melt("", Precision::binary64);
+  const Body body = test::make_body(world.settings, world.rest);
+  const double step = test::step_of(world.settings, body, world.factor);
+  Points start = world.rest;  // of a thin cloud
+  std::shuffle(start.begin(), start.end(), std::mt19937(8));
+  Particles particles = particles_at(world.rest, r, body.material.mass);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    particles.set_position(i, 4 * start[i]);
+    particles.set_velocity(i, (world.rest[i] - 4 * start[i]) / (1000 * step));
+  }
+  Simulation simulation = test::simulation_from(world.settings, world.rest, particles, step);
+  simulation.step();
+  const std::int64_t of_the_cloud = simulation.list_counts().sorts;
+  while (simulation.steps() < last) simulation.step();
+  EXPECT_EQ(simulation.list_counts().sorts, of_the_cloud + 1);
+}
+
 TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   using enum Precision;
   const SimulationState good = bend("", binary64).begin().save();
@@ -272,9 +290,12 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   SimulationState bad = good;
   bad.order[3] = bad.order[4];
   refuse(bend("", binary64), bad, "twice");
-  bad = good;
-  std::get<MovingInDouble>(bad.moving).v[1][7] = NAN;
-  refuse(bend("", binary64), bad, "finite");
+  const std::size_t end = std::get<MovingInDouble>(good.moving).v[1].size() - 1;
+  for (const std::size_t lost : {std::size_t{0}, std::size_t{7}, end}) {
+    bad = good;
+    std::get<MovingInDouble>(bad.moving).v[1][lost] = NAN;
+    refuse(bend("", binary64), bad, "finite");
+  }
   bad = good;
   bad.steps = -1;
   refuse(bend("", binary64), bad, "steps");

@@ -104,6 +104,24 @@ TEST(World, BitsDoNotDependOnThreads) {
   }
 }
 
+TEST(World, ObstaclesFeelWhatTheyDoToBodiesOfAnyNumberOfParticles) {
+  const Points whole = test::fcc_ball(20, r);
+  World world;
+  world.obstacles = busy_world(whole).obstacles;
+  for (const std::size_t count : {1, 1023, 1024, 1025, 2047, 2048, 2049}) {
+    const Points rest(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(count));
+    WorldForces forces;
+    world_forces(particles_at(rest, r, 1), world, world_at(world, 0, {}), forces);
+    ASSERT_EQ(forces.contact.size(), count);
+    Vec3 given = Vec3::Zero(), felt = Vec3::Zero();
+    double most = 0;
+    for (const Vec3& force : forces.contact) given += force, most += force.norm();
+    for (const auto& reaction : forces.reactions) felt += reaction.force;
+    EXPECT_GT(most, 0);
+    EXPECT_LT((given + felt).norm(), 1e-12 * most) << count;
+  }
+}
+
 TEST(World, BuffersMayBeUsedAgain) {
   const Points rest = test::fcc_ball(6, r);
   const World world = busy_world(rest);

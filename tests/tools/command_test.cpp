@@ -6,10 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "command/progress.h"
+#include "command/results.h"
+#include "command/settings_list.h"
 #include "config/small_scene.h"
-#include "progress.h"
-#include "results.h"
-#include "settings_list.h"
 #include "tools/run_program.h"
 
 namespace sinew {

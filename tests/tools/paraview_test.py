@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """pvbatch paraview_test.py DIR [TESTS]: what ParaView itself makes of the run in DIR. Works on any run."""
+import functools
 import math
 import os
 import subprocess
@@ -164,6 +165,7 @@ class Picking(unittest.TestCase):
             self.assertEqual(ids, [i for i, other in enumerate(bones) if other == bone])
 
 
+@functools.cache
 def picture(*arguments):
     """Width, height and rows of pixels of what view.py draws."""
     with tempfile.TemporaryDirectory() as folder:

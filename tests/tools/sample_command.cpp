@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A command that does little more than what all commands share; command_test.cpp runs it.
-#include "command.h"
+#include "command/command.h"
+#include "command/progress.h"
+#include "command/results.h"
 #include "config/scene.h"
 #include "core/parallel.h"
-#include "progress.h"
-#include "results.h"
 
 using namespace sinew;
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command/child.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace sinew {
+namespace {
+
+volatile pid_t child_of_signals = 0;  // whom a signal handler passes signals on to
+
+void pass_on(int signal, siginfo_t* origin, void*) {
+  // The terminal tells all programs in the foreground itself; a second time would end the child.
+  const bool from_terminal = origin->si_code == SI_KERNEL;
+  if (child_of_signals > 0 && !from_terminal) ::kill(child_of_signals, signal);
+}
+
+void pass_signals_on() {
+  struct sigaction action {};
+  action.sa_sigaction = pass_on;
+  action.sa_flags = SA_RESTART | SA_SIGINFO;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+[[noreturn]] void become(const std::string& program, const std::vector<char*>& arguments,
+                         int output, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(1);  // it died before it could be watched
+  ::dup2(output, STDOUT_FILENO);
+  ::execv(program.c_str(), arguments.data());
+  ::_exit(127);
+}
+
+std::string read_all(int from) {
+  std::string text;
+  std::array<char, 4096> part;
+  while (true) {
+    const ssize_t got = ::read(from, part.data(), part.size());
+    if (got > 0)
+      text.append(part.data(), static_cast<std::size_t>(got));
+    else if (got == 0 || errno != EINTR)
+      return text;
+  }
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments) {
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  std::string program = (folder / ("sinew-" + command)).string();
+  const Error cannot_start =
+      bad_input(Place{program}, "cannot be started", "build or install all programs of sinew");
+  if (::access(program.c_str(), X_OK) != 0) throw cannot_start;
+  std::vector<char*> words{program.data()};
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start;
+  pass_signals_on();  // exec gives the child the usual ones back
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child > 0) child_of_signals = child;
+  if (child == 0) become(program, words, pipe[1], parent);
+  ::close(pipe[1]);
+  if (child < 0) throw cannot_start;
+  ChildEnd end;
+  end.output = read_all(pipe[0]);
+  ::close(pipe[0]);
+  end.exit = wait_for(child);
+  child_of_signals = 0;
+  return end;
+}
+
+}  // namespace sinew

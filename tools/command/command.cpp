@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command/command.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "command/results.h"
+#include "command/settings_list.h"
+#include "core/parallel.h"
+#include "core/words.h"
+
+namespace sinew {
+namespace {
+
+constexpr int most_threads = 1024;
+
+/// What the options are read into.
+struct Given {
+  Common common;
+  std::vector<std::string> sets;
+};
+
+std::string help_footer(const About& about) {
+  std::string text = "\nExamples:\n";
+  for (const std::string& example : about.examples) text += "  " + example + '\n';
+  if (about.takes_scene) text += "\nSettings of a scene, for --set too:\n" + settings_help();
+  return text;
+}
+
+void declare_common(CLI::App& app, const About& about, Given& given) {
+  app.set_help_flag("-h,--help", "Show this help and stop");
+  app.set_version_flag("--version", "sinew " + version(), "Show the version and stop");
+  app.add_flag("--quiet", given.common.quiet, "No progress, no talk");
+  app.add_flag("--json", given.common.json, "Print the results as one JSON object");
+  app.add_option("--threads", given.common.threads, "Threads to use; 0: one per core")
+      ->type_name("N")
+      ->check(CLI::Range(0, most_threads));
+  if (about.takes_scene)
+    app.add_option("--set", given.sets, "Use this value instead of the scene's; may be repeated")
+        ->type_name("SECTION.KEY=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+Error unknown_option(const CLI::App& app, const std::string& see_help) {
+  const auto extras = app.remaining();
+  const std::string extra = extras.empty() ? "" : extras.front();
+  const std::string word = extra.substr(0, extra.find('='));
+  if (word.empty() || word.front() != '-')
+    return bad_input("one argument too many: " + shown(extra), see_help);
+  const auto names = option_names(app);
+  const std::string close =
+      nearest(word, std::vector<std::string_view>(names.begin(), names.end()));
+  return bad_input("unknown option " + shown(word),
+                   close.empty() ? see_help : "did you mean " + close + "?");
+}
+
+/// Reads the command line. Throws bad input; false when --help or --version said it all.
+bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    const bool version_asked = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
+    print_out(version_asked ? std::string(asked.what()) + '\n' : app.help());
+    return false;
+  } catch (const CLI::ExtrasError&) {
+    throw unknown_option(app, see_help);
+  } catch (const CLI::ParseError& error) {
+    throw bad_input(error.what(), see_help);
+  }
+  return true;
+}
+
+Exit parse_and_run(int argc, char** argv, const About& about,
+                   const std::function<void(CLI::App&)>& declare,
+                   const std::function<Exit(const Common&)>& job) {
+  CLI::App app(about.purpose, "sinew " + about.name);
+  Given given;
+  app.option_defaults()->always_capture_default(false);
+  app.get_formatter()->column_width(34);
+  declare(app);
+  declare_common(app, about, given);
+  app.footer(help_footer(about));
+  if (!parse(app, argc, argv, "see sinew " + about.name + " --help")) return Exit::done;
+  for (const std::string& set : given.sets) given.common.overrides.push_back(parse_override(set));
+  Exit exit = Exit::done;
+  with_threads(given.common.threads, [&] { exit = job(given.common); });
+  return exit;
+}
+
+int tell(Exit exit, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; },
+      ' ');  // names from files may hold any
+  std::fprintf(stderr, "sinew: %s\n", message.c_str());
+  return static_cast<int>(exit);
+}
+
+}  // namespace
+
+int run_told(const std::function<Exit()>& job) {
+  // A file that may not grow any more is an error of its write, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return static_cast<int>(job());
+  } catch (const Error& error) {
+    return tell(error.exit(), error.what());
+  } catch (const std::bad_alloc&) {
+    return tell(Exit::bad_input, "not enough memory; use fewer particles or a larger machine");
+  } catch (const std::exception& error) {
+    return tell(Exit::bad_input, std::string("unforeseen: ") + error.what() +
+                                     "; please report it with the command and its files");
+  }
+}
+
+int run_command(int argc, char** argv, const About& about,
+                const std::function<void(CLI::App&)>& declare,
+                const std::function<Exit(const Common&)>& job) {
+  return run_told([&] { return parse_and_run(argc, argv, about, declare, job); });
+}
+
+void say(const Common& common, const std::string& line) {
+  if (!common.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+std::string version() { return SINEW_VERSION; }
+
+}  // namespace sinew

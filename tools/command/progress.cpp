@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sinew {
+namespace {
+
+constexpr auto between_lines = std::chrono::milliseconds(100);  // a terminal needs no more
+constexpr double worth_telling = 0.05;  // share of the time that writing holds up the stepping
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));
+  const auto hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
+  if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, rest);
+  return fmt::format("{}:{:02}", minutes, rest);
+}
+
+}  // namespace
+
+ProgressStyle progress_style(bool quiet) {
+  if (quiet) return ProgressStyle::none;
+  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::rewritten : ProgressStyle::lines;
+}
+
+std::string progress_text(int frame, int frames, double time, double steps_per_second,
+                          double seconds_left, double share_waited) {
+  std::string text = fmt::format("frame {}/{}  time {:.4g} s", frame, frames, time);
+  if (steps_per_second > 0) text += fmt::format("  {:.0f} steps/s", steps_per_second);
+  if (seconds_left > 0) text += fmt::format("  {} left", duration_text(seconds_left));
+  if (share_waited > worth_telling)
+    text += fmt::format("  {:.0f} % spent waiting for the disk", 100 * share_waited);
+  return text;
+}
+
+Progress::Progress(int frames, ProgressStyle style, std::FILE* out)
+    : frames_(frames), style_(style), out_(out) {}
+
+Progress::~Progress() {
+  if (width_ > 0) std::fputc('\n', out_);
+}
+
+void Progress::frame(int frame, double time, std::int64_t steps, double waited) {
+  if (style_ == ProgressStyle::none) return;
+  const auto now = Clock::now();
+  if (!std::exchange(begun_, true)) {
+    start_ = now;
+    first_frame_ = frame;
+    first_steps_ = steps;
+    tenths_ = frames_ > 0 ? frame * 10 / frames_ : 0;
+    return;
+  }
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double speed = seconds > 0 ? static_cast<double>(steps - first_steps_) / seconds : 0;
+  const double left = seconds * (frames_ - frame) / std::max(1, frame - first_frame_);
+  const std::string line =
+      progress_text(frame, frames_, time, speed, left, seconds > 0 ? waited / seconds : 0);
+  const int tenths = frames_ > 0 ? static_cast<int>(std::int64_t{frame} * 10 / frames_) : 0;
+  if (style_ == ProgressStyle::rewritten) {
+    if (now - shown_ >= between_lines || frame >= frames_) rewrite(line);
+  } else if (tenths > tenths_) {
+    std::fprintf(out_, "%s\n", line.c_str());
+  }
+  tenths_ = std::max(tenths_, tenths);
+}
+
+void Progress::rewrite(const std::string& line) {
+  const std::size_t over = width_ > line.size() ? width_ - line.size() : 0;
+  std::fprintf(out_, "\r%s%s", line.c_str(), std::string(over, ' ').c_str());
+  std::fflush(out_);
+  width_ = line.size();
+  shown_ = Clock::now();
+}
+
+}  // namespace sinew

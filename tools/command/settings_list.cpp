@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command/settings_list.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "command/markdown.h"
+#include "config/values.h"
+#include "core/scene_text.h"
+#include "core/settings_table.h"
+
+namespace sinew {
+namespace {
+
+/// One key, all in words.
+struct Row {
+  std::string name, unit, standard, values, help;
+};
+
+struct Group {
+  std::string title;
+  std::vector<Row> rows;
+};
+
+/// 1/30 instead of its 16 digits.
+std::string short_text(const FieldValue& value, std::string_view absent) {
+  const auto* number = std::get_if<double>(&value);
+  const double inverse = number == nullptr || *number == 0 ? 0.5 : 1 / *number;
+  const bool fraction = inverse == std::round(inverse) && number_text(*number).size() > 8;
+  return fraction ? "1/" + number_text(inverse) : scene_text(value, absent);
+}
+
+template <class Owner>
+Row words_of(const Field<Owner>& row) {
+  Rules rules = rules_of(row);
+  rules.unit = rules.absent = {};  // they have columns of their own
+  return {std::string(row.name), std::string(row.unit),
+          row.required ? "required" : short_text(row.get(Owner{}), row.absent), values_text(rules),
+          std::string(row.help)};
+}
+
+template <class Owner>
+Group entries(const std::string& title, std::span<const Field<Owner>> rows) {
+  Group group = {title, {}};
+  for (const auto& row : rows) group.rows.push_back(words_of(row));
+  return group;
+}
+
+Group section_group(std::string_view section) {
+  Group group = {std::string(section), {}};
+  for (const auto& row : settings_table())
+    if (row.section == section) group.rows.push_back(words_of(row));
+  return group;
+}
+
+void add_world(std::vector<Group>& all) {
+  all.push_back(entries("world.obstacles[]", obstacle_fields()));
+  all.push_back(entries("world.obstacles[].keys[]", place_key_fields()));
+  all.push_back(entries("world.pins[]", pin_fields()));
+  all.push_back(entries("world.fields[]", field_fields()));
+  all.push_back(entries("world.fields[].keys[]", strength_fields()));
+  all.push_back(entries("world.muscles[]", muscle_fields()));
+  all.push_back(entries("world.muscles[].keys[]", activation_fields()));
+}
+
+std::vector<Group> groups() {
+  std::vector<Group> all;
+  for (const std::string_view section : sections()) {
+    if (Group group = section_group(section); !group.rows.empty()) all.push_back(std::move(group));
+    if (section == "skeleton") {
+      all.push_back(entries("skeleton.bones[]", bone_fields()));
+      all.push_back(entries("skeleton.bones[].limits", limit_fields()));
+    }
+    if (section == "binding") all.push_back(entries("binding.explicit[]", bound_fields()));
+    if (section == "motion") {
+      all.push_back(entries("motion.tracks[]", track_fields()));
+      all.push_back(entries("motion.tracks[].keys[]", key_fields()));
+    }
+    if (section == "world") add_world(all);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string settings_help() {
+  std::string text;
+  for (const Group& group : groups()) {
+    text += "\n  " + group.title + '\n';
+    for (const Row& row : group.rows) {
+      const std::string unit = row.unit.empty() ? "" : '[' + row.unit + "] ";
+      text += fmt::format("    {:<17} {:<17} {}{}\n", row.name, row.standard, unit, row.help);
+      if (row.values.find(',') != row.values.npos && row.values.substr(0, 7) == "one of ")
+        text += fmt::format("{:40}{}\n", "", row.values);
+    }
+  }
+  return text;
+}
+
+std::string settings_markdown() {
+  std::string text;
+  for (const Group& group : groups()) {
+    text += "| " + group.title + " | default | unit | values | meaning |\n|---|---|---|---|---|\n";
+    for (const Row& row : group.rows)
+      text += markdown_row({'`' + row.name + '`', row.standard, row.unit, row.values, row.help});
+    text += '\n';
+  }
+  text.pop_back();
+  return text;
+}
+
+}  // namespace sinew
