@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How runs end before their time, and how they go on.
 
-usage: stop_test.py BIN SOURCE      folder of the programs, folder of the project
+usage: stops_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import os
 import pty
@@ -215,4 +215,4 @@ class Stops(SmallRun):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["stop_test", "-v", *sys.argv[3:]])
+    unittest.main(argv=["stops_test", "-v", *sys.argv[3:]])
