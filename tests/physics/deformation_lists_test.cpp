@@ -168,6 +168,18 @@ Story jump() {
   return story;
 }
 
+/// A ball no larger than the way its particles may go unlooked at, turned by jumps.
+Story tumble() {
+  Story story{"Tumble", test::box_scene(9), test::fcc_ball(3, r)};
+  story.settings.bones = {{"core", "", Vec3(0, 0, -r), Vec3(0, 0, r)}};
+  std::vector<KeySettings> keys;
+  for (int k = 0; k < 100; ++k) keys.push_back(test::bend_key(0.003 * k, 2 * k));
+  story.settings.tracks = {test::track("core", keys)};
+  story.settings.tracks[0].interpolation = Interpolation::step;
+  story.shake = 0.3;
+  return story;
+}
+
 /// The whole scene elsewhere.
 Story moved(Story story, const Vec3& by, const std::string& name) {
   story.name = name;
@@ -209,6 +221,7 @@ std::vector<Story> stories() {
           part(),
           spin(),
           jump(),
+          tumble(),
           moved(bend(), {far, -far, far / 3}, "BendFarAway"),
           moved(melt(), {far, -far, far / 3}, "MeltFarAway"),
           scaled(collide(), 1e-7, "CollideOfRadius1e_9"),
@@ -362,8 +375,8 @@ TEST(ListsThrough, StoriesAreMadeAsOftenAndAsLongAsTheyWere) {
   std::string text = "story,rebuilds,sifts,looks,strays,sorts,wide,narrow\n";
   for (const Precision precision : test::precisions) {
     const std::string in = precision == Precision::binary64 ? " in double" : " in single";
-    for (const Story& story :
-         {bend(), twist(), crush(), collide(), melt(), shake(), travel(), part(), spin(), jump()})
+    for (const Story& story : {bend(), twist(), crush(), collide(), melt(), shake(), travel(),
+                               part(), spin(), jump(), tumble()})
       text += counts_after_250_steps(story.name + in, begin(story, precision));
     text += counts_after_250_steps("Shots" + in, begin(Shots(precision, true)));
   }

@@ -86,6 +86,15 @@ Points disordered(std::size_t count, double edge, unsigned seed) {
   return points;
 }
 
+/// Whole blocks of particles in one place each, every place hardly within `range` of the next,
+/// where a float tells places 0.2 mm apart at best.
+Points far_beads(double range) {
+  Points points;
+  for (int bead = 0; bead < 20; ++bead)
+    points.insert(points.end(), 16, Vec3(3000 + bead * (1 - 1e-6) * range, 2000, -4000));
+  return points;
+}
+
 /// Bodies in all states that lists meet.
 std::vector<Points> bodies() {
   const Points lattice = test::fcc_box(9, 9, 13, r);
@@ -105,6 +114,7 @@ std::vector<Points> bodies() {
           disordered(700, 0.25, 5),
           disordered(333, 0.03, 6),
           Points(40, Vec3(1, 2, 3)),
+          far_beads(3.6 * r),
           {Vec3(0, 0, 0)},
           {Vec3(0, 0, 0), Vec3(0, 0, 2 * r)},
           Points(lattice.begin(), lattice.begin() + 17),

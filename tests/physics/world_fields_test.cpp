@@ -36,6 +36,22 @@ TEST(KeyedValues, RatesAreTheSlopesOfTheLines) {
   EXPECT_EQ(KeyedValue{}.rate(1), 0);
 }
 
+TEST(KeyedValues, OutsideTheirBoundsAreRefused) {
+  check_keys({{0, 1, 2}, {-1, 0.5, 2}}, -1, 2, "the wind");
+  check_keys({{}, {}}, -1, 2, "the wind");
+  const auto refused = [](const KeyedValue& keys, const std::string& why) {
+    test::expect_bad_input([&] { check_keys(keys, -1, 2, "the wind"); }, {"the wind", why});
+  };
+  for (const double value : {-1.1, 2.1, static_cast<double>(NAN), HUGE_VAL, -HUGE_VAL}) {
+    refused({{0}, {value}}, "has the value");
+    refused({{0, 1}, {0, value}}, "has the value");
+  }
+  for (const double time : {-1.0, 0.0, static_cast<double>(NAN), HUGE_VAL})
+    refused({{0, time}, {0, 0}}, "does not come later");
+  refused({{NAN}, {0}}, "does not come later");
+  refused({{0, 1}, {0}}, "2 times and 1 values");
+}
+
 TEST(ForceFields, HaveTheirClosedForms) {
   const Vec3 p(0.3, 0.4, 0);
   const auto force = [&](const FieldForm& form, double scale = 1) -> Vec3 {
@@ -50,6 +66,13 @@ TEST(ForceFields, HaveTheirClosedForms) {
   EXPECT_NEAR((force(Swirl{{0, 0, 9}, {0, 0, 3}, 5, 0.1}) - grain.mass * Vec3(-4, 3, 0)).norm(), 0,
               1e-16);
   EXPECT_EQ(force(Attraction{p, 5, 0.1}), Vec3(0, 0, 0));
+}
+
+TEST(ForceFields, AxesAndCoresMayBeOfAnyLength) {
+  for (const double length : {1e-6, 1.0, 1e6}) {
+    check_field({"whirl", Swirl{{0, 0, 0}, {0, 0, length}, 1, length}, {}, {}});
+    check_field({"pull", Attraction{{0, 0, 0}, 1, length}, {}, {}});
+  }
 }
 
 TEST(ForceFields, EndWithTheirRegion) {
