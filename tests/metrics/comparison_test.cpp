@@ -193,6 +193,17 @@ TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
   }
 }
 
+TEST(SideBySide, DrawsBothWithBallsOfTheirOwnSize) {
+  const Film one = film_of(rest_body(box_input()));
+  Film other = one;
+  other.balls.front().radius /= 3;
+  const Film both = side_by_side(one, other, {"a: ", "b: "});
+  ASSERT_EQ(both.balls.size(), 2u);
+  EXPECT_EQ(both.balls[0].radius, r);
+  EXPECT_EQ(both.balls[1].radius, r / 3);
+  EXPECT_EQ(both.balls[1].count, other.particles.size());
+}
+
 TEST(SideBySide, AFieldThatOnlyOneHasIsNoneForTheOther) {
   const RestBody without = rest_body(box_input());
   RestInput input = box_input();

@@ -48,6 +48,10 @@ TEST(Film, ThinsALargeBodyToAPageOfTenMegabytes) {
   for (std::size_t frame = 0, more = 8; more > 0; ++frame)  // as many worst frames as may come
     if (!film.has(frame)) add_frame(film, frame, body, state, values), --more;
   EXPECT_LT(film.particles.size(), body.particles() / 2);
+  ASSERT_EQ(film.balls.size(), 1u);  // as much of them as of all particles
+  EXPECT_EQ(film.balls[0].count, film.particles.size());
+  EXPECT_NEAR(static_cast<double>(film.particles.size()) * std::pow(film.balls[0].radius / r, 3),
+              static_cast<double>(body.particles()), 1e-6);
   EXPECT_TRUE(std::is_sorted(film.particles.begin(), film.particles.end()));
   EXPECT_LT(film_json(film).size(), 8u << 20);
 }

@@ -87,6 +87,11 @@ auto place_of(const Film& film, std::size_t frame) {
       [](const FilmFrame& one, std::size_t number) { return one.frame < number; });
 }
 
+double shown_radius(const Film& film, double radius) {
+  const auto shown = static_cast<double>(film.particles.size());
+  return radius * std::cbrt(static_cast<double>(film.run_particles) / std::max(1.0, shown));
+}
+
 }  // namespace
 
 std::span<const FilmField> film_fields() {
@@ -131,11 +136,11 @@ Film plan_film(const RestBody& rest, std::size_t frames, double share) {
   film.run_frames = frames;
   film.run_particles = rest.particles();
   film.run_points = rest.surface.points.size();
-  film.radius = rest.radius;
   const auto bytes_of = [&](std::size_t all) {
     return static_cast<std::size_t>(share * static_cast<double>(all));
   };
   plan_particles(film, rest, bytes_of(particle_bytes));
+  film.balls = {{film.particles.size(), shown_radius(film, rest.radius)}};
   ThinSurface skin = thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_shots(film)));
   film.points = std::move(skin.points);
   film.faces = std::move(skin.faces);

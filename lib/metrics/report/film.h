@@ -33,11 +33,18 @@ struct FilmFrame {
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
 };
 
+/// Particles that are drawn with one radius (m): larger than their own where one is shown for
+/// several, so that the body looks filled.
+struct Balls {
+  std::size_t count = 0;
+  double radius = 0;
+};
+
 struct Film {
   std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
-  double radius = 0;                                              ///< of a particle, m
   std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
   std::vector<std::uint32_t> particles;                           ///< of the run, ascending
+  std::vector<Balls> balls;                                       ///< the particles, in their order
   std::vector<int> bone;                  ///< that each of them follows, -1 for none
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points

@@ -94,6 +94,12 @@ Json shots_of(const Film& film) {
   return shots;
 }
 
+Json balls_of(const Film& film) {
+  Json all = Json::array();
+  for (const auto& [count, radius] : film.balls) all.push_back({count, radius});
+  return all;
+}
+
 std::string corners_of(const Film& film) {
   std::vector<std::uint32_t> corners;
   for (const auto& face : film.faces)
@@ -110,7 +116,7 @@ std::string film_json(const Film& film) {
                       {{"frames", film.run_frames},
                        {"particles", film.run_particles},
                        {"points", film.run_points}}},
-                     {"radius", film.radius},
+                     {"balls", balls_of(film)},
                      {"low", {cube.low.x(), cube.low.y(), cube.low.z()}},
                      {"edge", cube.edge},
                      {"shots", shots_of(film)},

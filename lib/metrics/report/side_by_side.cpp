@@ -55,6 +55,7 @@ void join_shape(Film& film, const Film& second, const std::array<std::string, 2>
   for (const auto& [a, b, c] : second.faces)
     film.faces.push_back({a + points, b + points, c + points});
   film.particles.insert(film.particles.end(), second.particles.begin(), second.particles.end());
+  film.balls.insert(film.balls.end(), second.balls.begin(), second.balls.end());
   film.points.insert(film.points.end(), second.points.begin(), second.points.end());
   film.run_particles += second.run_particles;
   film.run_points += second.run_points;

@@ -5,20 +5,23 @@
 
 const sphereVertex = `
   attribute vec3 tint;
-  uniform float radius, pixels;
+  attribute float radius;
+  uniform float pixels;
   varying vec3 colour, centre;
+  varying float size;
   void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     colour = tint;
     centre = seen.xyz;
+    size = radius;
     gl_Position = projectionMatrix * seen;
     gl_PointSize = max(1.5, radius * projectionMatrix[1][1] * pixels / -seen.z);
   }`;
 
 const sphereFragment = `
   uniform mat4 projectionMatrix;
-  uniform float radius;
   varying vec3 colour, centre;
+  varying float size;
   void main() {
     vec2 at = vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0);
     float outside = dot(at, at);
@@ -26,18 +29,21 @@ const sphereFragment = `
     vec3 normal = vec3(at, sqrt(1.0 - outside));
     float light = 0.5 + 0.55 * max(0.0, dot(normal, normalize(vec3(0.35, 0.55, 0.8))));
     gl_FragColor = vec4(colour * light * (0.75 + 0.25 * normal.z), 1.0);
-    vec4 clip = projectionMatrix * vec4(centre + radius * normal, 1.0);
+    vec4 clip = projectionMatrix * vec4(centre + size * normal, 1.0);
     gl_FragDepthEXT = 0.5 * clip.z / clip.w + 0.5;
   }`;
 
-function makeSpheres(count, radius) {
+/** Of balls: how many and how large (m) each, as [count, radius]. */
+function makeSpheres(balls) {
+  const radii = Float32Array.from(balls.flatMap(([count, radius]) => Array(count).fill(radius)));
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-  geometry.setAttribute("tint", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * radii.length), 3));
+  geometry.setAttribute("tint", new THREE.BufferAttribute(new Float32Array(3 * radii.length), 3));
+  geometry.setAttribute("radius", new THREE.BufferAttribute(radii, 1));
   const material = new THREE.ShaderMaterial({
     vertexShader: sphereVertex,
     fragmentShader: sphereFragment,
-    uniforms: { radius: { value: radius }, pixels: { value: 1 } },
+    uniforms: { pixels: { value: 1 } },
     extensions: { fragDepth: true },
   });
   const spheres = new THREE.Points(geometry, material);

@@ -39,12 +39,9 @@ function drawer(view) {
   };
 }
 
-/** Balls in place of several particles each are larger, so that the body looks filled. */
-const shownRadius = (film) => film.radius * Math.cbrt(film.run.particles / film.ids.length);
-
 function addParts(view) {
   const { film, scene, counts } = view;
-  view.spheres = makeSpheres(counts.particles, shownRadius(film));
+  view.spheres = makeSpheres(film.balls);
   view.skin = makeSkin(film, counts.points);
   view.skin.visible = false;
   view.bones = Array.from({ length: counts.bones }, (_, b) => makeBone(b));
@@ -86,7 +83,7 @@ function aim(view) {
   const side = size.y <= size.x ? new THREE.Vector3(0.35, -1, 0.25) : new THREE.Vector3(1, -0.35, 0.25);
   box.getCenter(controls.target);
   camera.up.set(0, 0, 1);
-  const reach = size.length() / 2 + film.radius;
+  const reach = size.length() / 2 + Math.max(...film.balls.map(([, radius]) => radius));
   const wide = Math.min(1, view.stage.clientWidth / view.stage.clientHeight);
   const distance = reach / Math.sin(camera.fov * Math.PI / 360) / wide * 0.92;
   camera.position.copy(controls.target).addScaledVector(side.normalize(), distance);
