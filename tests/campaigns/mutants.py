@@ -33,7 +33,7 @@ from mutations import mutants_of, sample
 PROGRAMS = {"physics": ["physics_tests", "laws_tests"], "metrics": ["metrics_tests"]}
 LEFT_OUT = shutil.ignore_patterns("build*", "out", ".git", "__pycache__")
 ENOUGH = 0.9
-FAST = ["-O1", "-DNDEBUG", "-w"]
+FAST = ["-O1", "-DNDEBUG", "-w", "-D_GLIBCXX_ASSERTIONS"]
 COMMON_HEADERS = ["Eigen/Core", "Eigen/Geometry", "algorithm", "array", "cmath", "functional", "map", "memory",
                   "optional", "string", "variant", "vector"]
 MEMORY = 6 << 30  # bytes a test may take

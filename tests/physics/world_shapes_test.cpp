@@ -183,6 +183,13 @@ TEST(WorldShapes, BadShapesAreRefused) {
   refused(BoxShape{{0, 0, 0}, {1, 0, 1}}, "it has a half edge of 0");
   refused(BoxShape{{0, 0, 0}, {1, 1, 1}, 2 * Mat3::Identity()}, "axes are not square");
   refused(MeshShape{}, "mesh without distances");
+  MeshShape mesh = meshed(sphere);
+  for (Vec3* corner : {&mesh.bounds.min(), &mesh.bounds.max()})
+    for (const double nowhere : {HUGE_VAL, -HUGE_VAL, static_cast<double>(NAN)}) {
+      const double before = std::exchange(corner->y(), nowhere);
+      refused(mesh, "mesh without bounds");
+      corner->y() = before;
+    }
   for (const Shape& shape : all_shapes()) EXPECT_NO_THROW(check_shape(shape, "it"));
 }
 

@@ -21,7 +21,8 @@ std::vector<double> centres(const Body& body) {
       sum[influence.bone] += place_along(body.skeleton.bones[influence.bone], body.rest[i]);
       weight[influence.bone] += 1;
     }
-  for (std::size_t b = 0; b < sum.size(); ++b) sum[b] = weight[b] > 0 ? sum[b] / weight[b] : 0;
+  for (std::size_t b = 0; b < sum.size(); ++b)
+    if (weight[b] > 0) sum[b] /= weight[b];
   return sum;
 }
 
