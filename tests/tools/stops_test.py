@@ -155,7 +155,7 @@ class Stops(SmallRun):
         self.assertEqual(self.record()["status"], "finished")
 
     def test_interrupt_finishes_the_frame_and_says_how_to_go_on(self):
-        for name in [signal.SIGINT, signal.SIGTERM]:
+        for name in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
             self.out = self.folder / name.name
             words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
             with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.PIPE, text=True) as child:
@@ -190,6 +190,32 @@ class Stops(SmallRun):
         self.assertEqual(self.record()["status"], "stopped")
         self.assertIn(b"sinew run ", said)
         self.assertIn(b"--resume", said)
+
+    def test_a_terminal_that_is_closed_stops_a_whole_run(self):
+        words = ["sinew", "run", str(self.scene), "-o", str(self.out), "--set", "solver.duration=1000"]
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.execv(BIN / "sinew", words)
+        for _ in range(1000):
+            if (self.out / "particles/particles_000002.vtu").exists():
+                break
+            time.sleep(0.02)
+        os.close(terminal)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 4)  # nor can it tell anyone
+        self.assertEqual(self.record()["status"], "stopped")
+        self.assert_series_are_whole(self.record()["frames"])
+
+    def test_a_run_under_nohup_outlives_its_terminal(self):
+        deaf = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        words = [BIN / "sinew", "run", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
+        with subprocess.Popen(words, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, preexec_fn=deaf,
+                              start_new_session=True) as child:
+            self.wait_for(child, "particles/particles_000001.vtu")
+            os.killpg(child.pid, signal.SIGHUP)
+            frames = len(list((self.out / "particles").iterdir()))
+            self.wait_for(child, f"particles/particles_{frames + 2:06}.vtu")
+            child.terminate()
+            self.assertEqual(child.wait(30), 130)
 
     def test_run_dies_with_its_parts(self):
         words = [BIN / "sinew", "run", self.scene, "-o", self.out, "--set", "solver.duration=1000"]

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "command/stop_signal.h"
 #include "core/error.h"
 
 namespace sinew {
@@ -20,9 +21,10 @@ namespace {
 volatile pid_t child_of_signals = 0;  // whom a signal handler passes signals on to
 
 void pass_on(int signal, siginfo_t* origin, void*) {
-  // The terminal tells all programs in the foreground itself; a second time would end the child.
-  const bool from_terminal = origin->si_code == SI_KERNEL;
-  if (child_of_signals > 0 && !from_terminal) ::kill(child_of_signals, signal);
+  // Of Ctrl-C the terminal tells all programs in the foreground itself, and a second time would end
+  // the child; that it is closed it may tell this one alone.
+  const bool told_already = signal != SIGHUP && origin->si_code == SI_KERNEL;
+  if (child_of_signals > 0 && !told_already) ::kill(child_of_signals, signal);
 }
 
 void pass_signals_on() {
@@ -31,6 +33,7 @@ void pass_signals_on() {
   action.sa_flags = SA_RESTART | SA_SIGINFO;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  if (!survives_its_terminal()) sigaction(SIGHUP, &action, nullptr);
 }
 
 [[noreturn]] void become(const std::string& program, const std::vector<char*>& arguments,

@@ -12,9 +12,16 @@ void remember(int) { asked = 1; }
 
 }  // namespace
 
+bool survives_its_terminal() {
+  struct sigaction now {};
+  return sigaction(SIGHUP, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = remember;
+  // The kernel and the shell both tell of a terminal that is closed: the second time means no more.
+  if (!survives_its_terminal()) sigaction(SIGHUP, &action, nullptr);
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
