@@ -83,7 +83,7 @@ TEST(SameBits, OfAllInstructionSetsForDisorderAndCoincidence) {
     for (const auto set : test::instruction_sets()) {
       Simulation simulation = test::simulation_with(set, settings, lattice, particles,
                                                     test::step_of(settings, body, 0.1));
-      while (simulation.steps() < 60) simulation.step();
+      while (simulation.steps() < 20) simulation.step();
       told.push_back(tell(simulation));
     }
     for (const Told& other : told) EXPECT_TRUE(other == told.front());
