@@ -45,6 +45,21 @@ TEST(Obstacles, ABallRestsOnAPlaneByItsWeightOverTheStiffness) {
   EXPECT_NEAR(one.w[0], 0, 1e-12);
 }
 
+TEST(Obstacles, GiveNothingButWhatTheyAreGiven) {
+  Obstacle bare;
+  bare.shape = PlaneShape{Vec3::Zero(), Vec3::UnitZ()};
+  Particles one = particles_at({{0, 0, 0.6 * r}}, r, mass);
+  one.set_velocity(0, {0.3, 0.2, -0.5});
+  World world;
+  WorldForces forces;
+  for (const double stiffness : {0.0, 200.0}) {
+    bare.stiffness = stiffness == 0 ? Obstacle{}.stiffness : stiffness;
+    world.obstacles = {bare};
+    world_forces(one, world, world_at(world, 0, {}), forces);
+    EXPECT_LT((forces.total(0) - Vec3(0, 0, stiffness * 0.4 * r)).norm(), 1e-14);
+  }
+}
+
 /// The same, with friction that stops sliding within the step.
 Particles stopped(const World& world, const Vec3& position, const Vec3& velocity, int steps,
                   double dt) {
