@@ -52,12 +52,12 @@ TEST(Obstacles, GiveNothingButWhatTheyAreGiven) {
   one.set_velocity(0, {0.3, 0.2, -0.5});
   World world;
   WorldForces forces;
-  for (const double stiffness : {0.0, 200.0}) {
-    bare.stiffness = stiffness == 0 ? Obstacle{}.stiffness : stiffness;
-    world.obstacles = {bare};
-    world_forces(one, world, world_at(world, 0, {}), forces);
-    EXPECT_LT((forces.total(0) - Vec3(0, 0, stiffness * 0.4 * r)).norm(), 1e-14);
-  }
+  world.obstacles = {bare};
+  world_forces(one, world, world_at(world, 0, {}), forces);
+  EXPECT_EQ(forces.total(0), Vec3(0, 0, 0));
+  world.obstacles[0].stiffness = 200;
+  world_forces(one, world, world_at(world, 0, {}), forces);
+  EXPECT_LT((forces.total(0) - Vec3(0, 0, 200 * 0.4 * r)).norm(), 1e-14);
 }
 
 /// The same, with friction that stops sliding within the step.

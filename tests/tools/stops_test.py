@@ -170,7 +170,8 @@ class Stops(SmallRun):
             self.assert_series_are_whole(self.record()["frames"])
             sinew("measure", self.out, check=0)
 
-    def test_interrupt_from_a_terminal_stops_a_whole_run(self):
+    def run_in_a_terminal(self):
+        """A whole run that has left some frames, and the terminal it is in."""
         words = ["sinew", "run", str(self.scene), "-o", str(self.out), "--set", "solver.duration=1000"]
         pid, terminal = pty.fork()
         if pid == 0:
@@ -179,6 +180,10 @@ class Stops(SmallRun):
             if (self.out / "particles/particles_000002.vtu").exists():
                 break
             time.sleep(0.02)
+        return pid, terminal
+
+    def test_interrupt_from_a_terminal_stops_a_whole_run(self):
+        pid, terminal = self.run_in_a_terminal()
         os.write(terminal, b"\x03")  # Ctrl-C goes to all programs of the terminal
         said = b""
         try:
@@ -192,14 +197,7 @@ class Stops(SmallRun):
         self.assertIn(b"--resume", said)
 
     def test_a_terminal_that_is_closed_stops_a_whole_run(self):
-        words = ["sinew", "run", str(self.scene), "-o", str(self.out), "--set", "solver.duration=1000"]
-        pid, terminal = pty.fork()
-        if pid == 0:
-            os.execv(BIN / "sinew", words)
-        for _ in range(1000):
-            if (self.out / "particles/particles_000002.vtu").exists():
-                break
-            time.sleep(0.02)
+        pid, terminal = self.run_in_a_terminal()
         os.close(terminal)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 4)  # nor can it tell anyone
         self.assertEqual(self.record()["status"], "stopped")
