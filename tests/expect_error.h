@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew::test {
 

@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
-#include "core/particles.h"
-#include "core/triangles.h"
-#include "physics/material.h"
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/triangles.h>
+#include <sinew/physics/material.h>
 
 namespace sinew::test {
 

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
-#include "core/closest_packing.h"
-#include "core/settings.h"
-#include "physics/simulation.h"
-#include "physics/time_step.h"
+#include <sinew/core/particles.h>
+#include <sinew/settings/settings.h>
+#include <sinew/physics/simulation.h>
+#include <sinew/physics/time_step.h>
 
 namespace sinew::test {
 

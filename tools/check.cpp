@@ -5,20 +5,18 @@
 
 #include "command/command.h"
 #include "command/results.h"
-#include "config/scene.h"
-#include "core/available_memory.h"
-#include "core/closest_packing.h"
-#include "core/number_text.h"
-#include "core/stopwatch.h"
-#include "folder/run_folder.h"
-#include "physics/rest_stability.h"
-#include "physics/thin_body.h"
-#include "scene/body.h"
-#include "scene/estimate.h"
-#include "scene/setup.h"
-#include "scene/step_way.h"
-#include "scene/warnings.h"
-#include "scene/world.h"
+#include <sinew/settings/read_scene.h>
+#include <sinew/core/system.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/text.h>
+#include <sinew/run/run_folder.h>
+#include <sinew/physics/rest_stability.h>
+#include <sinew/physics/time_step.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/check.h>
+#include <sinew/scene/setup.h>
+#include <sinew/scene/stepper_choice.h>
+#include <sinew/scene/world.h>
 
 namespace {
 

@@ -5,10 +5,9 @@
 
 #include "command/command.h"
 #include "command/results.h"
-#include "config/scene.h"
-#include "scene/body.h"
-#include "scene/body_options.h"
-#include "scene/mesh_input.h"
+#include <sinew/settings/read_scene.h>
+#include <sinew/scene/body.h>
+#include "command/body_options.h"
 
 namespace {
 

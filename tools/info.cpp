@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-info: what is in a mesh, a rig, a clip or a scene, and what is wrong with it.
 #include "command/command.h"
-#include "config/rig.h"
-#include "config/scene.h"
-#include "inspect/mesh_info.h"
-#include "inspect/rig_info.h"
-#include "rig/motion.h"
-#include "scene/body.h"
-#include "scene/body_options.h"
-#include "scene/mesh_input.h"
-#include "scene/rig.h"
+#include <sinew/settings/read_rig.h>
+#include <sinew/settings/read_scene.h>
+#include "info/mesh_info.h"
+#include "info/rig_info.h"
+#include <sinew/rig/motion.h>
+#include <sinew/scene/body.h>
+#include "command/body_options.h"
+#include <sinew/scene/rig.h>
 
 namespace {
 

@@ -3,15 +3,14 @@
 // run; or what two runs have in common, and what not.
 #include "command/command.h"
 #include "command/results.h"
-#include "core/file.h"
-#include "core/requested_arrays.h"
-#include "core/stopwatch.h"
-#include "folder/run_record.h"
-#include "measure/compare_runs.h"
-#include "measure/report_input.h"
-#include "metrics/csv.h"
-#include "metrics/json.h"
-#include "metrics/table.h"
+#include <sinew/core/file.h>
+#include <sinew/core/requested_arrays.h>
+#include <sinew/core/system.h>
+#include <sinew/run/run_record.h>
+#include <sinew/run/compare_runs.h>
+#include <sinew/run/report_input.h>
+#include <sinew/metrics/files.h>
+#include <sinew/metrics/table.h>
 
 namespace {
 

@@ -5,10 +5,10 @@
 
 #include "command/command.h"
 #include "command/results.h"
-#include "core/stopwatch.h"
-#include "draw/album.h"
-#include "folder/run_record.h"
-#include "render/display.h"
+#include <sinew/core/system.h>
+#include <sinew/run/figure_set.h>
+#include <sinew/run/run_record.h>
+#include <sinew/render/display.h>
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include "command/child.h"
 #include "command/command.h"
 #include "command/results.h"
-#include "command/run_options.h"
-#include "folder/run_folder.h"
+#include "command/command.h"
+#include <sinew/run/run_folder.h>
 
 namespace {
 

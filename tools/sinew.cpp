@@ -14,7 +14,7 @@
 
 #include "command/command.h"
 #include "command/results.h"
-#include "core/words.h"
+#include <sinew/core/text.h>
 
 namespace {
 

@@ -3,13 +3,13 @@
 #include <string>
 
 #include "command/command.h"
-#include "command/markdown.h"
+#include "command/settings_list.h"
 #include "command/results.h"
 #include "command/settings_list.h"
-#include "io/arrays.h"
-#include "metrics/bone_metrics.h"
-#include "metrics/sections.h"
-#include "metrics/table.h"
+#include <sinew/io/arrays.h>
+#include <sinew/metrics/bone_metrics.h>
+#include <sinew/metrics/sections.h>
+#include <sinew/metrics/table.h>
 
 namespace {
 

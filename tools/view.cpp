@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "command/command.h"
-#include "folder/run_folder.h"
-#include "render/display.h"
+#include <sinew/run/run_folder.h>
+#include <sinew/render/display.h>
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 
 namespace sinew::bench {
 namespace {

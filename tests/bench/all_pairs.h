@@ -3,7 +3,7 @@
 // are measured against.
 #pragma once
 
-#include "physics/simulation.h"
+#include <sinew/physics/simulation.h>
 
 namespace sinew::bench {
 

@@ -11,12 +11,12 @@
 #include <algorithm>
 
 #include "bench/vtk_inside.h"
-#include "core/closest_packing.h"
-#include "core/parallel.h"
-#include "fill/filled_sites.h"
-#include "fill/inside/inside_runs.h"
-#include "fill/side_of.h"
-#include "mesh/clean.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/parallel.h>
+#include <sinew/fill/filled_sites.h>
+#include <sinew/fill/inside/inside_runs.h>
+#include <sinew/fill/verify.h>
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew::bench {
 namespace {

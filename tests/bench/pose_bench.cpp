@@ -8,8 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/stopwatch.h"
-#include "rig/rotation_vector.h"
+#include <sinew/core/system.h>
+#include <sinew/core/vector.h>
 #include "world.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <string_view>
 
-#include "physics/simulation.h"
+#include <sinew/physics/simulation.h>
 
 namespace sinew::bench {
 

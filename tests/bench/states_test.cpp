@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <complex>
 
-#include "core/closest_packing.h"
-#include "core/neighbours.h"
-#include "core/parallel.h"
-#include "core/triangles.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/triangles.h>
 
 namespace sinew::bench {
 namespace {

@@ -19,9 +19,9 @@
 #include "bench/limits.h"
 #include "bench/peak_memory.h"
 #include "bench/state_file.h"
-#include "core/hash.h"
-#include "core/parallel.h"
-#include "core/stopwatch.h"
+#include <sinew/core/hash.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/system.h>
 
 namespace {
 

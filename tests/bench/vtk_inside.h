@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "core/triangles.h"
+#include <sinew/core/triangles.h>
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "config/resolved.h"
+#include <sinew/settings/write_scene.h>
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <random>
 
-#include "config/checks.h"
-#include "config/scene.h"
+#include <sinew/settings/checks.h>
+#include <sinew/settings/read_scene.h>
 #include "config/small_scene.h"
 #include "config/temp_folder.h"
-#include "core/scene_text.h"
-#include "core/settings_table.h"
+#include <sinew/settings/row.h>
+#include <sinew/settings/table.h>
 
 namespace sinew {
 namespace {

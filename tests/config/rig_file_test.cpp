@@ -2,11 +2,11 @@
 // A rig and a clip that stand in YAML files of their own.
 #include <gtest/gtest.h>
 
-#include "config/paths.h"
-#include "config/resolved.h"
-#include "config/scene.h"
+#include <sinew/settings/text_file.h>
+#include <sinew/settings/write_scene.h>
+#include <sinew/settings/read_scene.h>
 #include "config/temp_folder.h"
-#include "rig/motion.h"
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

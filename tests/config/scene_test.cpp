@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "config/scene.h"
+#include <sinew/settings/read_scene.h>
 
 #include <gtest/gtest.h>
 
 #include "config/small_scene.h"
 #include "config/temp_folder.h"
-#include "rig/motion.h"
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "config/text_file.h"
+#include <sinew/settings/text_file.h>
 
 #include <gtest/gtest.h>
 

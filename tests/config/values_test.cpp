@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "config/values.h"
+#include <sinew/settings/values.h>
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "core/words.h"
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "config/world.h"
+#include <sinew/settings/read_world.h>
 
 #include <gtest/gtest.h>
 
-#include "config/resolved.h"
-#include "config/scene.h"
+#include <sinew/settings/write_scene.h>
+#include <sinew/settings/read_scene.h>
 #include "config/small_scene.h"
 #include "config/temp_folder.h"
 #include "expect_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/background.h"
+#include <sinew/core/background.h>
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/cell_grid.h"
+#include <sinew/core/cell_grid.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "core/neighbours.h"
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/dataset.h"
+#include <sinew/core/dataset.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/deformation.h"
+#include <sinew/core/deformation.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/closest_packing.h"
-#include "core/parallel.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/parallel.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 #include <gtest/gtest.h>
 
-#include "core/settings.h"
+#include <sinew/settings/settings.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/file.h"
+#include <sinew/core/file.h>
 
 #include <sys/stat.h>
 

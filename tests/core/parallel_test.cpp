@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/particles.h"
+#include <sinew/core/particles.h>
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "core/closest_packing.h"
-#include "core/hash.h"
-#include "core/neighbours.h"
-#include "core/parallel.h"
+#include <sinew/core/hash.h>
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/requested_arrays.h"
+#include <sinew/core/requested_arrays.h>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/settings_table.h"
+#include <sinew/settings/table.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "core/scene_text.h"
+#include <sinew/settings/row.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/triangles.h"
+#include <sinew/core/triangles.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/words.h"
+#include <sinew/core/text.h>
 
 #include <gtest/gtest.h>
 

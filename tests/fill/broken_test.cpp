@@ -2,11 +2,11 @@
 // How much of a body is filled wrongly when its mesh is broken, against the whole mesh.
 #include <gtest/gtest.h>
 
-#include "core/closest_packing.h"
-#include "fill/filled_sites.h"
-#include "fill/runs.h"
-#include "mesh/clean.h"
-#include "mesh/read_surface.h"
+#include <sinew/core/particles.h>
+#include <sinew/fill/filled_sites.h>
+#include <sinew/fill/runs.h>
+#include <sinew/mesh/clean.h>
+#include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/inside/inside_runs.h"
+#include <sinew/fill/inside/inside_runs.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/closest_packing.h"
-#include "core/parallel.h"
-#include "fill/filled_sites.h"
-#include "fill/verify.h"
-#include "mesh/clean.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/parallel.h>
+#include <sinew/fill/filled_sites.h>
+#include <sinew/fill/verify.h>
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

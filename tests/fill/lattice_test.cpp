@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/lattice.h"
+#include <sinew/fill/lattice.h>
 
 #include <gtest/gtest.h>
 
-#include "core/closest_packing.h"
+#include <sinew/core/particles.h>
 
 namespace sinew {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/moments.h"
+#include <sinew/fill/moments.h>
 
 #include <gtest/gtest.h>
 
-#include "mesh/clean.h"
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

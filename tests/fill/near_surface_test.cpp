@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/near/near_surface.h"
+#include <sinew/fill/near_surface.h>
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <tuple>
 
-#include "core/closest_packing.h"
-#include "core/parallel.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/parallel.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/pack.h"
+#include <sinew/fill/pack.h>
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "core/closest_packing.h"
-#include "core/error.h"
-#include "core/hash.h"
-#include "core/neighbours.h"
-#include "core/parallel.h"
-#include "fill/lattice.h"
-#include "fill/side_of.h"
-#include "mesh/clean.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/error.h>
+#include <sinew/core/hash.h>
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
+#include <sinew/fill/lattice.h>
+#include <sinew/fill/verify.h>
+#include <sinew/mesh/clean.h>
 #include "mesh/mesh_files.h"
-#include "mesh/read_surface.h"
+#include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

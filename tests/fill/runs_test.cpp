@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/runs.h"
+#include <sinew/fill/runs.h>
 
 #include <gtest/gtest.h>
 

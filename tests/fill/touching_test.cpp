@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fill/touching.h"
+#include <sinew/fill/filled_sites.h>
 
 #include <gtest/gtest.h>
 
-#include "core/closest_packing.h"
-#include "core/neighbours.h"
-#include "fill/filled_sites.h"
-#include "mesh/clean.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/cell_grid.h>
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/bvh/bvh.h"
+#include <sinew/rig/bvh/bvh.h>
 
 #include <algorithm>
 #include <cmath>

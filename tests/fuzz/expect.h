@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew::fuzz {
 

@@ -2,7 +2,7 @@
 // What holds for the polygons of every mesh that a reader lets pass.
 #pragma once
 
-#include "core/polygon_soup.h"
+#include <sinew/core/triangles.h>
 #include "targets.h"
 
 namespace sinew::fuzz {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // BVH files that are cut short, lie, or are something else: each gives exit code 2 and one line
 // that names the file, the line and a cure; none a crash.
-#include "rig/bvh/bvh.h"
+#include <sinew/rig/bvh/bvh.h>
 
 #include <gtest/gtest.h>
 

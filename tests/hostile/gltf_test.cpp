@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "io/gltf/read_gltf.h"
+#include <sinew/io/gltf/read_gltf.h>
 #include "io/gltf_files.h"
 
 namespace sinew {

@@ -7,10 +7,10 @@
 #include <cctype>
 #include <cmath>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 #include "expect_error.h"
 #include "mesh/mesh_files.h"
-#include "mesh/read_surface.h"
+#include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every kind of mistake in a scene ends with exit code 2 and one line that names file, line, column
 // and cure; never with a crash.
-#include "config/scene.h"
+#include <sinew/settings/read_scene.h>
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "config/small_scene.h"
 #include "config/temp_folder.h"
-#include "core/settings_table.h"
+#include <sinew/settings/table.h>
 #include "hostile/scenes.h"
-#include "rig/motion.h"
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/arrays.h"
+#include <sinew/io/arrays.h>
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "core/requested_arrays.h"
-#include "io/blowup.h"
+#include <sinew/core/requested_arrays.h>
+#include <sinew/io/single_files.h>
 #include "synthetic_run.h"
 
 namespace sinew {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/body.h"
+#include <sinew/io/single_files.h>
 
-#include "io/vtu.h"
+#include <sinew/io/vtu.h>
 #include "scratch.h"
 #include "synthetic_run.h"
 

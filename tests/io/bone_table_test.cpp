@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/bone_table.h"
+#include <sinew/io/bone_table.h>
 
 #include <gtest/gtest.h>
 

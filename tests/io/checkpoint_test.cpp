@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is written comes back to the last bit; whatever is not a whole checkpoint is refused.
-#include "io/checkpoint.h"
+#include <sinew/io/checkpoint.h>
 
 #include <cstring>
 #include <random>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/encode.h"
+#include <sinew/io/encode.h>
 
 #include <cmath>
 
-#include "core/parallel.h"
-#include "io/vtu.h"
+#include <sinew/core/parallel.h>
+#include <sinew/io/vtu.h>
 #include "scratch.h"
 
 namespace sinew {

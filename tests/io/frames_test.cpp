@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/frames.h"
+#include <sinew/io/frames.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-#include "core/file.h"
-#include "io/series.h"
+#include <sinew/core/file.h>
+#include <sinew/io/series.h>
 #include "scratch.h"
 #include "synthetic_run.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/polygon_soup.h"
+#include <sinew/core/triangles.h>
 #include "scratch.h"
 
 namespace sinew::gltf_files {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf/read_rig.h"
+#include <sinew/io/gltf/read_rig.h>
 
-#include "config/scene.h"
+#include <sinew/settings/read_scene.h>
 #include "expect_error.h"
-#include "io/gltf/read_gltf.h"
+#include <sinew/io/gltf/read_gltf.h>
 #include "io/gltf_rigs.h"
-#include "rig/clip.h"
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

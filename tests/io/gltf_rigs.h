@@ -4,10 +4,10 @@
 
 #include <random>
 
-#include "core/vector.h"
-#include "io/gltf/read_rig.h"
+#include <sinew/core/vector.h>
+#include <sinew/io/gltf/read_rig.h>
 #include "io/gltf_files.h"
-#include "rig/motion.h"
+#include <sinew/rig/motion.h>
 
 namespace sinew::gltf_files {
 

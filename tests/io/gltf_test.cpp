@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/gltf/read_gltf.h"
+#include <sinew/io/gltf/read_gltf.h>
 
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Our poses against those of VTK's own loader and reader, for rigs made at random.
-#include "io/gltf/read_rig.h"
+#include <sinew/io/gltf/read_rig.h>
 #include "io/gltf_rigs.h"
 
 namespace sinew {

@@ -8,8 +8,8 @@
 #include <map>
 #include <thread>
 
-#include "io/series.h"
-#include "io/view_script.h"
+#include <sinew/io/series.h>
+#include <sinew/io/view_script.h>
 #include "synthetic_run.h"
 
 namespace {

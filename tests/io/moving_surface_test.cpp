@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces exported as GLB move in VTK's own reader as they moved here.
-#include "io/gltf/moving_surface.h"
+#include <sinew/io/gltf/moving_surface.h>
 
-#include "io/gltf/read_gltf.h"
+#include <sinew/io/gltf/read_gltf.h>
 #include "io/gltf_rigs.h"
-#include "io/point_cache.h"
+#include <sinew/io/point_cache.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/point_cache.h"
+#include <sinew/io/point_cache.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/series.h"
+#include <sinew/io/series.h>
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-#include "core/file.h"
+#include <sinew/core/file.h>
 #include "scratch.h"
 #include "synthetic_run.h"
 

@@ -3,10 +3,10 @@
 // and surface follow by blending. Every frame is a closed form of time.
 #pragma once
 
-#include "core/triangles.h"
-#include "io/body.h"
-#include "io/frames.h"
-#include "rig/motion.h"
+#include <sinew/core/triangles.h>
+#include <sinew/io/single_files.h>
+#include <sinew/io/frames.h>
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 

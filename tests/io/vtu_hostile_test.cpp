@@ -3,7 +3,7 @@
 // word on the console.
 #include <random>
 
-#include "io/vtu.h"
+#include <sinew/io/vtu.h>
 #include "scratch.h"
 #include "synthetic_run.h"
 

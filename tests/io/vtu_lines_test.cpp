@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/vtu_lines.h"
+#include <sinew/io/vtu_lines.h>
 
 #include <cstring>
 #include <random>
 
-#include "core/parallel.h"
-#include "io/decode.h"
-#include "io/encode.h"
-#include "io/vtu.h"
+#include <sinew/core/parallel.h>
+#include <sinew/io/decode.h>
+#include <sinew/io/encode.h>
+#include <sinew/io/vtu.h>
 #include "scratch.h"
 #include "synthetic_run.h"
 

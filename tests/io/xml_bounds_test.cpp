@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/xml_bounds.h"
+#include <sinew/io/xml_bounds.h>
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "physics/solid/bonds.h"
+#include <sinew/physics/solid.h>
 #include "world.h"
 
 namespace sinew {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Sparse>
 
-#include "physics/solid/solid.h"
+#include <sinew/physics/solid.h>
 #include "world.h"
 
 namespace sinew {

@@ -3,7 +3,7 @@
 // particles' size, and not of the unit of length.
 #include <gtest/gtest.h>
 
-#include "rig/skin.h"
+#include <sinew/rig/skin.h>
 #include "world.h"
 
 namespace sinew {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/deformation.h"
+#include <sinew/core/deformation.h>
 #include "world.h"
 
 namespace sinew {

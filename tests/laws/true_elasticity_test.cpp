@@ -2,7 +2,7 @@
 // What has bonds comes back from where the paper's body flows.
 #include <gtest/gtest.h>
 
-#include "core/deformation.h"
+#include <sinew/core/deformation.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holes and what closes them.
-#include "mesh/border.h"
+#include <sinew/mesh/border.h>
 
 #include <gtest/gtest.h>
 
-#include "mesh/clean.h"
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What cleaning drops, merges and counts. Directions: orient_test.cpp; holes: border_test.cpp.
-#include "mesh/clean.h"
+#include <sinew/mesh/clean.h>
 
 #include <gtest/gtest.h>
 

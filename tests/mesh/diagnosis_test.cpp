@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/diagnosis.h"
+#include <sinew/mesh/diagnosis.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "mesh/clean.h"
-#include "mesh/defects.h"
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <string>
 
-#include "core/number_text.h"
-#include "core/polygon_soup.h"
-#include "core/settings.h"
+#include <sinew/core/text.h>
+#include <sinew/core/triangles.h>
+#include <sinew/settings/settings.h>
 
 namespace sinew::mesh_files {
 

@@ -2,7 +2,7 @@
 // Which way faces point after cleaning.
 #include <gtest/gtest.h>
 
-#include "mesh/clean.h"
+#include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 

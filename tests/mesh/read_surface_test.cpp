@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/read_surface.h"
+#include <sinew/mesh/read_surface.h>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 
 #include "expect_error.h"
 #include "mesh/mesh_files.h"
-#include "mesh/prepare.h"
 #include "mesh/shapes.h"
 
 namespace sinew {

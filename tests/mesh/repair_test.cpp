@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/repair/repair.h"
+#include <sinew/mesh/repair.h>
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "core/error.h"
-#include "mesh/border.h"
+#include <sinew/core/error.h>
+#include <sinew/mesh/border.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

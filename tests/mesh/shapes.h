@@ -7,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "core/polygon_soup.h"
-#include "core/vector.h"
+#include <sinew/core/triangles.h>
+#include <sinew/core/vector.h>
 
 namespace sinew::shapes {
 

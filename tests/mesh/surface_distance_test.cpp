@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/surface_distance.h"
+#include <sinew/mesh/surface_distance.h>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "expect_error.h"
-#include "mesh/prepare.h"
+#include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/surface_gap.h"
+#include <sinew/mesh/surface_distance.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 #include "expect_error.h"
-#include "mesh/prepare.h"
+#include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "mesh/surface.h"
+#include <sinew/mesh/surface.h>
 
 namespace sinew::laws {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/cleaning/triangulate.h"
+#include <sinew/mesh/cleaning/triangulate.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report/base64.h"
+#include <sinew/metrics/report/base64.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/bone_metrics.h"
+#include <sinew/metrics/bone_metrics.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report/chart.h"
+#include <sinew/metrics/report/chart.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "metrics/report/axis.h"
-#include "metrics/report/markup.h"
+#include <sinew/metrics/report/axis.h>
+#include <sinew/metrics/report/markup.h>
 
 namespace sinew::test {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/comparison.h"
+#include <sinew/metrics/comparison.h>
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "metrics/json.h"
-#include "metrics/report/comparison_page.h"
-#include "metrics/table.h"
+#include <sinew/metrics/files.h>
+#include <sinew/metrics/report/comparison_page.h>
+#include <sinew/metrics/table.h>
 #include "world.h"
 
 namespace sinew::test {

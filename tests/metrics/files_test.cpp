@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "metrics/csv.h"
-#include "metrics/json.h"
-#include "metrics/table.h"
+#include <sinew/metrics/files.h>
+#include <sinew/metrics/table.h>
 #include "world.h"
 
 namespace sinew::test {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report/film.h"
+#include <sinew/metrics/report/film.h>
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "metrics/report/thin_surface.h"
+#include <sinew/metrics/report/thin_surface.h>
 #include "world.h"
 
 namespace sinew::test {

@@ -3,16 +3,15 @@
 // pages, is compared with the files in golden/.
 #include <gtest/gtest.h>
 
-#include "core/requested_arrays.h"
+#include <sinew/core/requested_arrays.h>
 #include "golden.h"
-#include "metrics/bone_metrics.h"
-#include "metrics/csv.h"
-#include "metrics/json.h"
-#include "metrics/particle_arrays.h"
-#include "metrics/report/comparison_page.h"
-#include "metrics/report/embedded.h"
-#include "metrics/report/report.h"
-#include "metrics/settling.h"
+#include <sinew/metrics/bone_metrics.h>
+#include <sinew/metrics/files.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/metrics/report/comparison_page.h>
+#include <sinew/metrics/report/embedded.h>
+#include <sinew/metrics/report/report.h>
+#include <sinew/metrics/summary.h>
 #include "world.h"
 
 namespace sinew::test {

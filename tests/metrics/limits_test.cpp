@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/limits.h"
+#include <sinew/metrics/limits.h>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include <sinew/core/error.h>
 #include "world.h"
 
 namespace sinew::test {

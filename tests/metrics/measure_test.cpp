@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/measure.h"
+#include <sinew/metrics/frame_metrics.h>
 
 #include <gtest/gtest.h>
 
 #include <bit>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include <sinew/core/error.h>
+#include <sinew/core/parallel.h>
 #include "expect_error.h"
-#include "metrics/table.h"
+#include <sinew/metrics/table.h>
 #include "world.h"
 
 namespace sinew::test {

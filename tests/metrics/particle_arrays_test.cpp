@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/particle_arrays.h"
+#include <sinew/metrics/particle_values.h>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/requested_arrays.h"
-#include "metrics/particle_values.h"
+#include <sinew/core/error.h>
+#include <sinew/core/requested_arrays.h>
 #include "world.h"
 
 namespace sinew::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/particle_values.h"
+#include <sinew/metrics/particle_values.h>
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/report/report.h"
+#include <sinew/metrics/report/report.h>
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "metrics/report/charts.h"
-#include "metrics/report/embedded.h"
-#include "metrics/report/page_data.h"
-#include "metrics/table.h"
-#include "metrics/verdict.h"
+#include <sinew/core/error.h>
+#include <sinew/metrics/report/charts.h>
+#include <sinew/metrics/report/embedded.h>
+#include <sinew/metrics/report/page_data.h>
+#include <sinew/metrics/table.h>
+#include <sinew/metrics/summary.h>
 #include "world.h"
 
 namespace sinew::test {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sections across the bones of a square prism, moved by linear blends as skinning moves it: each
 // ring's area has a closed form.
-#include "metrics/sections.h"
+#include <sinew/metrics/sections.h>
 
 #include <gtest/gtest.h>
 
-#include "metrics/bone_metrics.h"
+#include <sinew/metrics/bone_metrics.h>
 #include "world.h"
 
 namespace sinew::test {

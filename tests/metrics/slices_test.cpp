@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/slices.h"
+#include <sinew/metrics/slices.h>
 
 #include <gtest/gtest.h>
 

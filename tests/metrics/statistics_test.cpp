@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/statistics.h"
+#include <sinew/metrics/statistics.h>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/summary.h"
+#include <sinew/metrics/summary.h>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "metrics/settling.h"
-#include "metrics/table.h"
+#include <sinew/core/error.h>
+#include <sinew/metrics/table.h>
 #include "world.h"
 
 namespace sinew::test {

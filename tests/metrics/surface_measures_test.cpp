@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "metrics/surface_measures.h"
+#include <sinew/metrics/surface_distortion.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
-#include "core/closest_packing.h"
-#include "metrics/measure.h"
+#include <sinew/core/particles.h>
+#include <sinew/metrics/frame_metrics.h>
 
 namespace sinew::test {
 

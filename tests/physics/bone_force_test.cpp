@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/bone_force.h"
+#include <sinew/physics/bone_force.h>
 
 #include <gtest/gtest.h>
 
-#include "physics/forces.h"
+#include <sinew/physics/forces.h>
 #include "world.h"
 
 namespace sinew {

@@ -4,8 +4,8 @@
 
 #include <numeric>
 
-#include "core/parallel.h"
-#include "physics/forces.h"
+#include <sinew/core/parallel.h>
+#include <sinew/physics/forces.h>
 #include "world.h"
 
 namespace sinew {

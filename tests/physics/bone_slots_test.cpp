@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel's bone forces are those of bone_force.h, wherever particles are about their bones.
-#include "physics/lists/bone_slots.h"
+#include <sinew/physics/lists/bone_slots.h>
 
 #include <numeric>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames between bones share out the turn of a joint, and bent flesh rides on them.
-#include "physics/lists/carriers.h"
+#include <sinew/physics/lists/comoving_frames.h>
 
 #include <set>
 
-#include "physics/lists/contacts.h"
-#include "physics/lists/drift.h"
+#include <sinew/physics/lists/approach_bounds.h>
 #include "ways.h"
 
 namespace sinew {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What bones' motions may do to lists is bounded from above, and not by far too much.
-#include "physics/lists/contacts.h"
+#include <sinew/physics/lists/approach_bounds.h>
 
 #include <numeric>
 
-#include "physics/lists/drift.h"
-#include "physics/lists/group_cells.h"
 #include "ways.h"
 
 namespace sinew {

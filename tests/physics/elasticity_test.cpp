@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic constants against the closed forms of a lattice of central bonds, and against what the
 // filled lattice itself does when it is strained.
-#include "physics/elasticity.h"
+#include <sinew/physics/elasticity.h>
 
 #include <gtest/gtest.h>
 
-#include "physics/solid/solid.h"
+#include <sinew/physics/solid.h>
 #include "world.h"
 
 namespace sinew {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "physics/rest_stability.h"
-#include "physics/simulation.h"
-#include "physics/thin_body.h"
-#include "physics/world/world.h"
+#include <sinew/physics/rest_stability.h>
+#include <sinew/physics/simulation.h>
+#include <sinew/physics/time_step.h>
+#include <sinew/physics/world/world.h>
 #include "world.h"
 
 namespace sinew {

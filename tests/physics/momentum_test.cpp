@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "physics/forces.h"
+#include <sinew/physics/forces.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/world/muscles.h"
+#include <sinew/physics/world/muscles.h>
 
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
-#include "physics/forces.h"
+#include <sinew/physics/forces.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/world/obstacle.h"
+#include <sinew/physics/world/obstacle.h>
 
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
-#include "physics/forces.h"
-#include "physics/world/world.h"
+#include <sinew/physics/forces.h>
+#include <sinew/physics/world/world.h>
 #include "world.h"
 
 namespace sinew {

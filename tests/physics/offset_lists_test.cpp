@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of differences and the cells of blocks they are found with, against all pairs.
-#include "physics/lists/offset_lists.h"
+#include <sinew/physics/lists/offset_lists.h>
 
 #include <set>
 
-#include "core/neighbours.h"
-#include "core/parallel.h"
-#include "physics/lists/order.h"
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
 #include "ways.h"
 
 namespace sinew {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/pair_force.h"
+#include <sinew/physics/pair_force.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // The forces found with cells against all pairs summed by definition.
 #include <gtest/gtest.h>
 
-#include "core/parallel.h"
-#include "physics/forces.h"
+#include <sinew/core/parallel.h>
+#include <sinew/physics/forces.h>
 #include "world.h"
 
 namespace sinew {

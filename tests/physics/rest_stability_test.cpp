@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/rest_stability.h"
+#include <sinew/physics/rest_stability.h>
 
 #include <gtest/gtest.h>
 

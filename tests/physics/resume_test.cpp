@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation that is saved and restored goes on with the bits of one that never stopped, wherever
 // it stops and on any number of threads, while particles are sorted and measured anew.
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 #include "expect_error.h"
-#include "physics/world/world.h"
+#include <sinew/physics/world/world.h>
 #include "ways.h"
 
 namespace sinew {

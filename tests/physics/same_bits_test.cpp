@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same bits from every set of instructions and any number of threads, while lists are made anew
 // under way.
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 #include "ways.h"
 
 namespace sinew {

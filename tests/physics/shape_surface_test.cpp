@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surfaces that obstacles are drawn with lie on their shapes.
-#include "physics/world/shape_surface.h"
+#include <sinew/physics/world/shapes.h>
 
 #include <gtest/gtest.h>
 

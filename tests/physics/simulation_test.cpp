@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/simulation.h"
+#include <sinew/physics/simulation.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 #include "expect_error.h"
 #include "world.h"
 

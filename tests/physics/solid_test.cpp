@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds, volumes, cohesion: forces are the slopes of energies, laws of conservation hold, and what
 // breaks or creeps does so as it is told.
-#include "physics/solid/solid.h"
+#include <sinew/physics/solid.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole steps with lists and with cells: the same positions, velocities, forces and books to
 // rounding, and the same words when a run fails.
-#include "core/error.h"
+#include <sinew/core/error.h>
 #include "expect_error.h"
 #include "ways.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies of few planes bear longer steps than the packing without end: how much longer is found
 // from both sides.
-#include "physics/thin_body.h"
+#include <sinew/physics/time_step.h>
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
-#include "physics/world/force_field.h"
-#include "physics/world/pins.h"
-#include "physics/world/world.h"
+#include <sinew/physics/world/force_field.h>
+#include <sinew/physics/world/pins.h>
+#include <sinew/physics/world/world.h>
 #include "world.h"
 
 namespace sinew {

@@ -2,8 +2,8 @@
 // Whole bodies among obstacles, pins, fields and muscles.
 #include <gtest/gtest.h>
 
-#include "physics/simulation.h"
-#include "physics/world/world.h"
+#include <sinew/physics/simulation.h>
+#include <sinew/physics/world/world.h>
 #include "world.h"
 
 namespace sinew {

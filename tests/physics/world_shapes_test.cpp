@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/world/shapes.h"
+#include <sinew/physics/world/shapes.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "expect_error.h"
-#include "physics/world/region.h"
+#include <sinew/physics/world/region.h>
 #include "world.h"
 
 namespace sinew {

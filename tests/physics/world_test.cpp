@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 #include "expect_error.h"
-#include "physics/world/world.h"
+#include <sinew/physics/world/world.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/camera.h"
+#include <sinew/render/camera.h>
 
 #include <cmath>
 #include <limits>

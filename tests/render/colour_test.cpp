@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/colour.h"
+#include <sinew/render/color.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "render/shot.h"
+#include <sinew/render/snapshot.h>
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/contact_sheet.h"
+#include <sinew/render/figure.h>
 
 #include <cmath>
 

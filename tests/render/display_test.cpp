@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/display.h"
+#include <sinew/render/display.h>
 
 #include <unistd.h>
 

@@ -8,8 +8,8 @@
 #include <functional>
 #include <string>
 
-#include "core/error.h"
-#include "render/image.h"
+#include <sinew/core/error.h>
+#include <sinew/render/image.h>
 
 namespace sinew {
 

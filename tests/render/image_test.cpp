@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/image.h"
+#include <sinew/render/image.h>
 
 #include "helpers.h"
-#include "render/text.h"
+#include <sinew/render/text.h>
 
 namespace sinew {
 namespace {

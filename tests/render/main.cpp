@@ -7,8 +7,8 @@
 #include <iostream>
 #include <string_view>
 
-#include "core/error.h"
-#include "render/display.h"
+#include <sinew/core/error.h>
+#include <sinew/render/display.h>
 
 int main(int argc, char** argv) {
   const bool dying = argc > 1 && std::string_view(argv[1]) == "--tell-display-and-die";

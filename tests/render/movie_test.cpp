@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/movie.h"
+#include <sinew/render/movie.h>
 
 #include <cstdlib>
 

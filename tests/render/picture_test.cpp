@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/picture.h"
+#include <sinew/render/picture.h>
 
 #include "helpers.h"
 #include "synthetic_run.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/plate.h"
+#include <sinew/render/figure.h>
 
 #include "helpers.h"
 #include "synthetic_run.h"

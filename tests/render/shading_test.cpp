@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render/shading.h"
+#include <sinew/render/shading.h>
 
 #include <gtest/gtest.h>
 

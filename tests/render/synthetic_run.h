@@ -2,8 +2,8 @@
 // A run without a simulation: the paper's box, bent or twisted smoothly about its middle.
 #pragma once
 
-#include "core/rigid.h"
-#include "render/shot.h"
+#include <sinew/core/vector.h>
+#include <sinew/render/snapshot.h>
 
 namespace sinew {
 

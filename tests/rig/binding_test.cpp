@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/binding.h"
+#include <sinew/rig/binding.h>
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "core/parallel.h"
+#include <sinew/core/parallel.h>
 #include "world.h"
 
 namespace sinew {

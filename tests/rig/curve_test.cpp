@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/curve.h"
+#include <sinew/rig/curve.h>
 
 #include <gtest/gtest.h>
 
-#include "rig/rotation_vector.h"
+#include <sinew/core/vector.h>
 #include "world.h"
 
 namespace sinew {

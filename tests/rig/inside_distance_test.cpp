@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/inside_distance.h"
+#include <sinew/rig/inside_distance.h>
 
 #include <gtest/gtest.h>
 
-#include "rig/binding.h"
+#include <sinew/rig/binding.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/joint_limits.h"
+#include <sinew/rig/motion_checks.h>
 
 #include <gtest/gtest.h>
 
-#include "rig/rotation_vector.h"
+#include <sinew/core/vector.h>
 #include "world.h"
 
 namespace sinew {

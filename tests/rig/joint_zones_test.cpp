@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/joint_zones.h"
+#include <sinew/rig/joint_zones.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "rig/binding.h"
+#include <sinew/rig/binding.h>
 #include "world.h"
 
 namespace sinew {

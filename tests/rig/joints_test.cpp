@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which bones joints make: heads at the joints, tails by one rule, names of their own.
-#include "rig/joints.h"
+#include <sinew/rig/skeleton.h>
 
 #include <gtest/gtest.h>
 

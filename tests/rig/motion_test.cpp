@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/motion.h"
+#include <sinew/rig/motion.h>
 
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
-#include "rig/pose_cursor.h"
+#include <sinew/rig/pose.h>
 #include "world.h"
 
 namespace sinew {

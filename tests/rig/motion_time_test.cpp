@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
-#include "rig/motion.h"
-#include "rig/motion_warnings.h"
-#include "rig/rotation_vector.h"
+#include <sinew/rig/motion.h>
+#include <sinew/rig/motion_checks.h>
+#include <sinew/core/vector.h>
 #include "world.h"
 
 namespace sinew {

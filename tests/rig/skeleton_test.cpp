@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/skeleton.h"
+#include <sinew/rig/skeleton.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig/skinning.h"
+#include <sinew/rig/skinning.h>
 
 #include <gtest/gtest.h>
 
-#include "core/triangles.h"
+#include <sinew/core/triangles.h>
 #include "world.h"
 
 namespace sinew {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/neighbours.h"
+#include <sinew/core/cell_grid.h>
 #include "lammps_files.h"
 #include "world.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What pictures show of a run, from the files that a run has left.
-#include "draw/run_shot.h"
+#include <sinew/run/snapshots.h>
 
 #include <gtest/gtest.h>
 

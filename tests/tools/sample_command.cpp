@@ -3,8 +3,8 @@
 #include "command/command.h"
 #include "command/progress.h"
 #include "command/results.h"
-#include "config/scene.h"
-#include "core/parallel.h"
+#include <sinew/settings/read_scene.h>
+#include <sinew/core/parallel.h>
 
 using namespace sinew;
 

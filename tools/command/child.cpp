@@ -5,17 +5,41 @@
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 
-#include "command/stop_signal.h"
-#include "core/error.h"
+#include <sinew/core/error.h>
 
 namespace sinew {
+
+namespace {
+
+volatile std::sig_atomic_t asked = 0;  // the one thing a signal handler may touch
+
+void remember(int) { asked = 1; }
+
+}  // namespace
+
+bool survives_its_terminal() {
+  struct sigaction now {};
+  return sigaction(SIGHUP, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+void catch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = remember;
+  // The kernel and the shell both tell of a terminal that is closed: the second time means no more.
+  if (!survives_its_terminal()) sigaction(SIGHUP, &action, nullptr);
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool stop_asked() { return asked != 0; }
+
 namespace {
 
 volatile pid_t child_of_signals = 0;  // whom a signal handler passes signals on to

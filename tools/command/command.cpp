@@ -9,8 +9,8 @@
 
 #include "command/results.h"
 #include "command/settings_list.h"
-#include "core/parallel.h"
-#include "core/words.h"
+#include <sinew/core/parallel.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

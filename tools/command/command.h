@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/override.h"
-#include "core/error.h"
+#include <sinew/core/error.h>
+#include <sinew/settings/read_scene.h>
 
 namespace sinew {
 
@@ -43,5 +43,22 @@ void say(const Common& common, const std::string& line);
 
 /// "0.1.0"
 std::string version();
+
+// What `run` and `simulate` are asked alike.
+
+struct RunOptions {
+  std::string scene, folder;
+  bool force = false, resume = false;
+  std::string asked_of = "simulate";  ///< what the user called, and calls to go on
+};
+
+inline void declare(CLI::App& app, RunOptions& options) {
+  app.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
+  app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
+      ->type_name("DIR");
+  auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
+  app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
+  app.add_option("--asked-of", options.asked_of)->group("");  // hidden: run says it to simulate
+}
 
 }  // namespace sinew

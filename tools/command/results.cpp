@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <system_error>
 
-#include "core/error.h"
-#include "core/number_text.h"
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

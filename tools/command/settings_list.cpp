@@ -2,14 +2,12 @@
 #include "command/settings_list.h"
 
 #include <fmt/format.h>
-
 #include <cmath>
 #include <vector>
 
-#include "command/markdown.h"
-#include "config/values.h"
-#include "core/scene_text.h"
-#include "core/settings_table.h"
+#include <sinew/settings/row.h>
+#include <sinew/settings/table.h>
+#include <sinew/settings/values.h>
 
 namespace sinew {
 namespace {

@@ -2,9 +2,27 @@
 // The table of settings as people read it.
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace sinew {
+
+// Rows of Markdown tables, for the README.
+
+/// "| a | b |" with a line break; bars within a cell are escaped.
+inline std::string markdown_row(std::initializer_list<std::string_view> cells) {
+  std::string row = "|";
+  for (const std::string_view cell : cells) {
+    row += ' ';
+    for (const char c : cell) {
+      if (c == '|') row += '\\';
+      row += c;
+    }
+    row += " |";
+  }
+  return row + '\n';
+}
 
 /// A line for each key, by section, for --help.
 std::string settings_help();

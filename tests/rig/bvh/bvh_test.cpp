@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a BVH file says, in all the forms it is found in.
-#include "rig/bvh/bvh.h"
+#include <sinew/rig/bvh/bvh.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "expect_error.h"
-#include "rig/bvh/bvh.h"
+#include <sinew/rig/bvh/bvh.h>
 #include "rig/bvh/bvh_files.h"
 
 namespace sinew {

@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "config/scene.h"
-#include "rig/bvh/bvh.h"
-#include "rig/motion.h"
+#include <sinew/settings/read_scene.h>
+#include <sinew/rig/bvh/bvh.h>
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one file of a series holds, as plain arrays: the common tongue of writer, reader, pictures
+// and metrics. How it is encoded is io's affair.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+/// A named array of `components` values per point, cell or file.
+struct Column {
+  std::string name;
+  int components = 1;
+  std::variant<std::vector<std::int32_t>, std::vector<double>> values;
+};
+
+Column column(std::string name, std::vector<std::int32_t> values);
+Column column(std::string name, std::vector<double> values);
+Column column(std::string name, const Points& vectors);
+
+enum class CellKind { vertex = 1, line = 2, triangle = 3 };  ///< the value is its points per cell
+
+struct Dataset {
+  double time = 0;         ///< s
+  std::int32_t cycle = 0;  ///< steps taken so far
+  Points points;           ///< n x 3, m
+  CellKind kind = CellKind::vertex;
+  std::vector<std::int32_t> connectivity;  ///< points of each cell, one cell after the other
+  std::vector<std::int32_t> lines;         ///< ends of line cells that follow those cells
+  std::vector<Column> point_columns;
+  std::vector<Column> cell_columns;
+  std::vector<Column> field_columns;  ///< one row each: what holds for the whole file
+  std::string meta;                   ///< UTF-8 JSON, or empty
+
+  std::size_t cells() const {
+    return connectivity.size() / static_cast<std::size_t>(kind) + lines.size() / 2;
+  }
+};
+
+/// One vertex cell per point: 0, 1, 2, ...
+std::vector<std::int32_t> vertex_cells(std::size_t points);
+
+/// The column of that name, or nullptr.
+const Column* find(const std::vector<Column>& columns, std::string_view name);
+
+/// Typed access; throws Error (bad input) naming the column when it is missing or of another shape.
+const std::vector<std::int32_t>& integers(const std::vector<Column>& columns,
+                                          std::string_view name);
+const std::vector<double>& numbers(const std::vector<Column>& columns, std::string_view name);
+Points vectors(const std::vector<Column>& columns, std::string_view name);
+
+}  // namespace sinew

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/core/deformation.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+#include <sinew/core/parallel.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t points_per_piece = 1024;
+// Neighbours of a closest packing give eigenvalues of 4 d0^2; a flat set gives 0 up to rounding.
+constexpr double flat = 1e-6;
+
+Mat3 inverse_or_zero(const Mat3& spread) {
+  const Vec3 eigenvalues = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+  if (!(eigenvalues[0] > flat * eigenvalues[2])) return Mat3::Zero();
+  return spread.inverse();
+}
+
+Mat3 spread_of(const RestShape& rest, std::size_t i) {
+  Mat3 spread = Mat3::Zero();
+  for (const auto j : rest.neighbours.of(i)) {
+    const Vec3 offset = rest.points[j] - rest.points[i];
+    spread += offset * offset.transpose();
+  }
+  return spread;
+}
+
+}  // namespace
+
+RestShape rest_shape(Points points, double range) {
+  RestShape rest;
+  rest.neighbours = neighbours_within(points, range);
+  rest.points = std::move(points);
+  rest.inverse.resize(rest.points.size());
+  parallel_for(rest.points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) rest.inverse[i] = inverse_or_zero(spread_of(rest, i));
+  });
+  return rest;
+}
+
+Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i) {
+  Mat3 moved = Mat3::Zero();
+  for (const auto j : rest.neighbours.of(i))
+    moved += (now[j] - now[i]) * (rest.points[j] - rest.points[i]).transpose();
+  return moved;
+}
+
+Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i) {
+  if (!rest.defined(i)) return Mat3::Identity();
+  return moved_spread(rest, now, i) * rest.inverse[i];
+}
+
+std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now) {
+  std::vector<Mat3> gradients(now.size());
+  parallel_for(now.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) gradients[i] = deformation_gradient(rest, now, i);
+  });
+  return gradients;
+}
+
+Mat3 rotation_part(const Mat3& F) {
+  const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3 sizes = svd.singularValues();
+  if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest turn; of a point: none
+    return sizes[0] > 0
+               ? Quat::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix()
+               : Mat3(Mat3::Identity());
+  Mat3 U = svd.matrixU();
+  if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;  // the weakest direction
+  return U * svd.matrixV().transpose();
+}
+
+}  // namespace sinew

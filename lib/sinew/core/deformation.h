@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The least-squares deformation gradient of a cloud of points over its neighbours at rest:
+// F = (sum dx dX^T) (sum dX dX^T)^-1. Exact for affine motion.
+#pragma once
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+/// What the rest state fixes once: neighbours and the inverse of sum dX dX^T for each point.
+struct RestShape {
+  Points points;              ///< n x 3, m
+  NeighbourLists neighbours;  ///< pairs at rest closer than the range given
+  std::vector<Mat3> inverse;  ///< (sum dX dX^T)^-1, 1/m^2; zero where the neighbours lie in a plane
+
+  /// Whether point i has enough neighbours (not all in one plane) to define a gradient.
+  bool defined(std::size_t i) const { return !inverse[i].isZero(0); }
+};
+
+/// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbours. In parallel.
+RestShape rest_shape(Points points, double range);
+
+/// sum dx dX^T over the neighbours of point i (m^2): all that is known where F is undefined.
+Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i);
+
+/// F of point i when the points have moved to `now` (n x 3, m); identity where it is undefined.
+Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i);
+
+/// All of them, in parallel.
+std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now);
+
+/// The rotation R of the polar decomposition F = R U; proper (det R = 1) for inverted F as well,
+/// and the shortest one where F keeps only a line.
+Mat3 rotation_part(const Mat3& F);
+
+}  // namespace sinew

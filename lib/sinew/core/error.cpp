@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/core/error.h>
+
+namespace sinew {
+
+std::string Place::text() const {
+  std::string text = file;
+  if (!file.empty() && line > 0) text += ':' + std::to_string(line);
+  if (!file.empty() && line > 0 && column > 0) text += ':' + std::to_string(column);
+  return text;
+}
+
+Error Error::within(const Place& place) const {
+  const std::string where = place.text();
+  return where.empty() ? *this : Error(exit_, where + ": " + what());
+}
+
+Error bad_input(const Place& place, const std::string& what, const std::string& cure) {
+  return bad_input(what, cure).within(place);
+}
+
+Error bad_input(const std::string& what, const std::string& cure) {
+  return Error(Exit::bad_input, what + "; " + cure);
+}
+
+Error not_written(const std::string& path, const std::string& what, const std::string& cure) {
+  return Error(Exit::not_written, path + ": " + what + "; " + cure);
+}
+
+}  // namespace sinew

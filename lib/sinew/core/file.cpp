@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/core/file.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <sinew/core/error.h>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* cure_for(int error) {
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+    return "free some space or choose another place for the results";
+  if (error == ENOENT || error == ENOTDIR) return "create its folder first";
+  return "choose a place you may write to";
+}
+
+Error refused(const fs::path& path, int error) {
+  return not_written(path.string(), std::string("cannot be written: ") + std::strerror(error),
+                     cure_for(error));
+}
+
+Error unreadable(const fs::path& path, int error) {
+  return bad_input({path.string()}, std::string("cannot be read: ") + std::strerror(error),
+                   "check the path and the permissions");
+}
+
+/// Calls sync (fsync, syncfs) on a folder. A file system that does not know it is no failure.
+void sync_folder(const fs::path& folder, int (*sync)(int)) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;  // a folder that may be written but not read: there is no more to be done
+  const int error = sync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (error != 0 && error != EINVAL && error != ENOSYS && error != EOPNOTSUPP)
+    throw refused(folder, error);
+}
+
+/// The new name is an entry of its folder, which is written by itself.
+void sync_folder_of(const fs::path& path) {
+  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."), ::fsync);
+}
+
+/// At the file's own place, or `place` bytes from its beginning.
+void write_all(int file, const fs::path& path, const void* bytes, std::size_t count,
+               std::optional<std::uint64_t> place = std::nullopt) {
+  const char* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = place ? ::pwrite(file, next, count, static_cast<off_t>(*place))
+                                  : ::write(file, next, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw refused(path, errno);
+    next += written;
+    count -= static_cast<std::size_t>(written);
+    if (place) *place += static_cast<std::uint64_t>(written);
+  }
+}
+
+void close_file(const int* file) { ::close(*file); }
+
+}  // namespace
+
+NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_.parent_path() / ".") {
+  std::error_code ignored;
+  const auto there = fs::status(path_, ignored);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw not_written(path_.string(), "is there, and no regular file", "choose another name");
+  temporary_ += path_.filename();
+  temporary_ += ".tmp";
+  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0) throw refused(path_, errno);
+}
+
+NewFile::~NewFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void NewFile::write(const void* bytes, std::size_t count) { write_all(file_, path_, bytes, count); }
+
+void NewFile::finish(Durability durability) {
+  if (durability == Durability::synced && ::fsync(file_) != 0) throw refused(path_, errno);
+  // The close itself may report that the data did not arrive (network file systems).
+  if (::close(std::exchange(file_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0)
+    throw refused(path_, errno);
+  temporary_.clear();
+  if (durability == Durability::synced) sync_folder_of(path_);
+}
+
+GrowingFile::GrowingFile(fs::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file_ < 0) throw refused(path_, errno);
+  struct stat status;
+  int error = ::fstat(file_, &status) != 0 ? errno : 0;
+  const bool shorter = error == 0 && static_cast<std::uint64_t>(status.st_size) < kept;
+  if (error == 0 && !shorter && ::ftruncate(file_, static_cast<off_t>(kept)) != 0) error = errno;
+  if (error == 0 && !shorter) return;
+  ::close(file_);
+  if (error != 0) throw refused(path_, error);
+  throw bad_input({path_.string()},
+                  "has " + std::to_string(status.st_size) + " bytes where " + std::to_string(kept) +
+                      " were written",
+                  "begin again with --force");
+}
+
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void GrowingFile::add(const void* bytes, std::size_t count) {
+  try {
+    write_all(file_, path_, bytes, count, size_);
+  } catch (const Error&) {
+    // No torn record stays. A file that becomes shorter needs no space.
+    [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(size_));
+    throw;
+  }
+  size_ += count;
+}
+
+void GrowingFile::write_at(std::uint64_t place, const void* bytes, std::size_t count) {
+  write_all(file_, path_, bytes, count, place);
+}
+
+void GrowingFile::close() {
+  if (::close(std::exchange(file_, -1)) != 0) throw refused(path_, errno);
+}
+
+void sync_all(const fs::path& folder) { sync_folder(folder, ::syncfs); }
+
+void write_file(const fs::path& path, std::string_view text) {
+  NewFile file(path);
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+std::string read_file(const fs::path& path, std::uint64_t limit) {
+  // Not blocking: a pipe without a writer would hold us at the door for ever.
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) throw unreadable(path, errno);
+  const std::unique_ptr<const int, decltype(&close_file)> closed_at_the_end(&file, close_file);
+  struct stat status;
+  if (::fstat(file, &status) != 0) throw unreadable(path, errno);
+  if (!S_ISREG(status.st_mode))
+    throw bad_input({path.string()}, "is not a regular file", "name a file");
+  std::string text;
+  std::string piece(1 << 16, '\0');
+  while (const ssize_t count = ::read(file, piece.data(), piece.size())) {
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw unreadable(path, errno);
+    text.append(piece, 0, static_cast<std::size_t>(count));
+    if (text.size() > limit)
+      throw bad_input({path.string()}, "is larger than " + std::to_string(limit) + " bytes",
+                      "check that this is the file you mean");
+  }
+  return text;
+}
+
+}  // namespace sinew

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/core/text.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <utility>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t longest_word = 64;   // nobody misspells a longer one
+constexpr std::size_t longest_shown = 40;  // keeps messages on one line of a terminal
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// Letters to insert, leave out, replace or swap with their neighbour to turn `a` into `b`.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = std::exchange(last, row);
+  }
+  return last[b.size()];
+}
+
+/// As distance(), but a part of a name is close to the whole: step, time_step.
+std::size_t strangeness(const std::string& word, const std::string& name) {
+  const bool part = word.size() >= 3 && name.find(word) != std::string::npos;
+  return part ? std::min<std::size_t>(1, distance(word, name)) : distance(word, name);
+}
+
+/// Bytes of the printable UTF-8 letter that `text` (not empty) begins with, 0 where there is none.
+std::size_t letter_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return std::iscntrl(static_cast<int>(first)) ? 0 : 1;
+  const std::size_t size = first < 0xC2   ? 0
+                           : first < 0xE0 ? 2
+                           : first < 0xF0 ? 3
+                           : first < 0xF5 ? 4
+                                          : 0;
+  if (size == 0 || text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Control characters, letters written too long, surrogates, beyond the last letter.
+  const bool low = (first == 0xC2 && byte(1) < 0xA0) || (first == 0xE0 && byte(1) < 0xA0) ||
+                   (first == 0xF0 && byte(1) < 0x90);
+  const bool high = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
+  return low || high ? 0 : size;
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (word.size() > longest_word) return "";
+  std::string_view best;
+  std::size_t least = longest_word;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t strange = strangeness(lower_case(word), lower_case(candidate));
+    if (strange < least && strange <= std::max(word.size(), candidate.size()) / 3) {
+      least = strange;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
+  const std::string close = nearest(word, candidates);
+  return close.empty() ? "use one of " + listed(candidates) : "did you mean " + close + "?";
+}
+
+std::string shown(std::string_view text) {
+  std::string out = "'";
+  for (std::size_t count = 0; !text.empty(); ++count) {
+    if (count == longest_shown) return out + "...'";
+    const std::size_t size = letter_size(text);
+    out += size > 0 ? text.substr(0, size) : "?";
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return out + "'";
+}
+
+std::string listed(std::span<const std::string_view> words) {
+  std::string out;
+  for (const std::string_view word : words) {
+    if (!out.empty()) out += ", ";
+    out += word;
+  }
+  return out;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string three_digits(double value) {
+  std::array<char, 32> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3)
+          .ptr;
+  return {text.data(), end};
+}
+
+}  // namespace sinew

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words for messages: the name somebody meant, and foreign text made safe to show.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// The candidate closest to `word` (fewest letters inserted, left out, replaced or swapped,
+/// whatever their case), or "" when none is close: more than a third of the letters differ.
+std::string nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+/// "did you mean NEAREST?", or "use one of a, b, c" when none is close.
+std::string suggestion(std::string_view word, std::span<const std::string_view> candidates);
+
+/// 'text' in quotes on one line, unprintable characters replaced, cut after 40 characters.
+std::string shown(std::string_view text);
+
+/// Capital letters of ASCII made small.
+std::string lower(std::string_view text);
+
+/// "a, b, c"
+std::string listed(std::span<const std::string_view> words);
+
+// Numbers as text, the same in every locale.
+
+/// Shortest text that reads back as the same number.
+std::string number_text(double value);
+
+/// Three significant digits, for people: "0.00175".
+std::string three_digits(double value);
+
+}  // namespace sinew

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The vectors and matrices every room speaks in. Metres, seconds, kilograms unless said otherwise.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace sinew {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+using Points = std::vector<Vec3>;  // n x 3
+
+inline constexpr double pi = 3.14159265358979323846;
+
+inline double radians(double degrees) { return degrees * (pi / 180); }
+inline double degrees(double radians) { return radians * (180 / pi); }
+
+/// An axis-aligned box; empty (low > high) until a point is added.
+using Box = Eigen::AlignedBox3d;
+
+// A rigid frame: where something is and how it is turned.
+
+/// Maps local x to origin + rotation x.
+struct RigidFrame {
+  Vec3 origin = Vec3::Zero();        ///< m
+  Mat3 rotation = Mat3::Identity();  ///< columns are the frame's axes
+};
+
+/// A point fixed to a frame: where it is now when it was at `point` as the frame was at `rest`.
+inline Vec3 carried(const Vec3& point, const RigidFrame& rest, const RigidFrame& now) {
+  return now.origin + now.rotation * (rest.rotation.transpose() * (point - rest.origin));
+}
+
+// Rotations as vectors: the axis times the angle, rad. A vector may be longer than pi.
+
+/// Of the two vectors of a rotation the shorter one, up to pi long.
+inline Vec3 rotation_vector(Quat rotation) {
+  if (rotation.w() < 0) rotation.coeffs() *= -1;
+  const double sine = rotation.vec().norm();
+  if (sine == 0) return Vec3::Zero();
+  return rotation.vec() * (2 * std::atan2(sine, rotation.w()) / sine);
+}
+
+/// Between near keys angles are small, where a few terms of the series say all to the last digit.
+inline Quat rotation_by(const Vec3& vector) {
+  const double x2 = vector.squaredNorm() / 4;  // half the angle, squared
+  if (x2 < 1.0 / 64) {
+    const double sinc =
+        1 + x2 * (-1.0 / 6 + x2 * (1.0 / 120 + x2 * (-1.0 / 5040 + x2 * (1.0 / 362880))));
+    const double cosine =
+        1 + x2 * (-0.5 +
+                  x2 * (1.0 / 24 + x2 * (-1.0 / 720 + x2 * (1.0 / 40320 - x2 * (1.0 / 3628800)))));
+    const Vec3 sine = sinc / 2 * vector;
+    return {cosine, sine.x(), sine.y(), sine.z()};
+  }
+  const double angle = vector.norm();
+  return Quat(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+}  // namespace sinew

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The generalized winding number (Jacobson et al. 2013) of a surface with holes, along the rows of
+// a lattice. With its caps the surface is closed, so signed crossings give a whole number; what
+// the caps contribute is taken away again:
+//   w(q) = crossings of the surface before q + sum over caps of S(q),
+//   S(q) = 1 / (4 pi) sum over a cap's sides ab of 2 atan2(D, N),  with A = a - q, B = b - q,
+//   D = A_v B_w - A_w B_v,  N = |A||B| + A.B + A_u |B| + B_u |A|,
+// (u along the row, v across, w up): the solid angle of the strips that lead from the cap's sides
+// backwards along the row. S has no jumps but on those strips, where no row ever lies. Caps far
+// away are taken together, by the first two moments of their areas (Barill et al. 2018), with a
+// bound on the error; where that bound leaves a doubt each cap is taken by itself.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/fill/inside/row_crossings.h>
+#include <sinew/fill/lattice.h>
+#include <sinew/fill/runs.h>
+#include <sinew/mesh/surface.h>
+
+namespace sinew {
+
+class OpenWinding {
+ public:
+  /// Both must outlive this. `crossings` are those of the caps.
+  OpenWinding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings);
+
+  bool none() const { return nodes_.empty(); }
+
+  struct Share {
+    double value;      ///< what the caps add to the winding number
+    double clearance;  ///< at most the distance to the border, m
+  };
+
+  /// At a site, to the last bits.
+  Share share(std::size_t row, int site) const;
+
+  /// How well a share has to be known: to within `doubt`, or to a third of its distance from
+  /// `threshold`.
+  struct Enough {
+    double doubt;
+    double threshold;
+  };
+  Share share(std::size_t row, int site, const Enough& enough) const;
+
+ private:
+  /// Caps first .. last - 1 together, as seen from afar. Lengths in the frame of the rows.
+  struct Node {
+    int first, last;
+    int left, right;  ///< nodes; -1: a leaf
+    Vec3 centre;
+    double reach;  ///< of the farthest corner from the centre
+    Vec3 area;     ///< sum of the caps' vector areas
+    double size;   ///< sum of their areas
+    Mat3 moment;   ///< sum of (middle - centre) area^T
+  };
+  struct Cap {
+    std::array<Vec3, 3> corners;
+    std::array<bool, 3> border;  ///< which sides are the surface's border, not another cap's side
+    int face;
+  };
+  struct View;  ///< one site with its row
+  struct Ray;
+
+  void find_border();
+  int build(int first, int last);
+  Node summary(int first, int last) const;
+  View view(std::size_t row, int site) const;
+  Share sum(const View& view, double farness, double& doubt) const;
+  static double from_afar(const Node& node, const Vec3& to, double distance);
+  int before(const View& view, int first, int last) const;
+  Share strips(const View& view, const Cap& cap) const;
+  Ray ray(const View& view, const Vec3& corner) const;
+  double turn(const View& view, const Cap& cap, int corner, const Ray& a, const Ray& b) const;
+
+  const Lattice& lattice_;
+  const Triangles& caps_;
+  const RowCrossings& crossings_;
+  RowFrame frame_;
+  RowSide side_;
+  std::vector<Cap> sorted_;
+  std::vector<int> place_;  ///< of each cap in sorted_
+  std::vector<Node> nodes_;
+};
+
+// Along a row of sites an open surface's winding number jumps at crossings and changes smoothly
+// between them, by what its caps add (fill/inside/open_winding.h).
+
+class OpenSweep {
+ public:
+  /// All must outlive this. `crossings` are those of the surface without its caps.
+  OpenSweep(const Lattice& lattice, const Surface& surface, const RowCrossings& crossings);
+
+  /// Adds what the row has inside, in runs of body 0.
+  void add_row(std::size_t row, SweptRows& found) const;
+
+  /// At a site, within a few hundredths.
+  double winding(std::size_t row, int site) const;
+
+ private:
+  void add_between(std::size_t row, int first, int last, int sum, RowRuns& runs) const;
+
+  const Lattice& lattice_;
+  const RowCrossings& crossings_;
+  RowCrossings cap_crossings_;
+  OpenWinding winding_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sites of closest packings (FCC, HCP) in a box, as rows along a close-packed direction, in
+// which sites follow each other at 2r. A site lies at the box's centre unless told otherwise, so
+// that a symmetric body is filled symmetrically and no layer lies on the faces of a box.
+//
+// Every coordinate of every site is a whole multiple of one power of two that is as small as
+// doubles allow at the box's farthest corner: sums and differences of sites are exact, and the
+// sites of a row lie on one line to the last bit. Exact predicates can then speak of rows. Spacings
+// are rounded up: no two sites are closer than 2r, and sites that would lie on the faces of a box
+// do not fall inside by rounding.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/core/vector.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+using LatticePlace = std::array<int, 3>;  ///< a site in steps of Lattice::unit from the origin
+
+struct LatticeRow {
+  LatticePlace first;
+  int sites;
+};
+
+/// The rows of one layer z = origin.z + k unit.z: evenly spaced across.
+struct LatticeLayer {
+  std::size_t first_row;  ///< index into Lattice::rows
+  int rows;
+  int across;  ///< of the first row; each next one is `Lattice::across_step` farther
+};
+
+struct Lattice {
+  Packing packing;
+  double radius;                 ///< of the particles, m
+  Vec3 origin;                   ///< a site, m
+  Vec3 unit;                     ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
+  LatticePlace along;            ///< from a site to the next of its row
+  LatticePlace low, high;        ///< limits of i, j, k
+  std::vector<LatticeRow> rows;  ///< by z, then across the row: a fixed order
+  std::vector<LatticeLayer> layers;  ///< of k = low[2] .. high[2]
+
+  /// Site n of a row, m; exact for any n near the row, outside of it too.
+  Vec3 site(const LatticeRow& row, int n) const {
+    return {origin[0] + unit[0] * (row.first[0] + n * along[0]),
+            origin[1] + unit[1] * (row.first[1] + n * along[1]),
+            origin[2] + unit[2] * row.first[2]};
+  }
+
+  Vec3 site(std::int32_t row, int n) const { return site(rows[row], n); }
+
+  /// The row with that k and `across` (FCC: i - j, HCP: j), or -1.
+  std::int64_t row_at(int k, int across) const;
+
+  /// The steps to the 12 nearest sites, from a site of layer k.
+  std::span<const LatticePlace, 12> nearest(int k) const;
+
+  std::uint64_t sites() const;
+};
+
+/// All sites within the box (not empty; a size below 1e9 r) and on its surface, for radius r > 0
+/// (m). A site lies at `origin`, by default the box's centre (rounded as above).
+Lattice lattice_in(const Box& box, Packing packing, double radius,
+                   const std::optional<Vec3>& origin = std::nullopt);
+
+/// About how many sites and rows that will be.
+struct LatticeSize {
+  double sites, rows;
+};
+LatticeSize lattice_size(const Box& box, double radius);
+
+// Where the lattice lies in the mesh's space: it may be turned, and a mesh far from the origin is
+// filled near it, where coordinates have more digits.
+
+class Placement {
+ public:
+  /// `turn`: the lattice's axes as columns. Meshes farther from the origin than they are large are
+  /// shifted, by an amount that loses no digit of theirs.
+  Placement(const Points& points, const Mat3& turn);
+
+  Triangles to_lattice(Triangles surface) const;
+  Vec3 to_lattice(const Vec3& point) const;
+  Vec3 from_lattice(const Vec3& site) const;
+
+ private:
+  Vec3 shift_ = Vec3::Zero();
+  Mat3 turn_;
+  bool turned_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sets of lattice sites as runs of sites that follow each other in a row, and their difference.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <sinew/fill/inside/row_crossings.h>
+#include <sinew/fill/lattice.h>
+#include <sinew/fill/near_surface.h>
+
+namespace sinew {
+
+// Which layers, rows and sites of a lattice lie within an interval of lengths.
+
+/// Whole numbers from first to last - 1.
+struct IndexRange {
+  int first, last;
+};
+
+/// Those within the interval and 0 .. count - 1; a little more than rounding asks for.
+inline IndexRange whole_numbers(const Interval& at, int count) {
+  return {static_cast<int>(std::ceil(std::clamp(at.low - 1e-6, 0.0, count + 0.0))),
+          static_cast<int>(std::floor(std::clamp(at.high + 1e-6, -1.0, count - 1.0))) + 1};
+}
+
+/// The lattice in axes (along, across, up) relative to its origin.
+class RowRanges {
+ public:
+  explicit RowRanges(const Lattice& lattice)
+      : lattice_(lattice),
+        diagonal_(lattice.packing == Packing::fcc),
+        along_unit_(lattice.unit.x() * (diagonal_ ? half_root : 1)),
+        across_unit_(diagonal_ ? along_unit_ : lattice.unit.y()),
+        across_step_(diagonal_ ? 2 : 3),
+        layers_per_metre_(1 / lattice.unit.z()),
+        rows_per_metre_(1 / (across_unit_ * across_step_)),
+        sites_per_metre_(1 / (2 * along_unit_)) {}
+
+  Vec3 turned(const Vec3& p) const {
+    const Vec3 from = p - lattice_.origin;
+    if (!diagonal_) return from;
+    return {(from.x() + from.y()) * half_root, (from.x() - from.y()) * half_root, from.z()};
+  }
+
+  double across(const LatticeLayer& layer, int row) const {
+    return across_unit_ * (layer.across + across_step_ * row);
+  }
+  double up(int layer) const { return lattice_.unit.z() * (lattice_.low[2] + layer); }
+
+  IndexRange layers(const Interval& up) const {
+    const auto at = [&](double z) { return z * layers_per_metre_ - lattice_.low[2]; };
+    return whole_numbers({at(up.low), at(up.high)}, static_cast<int>(lattice_.layers.size()));
+  }
+  IndexRange rows(const LatticeLayer& layer, const Interval& across) const {
+    const double first = double(layer.across) / across_step_;
+    const auto at = [&](double y) { return y * rows_per_metre_ - first; };
+    return whole_numbers({at(across.low), at(across.high)}, layer.rows);
+  }
+  IndexRange sites(const LatticeRow& row, const Interval& along) const {
+    const double first = 0.5 * (diagonal_ ? row.first[0] + row.first[1] : row.first[0]);
+    const auto at = [&](double x) { return x * sites_per_metre_ - first; };
+    const double low = std::clamp(at(along.low), 0.0, row.sites + 0.0),
+                 high = std::clamp(at(along.high), -1.0, row.sites - 1.0);
+    return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
+  }
+
+ private:
+  static constexpr double half_root = std::numbers::sqrt2 / 2;
+
+  const Lattice& lattice_;
+  bool diagonal_;
+  double along_unit_, across_unit_;
+  int across_step_;
+  double layers_per_metre_, rows_per_metre_, sites_per_metre_;
+};
+
+// The sites of one row, put together from ranges that come in any order.
+
+class SiteRanges {
+ public:
+  /// Whether the last one added has them all.
+  bool has(IndexRange sites) const {
+    return !ranges_.empty() && ranges_.back().first <= sites.first &&
+           sites.last <= ranges_.back().last;
+  }
+
+  void add(IndexRange sites) {
+    if (sites.first >= sites.last) return;
+    if (!ranges_.empty() && touch(ranges_.back(), sites))
+      ranges_.back() = joined(ranges_.back(), sites);
+    else
+      ranges_.push_back(sites);
+  }
+
+  /// As runs of body 0, by site, none touching.
+  void append_to(std::vector<Run>& runs, std::size_t row) {
+    std::sort(ranges_.begin(), ranges_.end(),
+              [](const IndexRange& a, const IndexRange& b) { return a.first < b.first; });
+    for (std::size_t i = 0; i < ranges_.size();) {
+      IndexRange all = ranges_[i++];
+      for (; i < ranges_.size() && touch(all, ranges_[i]); ++i) all = joined(all, ranges_[i]);
+      runs.push_back({static_cast<std::int32_t>(row), all.first, all.last, 0});
+    }
+  }
+
+ private:
+  static bool touch(IndexRange a, IndexRange b) { return a.first <= b.last && b.first <= a.last; }
+  static IndexRange joined(IndexRange a, IndexRange b) {
+    return {std::min(a.first, b.first), std::max(a.last, b.last)};
+  }
+
+  std::vector<IndexRange> ranges_;
+};
+
+struct Run {
+  std::int32_t row, first, last;  ///< sites first .. last - 1
+  std::int32_t body;
+
+  int sites() const { return last - first; }
+  bool operator==(const Run&) const = default;
+};
+
+/// The sites of `runs` that are not in `others`, with the body they have in `runs`. Both are sorted
+/// by row and then site, no two runs of one with a site in common; so is what is given, in which
+/// none touch with the same body.
+std::vector<Run> runs_without(const std::vector<Run>& runs, const std::vector<Run>& others);
+
+// The runs inside a surface as a sweep along the rows of a lattice collects them.
+
+/// What a piece of the rows came to.
+struct SweptRows {
+  std::vector<Run> runs;
+  std::vector<std::array<int, 2>> overlaps;  ///< components that share a site
+  int deepest = 0, shallowest = 0;           ///< winding numbers; of closed surfaces only
+};
+
+/// Collects runs of one row and leaves out the sites on the surface.
+class RowRuns {
+ public:
+  RowRuns(std::size_t row, const std::vector<RowSite>& on_surface, std::vector<Run>& runs)
+      : row_(static_cast<std::int32_t>(row)),
+        runs_(runs),
+        next_(std::lower_bound(on_surface.begin(), on_surface.end(), RowSite{row_, 0})),
+        end_(on_surface.end()) {}
+
+  /// Sites first .. last - 1 lie inside. Calls come in the order of the sites.
+  void add(int first, int last, int body) {
+    while (next_ != end_ && next_->row == row_ && next_->site < last) {
+      push(first, next_->site, body);
+      first = std::max(first, next_->site + 1);
+      ++next_;
+    }
+    push(first, last, body);
+  }
+
+ private:
+  void push(int first, int last, int body) {
+    if (first >= last) return;
+    const bool follows = !runs_.empty() && runs_.back().row == row_ && runs_.back().last == first &&
+                         runs_.back().body == body;
+    follows ? void(runs_.back().last = last) : runs_.push_back({row_, first, last, body});
+  }
+
+  std::int32_t row_;
+  std::vector<Run>& runs_;
+  std::vector<RowSite>::const_iterator next_, end_;
+};
+
+}  // namespace sinew

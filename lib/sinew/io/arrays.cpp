@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/arrays.h>
+
+#include <algorithm>
+
+namespace sinew {
+namespace {
+
+using enum ArrayPlace;
+using enum ArrayNumbers;
+using enum ArrayRole;
+
+const std::vector<std::string_view> one = {};
+const std::vector<std::string_view> xyz = {"X", "Y", "Z"};
+const std::vector<std::string_view> tensor = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+const std::vector<std::string_view> full_tensor = {"XX", "XY", "XZ", "YX", "YY",
+                                                   "YZ", "ZX", "ZY", "ZZ"};
+const std::vector<std::string_view> principal = {"1", "2", "3"};
+const std::vector<std::string_view> wxyz = {"W", "X", "Y", "Z"};
+
+std::vector<WrittenArray> table_of_all() {
+  return {
+      {"all", field, "TimeValue", "s", one, exact, plain, "time of the scene"},
+      {"all", field, "CYCLE", "1", one, whole, plain, "steps taken so far"},
+      {"all", field, "sinew_meta", "1", one, bytes, plain, "UTF-8 JSON about the file"},
+  };
+}
+
+std::vector<WrittenArray> table_of_body() {
+  return {
+      {"body", point, "Points", "m", xyz, exact, plain, "particle at rest, as in the mesh"},
+      {"body", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"body", point, "radius", "m", one, exact, plain, "radius of the particle"},
+      {"body", point, "mass", "kg", one, exact, plain, "mass of the particle"},
+      {"body", point, "neighbours", "1", one, whole, plain, "touching particles at rest"},
+      {"body", point, "component", "1", one, whole, plain, "connected piece it belongs to, from 0"},
+      {"body", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
+      {"body", point, "weight", "1", one, exact, plain, "share that bone has in it, 0 for none"},
+  };
+}
+
+std::vector<WrittenArray> table_of_particles() {
+  return {
+      {"particles", point, "Points", "m", xyz, real, plain, "where the particle is"},
+      {"particles", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"particles", point, "bone", "1", one, whole, scalars, "bone it is bound to, -1 for none"},
+      {"particles", point, "weight", "1", one, real, plain,
+       "share that bone has in it, 0 for none"},
+      {"particles", point, "radius", "m", one, real, plain, "radius of the particle"},
+      {"particles", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"particles", point, "velocity", "m/s", xyz, real, plain, "velocity"},
+      {"particles", point, "force", "N", xyz, real, plain, "sum of all forces on it"},
+      {"particles", point, "force_pair", "N", xyz, real, plain, "elastic force of its partners"},
+      {"particles", point, "force_damping", "N", xyz, real, plain, "damping force of its partners"},
+      {"particles", point, "force_bone", "N", xyz, real, plain, "force of its bone"},
+      {"particles", point, "force_world", "N", xyz, real, plain,
+       "force of obstacles, drag, fields, muscles and pins, where a scene has some"},
+      {"particles", point, "neighbours", "1", one, whole, plain, "partners within the range b"},
+      {"particles", point, "broken_bonds", "1", one, whole, plain,
+       "bonds it has lost, where the material has bonds"},
+      {"particles", field, "kinetic_energy", "J", one, exact, plain, "energy of motion"},
+      {"particles", field, "pair_energy", "J", one, exact, plain, "elastic energy of all pairs"},
+      {"particles", field, "bone_energy", "J", one, exact, plain,
+       "elastic energy towards the bones"},
+      {"particles", field, "gravity_energy", "J", one, exact, plain, "potential energy of gravity"},
+      {"particles", field, "work_of_bones", "J", one, exact, plain,
+       "work the bones have done so far"},
+      {"particles", field, "dissipation", "J", one, exact, plain,
+       "energy lost to damping, drag and friction so far"},
+      {"particles", field, "contact_energy", "J", one, exact, plain,
+       "elastic energy of contacts with obstacles"},
+      {"particles", field, "work_of_world", "J", one, exact, plain,
+       "work that moving obstacles, pins, fields and muscles have done so far"},
+  };
+}
+
+/// What particles get where output.arrays, or sinew measure --arrays, asks for it.
+std::vector<WrittenArray> table_of_requested(const char* series) {
+  return {
+      {series, point, "F", "1", full_tensor, real, plain,
+       "deformation gradient over the neighbours at rest, on request"},
+      {series, point, "J", "1", one, real, plain, "local volume ratio det F, on request"},
+      {series, point, "stretch", "1", principal, real, plain,
+       "principal stretches, largest first, on request"},
+      {series, point, "strain", "1", tensor, real, plain,
+       "Green-Lagrange strain (F^T F - I) / 2, on request"},
+      {series, point, "hencky_strain", "1", tensor, real, plain,
+       "Hencky strain ln(F^T F) / 2, on request"},
+      {series, point, "strain_eq", "1", one, real, plain,
+       "equivalent strain sqrt(2/3 dev H : dev H) of it, on request"},
+      {series, point, "stress", "Pa", tensor, real, plain,
+       "virial stress -(1/2V0) sum f r, tension positive, on request"},
+      {series, point, "von_mises", "Pa", one, real, plain, "its von Mises stress, on request"},
+      {series, point, "D2min", "m^2", one, real, plain,
+       "motion of the neighbours that F does not explain, on request"},
+      {series, point, "turnover", "1", one, real, plain,
+       "neighbours lost and won over those at rest, on request"},
+      {series, point, "inverted", "1", one, whole, plain, "1 where J <= 0, on request"},
+      {series, point, "pose_error", "m", one, real, plain,
+       "distance from where its bone alone would carry it, on request"},
+  };
+}
+
+std::vector<WrittenArray> table_of_requested_in_particles() {
+  return table_of_requested("particles");
+}
+
+std::vector<WrittenArray> table_of_values() {
+  std::vector<WrittenArray> rows = {
+      {"values", point, "Points", "m", xyz, real, plain, "where the particle is"},
+      {"values", point, "id", "1", one, whole, scalars, "number of the particle, from 0"},
+  };
+  for (WrittenArray& row : table_of_requested("values")) rows.push_back(std::move(row));
+  return rows;
+}
+
+std::vector<WrittenArray> table_of_surface_in(const char* series, const char* of_points) {
+  return {
+      {series, point, "Points", "m", xyz, real, plain, of_points},
+      {series, point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {series, point, "normal", "1", xyz, real, plain, "outward unit normal"},
+      {series, point, "bone", "1", one, whole, scalars, "bone that moves it most, -1 for none"},
+  };
+}
+
+std::vector<WrittenArray> table_of_surface() {
+  return table_of_surface_in("surface", "point of the input surface, deformed");
+}
+
+std::vector<WrittenArray> table_of_skin_lbs() {
+  return table_of_surface_in("skin_lbs", "the same point by linear-blend skinning");
+}
+
+std::vector<WrittenArray> table_of_skin_dqs() {
+  return table_of_surface_in("skin_dqs", "the same point by dual-quaternion skinning");
+}
+
+std::vector<WrittenArray> table_of_bones() {
+  return {
+      {"bones", point, "Points", "m", xyz, real, plain, "head, tail and tips of the three axes"},
+      {"bones", cell, "axis", "1", one, whole, scalars, "0 the bone, 1, 2, 3 its x, y, z axis"},
+      {"bones", cell, "bone", "1", one, whole, plain, "number of the bone, from 0"},
+      {"bones", cell, "parent", "1", one, whole, plain, "bone it hangs on, -1 for none"},
+  };
+}
+
+std::vector<WrittenArray> table_of_frames() {
+  return {
+      {"frames", point, "Points", "m", xyz, real, plain, "head of the bone"},
+      {"frames", point, "bone", "1", one, whole, scalars, "number of the bone, from 0"},
+      {"frames", point, "parent", "1", one, whole, plain, "bone it hangs on, -1 for none"},
+      {"frames", point, "length", "m", one, real, plain, "head to tail"},
+      {"frames", point, "orientation", "1", wxyz, real, plain, "quaternion: scene to bone axes"},
+      {"frames", point, "axis_x", "1", xyz, real, plain, "unit x axis, along the bone"},
+      {"frames", point, "axis_y", "1", xyz, real, plain, "unit y axis"},
+      {"frames", point, "axis_z", "1", xyz, real, plain, "unit z axis"},
+      {"frames", point, "twist", "degree", one, real, plain, "turn about the bone's own axis"},
+      {"frames", point, "velocity", "m/s", xyz, real, vectors, "velocity of the head"},
+      {"frames", point, "angular_velocity", "rad/s", xyz, real, plain, "angular velocity"},
+      {"frames", point, "reaction_force", "N", xyz, real, plain, "force of the body on the bone"},
+      {"frames", point, "reaction_moment", "N m", xyz, real, plain, "its moment about the head"},
+  };
+}
+
+std::vector<WrittenArray> table_of_obstacles() {
+  return {
+      {"obstacles", point, "Points", "m", xyz, real, plain, "point of an obstacle's surface"},
+      {"obstacles", point, "obstacle", "1", one, whole, scalars, "number of the obstacle, from 0"},
+      {"obstacles", point, "velocity", "m/s", xyz, real, vectors, "velocity of that point"},
+      {"obstacles", point, "normal", "1", xyz, real, plain, "outward unit normal"},
+      {"obstacles", point, "reaction_force", "N", xyz, real, plain,
+       "force of the body on the obstacle"},
+      {"obstacles", point, "reaction_moment", "N m", xyz, real, plain,
+       "its moment about the obstacle's middle"},
+  };
+}
+
+std::vector<WrittenArray> table_of_defects() {
+  return {
+      {"defects", point, "Points", "m", xyz, exact, plain, "point of the cleaned mesh"},
+      {"defects", cell, "defect", "1", one, whole, scalars,
+       "0 none; edges: 1 open, 2 crowded, 3 twisted; faces: 4 turned, 5 cutting another, 6 flat"},
+      {"defects", cell, "component", "1", one, whole, plain,
+       "piece the face belongs to, from 0; -1 for edges"},
+      {"defects", cell, "hole", "1", one, whole, plain,
+       "hole the edge belongs to, from 0; -1 for faces"},
+  };
+}
+
+std::vector<WrittenArray> table_of_blowup() {
+  return {
+      {"blowup", point, "Points", "m", xyz, real, plain, "where the particle was before the step"},
+      {"blowup", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"blowup", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
+      {"blowup", point, "radius", "m", one, real, plain, "radius of the particle"},
+      {"blowup", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"blowup", point, "velocity", "m/s", xyz, real, plain, "velocity before the step"},
+      {"blowup", point, "offender", "1", one, whole, scalars,
+       "0 no; 1 moved too far in the step, 2 reached a value that is not finite"},
+      {"blowup", point, "moved", "radii", one, real, plain,
+       "an offender's way in the step, relative to its bone; 0 where that is not finite"},
+  };
+}
+
+std::vector<WrittenArray> make_table() {
+  std::vector<WrittenArray> table;
+  for (auto rows :
+       {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles,
+        table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs, table_of_bones,
+        table_of_frames, table_of_obstacles, table_of_defects, table_of_blowup})
+    for (WrittenArray& row : rows()) table.push_back(std::move(row));
+  return table;
+}
+
+}  // namespace
+
+std::span<const WrittenArray> written_arrays() {
+  static const std::vector<WrittenArray> table = make_table();
+  return table;
+}
+
+const WrittenArray* find_written(std::string_view series, ArrayPlace place, std::string_view name) {
+  const auto table = written_arrays();
+  const auto row = std::find_if(table.begin(), table.end(), [&](const WrittenArray& candidate) {
+    return (candidate.series == series || candidate.series == "all") && candidate.place == place &&
+           candidate.name == name;
+  });
+  return row == table.end() ? nullptr : &*row;
+}
+
+std::string_view place_text(ArrayPlace place) {
+  return place == point ? "point" : place == cell ? "cell" : "field";
+}
+
+}  // namespace sinew

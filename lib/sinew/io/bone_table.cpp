@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/bone_table.h>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+/// In quotes where a comma or a quote would end it (RFC 4180).
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+void add_numbers(const Vec3& vector, std::string& row) {
+  for (const double value : vector) row += ',' + number_text(value);
+}
+
+constexpr std::string_view head =
+    "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n";
+constexpr std::uint64_t largest_table = std::uint64_t{4} << 30;  // bytes
+
+/// Bytes of the first `rows` rows, the head included. Names in quotes may hold line ends.
+std::uint64_t size_of_rows(const std::filesystem::path& path, std::size_t rows) {
+  const std::string text = read_file(path, largest_table);
+  bool quoted = false;
+  std::size_t ends = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '\n' && !quoted && ++ends > rows) return i + 1;
+  }
+  throw bad_input(
+      {path.string()},
+      "has " + std::to_string(ends) + " lines where " + std::to_string(rows + 1) + " were written",
+      "begin again with --force");
+}
+
+}  // namespace
+
+BoneTable::BoneTable(const std::filesystem::path& path, std::size_t bones, std::size_t kept)
+    : file_(path, kept > 0 ? size_of_rows(path, bones * kept) : 0) {
+  if (kept == 0) file_.add(head.data(), head.size());
+}
+
+void BoneTable::add(double time, const Skeleton& skeleton, const Reactions& reactions,
+                    std::span<const double> power) {
+  std::string rows;
+  for (std::size_t b = 0; b < skeleton.size(); ++b) {
+    rows += number_text(time) + ',';
+    rows += cell(skeleton.bones[b].name);
+    add_numbers(reactions.force[b], rows);
+    add_numbers(reactions.moment[b], rows);
+    rows += ',' + number_text(power[b]) + '\n';
+  }
+  file_.add(rows.data(), rows.size());
+}
+
+void BoneTable::close() { file_.close(); }
+
+}  // namespace sinew

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/checkpoint.h>
+
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/hash.h>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view magic = "SINEWCKP";
+constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 1;
+constexpr std::size_t name_size = 8;
+// Bonds have 12 neighbours at rest, from both sides; the rest is for positions, velocities, order.
+constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
+
+Error refused(const std::string& what) {
+  return bad_input(what, "remove the file to go on from an older checkpoint");
+}
+
+/// Walks through all values of a checkpoint in the order of the file, which a writer and a reader
+/// share: transfer(name, value or list of values).
+template <class State, class Transfer>
+void walk(State& checkpoint, Transfer&& transfer) {
+  auto& run = checkpoint.run;
+  auto& state = checkpoint.state;
+  transfer("program", run.program);
+  transfer("scene", run.scene);
+  transfer("body", run.body);
+  transfer("motion", run.motion);
+  transfer("count", run.particles);
+  transfer("timestep", run.time_step);
+  transfer("steps", state.steps);
+  for (auto* book : {&state.book, &state.world_book}) {
+    transfer("work", book->work);
+    transfer("lost", book->dissipation);
+    transfer("power", book->power);
+    transfer("begun", book->begun);
+  }
+  transfer("heldkin", state.held_at_start);
+  transfer("kicked", state.kicked);
+  transfer("length", state.whole_numbers.length);
+  transfer("origin", state.whole_numbers.origin);
+  transfer("boxlow", state.whole_numbers.box.min());
+  transfer("boxhigh", state.whole_numbers.box.max());
+  transfer("travel", state.whole_numbers.travelled);
+  transfer("meansort", state.mean_when_sorted);
+  transfer("order", state.order);
+  std::visit(
+      [&](auto& moving) {
+        for (auto& axis : moving.x) transfer("position", axis);
+        for (auto& axis : moving.v) transfer("velocity", axis);
+      },
+      state.moving);
+  transfer("bonds", state.rest_length);
+  transfer("broken", state.broken);
+}
+
+template <class Value>
+concept List = requires(Value value) {
+  value.data();
+  value.resize(std::size_t{});
+};
+
+class Writer {
+ public:
+  explicit Writer(NewFile& file) : file_(file) {}
+
+  template <class Value>
+  void operator()(std::string_view name, const Value& value) {
+    if constexpr (std::is_same_v<Value, bool>)
+      section(name, static_cast<std::uint32_t>(value));
+    else
+      section(name, value);
+  }
+  template <class Value>
+  void put(const Value& value) {
+    put(&value, sizeof value);
+  }
+  void put(const void* bytes, std::size_t count) {
+    hash_.add(bytes, count);
+    if (pending_.size() + count > most_pending) flush();
+    if (count > most_pending)
+      file_.write(bytes, count);
+    else
+      pending_.append(static_cast<const char*>(bytes), count);
+  }
+  void flush() {
+    file_.write(pending_.data(), pending_.size());
+    pending_.clear();
+  }
+  std::uint64_t hash() const { return hash_.value(); }
+
+ private:
+  template <class Value>
+  void section(std::string_view name, const Value& value) {
+    if constexpr (std::is_same_v<Value, Vec3>)
+      elements(name, value.data(), 3);
+    else if constexpr (List<Value>)
+      elements(name, value.data(), value.size());
+    else
+      elements(name, &value, 1);
+  }
+  template <class Element>
+  void elements(std::string_view name, const Element* first, std::size_t count) {
+    char padded[name_size] = {};
+    name.copy(padded, name_size);
+    put(padded, name_size);
+    put(std::uint64_t{sizeof(Element)});
+    put(std::uint64_t{count});
+    put(first, count * sizeof(Element));
+  }
+
+  static constexpr std::size_t most_pending = 1 << 16;
+
+  NewFile& file_;
+  std::string pending_;
+  Hash hash_;
+};
+
+/// What the sections will take.
+class Size {
+ public:
+  template <class Value>
+  void operator()(std::string_view, const Value& value) {
+    bytes_ += name_size + 16;
+    if constexpr (std::is_same_v<Value, bool>)
+      bytes_ += sizeof(std::uint32_t);
+    else if constexpr (std::is_same_v<Value, Vec3>)
+      bytes_ += sizeof(double) * 3;
+    else if constexpr (List<Value>)
+      bytes_ += value.size() * sizeof *value.data();
+    else
+      bytes_ += sizeof value;
+  }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  std::uint64_t bytes_ = 0;
+};
+
+constexpr std::size_t head_size = magic.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
+constexpr std::size_t tail_size = sizeof(std::uint64_t);
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  template <class Value>
+  void operator()(std::string_view name, Value& value) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      std::uint32_t flag = 0;
+      fill(name, &flag, 1);
+      value = flag != 0;
+    } else if constexpr (std::is_same_v<Value, Vec3>) {
+      fill(name, value.data(), 3);
+    } else if constexpr (List<Value>) {
+      value.resize(head(name, sizeof *value.data()));
+      take(value.data(), value.size() * sizeof *value.data());
+    } else {
+      fill(name, &value, 1);
+    }
+  }
+  template <class Value>
+  Value one() {
+    Value value;
+    take(&value, sizeof value);
+    return value;
+  }
+  std::size_t left() const { return text_.size(); }
+  /// The size of an element of the next section but `skipped`, or 0.
+  std::uint64_t element_of(std::string_view name) const {
+    Reader ahead = *this;
+    while (ahead.left() > 0) {
+      const std::string_view found = ahead.name();
+      const auto size = ahead.one<std::uint64_t>(), count = ahead.one<std::uint64_t>();
+      if (found == name) return size;
+      ahead.drop(size, count);
+    }
+    return 0;
+  }
+
+ private:
+  std::string_view name() {
+    if (text_.size() < name_size) throw refused("a section is torn");
+    const std::string_view padded = text_.substr(0, name_size);
+    text_.remove_prefix(name_size);
+    return padded.substr(0, std::min(padded.find('\0'), name_size));
+  }
+  void drop(std::uint64_t size, std::uint64_t count) {
+    if (size == 0 || count > text_.size() / size) throw refused("a section is torn");
+    text_.remove_prefix(size * count);
+  }
+  /// Elements of the section that begins here; they are there.
+  std::size_t head(std::string_view expected, std::uint64_t size) {
+    if (name() != expected) throw refused("section '" + std::string(expected) + "' is missing");
+    const auto found = one<std::uint64_t>(), count = one<std::uint64_t>();
+    if (found != size || count > text_.size() / size)
+      throw refused("section '" + std::string(expected) + "' is torn");
+    return count;
+  }
+  template <class Element>
+  void fill(std::string_view name, Element* to, std::size_t count) {
+    if (head(name, sizeof(Element)) != count)
+      throw refused("section '" + std::string(name) + "' is torn");
+    take(to, count * sizeof(Element));
+  }
+  void take(void* to, std::size_t bytes) {
+    if (bytes > text_.size()) throw refused("it is torn");
+    if (bytes > 0) std::memcpy(to, text_.data(), bytes);
+    text_.remove_prefix(bytes);
+  }
+
+  std::string_view text_;
+};
+
+std::uint64_t hash_of(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.value();
+}
+
+/// The sections of a file that is whole.
+std::string_view checked(std::string_view text) {
+  if (text.size() < head_size + tail_size || text.substr(0, magic.size()) != magic)
+    throw refused("it is not a checkpoint");
+  Reader head(text.substr(magic.size(), head_size));
+  if (head.one<std::uint32_t>() != byte_order_mark)
+    throw refused("it is of a machine with another byte order");
+  const auto version = head.one<std::uint32_t>();
+  if (version != format_version)
+    throw refused("its format is of version " + std::to_string(version) + ", not " +
+                  std::to_string(format_version));
+  if (head.one<std::uint64_t>() != text.size())
+    throw refused("it is torn: it has " + std::to_string(text.size()) + " bytes");
+  const std::string_view body = text.substr(0, text.size() - tail_size);
+  if (Reader(text.substr(body.size())).one<std::uint64_t>() != hash_of(body))
+    throw refused("its checksum is wrong");
+  return body.substr(head_size);
+}
+
+Checkpoint parsed(std::string_view text, std::uint64_t particles) {
+  Reader reader(checked(text));
+  Checkpoint checkpoint;
+  if (reader.element_of("position") == sizeof(std::int32_t))
+    checkpoint.state.moving = MovingInSingle();
+  walk(checkpoint, reader);
+  if (reader.left() > 0) throw refused("it goes on after its last section");
+  if (checkpoint.run.particles != particles)
+    throw refused("it is of " + std::to_string(checkpoint.run.particles) + " particles, not " +
+                  std::to_string(particles));
+  return checkpoint;
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
+  Size size;
+  walk(checkpoint, size);
+  NewFile file(path);
+  Writer writer(file);
+  writer.put(magic.data(), magic.size());
+  writer.put(byte_order_mark);
+  writer.put(format_version);
+  writer.put(head_size + size.bytes() + tail_size);
+  walk(checkpoint, writer);
+  const std::uint64_t hash = writer.hash();
+  writer.put(hash);
+  writer.flush();
+  file.finish(Durability::synced);
+}
+
+Checkpoint read_checkpoint(const fs::path& path, std::uint64_t particles) {
+  try {
+    const std::string text =
+        read_file(path, particles * most_bytes_per_particle + most_bytes_beside);
+    return parsed(text, particles);
+  } catch (const Error& error) {
+    throw std::string_view(error.what()).starts_with(path.string()) ? error
+                                                                    : error.within({path.string()});
+  }
+}
+
+namespace {
+
+fs::path file_of(const fs::path& folder, int which) {
+  return folder / (which == 0 ? "a.bin" : "b.bin");
+}
+
+}  // namespace
+
+void Checkpoints::write(const Checkpoint& checkpoint) {
+  std::error_code failed;
+  fs::create_directories(folder_, failed);
+  if (failed)
+    throw not_written(folder_.string(), "cannot be created (" + failed.message() + ")",
+                      "choose a place you may write to");
+  // The frames before it must not be lost when it is not.
+  sync_all(folder_);
+  write_checkpoint(file_of(folder_, next_), checkpoint);
+  next_ = 1 - next_;
+}
+
+std::optional<Checkpoint> Checkpoints::newest(std::uint64_t particles, std::string& complaint) {
+  std::optional<Checkpoint> newest;
+  std::optional<Error> broken;
+  for (const int which : {0, 1}) {
+    std::error_code unreachable;
+    fs::remove(folder_ / ('.' + file_of("", which).string() + ".tmp"), unreachable);
+    if (!fs::exists(file_of(folder_, which), unreachable)) continue;
+    try {
+      Checkpoint found = read_checkpoint(file_of(folder_, which), particles);
+      if (newest && newest->state.steps >= found.state.steps) continue;
+      newest = std::move(found);
+      next_ = 1 - which;
+    } catch (const Error& error) {
+      broken = error;
+    }
+  }
+  if (broken && !newest) throw *broken;
+  if (broken) complaint = broken->what();
+  return newest;
+}
+
+}  // namespace sinew

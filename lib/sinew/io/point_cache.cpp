@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/point_cache.h>
+
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+constexpr char magic[] = {'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
+constexpr std::size_t place_of_samples = 28, header_size = 32;  // bytes
+constexpr std::size_t point_size = 12;
+
+void add_bytes(std::uint32_t value, std::string& text) {
+  for (int byte = 0; byte < 4; ++byte) text += static_cast<char>((value >> (8 * byte)) & 0xff);
+}
+
+std::uint32_t bits_of(double value) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+std::uint32_t word_of(const char* bytes) {
+  std::uint32_t word = 0;
+  for (int byte = 0; byte < 4; ++byte)
+    word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[byte])) << (8 * byte);
+  return word;
+}
+
+Error no_cache(const std::filesystem::path& path) {
+  return bad_input({path.string()}, "is no whole point cache", "run the scene again");
+}
+
+}  // namespace
+
+void write_obj(const std::filesystem::path& path, const Triangles& surface) {
+  NewFile file(path);
+  std::string text = "# surface at rest, m\n";
+  for (const Vec3& point : surface.points) {
+    text += "v " + number_text(point.x());
+    text += ' ' + number_text(point.y());
+    text += ' ' + number_text(point.z()) + '\n';
+  }
+  for (const auto& face : surface.faces) {
+    text += 'f';
+    for (const int corner : face) text += ' ' + std::to_string(corner + 1);
+    text += '\n';
+  }
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+PointCache::PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept)
+    : points_(points),
+      samples_(kept),
+      file_(path, kept > 0 ? header_size + kept * points * point_size : 0) {
+  if (kept > 0) {
+    count_samples();
+    return;
+  }
+  std::string header(magic, sizeof magic);
+  add_bytes(1, header);
+  add_bytes(static_cast<std::uint32_t>(points), header);
+  add_bytes(bits_of(0), header);  // first frame
+  add_bytes(bits_of(1), header);  // frames from sample to sample
+  add_bytes(0, header);           // samples
+  file_.add(header.data(), header.size());
+}
+
+void PointCache::add(const Points& points) {
+  assert(points.size() == points_);
+  std::string bytes;
+  bytes.reserve(point_size * points_);
+  for (const Vec3& point : points)
+    for (const double coordinate : point) add_bytes(bits_of(coordinate), bytes);
+  file_.add(bytes.data(), bytes.size());
+  ++samples_;
+  count_samples();
+}
+
+void PointCache::count_samples() {
+  std::string count;
+  add_bytes(static_cast<std::uint32_t>(samples_), count);
+  file_.write_at(place_of_samples, count.data(), count.size());
+}
+
+void PointCache::close() { file_.close(); }
+CachedPoints::CachedPoints(const std::filesystem::path& path)
+    : path_(path), file_(path, std::ios::binary) {
+  char header[header_size] = {};
+  if (!file_.read(header, sizeof header) || std::memcmp(header, magic, sizeof magic) != 0)
+    throw no_cache(path_);
+  points_ = word_of(header + 16);
+  samples_ = word_of(header + place_of_samples);
+  std::error_code unreadable;
+  if (std::filesystem::file_size(path_, unreadable) != header_size + 12 * points_ * samples_)
+    throw no_cache(path_);
+}
+
+std::vector<float> CachedPoints::sample(std::size_t index) {
+  std::vector<char> bytes(12 * points_);
+  file_.seekg(static_cast<std::streamoff>(header_size + index * bytes.size()));
+  if (!file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) throw no_cache(path_);
+  std::vector<float> coordinates(3 * points_);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    coordinates[i] = std::bit_cast<float>(word_of(bytes.data() + 4 * i));
+  return coordinates;
+}
+
+}  // namespace sinew

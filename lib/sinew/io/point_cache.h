@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A moving surface for animators: Wavefront OBJ at rest, and a point cache (PC2) of its motion,
+// which Blender (Mesh Cache), 3ds Max and Maya put on it. Coordinates and units of the scene.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include <sinew/core/file.h>
+#include <sinew/core/triangles.h>
+
+namespace sinew {
+
+/// Points and faces, in the order of `surface`. Throws not written.
+void write_obj(const std::filesystem::path& path, const Triangles& surface);
+
+/// PC2: "POINTCACHE2\0", int32 version 1, int32 points, float start, float rate, int32 samples,
+/// then float32 x y z of every point of every sample; little endian. It grows sample by sample, and
+/// never counts one that is not there.
+class PointCache {
+ public:
+  /// Goes on after the first `kept` samples of a cache that is there already. Throws not written,
+  /// and bad input when it holds fewer.
+  PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept = 0);
+
+  /// One sample; as many points each time. Throws not written.
+  void add(const Points& points);
+  void close();  ///< throws not written
+
+ private:
+  void count_samples();
+
+  std::size_t points_, samples_;
+  GrowingFile file_;
+};
+
+/// Reads a PC2 file again, sample by sample.
+class CachedPoints {
+ public:
+  /// Throws bad input where it is none, or not whole.
+  explicit CachedPoints(const std::filesystem::path& path);
+
+  std::size_t points() const { return points_; }
+  std::size_t samples() const { return samples_; }
+  std::vector<float> sample(std::size_t index);  ///< x y z of each point; throws bad input
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::size_t points_ = 0, samples_ = 0;
+};
+
+}  // namespace sinew

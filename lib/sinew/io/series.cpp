@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/series.h>
+
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <regex>
+#include <set>
+
+#include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/text.h>
+#include <sinew/io/vtk_messages.h>
+#include <sinew/io/xml_bounds.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::uint64_t largest_pvd = std::uint64_t{256} << 20;  // bytes
+
+Error refused(const std::string& what) { return bad_input(what, "use a PVD file of a run"); }
+
+double time_of(const std::string& text) {
+  double time = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(time))
+    throw refused("timestep '" + text.substr(0, 40) + "' is not a number");
+  return time;
+}
+
+/// A PVD from elsewhere must not make us read files outside its folder.
+void check_inside(const std::filesystem::path& file) {
+  bool inside = !file.empty() && file.is_relative();
+  for (const auto& part : file) inside = inside && part != "..";
+  if (!inside)
+    throw refused("'" + file.string().substr(0, 200) + "' does not lie below the PVD's folder");
+}
+
+PvdRow row_of(vtkXMLDataElement& element) {
+  const char* time = element.GetAttribute("timestep");
+  const char* file = element.GetAttribute("file");
+  if (!time || !file) throw refused("a DataSet lacks its timestep or file");
+  check_inside(file);
+  return {time_of(time), file};
+}
+
+std::vector<PvdRow> rows_of(vtkXMLDataElement& root) {
+  vtkXMLDataElement* collection = root.FindNestedElementWithName("Collection");
+  if (std::string_view(root.GetName()) != "VTKFile" || !collection)
+    throw refused("it is not a PVD file");
+  std::vector<PvdRow> rows;
+  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* element = collection->GetNestedElement(i);
+    if (std::string_view(element->GetName()) == "DataSet") rows.push_back(row_of(*element));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string pvd_text(const std::vector<PvdRow>& rows) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (const PvdRow& row : rows)
+    text += "    <DataSet timestep=\"" + number_text(row.time) +
+            "\" group=\"\" part=\"0\" file=\"" + row.file + "\"/>\n";
+  return text + "  </Collection>\n</VTKFile>\n";
+}
+
+std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
+  const std::string text = read_file(path, largest_pvd);
+  if (!is_within_bounds(text))
+    throw refused("it is not a PVD file, or one of over 200000 frames").within({path.string()});
+  const VtkMessages messages;
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
+      vtkXMLUtilities::ReadElementFromString(text.c_str()));
+  try {
+    if (!root || messages.failed()) throw refused("it is not a PVD file");
+    return rows_of(*root);
+  } catch (const Error& error) {
+    throw error.within({path.string()});
+  }
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Often enough to follow a run by eye, seldom enough not to matter beside the frames.
+constexpr std::chrono::seconds pvd_pause{1};
+constexpr std::size_t values_per_piece = 1 << 15;
+
+std::string frame_name(const std::string& series, std::size_t number) {
+  char digits[24];
+  std::snprintf(digits, sizeof digits, "_%06zu", number);
+  return series + '/' + series + digits + ".vtu";
+}
+
+bool all_finite(const double* values, std::size_t count, double most) {
+  return parallel_sum(count, values_per_piece, [&](std::size_t begin, std::size_t end) {
+           return std::count_if(values + begin, values + end,
+                                [most](double value) { return !(std::abs(value) <= most); });
+         }) == 0;
+}
+
+/// A number of the file's type is finite up to `most`.
+void refuse_not_finite(const Dataset& frame, const std::string& series, double most) {
+  const auto refuse = [&](const std::string& name) {
+    throw Error(Exit::unstable, "frame at " + number_text(frame.time) + " s: " + series + ' ' +
+                                    name +
+                                    " has a value that is not finite; make solver.time_step "
+                                    "shorter");
+  };
+  const double* first = frame.points.empty() ? nullptr : frame.points.front().data();
+  if (!all_finite(first, 3 * frame.points.size(), most)) refuse("Points");
+  for (const auto* columns : {&frame.point_columns, &frame.cell_columns, &frame.field_columns})
+    for (const Column& column : *columns)
+      if (const auto* real = std::get_if<std::vector<double>>(&column.values);
+          real != nullptr && !all_finite(real->data(), real->size(), most))
+        refuse(column.name);
+}
+
+/// Only files that a series of this name writes: what else lies there is not ours to remove.
+void remove_older(const fs::path& folder, const std::string& series,
+                  const std::vector<PvdRow>& kept) {
+  const std::regex ours("\\.?" + series + "_[0-9]{6,}\\.vtu(\\.tmp)?");
+  std::set<std::string> stay;
+  for (const PvdRow& row : kept) stay.insert(fs::path(row.file).filename().string());
+  if (kept.empty()) fs::remove(folder / (series + ".pvd"));
+  for (const auto& entry : fs::directory_iterator(folder / series))
+    if (const std::string name = entry.path().filename().string();
+        std::regex_match(name, ours) && !stay.contains(name))
+      fs::remove(entry.path());
+}
+
+}  // namespace
+
+Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
+    : folder_(std::move(folder)), format_(std::move(format)) {
+  keep(kept);
+  try {
+    fs::create_directories(folder_ / format_.series);
+    // The PVD loses its rows first: at no time it names a file that is not there.
+    if (!rows_.empty()) write_pvd();
+    remove_older(folder_, format_.series, rows_);
+  } catch (const fs::filesystem_error& error) {
+    throw not_written((folder_ / format_.series).string(), error.code().message(),
+                      "choose a place you may write to");
+  }
+}
+
+void Series::keep(std::span<const double> times) {
+  for (const double time : times) {
+    rows_.push_back({time, frame_name(format_.series, rows_.size())});
+    const fs::path file = folder_ / rows_.back().file;
+    if (!fs::exists(file))
+      throw bad_input({file.string()}, "is missing, and the run cannot go on without it",
+                      "begin again with --force");
+  }
+}
+
+Series::~Series() {
+  try {
+    close();
+  } catch (const Error&) {
+    // An error is on its way already, or the caller did not want to know.
+  }
+}
+
+void Series::add(const Dataset& frame) {
+  refuse_not_finite(frame, format_.series,
+                    format_.double_precision ? std::numeric_limits<double>::max()
+                                             : std::numeric_limits<float>::max());
+  const std::string file = frame_name(format_.series, rows_.size());
+  write_vtu(folder_ / file, frame, format_);
+  rows_.push_back({frame.time, file});
+  if (std::chrono::steady_clock::now() - pvd_written_ >= pvd_pause) write_pvd();
+}
+
+void Series::close() {
+  if (rows_in_pvd_ < rows_.size()) write_pvd();
+}
+
+void Series::write_pvd() {
+  write_file(folder_ / (format_.series + ".pvd"), pvd_text(rows_));
+  rows_in_pvd_ = rows_.size();
+  pvd_written_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace sinew

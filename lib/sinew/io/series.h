@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A series of frames: DIR/NAME.pvd, with one row per time, and DIR/NAME/NAME_000000.vtu and so on.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sinew/io/vtu.h>
+
+namespace sinew {
+
+struct PvdRow {
+  double time = 0;   ///< s
+  std::string file;  ///< relative to the PVD's folder
+};
+
+/// The rows of a PVD file. Throws bad input, naming the file, when it is none, when a time is not a
+/// number, or when a row leads out of the folder (absolute, or with "..").
+std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
+
+/// The text of a PVD with these rows.
+std::string pvd_text(const std::vector<PvdRow>& rows);
+
+/// Writes a series frame by frame. A reader who comes meanwhile finds whole files only: each frame
+/// is there before the PVD names it, and the PVD is replaced at most once a second.
+class Series {
+ public:
+  /// Starts the series format.series in `folder`, which is created; an older one is removed. Throws
+  /// not written.
+  /// But for its first frames, those at `kept` (s), which are there already: it goes on after them.
+  /// Throws bad input when one is missing.
+  Series(std::filesystem::path folder, VtuFormat format, std::span<const double> kept = {});
+  /// Closes, without a word if that fails: call close() to hear of it.
+  ~Series();
+  Series(const Series&) = delete;
+  Series& operator=(const Series&) = delete;
+
+  /// Writes one frame, later than the one before. Throws not written, and Error (unstable) naming
+  /// the array for a value that is not finite, or becomes so in Float32.
+  void add(const Dataset& frame);
+  /// Brings the PVD up to date. Throws not written.
+  void close();
+
+  const std::vector<PvdRow>& rows() const { return rows_; }
+
+ private:
+  void keep(std::span<const double> times);
+  void write_pvd();
+
+  std::filesystem::path folder_;
+  VtuFormat format_;
+  std::vector<PvdRow> rows_;
+  std::size_t rows_in_pvd_ = 0;
+  std::chrono::steady_clock::time_point pvd_written_{};
+};
+
+}  // namespace sinew

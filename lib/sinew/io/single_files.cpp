@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/single_files.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/dataset.h>
+#include <sinew/core/error.h>
+#include <sinew/io/vtu.h>
+
+namespace sinew {
+
+Dataset blowup_dataset(const BlowupFrame& frame, Moment moment) {
+  const Particles& before = frame.before;
+  const std::size_t n = before.size();
+  Points displacement(n), velocity(n);
+  Dataset data;
+  data.time = moment.time;
+  data.cycle = moment.cycle;
+  data.points.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto id = static_cast<std::size_t>(before.id[i]);
+    data.points[id] = before.position(i);
+    displacement[id] = before.position(i) - frame.rest[id];
+    velocity[id] = before.velocity(i);
+  }
+  std::vector<std::int32_t> offence;
+  for (const Offence one : frame.offence) offence.push_back(static_cast<std::int32_t>(one));
+  data.connectivity = vertex_cells(n);
+  data.point_columns = {
+      column("id", vertex_cells(n)),
+      column("bone", std::vector<std::int32_t>(frame.bone.begin(), frame.bone.end())),
+      column("radius", std::vector<double>(n, before.radius)),
+      column("displacement", displacement),
+      column("velocity", velocity),
+      column("offender", std::move(offence)),
+      column("moved", std::vector<double>(frame.moved.begin(), frame.moved.end()))};
+  return data;
+}
+
+void write_blowup(const std::filesystem::path& path, const BlowupFrame& frame, Moment moment) {
+  VtuFormat format;
+  format.series = "blowup";
+  format.radius = frame.before.radius;
+  write_vtu(path, blowup_dataset(frame, moment), format);
+}
+
+void write_defects(const std::filesystem::path& path, const DefectsFile& defects) {
+  Dataset data;
+  data.points = defects.surface.points;
+  data.kind = CellKind::triangle;
+  for (const auto& face : defects.surface.faces)
+    data.connectivity.insert(data.connectivity.end(), face.begin(), face.end());
+  for (const auto& edge : defects.edges)
+    data.lines.insert(data.lines.end(), edge.begin(), edge.end());
+  data.cell_columns = {column("defect", defects.defect), column("component", defects.component),
+                       column("hole", defects.hole)};
+  VtuFormat format;
+  format.series = "defects";
+  write_vtu(path, data, format);
+}
+
+namespace {
+
+Error refused(const std::string& what) { return bad_input(what, "fill the body again"); }
+
+/// The one positive value that all particles share.
+double shared(const std::vector<Column>& columns, const char* name) {
+  const std::vector<double>& values = numbers(columns, name);
+  const double value = values.front();
+  if (!(std::isfinite(value) && value > 0))
+    throw refused(std::string("the ") + name + " of a particle is not positive");
+  if (!std::all_of(values.begin(), values.end(), [&](double other) { return other == value; }))
+    throw refused(std::string("particles differ in ") + name);
+  return value;
+}
+
+void check(const Dataset& data) {
+  if (data.points.empty()) throw refused("it holds no particles");
+  if (data.kind != CellKind::vertex) throw refused("its cells are not particles");
+  if (!std::all_of(data.points.begin(), data.points.end(),
+                   [](const Vec3& p) { return p.allFinite(); }))
+    throw refused("a coordinate is not finite");
+  if (integers(data.point_columns, "id") != vertex_cells(data.points.size()))
+    throw refused("its ids are not 0, 1, 2, ...");
+}
+
+void check_weights(const std::vector<double>& weights) {
+  constexpr double rounding = 1e-9;
+  for (const double weight : weights)
+    if (!(weight >= 0 && weight <= 1 + rounding))
+      throw refused("the weight " + std::to_string(weight) + " of a bone is not between 0 and 1");
+}
+
+BodyFile body_of(const Dataset& data) {
+  check(data);
+  BodyFile body;
+  body.particles = particles_at(data.points, shared(data.point_columns, "radius"),
+                                shared(data.point_columns, "mass"));
+  body.neighbours = integers(data.point_columns, "neighbours");
+  body.component = integers(data.point_columns, "component");
+  if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
+  if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
+  if (body.weight) check_weights(*body.weight);
+  body.meta = data.meta;
+  return body;
+}
+
+}  // namespace
+
+Dataset body_dataset(BodyFile body) {
+  const std::size_t count = body.particles.size();
+  const double radius = body.particles.radius, mass = body.particles.mass;
+  Dataset data;
+  data.points = positions_of(body.particles);
+  Column id = column("id", std::move(body.particles.id));
+  body.particles = {};
+  data.connectivity = vertex_cells(count);
+  data.point_columns.push_back(std::move(id));
+  data.point_columns.push_back(column("radius", std::vector<double>(count, radius)));
+  data.point_columns.push_back(column("mass", std::vector<double>(count, mass)));
+  data.point_columns.push_back(column("neighbours", std::move(body.neighbours)));
+  data.point_columns.push_back(column("component", std::move(body.component)));
+  if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
+  if (body.weight) data.point_columns.push_back(column("weight", std::move(*body.weight)));
+  data.meta = std::move(body.meta);
+  return data;
+}
+
+void write_body(const std::filesystem::path& path, BodyFile body, Encoding encoding) {
+  VtuFormat format;
+  format.encoding = encoding;
+  format.series = "body";
+  format.radius = body.particles.radius;
+  write_vtu(path, body_dataset(std::move(body)), format);
+}
+
+BodyFile read_body(const std::filesystem::path& path) {
+  const Dataset data = read_vtu(path);
+  try {
+    return body_of(data);
+  } catch (const Error& error) {
+    throw error.within({path.string()});
+  }
+}
+
+}  // namespace sinew

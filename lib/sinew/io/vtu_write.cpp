@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <sinew/core/file.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/text.h>
+#include <sinew/io/arrays.h>
+#include <sinew/io/encode.h>
+#include <sinew/io/vtu.h>
+#include <sinew/io/vtu_tags.h>
+
+namespace sinew {
+namespace {
+
+/// Float32 has 24 bits: beyond this many radii a particle would move in steps of a thousandth of r.
+constexpr double float32_reach = 1e4;
+constexpr std::size_t points_per_piece = 8192;
+constexpr std::size_t bytes_per_write = 1 << 20;
+
+bool beyond_float32(const Points& points, double radius) {
+  if (!(radius > 0)) return false;
+  const double reach = float32_reach * radius;
+  return parallel_sum(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+           return std::count_if(points.begin() + begin, points.begin() + end,
+                                [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() > reach; });
+         }) > 0;
+}
+
+/// An array with what its element says of it.
+struct Element {
+  std::string name;
+  int components = 1;
+  const WrittenArray* row = nullptr;
+  FileArray values;
+};
+
+FileArray reals(const double* values, std::size_t count, const WrittenArray* row, bool float64) {
+  return float64 || (row && row->numbers == ArrayNumbers::exact) ? float64_array(values, count)
+                                                                 : float32_array(values, count);
+}
+
+Element element_of(const Column& column, ArrayPlace place, const VtuFormat& format) {
+  const WrittenArray* row = find_written(format.series, place, column.name);
+  Element element{column.name, column.components, row, {}};
+  if (const auto* whole = std::get_if<std::vector<std::int32_t>>(&column.values))
+    element.values = int32_array(*whole);
+  else if (const auto* real = std::get_if<std::vector<double>>(&column.values))
+    element.values = reals(real->data(), real->size(), row, format.double_precision);
+  return element;
+}
+
+std::vector<Element> elements_of(const std::vector<Column>& columns, ArrayPlace place,
+                                 const VtuFormat& format) {
+  std::vector<Element> elements;
+  for (const Column& column : columns) elements.push_back(element_of(column, place, format));
+  return elements;
+}
+
+std::vector<Element> field_elements(const Dataset& data, const VtuFormat& format) {
+  const auto named = [&](const char* name, FileArray values) {
+    return Element{name, 1, find_written(format.series, ArrayPlace::field, name),
+                   std::move(values)};
+  };
+  std::vector<Element> elements{
+      named("TimeValue", float64_array(&data.time, 1)),
+      named("CYCLE", int32_array(1, [cycle = data.cycle](std::size_t) { return cycle; }))};
+  for (Element& element : elements_of(data.field_columns, ArrayPlace::field, format))
+    elements.push_back(std::move(element));
+  if (!data.meta.empty()) elements.push_back(named("sinew_meta", bytes_array(data.meta)));
+  return elements;
+}
+
+Element points_element(const Dataset& data, const VtuFormat& format) {
+  const WrittenArray* row = find_written(format.series, ArrayPlace::point, "Points");
+  const bool float64 = format.double_precision || beyond_float32(data.points, format.radius);
+  const double* first = data.points.empty() ? nullptr : data.points.front().data();
+  return {"Points", 3, row, reals(first, 3 * data.points.size(), row, float64)};
+}
+
+/// Cells of the dataset's kind first, then its lines.
+std::vector<Element> cell_elements(const Dataset& data) {
+  const auto size = static_cast<std::size_t>(data.kind);
+  const std::size_t corners = data.connectivity.size(), alike = corners / size;
+  const auto corner = [&data, corners](std::size_t i) {
+    return i < corners ? data.connectivity[i] : data.lines[i - corners];
+  };
+  const auto end = [size, alike](std::size_t i) {
+    return static_cast<std::int32_t>(i < alike ? (i + 1) * size
+                                               : alike * size + 2 * (i + 1 - alike));
+  };
+  const auto type = [kind = data.kind, alike](std::size_t i) {
+    return static_cast<unsigned char>(vtk_type(i < alike ? kind : CellKind::line));
+  };
+  return {{"connectivity", 1, nullptr, int32_array(corners + data.lines.size(), corner)},
+          {"offsets", 1, nullptr, int32_array(data.cells(), end)},
+          {"types", 1, nullptr, bytes_array(data.cells(), type)}};
+}
+
+/// ` Scalars="bone" Vectors="displacement"`, as far as there are such.
+std::string active_arrays(const std::vector<Element>& elements) {
+  std::string scalars, vectors;
+  for (const Element& element : elements) {
+    const ArrayRole role = element.row ? element.row->role : ArrayRole::plain;
+    if (role == ArrayRole::scalars) scalars = " Scalars=\"" + element.name + '"';
+    if (role == ArrayRole::vectors) vectors = " Vectors=\"" + element.name + '"';
+  }
+  return scalars + vectors;
+}
+
+std::string attribute(const std::string& name, const std::string& value) {
+  std::string text = ' ' + name;
+  text += "=\"";
+  for (const char c : value) switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '>':
+        text += "&gt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      default:
+        text += c;
+    }
+  return text += '"';
+}
+
+class VtuText {
+ public:
+  VtuText(NewFile& file, Encoding encoding) : file_(file), encoding_(encoding) {}
+
+  void add(std::string_view text) {
+    pending_ += text;
+    if (pending_.size() >= bytes_per_write) flush();
+  }
+
+  void add_group(const std::string& tag, const std::string& attributes,
+                 const std::vector<Element>& elements) {
+    add('<' + tag + attributes + ">\n");
+    for (const Element& element : elements) add_element(element, tag == "FieldData");
+    add("</" + tag + ">\n");
+  }
+
+  /// Raw data, in the order of its elements.
+  void add_appended(const std::vector<const std::vector<Element>*>& groups) {
+    if (encoding_ != Encoding::raw) return;
+    add("<AppendedData encoding=\"raw\">\n_");
+    for (const auto* elements : groups)
+      for (const Element& element : *elements) add_raw(element.values);
+    add("\n</AppendedData>\n");
+  }
+
+  void flush() {
+    file_.write(pending_.data(), pending_.size());
+    pending_.clear();
+  }
+
+ private:
+  void add_element(const Element& element, bool in_field) {
+    add("<DataArray" + attributes_of(element, in_field) + ">\n");
+    if (encoding_ != Encoding::raw) {
+      add(element_text(element.values, encoding_));
+      add("\n");
+    }
+    if (element.row) {
+      add("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\n");
+      add(element.row->unit);
+      add("\n</InformationKey>\n");
+    }
+    add("</DataArray>\n");
+  }
+
+  std::string attributes_of(const Element& element, bool in_field) {
+    const auto components = static_cast<std::size_t>(element.components);
+    std::string text = attribute("type", std::string(element.values.type));
+    text += attribute("Name", element.name);
+    if (components > 1) text += attribute("NumberOfComponents", std::to_string(components));
+    for (std::size_t k = 0; element.row && k < element.row->components.size(); ++k)
+      text +=
+          attribute("ComponentName" + std::to_string(k), std::string(element.row->components[k]));
+    if (in_field)
+      text += attribute("NumberOfTuples", std::to_string(element.values.count / components));
+    if (const ValueRange range = range_of(element.values, element.components);
+        range.low <= range.high)
+      text += attribute("RangeMin", number_text(range.low)) +
+              attribute("RangeMax", number_text(range.high));
+    if (encoding_ != Encoding::raw) return text += attribute("format", "binary");
+    text += attribute("format", "appended") + attribute("offset", std::to_string(offset_));
+    offset_ += sizeof(std::uint64_t) + element.values.bytes();
+    return text;
+  }
+
+  void add_raw(const FileArray& values) {
+    const std::uint64_t bytes = values.bytes();
+    add({reinterpret_cast<const char*>(&bytes), sizeof bytes});
+    const std::size_t at_once = bytes_per_write / values.size;
+    for (std::size_t i = 0; i < values.count; i += at_once) {
+      const std::size_t end = std::min(values.count, i + at_once), from = pending_.size();
+      pending_.resize(from + (end - i) * values.size);
+      values.put(i, end, reinterpret_cast<unsigned char*>(&pending_[from]));
+      flush();
+    }
+  }
+
+  NewFile& file_;
+  Encoding encoding_;
+  std::string pending_;
+  std::uint64_t offset_ = 0;  ///< of the next array in the appended data
+};
+
+}  // namespace
+
+std::string vtu_opening(Encoding encoding) {
+  std::string tag =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\"";
+  if (encoding == Encoding::zlib) tag += " compressor=\"vtkZLibDataCompressor\"";
+  if (encoding == Encoding::lz4) tag += " compressor=\"vtkLZ4DataCompressor\"";
+  return tag + ">\n<UnstructuredGrid>\n";
+}
+
+int vtk_type(CellKind kind) {
+  return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;
+}
+
+void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
+  const auto field = field_elements(data, format);
+  const auto of_points = elements_of(data.point_columns, ArrayPlace::point, format);
+  const auto of_cells = elements_of(data.cell_columns, ArrayPlace::cell, format);
+  const std::vector<Element> points{points_element(data, format)};
+  const auto cells = cell_elements(data);
+  NewFile file(path);
+  // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which
+  // Debian 12 has by its updates: only data within the elements is safe.
+  VtuText text(file, format.encoding);
+  text.add(vtu_opening(format.encoding));
+  text.add_group("FieldData", "", field);
+  text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
+           std::to_string(data.cells()) + "\">\n");
+  text.add_group("PointData", active_arrays(of_points), of_points);
+  text.add_group("CellData", active_arrays(of_cells), of_cells);
+  text.add_group("Points", "", points);
+  text.add_group("Cells", "", cells);
+  text.add("</Piece>\n</UnstructuredGrid>\n");
+  text.add_appended({&field, &of_points, &of_cells, &points, &cells});
+  text.add("</VTKFile>\n");
+  text.flush();
+  file.finish();
+}
+
+}  // namespace sinew

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a surface ends, whatever its patches.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/mesh/surface.h>
+
+namespace sinew {
+
+/// Forward minus backward uses of one edge.
+int net_count(std::span<const EdgeUse> use);
+
+/// The holes' edges, in the direction of the faces at them: loops of group 0. The cap of loop i is
+/// the i-th one in Surface::caps.
+std::vector<Loop> border_loops(std::span<const EdgeUse> uses);
+
+/// Counts and lengths of the border with these loops.
+Border border_of(const Triangles& surface, std::span<const EdgeUse> uses,
+                 std::span<const Loop> loops);
+
+// Which faces meet at which edges.
+
+/// One side of a face, as an undirected edge low-high.
+struct EdgeUse {
+  int low, high;  ///< points
+  int face;
+  bool forward;  ///< whether the face goes from low to high
+};
+
+/// Every side of every face, sorted by edge and then by face.
+std::vector<EdgeUse> edge_uses(const Triangles& surface);
+
+/// Calls visit(span) for the uses of each edge.
+template <class Visit>
+void for_each_edge(std::span<const EdgeUse> uses, Visit&& visit) {
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    while (end < uses.size() && uses[end].low == uses[begin].low &&
+           uses[end].high == uses[begin].high)
+      ++end;
+    visit(uses.subspan(begin, end - begin));
+  }
+}
+
+// The border of a surface as closed loops.
+
+/// An edge that faces of a group go along once more from `from` to `to` than back.
+struct BorderEdge {
+  int group, from, to;
+};
+
+struct Loop {
+  int group;
+  std::vector<int> points;  ///< three or more, none twice; the last joins the first
+};
+
+/// Splits the border edges (an edge that counts twice stands there twice) into loops without
+/// repeated points: a walk along the edges, each point's lowest next one first, loses a loop where
+/// it meets itself. In every group as many edges must leave each point as come to it: so it is for
+/// the border of any set of triangles.
+std::vector<Loop> simple_loops(std::vector<BorderEdge> edges);
+
+}  // namespace sinew

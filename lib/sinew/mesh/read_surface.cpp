@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/mesh/read_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <sinew/core/system.h>
+#include <sinew/core/text.h>
+#include <sinew/mesh/clean.h>
+#include <sinew/mesh/readers/mesh_readers.h>
+#include <sinew/mesh/repair.h>
+
+namespace sinew {
+
+PolygonSoup read_polygons(const std::string& path) { return read_mesh(open_mesh(path)); }
+
+Surface read_surface(const BodySettings& body, const MeshReader& reader) {
+  Stopwatch watch;
+  PolygonSoup soup = reader(body.mesh);
+  const double reading = watch.lap();
+  try {
+    Surface surface = prepare(std::move(soup), body);
+    surface.seconds_reading = reading;
+    surface.seconds_cleaning = watch.lap();
+    return surface;
+  } catch (const Error& error) {
+    throw error.within({body.mesh});
+  }
+}
+
+namespace {
+
+void place(PolygonSoup& soup, const BodySettings& body) {
+  const double by = metres(body.unit) * body.scale;
+  if (!(by > 0) || !std::isfinite(by))
+    throw bad_input("the scale is " + number_text(body.scale), "give a number above 0");
+  const Mat3 turn = to_scene(body);
+  if (by == 1 && turn == Mat3::Identity()) return;
+  for (Vec3& point : soup.points) point = by * (turn * point);
+}
+
+PolygonSoup soup_of(const Triangles& triangles) {
+  PolygonSoup soup{triangles.points, {}};
+  soup.polygons.reserve(triangles.faces.size());
+  for (const auto& face : triangles.faces) soup.polygons.emplace_back(face.begin(), face.end());
+  return soup;
+}
+
+/// Cleans again what a repair has made; what was done to the file is still told.
+Surface cleaned_again(const Surface& before, const Triangles& repaired, FillRule rule) {
+  Surface surface = clean(soup_of(repaired), {0, rule});
+  const CleaningCounts again = surface.cleaning;
+  surface.cleaning = before.cleaning;
+  surface.cleaning.faces_doubled += again.faces_doubled;
+  surface.cleaning.faces_collapsed += again.faces_collapsed;
+  return surface;
+}
+
+/// A loose face is closed by its own back: both go, they enclose nothing.
+void drop_closed_sheets(HoleClosing& closing) {
+  std::vector<std::array<int, 3>>& faces = closing.triangles.faces;
+  std::map<std::array<int, 3>, int> uses;
+  const auto corners = [](std::array<int, 3> face) {
+    std::sort(face.begin(), face.end());
+    return face;
+  };
+  for (const auto& face : faces) ++uses[corners(face)];
+  std::erase_if(faces, [&](const auto& face) { return uses[corners(face)] == 2; });
+}
+
+Surface without_holes(const Surface& surface, FillRule rule) {
+  if (surface.closed()) return surface;
+  HoleClosing closing = close_holes(surface.triangles);
+  drop_closed_sheets(closing);
+  if (closing.triangles.faces.empty())
+    throw bad_input("all " + std::to_string(surface.triangles.faces.size()) +
+                        " faces are loose, and closing their holes encloses nothing",
+                    "weld their corners if they almost meet, or give a thickness instead");
+  Surface closed = cleaned_again(surface, closing.triangles, rule);
+  closed.cleaning.holes_closed = closing.holes_closed;
+  closed.cleaning.faces_added = closing.faces_added;
+  return closed;
+}
+
+Surface wrapped(const Surface& surface, double alpha, FillRule rule) {
+  const Triangles skin = wrap(surface.triangles, alpha);
+  Surface wrapped = cleaned_again(surface, skin, rule);
+  wrapped.cleaning.faces_wrapped = skin.faces.size();
+  return wrapped;
+}
+
+}  // namespace
+
+Surface prepare(PolygonSoup soup, const BodySettings& body) {
+  check_soup(soup);
+  place(soup, body);
+  Surface surface = clean(std::move(soup), {body.weld, body.rule});
+  if (body.close_holes) surface = without_holes(surface, body.rule);
+  if (body.wrap) surface = wrapped(surface, *body.wrap, body.rule);
+  return surface;
+}
+
+}  // namespace sinew

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/mesh/surface.h>
+
+namespace sinew {
+
+namespace {
+
+/// The part of a loop from its point `from` to its point `to`, whose chord the rest of the cap has.
+void cut_off(int first, int from, int to, Triangles& caps) {
+  if (to - from < 2) return;
+  const int middle = from + (to - from) / 2;
+  caps.faces.push_back({first + to, first + middle, first + from});
+  cut_off(first, from, middle, caps);
+  cut_off(first, middle, to, caps);
+}
+
+}  // namespace
+
+void add_cap(const Loop& loop, const Points& points, Triangles& caps) {
+  const int first = static_cast<int>(caps.points.size());
+  const int count = static_cast<int>(loop.points.size());
+  for (const int point : loop.points) caps.points.push_back(points[point]);
+  cut_off(first, 0, count - 1, caps);
+}
+
+Triangles caps_of(std::span<const Loop> loops, const Points& points) {
+  Triangles caps;
+  for (const Loop& loop : loops) add_cap(loop, points, caps);
+  return caps;
+}
+
+std::vector<double> component_volumes(const Surface& surface) {
+  std::vector<double> sums(surface.components);
+  const Points& points = surface.triangles.points;
+  const Vec3 middle = bounds(points).center();  // keeps digits far from the origin
+  for (std::size_t i = 0; i < surface.triangles.faces.size(); ++i) {
+    const auto& [a, b, c] = surface.triangles.faces[i];
+    const Vec3 p = points[a] - middle, q = points[b] - middle, r = points[c] - middle;
+    sums[surface.component[i]] += p.dot(q.cross(r)) / 6;
+  }
+  return sums;
+}
+
+}  // namespace sinew

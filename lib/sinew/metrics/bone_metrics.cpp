@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/bone_metrics.h>
+
+#include <array>
+
+#include <sinew/core/particles.h>
+#include <sinew/metrics/files.h>
+
+namespace sinew {
+namespace {
+
+using M = BoneMetrics;
+
+constexpr std::array table = {
+    BoneMetric{"time", "s", "Time in the scene", "t", &M::time},
+    BoneMetric{"bone", "", "Index of the bone, as in frames.pvd", "", &M::bone},
+    BoneMetric{"followers", "", "Particles that follow it more than any other", "count",
+               &M::followers},
+    BoneMetric{"adherence_rms", "m", "How far they left their distance to the bone, rms",
+               "sqrt(mean (|x - p| - l0)^2)", &M::adherence_rms},
+    BoneMetric{"adherence_95", "m", "Likewise, below which 95 % of them are",
+               "95 % of ||x - p| - l0|", &M::adherence_95},
+    BoneMetric{"adherence_max", "m", "Likewise, at most", "max ||x - p| - l0|", &M::adherence_max},
+    BoneMetric{"adherence_joint_rms", "m", "Likewise, rms, within half a width of a joint",
+               "where |c - joint| <= sqrt(A_B) / 2", &M::adherence_joint_rms},
+    BoneMetric{"adherence_far_rms", "m", "Likewise, rms, of the others",
+               "where |c - joint| > sqrt(A_B) / 2", &M::adherence_far_rms},
+    BoneMetric{"radial_mean", "m", "Mean way outwards from the bone; below zero inwards",
+               "mean (|x - p| - l0)", &M::radial_mean},
+    BoneMetric{"twist_rms", "deg", "Turn about the bone away from its own, rms",
+               "angle about the axis from q - p to x - p", &M::twist_rms},
+    BoneMetric{"twist_mean", "deg", "The same, mean, with its sign", "mean alpha", &M::twist_mean},
+    BoneMetric{"pose_error_rms", "m", "Way from the rigid pose, rms", "sqrt(mean |x - q|^2)",
+               &M::pose_error_rms},
+    BoneMetric{"pose_error_max", "m", "Way from the rigid pose, at most", "max |x - q|",
+               &M::pose_error_max},
+    BoneMetric{"volume", "m^3", "Volume of the particles that follow it, as they are strained",
+               "sum V0 J, V0 = 4 sqrt(2) r^3, where J is defined", &M::volume},
+    BoneMetric{"volume_ratio", "", "The same relative to rest", "mean J", &M::volume_ratio},
+    BoneMetric{"volume_joint_ratio", "", "Likewise, within half a width of a joint",
+               "mean J where |c - joint| <= sqrt(A_B) / 2", &M::volume_joint_ratio},
+    BoneMetric{"volume_far_ratio", "", "Likewise, of the others",
+               "mean J where |c - joint| > sqrt(A_B) / 2", &M::volume_far_ratio},
+};
+
+/// What is wrong with the place of one particle.
+struct Miss {
+  double radial = 0, pose = 0;  ///< m
+  double twist = not_measured;  ///< rad; not about the axis itself
+};
+
+constexpr double on_axis = 1e-9;  // of l0: nearer than that a particle has no direction to turn
+
+Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) {
+  const RigidFrame& before = rest.bones[bound.bone].rest;
+  const RigidFrame& now = state.bones[bound.bone];
+  const Vec3 foot = carried(bound.foot, before, now), axis = now.rotation.col(0);
+  const Vec3 target = carried(rest.shape.points[bound.particle], before, now);
+  const Vec3& x = state.positions[bound.particle];
+  const auto across = [&](const Vec3& p) -> Vec3 { return p - foot - axis.dot(p - foot) * axis; };
+  const Vec3 wanted = across(target), found = across(x);
+  Miss miss{(x - foot).norm() - bound.distance, (x - target).norm(), not_measured};
+  if (wanted.norm() > on_axis * rest.radius && found.norm() > on_axis * rest.radius)
+    miss.twist = std::atan2(axis.dot(wanted.cross(found)), wanted.dot(found));
+  return miss;
+}
+
+struct Misses {
+  Statistics slip, joint, far, radial, twist, pose;
+  Statistics volume_joint, volume_far;  ///< of J
+  std::vector<double> slips;
+};
+
+void add(Misses& all, const Miss& miss, bool far) {
+  const double slip = std::abs(miss.radial);
+  all.slip.add(slip);
+  (far ? all.far : all.joint).add(slip);
+  all.radial.add(miss.radial);
+  all.pose.add(miss.pose);
+  if (!std::isnan(miss.twist)) all.twist.add(miss.twist);
+  all.slips.push_back(slip);
+}
+
+void add_volumes(BoneMetrics& out, const Misses& all, double radius) {
+  Statistics both = all.volume_joint;
+  both.add(all.volume_far);
+  if (both.count > 0) out.volume = volume_per_particle(radius) * both.sum;
+  out.volume_ratio = both.mean();
+  out.volume_joint_ratio = all.volume_joint.mean();
+  out.volume_far_ratio = all.volume_far.mean();
+}
+
+BoneMetrics summed(Misses& all, double time, std::size_t bone) {
+  BoneMetrics out{time, static_cast<double>(bone), static_cast<double>(all.slip.count)};
+  out.adherence_rms = all.slip.rms();
+  out.adherence_95 = percentile(all.slips, 95);
+  out.adherence_max = all.slip.max();
+  out.adherence_joint_rms = all.joint.rms();
+  out.adherence_far_rms = all.far.rms();
+  out.radial_mean = all.radial.mean();
+  out.twist_rms = degrees(all.twist.rms());
+  out.twist_mean = degrees(all.twist.mean());
+  out.pose_error_rms = all.pose.rms();
+  out.pose_error_max = all.pose.max();
+  return out;
+}
+
+}  // namespace
+
+std::span<const BoneMetric> bone_metrics_table() { return table; }
+
+std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state,
+                                       const ParticleValues& particles) {
+  std::vector<Miss> misses(rest.bound.size());
+  parallel_for(misses.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) misses[k] = miss_of(rest, state, rest.bound[k]);
+  });
+  std::vector<Misses> bones(rest.bones.size());
+  for (std::size_t k = 0; k < misses.size(); ++k) {  // in order, for the same bits every time
+    const Bound& bound = rest.bound[k];
+    Misses& bone = bones[bound.bone];
+    add(bone, misses[k], bound.far);
+    const double J = particles.J[bound.particle];
+    if (!std::isnan(J)) (bound.far ? bone.volume_far : bone.volume_joint).add(J);
+  }
+  std::vector<BoneMetrics> out;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    out.push_back(summed(bones[b], state.time, b));
+    add_volumes(out.back(), bones[b], rest.radius);
+  }
+  return out;
+}
+
+std::string bone_metrics_csv(std::span<const BoneMetrics> rows) { return csv_text(table, rows); }
+
+}  // namespace sinew

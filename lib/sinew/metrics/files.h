@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// metrics.csv: a row per frame, a column per metric, the time first. Opens in ParaView and in
+// spreadsheets without options.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+
+#include <sinew/metrics/comparison.h>
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/limits.h>
+#include <sinew/metrics/summary.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+
+/// The whole file. Numbers read back as the same bits; "nan" where a metric was not measured.
+std::string metrics_csv(std::span<const FrameMetrics> frames);
+
+/// A line of the columns' names, then one per row. Numbers read back as the same bits.
+template <class Table, class Rows>
+std::string csv_text(const Table& columns, const Rows& rows) {
+  std::string text;
+  for (const auto& column : columns) {
+    if (!text.empty()) text += ',';
+    text += column.name;
+  }
+  for (const auto& row : rows) {
+    char separator = '\n';
+    for (const auto& column : columns) {
+      const double value = row.*column.value;
+      text += separator;
+      text += std::isnan(value) ? "nan" : number_text(value);
+      separator = ',';
+    }
+  }
+  return text + '\n';
+}
+
+// metrics.json: a run summed up, for scripts.
+//
+// - schema_version: 1; grows when a key changes its meaning or goes
+// - frames, duration
+// - metrics, by name: unit, meaning, formula, min, max, mean, final, worst_frame, worst_time,
+//   worst_particle
+// - run, by name, once per run: unit, meaning, formula, value
+// - holds: from, to, settled_after (s)
+// - checks: name, expression, value, limit, frame, pass
+//
+// null stands where there was nothing to measure.
+
+inline constexpr int metrics_schema_version = 1;
+
+/// The whole file. `summary` is that of `frames`.
+std::string metrics_json(std::span<const FrameMetrics> frames, const Summary& summary,
+                         std::span<const Check> checks);
+
+/// metrics.json of a comparison:
+/// - schema_version: 1; frames, duration, remarks
+/// - a, b: name, radius
+/// - metrics, by name: unit, meaning, formula, a, b (min, max, mean, final each), difference (the
+///   same with largest, the one farthest from zero, and its time)
+/// - run, by name: unit, meaning, formula, a, b, difference
+/// - checks: as in metrics.json of a run
+std::string comparison_json(const RunComparison& comparison);
+
+}  // namespace sinew

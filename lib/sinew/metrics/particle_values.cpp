@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/particle_values.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <Eigen/Eigenvalues>
+
+#include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t piece = 1024;
+
+template <class Job>
+void for_each_particle(std::size_t count, const Job& job) {
+  parallel_for(count, piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) job(i);
+  });
+}
+
+/// sqrt(factor dev T : dev T) of a symmetric tensor with these principal values.
+double equivalent(const Vec3& principal, double factor) {
+  const double mean = principal.mean();
+  return std::sqrt(factor * (principal.array() - mean).square().sum());
+}
+
+double non_affine(const RestShape& shape, const Points& now, const Mat3& F, std::size_t i) {
+  double sum = 0;
+  const auto partners = shape.neighbours.of(i);
+  for (const auto j : partners)
+    sum += ((now[j] - now[i]) - F * (shape.points[j] - shape.points[i])).squaredNorm();
+  return sum / static_cast<double>(partners.size());
+}
+
+void add_motion(ParticleValues& out, const RestBody& rest, const FrameState& state) {
+  for_each_particle(rest.particles(), [&](std::size_t i) {
+    out.displacement[i] = (state.positions[i] - rest.shape.points[i]).norm();
+    out.speed[i] = state.velocities.empty() ? not_measured : state.velocities[i].norm();
+  });
+}
+
+void add_deformation(ParticleValues& out, const RestShape& shape, const Points& now) {
+  for_each_particle(now.size(), [&](std::size_t i) {
+    out.J[i] = out.strain[i] = out.stretch[i] = out.D2min[i] = not_measured;
+    if (!shape.defined(i)) return;
+    const Mat3 F = deformation_gradient(shape, now, i);
+    Eigen::SelfAdjointEigenSolver<Mat3> principal;
+    principal.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
+    const Vec3 squares = principal.eigenvalues().cwiseMax(flattest);
+    out.J[i] = F.determinant();
+    out.strain[i] = equivalent(squares.array().log() / 2, 2.0 / 3);
+    out.stretch[i] = std::sqrt(squares.maxCoeff());
+    out.D2min[i] = non_affine(shape, now, F, i);
+  });
+}
+
+void add_pose(ParticleValues& out, const RestBody& rest, const FrameState& state) {
+  for_each_particle(rest.particles(), [&](std::size_t i) {
+    const int bone = rest.bone_of[i];
+    out.pose_error[i] = not_measured;
+    if (bone < 0) return;
+    const Vec3 target = carried(rest.shape.points[i], rest.bones[bone].rest, state.bones[bone]);
+    out.pose_error[i] = (state.positions[i] - target).norm();
+  });
+}
+
+/// Counts of particles within two ranges (m) of one.
+struct Within {
+  double near = 0, far = 0;
+};
+
+/// How many of value(k) for k < count, squares of distances, are within each.
+template <class Squared>
+Within count_within(std::size_t count, double near, double far, const Squared& squared) {
+  Within found;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double d = squared(k);
+    found.near += d < near * near;
+    found.far += d < far * far;
+  }
+  return found;
+}
+
+void count_neighbours(ParticleValues& out, const RestBody& rest, const Points& now,
+                      std::span<const Partner> partners, std::size_t i) {
+  const double near = rest_neighbour_range(rest.radius), far = rest.interaction_range;
+  const auto before = rest.shape.neighbours.of(i);
+  const Within all =
+      count_within(partners.size(), near, far, [&](std::size_t k) { return partners[k].squared; });
+  const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
+    return (now[i] - now[before[k]]).squaredNorm();
+  });
+  const auto all_before = static_cast<double>(before.size());
+  out.neighbours[i] = all.far;
+  out.lost[i] = all_before - kept.far;
+  out.gained[i] = all.near - kept.near;
+  out.turnover[i] = all_before > 0 ? (out.lost[i] + out.gained[i]) / all_before : not_measured;
+}
+
+/// -f (x) r of one pair, N m.
+Mat3 virial(double force, const Vec3& apart, double d) {
+  return -force / d * apart * apart.transpose();
+}
+
+/// Of a particle's own volume: the stress of U = (K_v / 2) V0 w (J - 1)^2, over V0.
+Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
+  if (rest.stiffened.empty() || rest.stiffened[i] == 0) return Mat3::Zero();
+  const double J = deformation_gradient(rest.shape, now, i).determinant();
+  return rest.law.volume_stiffness * rest.stiffened[i] * (J - 1) * J * Mat3::Identity();
+}
+
+Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
+  Mat3 sum = Mat3::Zero();
+  for (const auto j : rest.shape.neighbours.of(i)) {
+    const Vec3 apart = now[i] - now[j];
+    const double d = apart.norm(), before = (rest.shape.points[i] - rest.shape.points[j]).norm();
+    if (d > 0) sum += virial(rest.law.bond(d, before), apart, d);
+  }
+  return sum;
+}
+
+void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now) {
+  const double range = std::max(rest_neighbour_range(rest.radius), rest.interaction_range);
+  const CellGrid grid(now, range);
+  parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
+    std::vector<Partner> partners;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_partners(now, grid, range, i, partners);
+      count_neighbours(out, rest, now, partners, i);
+      if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, partners, i));
+    }
+  });
+}
+
+}  // namespace
+
+double von_mises(const Mat3& stress) {
+  const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
+  return std::sqrt(1.5 * deviator.squaredNorm());
+}
+
+void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Partner>& found) {
+  found.clear();
+  grid.for_each_near(now[i], [&](std::uint32_t j) {
+    const Vec3 apart = now[i] - now[j];
+    const double squared = apart.squaredNorm();
+    if (j != i && squared < range * range) found.push_back({j, apart, squared});
+  });
+}
+
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+                   std::size_t i) {
+  const double range = rest.interaction_range;
+  const auto bonded = rest.shape.neighbours.of(i);
+  Mat3 sum = rest.law.bond ? bonds_virial(rest, now, i) : Mat3(Mat3::Zero());
+  for (const Partner& other : partners) {
+    if (other.squared >= range * range || other.squared == 0) continue;
+    if (rest.law.bond && std::binary_search(bonded.begin(), bonded.end(), other.index)) continue;
+    const double d = std::sqrt(other.squared);
+    sum += virial(rest.law.force(d), other.apart, d);
+  }
+  return sum / (2 * volume_per_particle(rest.radius)) + volume_stress(rest, now, i);
+}
+
+ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
+  ParticleValues out;
+  const std::size_t n = rest.particles();
+  for (auto* values : {&out.displacement, &out.speed, &out.J, &out.strain, &out.stretch, &out.D2min,
+                       &out.neighbours, &out.lost, &out.gained, &out.turnover, &out.pose_error})
+    values->resize(n);
+  if (rest.law.force) out.von_mises.resize(n);
+  add_motion(out, rest, state);
+  add_deformation(out, rest.shape, state.positions);
+  add_pose(out, rest, state);
+  add_surroundings(out, rest, state.positions);
+  out.weight = rest.weight;
+  return out;
+}
+
+namespace {
+
+constexpr std::size_t piece = 1024;
+
+template <std::size_t n>
+using Values = std::array<double, n>;
+
+Values<6> symmetric(const Mat3& T) {
+  return {T(0, 0), T(1, 1), T(2, 2), T(0, 1), T(1, 2), T(0, 2)};
+}
+
+Values<9> row_by_row(const Mat3& T) {
+  Values<9> out;
+  for (std::size_t k = 0; k < 9; ++k)
+    out[k] = T(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
+  return out;
+}
+
+/// of(i), n numbers, for every particle.
+template <std::size_t n, class Of>
+Column filled(std::string_view name, std::size_t particles, const Of& of) {
+  std::vector<double> values(n * particles);
+  parallel_for(particles, piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Values<n> one = of(i);
+      std::copy(one.begin(), one.end(), values.begin() + static_cast<std::ptrdiff_t>(n * i));
+    }
+  });
+  return {std::string(name), static_cast<int>(n), std::move(values)};
+}
+
+/// The same of the deformation gradient, where there is one.
+template <std::size_t n, class Of>
+Column of_gradient(std::string_view name, const RestBody& rest, const Points& now, const Of& of) {
+  Values<n> none;
+  none.fill(not_measured);
+  return filled<n>(name, now.size(), [&](std::size_t i) {
+    return rest.shape.defined(i) ? of(deformation_gradient(rest.shape, now, i)) : none;
+  });
+}
+
+/// Principal values of F^T F, ascending, with their directions.
+Eigen::SelfAdjointEigenSolver<Mat3> right_cauchy_green(const Mat3& F) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F);
+}
+
+Values<3> stretches(const Mat3& F) {
+  const Vec3 squares = right_cauchy_green(F).eigenvalues().cwiseMax(flattest);
+  return {std::sqrt(squares[2]), std::sqrt(squares[1]), std::sqrt(squares[0])};
+}
+
+Values<6> green_lagrange(const Mat3& F) {
+  return symmetric((F.transpose() * F - Mat3::Identity()) / 2);
+}
+
+Values<6> hencky(const Mat3& F) {
+  const auto principal = right_cauchy_green(F);
+  const Vec3 logs = principal.eigenvalues().cwiseMax(flattest).array().log() / 2;
+  const Mat3& directions = principal.eigenvectors();
+  return symmetric(directions * logs.asDiagonal() * directions.transpose());
+}
+
+Column stresses(std::string_view name, const RestBody& rest, const Points& now) {
+  Values<6> none;
+  none.fill(not_measured);
+  if (!rest.law.force) return filled<6>(name, now.size(), [&](std::size_t) { return none; });
+  const CellGrid grid(now, rest.interaction_range);
+  return filled<6>(name, now.size(), [&](std::size_t i) {
+    std::vector<Partner> partners;
+    find_partners(now, grid, rest.interaction_range, i, partners);
+    return symmetric(virial_stress(rest, now, partners, i));
+  });
+}
+
+Column inverted(std::string_view name, const std::vector<double>& J) {
+  std::vector<std::int32_t> flags;
+  for (const double one : J) flags.push_back(one <= 0);
+  return column(std::string(name), std::move(flags));
+}
+
+/// One of those that frames are measured with.
+Column scalar(std::string_view name, const ParticleValues& values) {
+  using V = ParticleValues;
+  constexpr std::array<std::pair<std::string_view, std::vector<double> V::*>, 6> members{
+      {{"J", &V::J},
+       {"strain_eq", &V::strain},
+       {"von_mises", &V::von_mises},
+       {"D2min", &V::D2min},
+       {"turnover", &V::turnover},
+       {"pose_error", &V::pose_error}}};
+  if (name == "inverted") return inverted(name, values.J);
+  const auto* member = std::find_if(members.begin(), members.end(),
+                                    [&](const auto& one) { return one.first == name; });
+  std::vector<double> copy = values.*member->second;
+  copy.resize(values.J.size(), not_measured);  // stresses that are not known
+  return column(std::string(name), std::move(copy));
+}
+
+}  // namespace
+
+std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
+                                    std::span<const std::string_view> names) {
+  const Points& now = state.positions;
+  std::vector<Column> columns;
+  ParticleValues values;
+  for (const std::string_view name : names) {
+    if (name == "F")
+      columns.push_back(of_gradient<9>(name, rest, now, row_by_row));
+    else if (name == "stretch")
+      columns.push_back(of_gradient<3>(name, rest, now, stretches));
+    else if (name == "strain")
+      columns.push_back(of_gradient<6>(name, rest, now, green_lagrange));
+    else if (name == "hencky_strain")
+      columns.push_back(of_gradient<6>(name, rest, now, hencky));
+    else if (name == "stress")
+      columns.push_back(stresses(name, rest, now));
+    else {
+      if (values.J.empty()) values = particle_values(rest, state);
+      columns.push_back(scalar(name, values));
+    }
+  }
+  return columns;
+}
+
+}  // namespace sinew

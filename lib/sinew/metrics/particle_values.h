@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is measured of every single particle of a frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/dataset.h>
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/rest_body.h>
+
+namespace sinew {
+
+/// The least squared stretch that counts: keeps the logarithm of a flat F finite.
+inline constexpr double flattest = 1e-24;
+
+/// n values each, in the written order. From F, the least-squares deformation gradient over the
+/// neighbours at rest: not-a-number where those lie in a plane.
+struct ParticleValues {
+  std::vector<double> displacement;  ///< |x - x0|, m
+  std::vector<double> speed;         ///< m/s
+  std::vector<double> J;             ///< det F
+  std::vector<double> strain;        ///< sqrt(2/3 dev H : dev H), H = ln(F^T F) / 2 (Hencky)
+  std::vector<double> stretch;       ///< the largest of U = sqrt(F^T F)
+  std::vector<double> D2min;         ///< mean |dx - F dX|^2 over the rest neighbours, m^2
+  std::vector<double> neighbours;    ///< closer than b
+  std::vector<double> lost;          ///< neighbours at rest that are at b or farther
+  std::vector<double> gained;        ///< particles closer than 2.2 r that were not at rest
+  std::vector<double> turnover;      ///< (lost + gained) / neighbours at rest
+  std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
+  std::vector<double> weight;        ///< the share its bone has in it; empty where not known
+  /// sqrt(3/2 dev s : dev s) of the virial stress s = -(1/2V0) sum f (x) r, Pa; empty where the
+  /// body's pair force is not known.
+  std::vector<double> von_mises;
+};
+
+/// A particle near another one.
+struct Partner {
+  std::uint32_t index;
+  Vec3 apart;      ///< from it to the other one, m
+  double squared;  ///< of its length, m^2
+};
+
+/// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
+void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Partner>& found);
+
+/// The virial stress of particle i, Pa: all the forces between particles, and of each one's own
+/// volume. The body's pair force is known; partners within b at least.
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+                   std::size_t i);
+
+/// sqrt(3/2 dev s : dev s).
+double von_mises(const Mat3& stress);
+
+/// In parallel. The state is one of this body.
+ParticleValues particle_values(const RestBody& rest, const FrameState& state);
+
+// What is known of every particle of a frame as arrays to be written: tensors in ParaView's order
+// of components, XX YY ZZ XY YZ XZ for symmetric ones and row by row for F.
+
+/// Those of requestable_arrays() that are named, in the written order of the particles;
+/// not-a-number where a particle's neighbours define none, and stresses where the body's forces are
+/// not known. Of the state, positions and bones count. In parallel.
+std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
+                                    std::span<const std::string_view> names);
+
+}  // namespace sinew

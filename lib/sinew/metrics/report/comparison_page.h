@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// report.html of a comparison: two runs beside each other on one page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sinew/metrics/comparison.h>
+#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/report.h>
+
+namespace sinew {
+
+/// Texts are plain; the page escapes them.
+struct ComparisonInput {
+  std::string version;  ///< of sinew
+  RunComparison comparison;
+  Film film;                              ///< of both, see side_by_side(); of no frames: no 3D view
+  std::vector<FactGroup> facts;           ///< what differs between the scenes
+  std::string first_scene, second_scene;  ///< resolved
+};
+
+/// The whole page, UTF-8.
+std::string comparison_html(const ComparisonInput& input);
+
+}  // namespace sinew

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/report/film.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <sinew/metrics/report/thin_surface.h>
+
+namespace sinew {
+namespace {
+
+// What base64 makes of these is below 8 MB: with the libraries and the charts, a page of 10.
+constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
+constexpr std::size_t worst_frames = 8;          // that may come on top of the planned ones
+constexpr std::size_t most_frames = 120;         // four seconds at thirty a second
+constexpr std::size_t fewest_particles = 6'000;  // as many as still look like a body
+
+/// A number without pattern for each particle, for picking among them (splitmix64).
+std::uint64_t mixed(std::uint64_t i) {
+  i += 0x9e3779b97f4a7c15;
+  i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9;
+  i = (i ^ (i >> 27)) * 0x94d049bb133111eb;
+  return i ^ (i >> 31);
+}
+
+std::vector<std::uint32_t> picked(std::size_t count, std::size_t wanted) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  if (wanted >= count) return all;
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted), all.end(),
+                   [](std::uint32_t a, std::uint32_t b) { return mixed(a) < mixed(b); });
+  all.resize(wanted);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
+  std::vector<std::size_t> frames;
+  if (wanted >= count) wanted = count;
+  for (std::size_t k = 0; k < wanted; ++k)
+    frames.push_back(wanted > 1 ? k * (count - 1) / (wanted - 1) : 0);
+  return frames;
+}
+
+/// All of the run's frames where they can be paid for, else as many as leave room for worst ones.
+std::size_t frames_paid(std::size_t run_frames, std::size_t bytes, std::size_t frame_bytes) {
+  const std::size_t paid = std::min(most_frames, bytes / frame_bytes);
+  if (paid >= run_frames) return run_frames;
+  return paid > worst_frames ? paid - worst_frames : 1;
+}
+
+std::size_t most_shots(const Film& film) {
+  return std::min(film.run_frames, film.wanted.size() + worst_frames);
+}
+
+void plan_particles(Film& film, const RestBody& rest, std::size_t bytes) {
+  const std::size_t each = 6 + film_fields().size();
+  const std::size_t fewest = std::min(film.run_particles, fewest_particles);
+  film.wanted = evenly(film.run_frames, frames_paid(film.run_frames, bytes, each * fewest));
+  film.particles =
+      picked(film.run_particles, bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
+  for (const auto i : film.particles) film.bone.push_back(rest.bone_of[i]);
+}
+
+void append(std::vector<float>& out, const Vec3& point) {
+  for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(point[k]));
+}
+
+std::vector<float> coordinates(const Points& points, const std::vector<std::uint32_t>& chosen) {
+  std::vector<float> out;
+  for (const auto i : chosen) append(out, points[i]);
+  return out;
+}
+
+std::vector<float> chosen_values(const std::vector<double>& values,
+                                 const std::vector<std::uint32_t>& chosen) {
+  std::vector<float> out;
+  if (values.empty()) return out;
+  for (const auto i : chosen) out.push_back(static_cast<float>(values[i]));
+  return out;
+}
+
+auto place_of(const Film& film, std::size_t frame) {
+  return std::lower_bound(
+      film.frames.begin(), film.frames.end(), frame,
+      [](const FilmFrame& one, std::size_t number) { return one.frame < number; });
+}
+
+double shown_radius(const Film& film, double radius) {
+  const auto shown = static_cast<double>(film.particles.size());
+  return radius * std::cbrt(static_cast<double>(film.run_particles) / std::max(1.0, shown));
+}
+
+}  // namespace
+
+std::span<const FilmField> film_fields() {
+  using V = ParticleValues;
+  static constexpr std::array fields = {
+      FilmField{"displacement", "m", "Way from the place at rest", &V::displacement},
+      FilmField{"speed", "m/s", "Size of the velocity", &V::speed},
+      FilmField{"J", "", "Local volume ratio; below zero inside out", &V::J},
+      FilmField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
+      FilmField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
+      FilmField{"D2min", "m²", "Motion that is not affine: flow", &V::D2min},
+      FilmField{"neighbours", "", "Particles within the interaction range", &V::neighbours},
+      FilmField{"turnover", "", "Neighbours lost and won, over those at rest", &V::turnover},
+      FilmField{"distance to rigid pose", "m", "From where its bone alone would carry it",
+                &V::pose_error},
+      FilmField{"weight of its bone", "", "Share the bone it follows has in it; 1: that one alone",
+                &V::weight},
+  };
+  return fields;
+}
+
+Box box_of(const Film& film) {
+  Box box;
+  for (const FilmFrame& frame : film.frames)
+    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones})
+      for (std::size_t i = 0; i + 2 < places->size(); i += 3)
+        box.extend(Vec3((*places)[i], (*places)[i + 1], (*places)[i + 2]));
+  return box;
+}
+
+bool Film::wants(std::size_t frame) const {
+  return std::binary_search(wanted.begin(), wanted.end(), frame);
+}
+
+bool Film::has(std::size_t frame) const {
+  const auto place = place_of(*this, frame);
+  return place != frames.end() && place->frame == frame;
+}
+
+Film plan_film(const RestBody& rest, std::size_t frames, double share) {
+  Film film;
+  film.run_frames = frames;
+  film.run_particles = rest.particles();
+  film.run_points = rest.surface.points.size();
+  const auto bytes_of = [&](std::size_t all) {
+    return static_cast<std::size_t>(share * static_cast<double>(all));
+  };
+  plan_particles(film, rest, bytes_of(particle_bytes));
+  film.balls = {{film.particles.size(), shown_radius(film, rest.radius)}};
+  ThinSurface skin = thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_shots(film)));
+  film.points = std::move(skin.points);
+  film.faces = std::move(skin.faces);
+  for (const MeasuredBone& bone : rest.bones) film.bone_names.push_back(bone.name);
+  return film;
+}
+
+void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,
+               const ParticleValues& particles) {
+  FilmFrame shot{frame,
+                 state.time,
+                 coordinates(state.positions, film.particles),
+                 coordinates(state.surface_points, film.points),
+                 {},
+                 {}};
+  for (std::size_t b = 0; b < rest.bones.size(); ++b) {
+    const RigidFrame& bone = state.bones[b];
+    append(shot.bones, bone.origin);
+    const double length = state.bone_lengths.empty() ? rest.bones[b].length : state.bone_lengths[b];
+    append(shot.bones, bone.origin + length * bone.rotation.col(0));
+  }
+  for (const FilmField& field : film_fields())
+    shot.values.push_back(chosen_values(particles.*field.values, film.particles));
+  film.frames.insert(place_of(film, frame), std::move(shot));
+}
+
+}  // namespace sinew

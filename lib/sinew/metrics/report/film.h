@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The run as the report's 3D view shows it: particles, skin and bones over time, thinned so that a
+// page of a few megabytes holds them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/metrics/rest_body.h>
+
+namespace sinew {
+
+/// A value that particles can be coloured by.
+struct FilmField {
+  std::string_view name, unit, help;
+  std::vector<double> ParticleValues::*values;
+};
+
+/// All that a film keeps, in the order of FilmFrame::values.
+std::span<const FilmField> film_fields();
+
+struct FilmFrame {
+  std::size_t frame = 0;                   ///< of the run
+  double time = 0;                         ///< s
+  std::vector<float> particles, surface;   ///< x y z each, m
+  std::vector<float> bones;                ///< head and tail, x y z each, m
+  std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
+};
+
+/// Particles that are drawn with one radius (m): larger than their own where one is shown for
+/// several, so that the body looks filled.
+struct Balls {
+  std::size_t count = 0;
+  double radius = 0;
+};
+
+struct Film {
+  std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
+  std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
+  std::vector<std::uint32_t> particles;                           ///< of the run, ascending
+  std::vector<Balls> balls;                                       ///< the particles, in their order
+  std::vector<int> bone;                  ///< that each of them follows, -1 for none
+  std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
+  std::vector<std::array<int, 3>> faces;  ///< indices into points
+  std::vector<std::string> bone_names;
+  std::vector<FilmFrame> frames;
+
+  bool wants(std::size_t frame) const;
+  bool has(std::size_t frame) const;
+};
+
+/// Around all places of all frames, m; empty where there are none.
+Box box_of(const Film& film);
+
+/// A film of no frames, with the choice made of what will be kept: all of a small run; of a large
+/// one frames at even distances, the first and the last among them, particles picked at random (the
+/// same ones every time) and a coarser skin.
+/// `share`: of a page's bytes that it may take.
+Film plan_film(const RestBody& rest, std::size_t frames, double share = 1);
+
+/// Both films in one, the second beside the first: across the shorter of its sides, so that the
+/// page's camera sees them next to each other. Of frames that both have; names of bones get the
+/// prefixes.
+Film side_by_side(const Film& first, const Film& second,
+                  const std::array<std::string, 2>& prefixes);
+
+/// Adds a frame at its place in time.
+void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,
+               const ParticleValues& particles);
+
+/// For the page's script: places as 16-bit fractions of the film's box, values as 8-bit fractions
+/// of their range (a thousandth of the values at either end lies outside), all in base64.
+std::string film_json(const Film& film);
+
+}  // namespace sinew

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// report.html: one page that tells what was run and what became of it. It needs no network and
+// nothing beside it but the pictures it links.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/limits.h>
+#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/summary.h>
+
+namespace sinew {
+
+struct Fact {
+  std::string name, value;
+};
+
+/// A list of facts under a heading: "Run" (particles, steps, ...), "Material", ...
+struct FactGroup {
+  std::string title;
+  std::vector<Fact> facts;
+};
+
+struct Picture {
+  std::string path;  ///< relative to the report: pictures/bent.png
+  std::string caption;
+};
+
+/// A law of the scene drawn as curves; a curve's x ascends.
+struct CurveLine {
+  std::string name;
+  std::vector<double> x, y;
+};
+struct Curve {
+  std::string title, note;  ///< what it is, and its formula
+  std::string across, up;   ///< what the axes measure, with units
+  std::vector<CurveLine> lines;
+};
+
+/// Texts are plain; the page escapes them.
+struct ReportInput {
+  std::string title;    ///< the scene's name
+  std::string version;  ///< of sinew
+  double radius = 0;    ///< of a particle, m
+  std::vector<FactGroup> facts;
+  std::vector<FrameMetrics> frames;  ///< one at least
+  Summary summary;                   ///< of these frames
+  std::vector<Check> checks;
+  std::vector<Curve> curves;
+  Film film;  ///< of no frames: the page has no 3D view
+  std::vector<Picture> pictures;
+  std::string movie;       ///< relative to the report, or empty
+  std::string scene_text;  ///< the resolved scene
+};
+
+/// The whole page, UTF-8.
+std::string report_html(const ReportInput& input);
+
+}  // namespace sinew

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/rest_body.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+
+namespace sinew {
+namespace {
+
+const char* const cure = "measure a run that sinew has written";
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw bad_input(what, cure);
+}
+
+void check_bones(const std::vector<MeasuredBone>& bones) {
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    const MeasuredBone& bone = bones[i];
+    require(bone.parent >= -1 && bone.parent < static_cast<int>(i),
+            "the parent of bone '" + bone.name + "' is not an earlier bone");
+    require(std::isfinite(bone.length) && bone.length > 0,
+            "bone '" + bone.name + "' has no length");
+    require(bone.rest.origin.allFinite() && bone.rest.rotation.allFinite(),
+            "bone '" + bone.name + "' has a rest frame that is not finite");
+  }
+}
+
+void check_surface(const Triangles& surface) {
+  require(all_finite(surface.points), "the surface at rest has a point that is not finite");
+  const int points = static_cast<int>(surface.points.size());
+  for (const auto& face : surface.faces)
+    for (const int corner : face)
+      require(corner >= 0 && corner < points, "a triangle of the surface names a point it lacks");
+}
+
+void check(const RestInput& input) {
+  require(!input.positions.empty(), "the body has no particles");
+  require(all_finite(input.positions), "the body has a particle that is not at a finite place");
+  require(std::isfinite(input.radius) && input.radius > 0, "the particle radius is not above 0");
+  require(std::isfinite(input.interaction_range) && input.interaction_range > 0,
+          "the interaction range is not above 0");
+  require(input.bone.size() == input.positions.size(),
+          "there are " + std::to_string(input.positions.size()) + " particles but bones for " +
+              std::to_string(input.bone.size()));
+  require(input.weight.empty() || input.weight.size() == input.positions.size(),
+          "there are " + std::to_string(input.positions.size()) + " particles but weights for " +
+              std::to_string(input.weight.size()));
+  check_bones(input.bones);
+  for (const int bone : input.bone)
+    require(bone >= -1 && bone < static_cast<int>(input.bones.size()),
+            "a particle follows bone " + std::to_string(bone) + ", which does not exist");
+  check_surface(input.surface);
+}
+
+Vec3 nearest_on(const MeasuredBone& bone, const Vec3& point) {
+  const double at = bone.axis().dot(point - bone.rest.origin);
+  return bone.rest.origin + std::clamp(at, 0.0, bone.length) * bone.axis();
+}
+
+/// Half the width of the body around each bone, m.
+std::vector<double> half_widths(const RestInput& input) {
+  std::vector<double> followers(input.bones.size());
+  for (const int bone : input.bone)
+    if (bone >= 0) ++followers[bone];
+  for (std::size_t i = 0; i < followers.size(); ++i)
+    followers[i] =
+        std::sqrt(followers[i] * volume_per_particle(input.radius) / input.bones[i].length) / 2;
+  return followers;
+}
+
+struct JointZone {
+  Vec3 centre;
+  double reach;  ///< m
+};
+
+std::vector<JointZone> joint_zones(const RestInput& input) {
+  const std::vector<double> half = half_widths(input);
+  std::vector<JointZone> zones;
+  for (std::size_t i = 0; i < input.bones.size(); ++i)
+    if (const int parent = input.bones[i].parent; parent >= 0)
+      zones.push_back({input.bones[i].rest.origin, std::max(half[i], half[parent])});
+  return zones;
+}
+
+bool near_joint(const std::vector<JointZone>& zones, const Vec3& place) {
+  return std::any_of(zones.begin(), zones.end(), [&](const JointZone& zone) {
+    return (place - zone.centre).norm() <= zone.reach;
+  });
+}
+
+std::vector<Bound> bound_particles(const RestInput& input, const std::vector<JointZone>& zones) {
+  std::vector<Bound> all;
+  for (std::size_t i = 0; i < input.bone.size(); ++i) {
+    if (input.bone[i] < 0) continue;
+    Bound bound{static_cast<std::uint32_t>(i), input.bone[i]};
+    bound.foot = nearest_on(input.bones[bound.bone], input.positions[i]);
+    bound.distance = (input.positions[i] - bound.foot).norm();
+    // By the foot and not the particle: the zone is a slab across the bones, corners included.
+    bound.far = !near_joint(zones, bound.foot);
+    all.push_back(bound);
+  }
+  return all;
+}
+
+/// How much a particle's own volume resists: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
+/// A = sum dX dX^T over its neighbours; less at the surface, where neighbours are few.
+std::vector<double> volume_weights(const RestShape& shape, double radius) {
+  const double full = 4 * nearest_distance(radius) * nearest_distance(radius);
+  std::vector<double> weights(shape.points.size(), 0);
+  parallel_for(weights.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!shape.defined(i)) continue;
+      const Eigen::SelfAdjointEigenSolver<Mat3> inverse(shape.inverse[i], Eigen::EigenvaluesOnly);
+      const double share = std::min(1.0, 1 / (inverse.eigenvalues()[2] * full));
+      weights[i] = share * share;
+    }
+  });
+  return weights;
+}
+
+}  // namespace
+
+bool all_finite(const Points& points) {
+  return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
+RestBody rest_body(RestInput input) {
+  check(input);
+  RestBody body;
+  body.volume = volume(input.surface);
+  body.area = area(input.surface);
+  require(body.area > 0, "the surface at rest has no area");
+  const std::vector<JointZone> zones = joint_zones(input);
+  body.bound = bound_particles(input, zones);
+  body.sections = make_sections(input.surface, input.bones,
+                                [&](const Vec3& place) { return near_joint(zones, place); });
+  body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
+  body.shape = rest_shape(std::move(input.positions), rest_neighbour_range(input.radius));
+  body.bone_of = std::move(input.bone);
+  body.weight = std::move(input.weight);
+  if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);
+  body.surface = std::move(input.surface);
+  body.bones = std::move(input.bones);
+  body.radius = input.radius;
+  body.interaction_range = input.interaction_range;
+  body.start = input.start;
+  body.law = std::move(input.law);
+  body.mass = input.mass;
+  return body;
+}
+
+}  // namespace sinew

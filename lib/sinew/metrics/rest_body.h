@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The body at rest: what every frame of a run is compared with, and all that can be worked out
+// once.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sinew/core/deformation.h>
+#include <sinew/core/triangles.h>
+#include <sinew/core/vector.h>
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/sections.h>
+#include <sinew/metrics/slices.h>
+
+namespace sinew {
+
+/// What particles do to each other, as far as their positions decide it. Called from several
+/// threads.
+struct PairLaw {
+  /// Force between two particles at a distance (m), N, positive repels; empty: not known.
+  std::function<double(double)> force;
+  /// The same between neighbours at rest, of the distance and the one at rest; empty: as any other.
+  std::function<double(double, double)> bond;
+  double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
+};
+
+/// What is known of a run before its first frame. Particles are in the written order.
+struct RestInput {
+  Points positions;       ///< of the n particles at rest, m
+  Triangles surface;      ///< the body's skin at rest, outside out
+  std::vector<int> bone;  ///< n; the bone each particle follows (most), -1 for none
+  std::vector<MeasuredBone> bones;
+  double radius = 0;             ///< of a particle, r, m
+  double interaction_range = 0;  ///< b, m: pairs farther apart than this do not feel each other
+  Energies start;                ///< of the first frame: where the balance of energies begins
+  PairLaw law;
+  double mass = not_measured;  ///< of a particle, kg
+  std::vector<double> weight;  ///< n; the share that bone has in each particle; or empty
+};
+
+/// A particle that follows a bone: its point of attachment at rest, and whether a joint is near.
+struct Bound {
+  std::uint32_t particle = 0;
+  int bone = 0;
+  Vec3 foot = Vec3::Zero();  ///< the nearest point of the bone's segment at rest, m
+  double distance = 0;       ///< from it, l0, m
+  bool far = true;           ///< the foot lies outside every joint zone
+};
+
+struct RestBody {
+  RestShape shape;  ///< neighbours: pairs closer than 2.2 r
+  Triangles surface;
+  double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
+  double area = 0;    ///< of the surface, m^2
+  std::vector<MeasuredBone> bones;
+  std::vector<Bound> bound;
+  std::vector<int> bone_of;       ///< n; -1 for none
+  std::vector<double> weight;     ///< n, or empty
+  std::vector<double> stiffened;  ///< n; w of each particle's volume, empty where the law has none
+  Slices slices;
+  std::vector<Section> sections;
+  double radius = 0, interaction_range = 0;  ///< m
+  Energies start;
+  PairLaw law;
+  double mass = not_measured;  ///< of a particle, kg
+
+  std::size_t particles() const { return shape.points.size(); }
+  double rest_pairs() const { return static_cast<double>(shape.neighbours.partner.size()) / 2; }
+};
+
+/// Checks the input and works out the rest. Throws bad input for sizes that do not fit, indices out
+/// of range, numbers that are not finite, or a surface without an area.
+/// A joint zone reaches half a width of the body, sqrt(A_B) / 2, along the bones from each joint;
+/// A_B is the volume bound to a bone over its length, the larger of the two that meet counts.
+RestBody rest_body(RestInput input);
+
+/// Whether every coordinate is a number.
+bool all_finite(const Points& points);
+
+}  // namespace sinew

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sections.csv: how the body's sections across its bones change. A section is the ring in which a
+// plane across a bone cuts the skin at rest; its points then follow the faces they lie on. A ring
+// that a twist pinches off (candy wrapper) loses its area, one that bulges gains.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/metrics/frame_metrics.h>
+
+namespace sinew {
+
+/// A point of an edge: `share` of the way from one end to the other.
+struct EdgePoint {
+  int from = 0, to = 0;  ///< points of the surface
+  double share = 0;
+};
+
+struct Section {
+  int bone = 0;
+  double along = 0;             ///< where it crosses the bone: 0 at the head, 1 at the tail
+  bool joint = false;           ///< it lies in a joint zone
+  double area = 0;              ///< at rest, m^2
+  std::vector<EdgePoint> ring;  ///< counter-clockwise about the bone's axis
+};
+
+inline constexpr int sections_per_bone = 16;  ///< steps from head to tail, both ends included
+
+/// Of each bone the rings around it at even steps; none where the bone is outside the skin. The
+/// smallest ring counts where one lies in another. `near_joint` tells whether a place (at rest, m)
+/// lies in a joint zone.
+std::vector<Section> make_sections(const Triangles& surface, std::span<const MeasuredBone> bones,
+                                   const std::function<bool(const Vec3&)>& near_joint);
+
+/// Area of the ring as its points lie now: of its shadow in the direction where that is largest.
+double area_of(const Section& section, const Points& surface_points);
+
+struct SectionMetrics {
+  double time = not_measured, bone = not_measured, along = not_measured, joint = not_measured;
+  double area = not_measured, area_ratio = not_measured;
+};
+
+struct SectionMetric {
+  std::string_view name, unit, help, formula;
+  double SectionMetrics::*value;
+};
+
+std::span<const SectionMetric> section_metrics_table();
+
+/// One for each section, in their order.
+std::vector<SectionMetrics> measure_sections(std::span<const Section> sections,
+                                             const Points& surface_points, double time);
+
+/// The whole file; as metrics_csv().
+std::string sections_csv(std::span<const SectionMetrics> rows);
+
+}  // namespace sinew

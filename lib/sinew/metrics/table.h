@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one table of metrics. metrics.csv, metrics.json, the report, --fail-on and the README's table
+// all come from it: to add a metric, add its member in frame.h and its row in table.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/metrics/summary.h>
+
+namespace sinew {
+
+/// Which values of a metric are the bad ones.
+enum class Worse { larger, smaller, magnitude };
+
+/// What is measured in every frame.
+struct Metric {
+  std::string_view name;  ///< column of metrics.csv
+  std::string_view unit;  ///< "" for pure numbers
+  std::string_view help;  ///< its meaning, one line
+  std::string_view formula;
+  double FrameMetrics::*value;
+  Worse worse = Worse::larger;
+  /// Of which the metric is the worst over all particles; none where it belongs to no one particle.
+  std::vector<double> ParticleValues::*of_particles = nullptr;
+};
+
+/// What is measured once in a run.
+struct RunMetric {
+  std::string_view name, unit, help, formula;
+  double Summary::*value;
+};
+
+std::span<const Metric> metrics_table();  ///< the first is the time
+std::span<const RunMetric> run_metrics_table();
+
+/// The place of the metric in metrics_table(); its size where there is none of that name.
+std::size_t metric_index(std::string_view name);
+
+}  // namespace sinew

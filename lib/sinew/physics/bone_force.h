@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a bone pulls a particle bound to it (Komiya and Tokoi, made well-posed): a radial spring that
+// keeps its distance from the bone, a twist spring that turns it with the bone, an axial spring
+// against sliding along it, and damping of the motion relative to the bone.
+#pragma once
+
+#include <vector>
+
+#include <sinew/physics/material.h>
+#include <sinew/rig/binding.h>
+#include <sinew/rig/pose.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// Spring constants of one bone on each of its particles.
+struct BoneSprings {
+  double radial = 0;   ///< or of the anchor, N/m
+  double twist = 0;    ///< N/m: the moment is twist rho0^2 alpha
+  double axial = 0;    ///< N/m
+  double damping = 0;  ///< kg/s
+  BoneForce form = BoneForce::paper;
+  TwistForm twist_form = TwistForm::servo;
+
+  double stiffest() const;  ///< N/m
+};
+
+/// The springs of every bone: stiffness E V0 / A of a bone's cross-section A, so that strengths
+/// keep their meaning when radius, size or modulus change. Damping is 2 zeta sqrt(radial mass).
+std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+                                      const Binding& binding);
+
+/// The same, times each bone's own strength.
+std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+                                      const Binding& binding, const Skeleton& skeleton);
+
+/// What one bone does to one particle.
+struct BonePull {
+  Vec3 spring = Vec3::Zero();   ///< N
+  Vec3 damping = Vec3::Zero();  ///< N
+  double energy = 0;            ///< stored in the springs, J; 0 for open_loop's twist
+  double power = 0;             ///< that the bone puts in: force times its own velocity there, W
+  double damping_power = 0;     ///< the damping's part of power, W
+
+  Vec3 force() const { return spring + damping; }
+};
+
+/// A particle at rest and now, and how it is held.
+struct HeldParticle {
+  Vec3 rest, position, velocity;  ///< m, m, m/s
+  double radius;                  ///< m
+};
+
+/// The pull, weight included, of the bone at `pose` (at rest `bone`) through `influence`.
+BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
+                   const BonePose& pose, const HeldParticle& particle);
+
+}  // namespace sinew

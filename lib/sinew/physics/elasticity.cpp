@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/elasticity.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+namespace {
+
+/// Compliances of a cubic crystal.
+struct Compliances {
+  double S11, S12, S44;
+
+  explicit Compliances(const CubicConstants& C) {
+    const double stretch = (C.C11 - C.C12) * (C.C11 + 2 * C.C12);
+    S11 = (C.C11 + C.C12) / stretch;
+    S12 = -C.C12 / stretch;
+    S44 = 1 / C.C44;
+  }
+};
+
+/// n1^2 n2^2 + n2^2 n3^2 + n3^2 n1^2 of a unit vector: 0 along a cube axis, 1/3 along a diagonal.
+double off_axis(const Vec3& direction) {
+  const Vec3 n2 = direction.normalized().cwiseAbs2();
+  return n2[0] * n2[1] + n2[1] * n2[2] + n2[2] * n2[0];
+}
+
+}  // namespace
+
+double CubicConstants::hill_shear_modulus() const {
+  const double voigt = (C11 - C12 + 3 * C44) / 5;
+  const double reuss = 5 * (C11 - C12) * C44 / (4 * C44 + 3 * (C11 - C12));
+  return (voigt + reuss) / 2;
+}
+
+double CubicConstants::hill_young_modulus() const {
+  const double K = bulk_modulus(), G = hill_shear_modulus();
+  return 9 * K * G / (3 * K + G);
+}
+
+double CubicConstants::hill_poisson_ratio() const {
+  const double K = bulk_modulus(), G = hill_shear_modulus();
+  return (3 * K - 2 * G) / (2 * (3 * K + G));
+}
+
+double CubicConstants::young_modulus(const Vec3& direction) const {
+  const Compliances S(*this);
+  return 1 / (S.S11 - 2 * (S.S11 - S.S12 - S.S44 / 2) * off_axis(direction));
+}
+
+double CubicConstants::poisson_ratio(const Vec3& direction) const {
+  // Under a tension along n the strains sum to S11 + 2 S12: what is not along n is across it.
+  const Compliances S(*this);
+  const double along = 1 / young_modulus(direction);
+  return (along - (S.S11 + 2 * S.S12)) / (2 * along);
+}
+
+double volume_stiffness_for(double poisson_ratio) {
+  const double bulk = 2 * hill_shear * (1 + poisson_ratio) / (3 * (1 - 2 * poisson_ratio));
+  return std::max(0.0, bulk - bulk_of_bonds);
+}
+
+double lack_of_bending_stiffness(double planes) { return std::min(1.0, 2.5 / planes); }
+
+double highest_frequency_factor(double volume_stiffness) {
+  const double root = std::numbers::sqrt2;
+  return volume_stiffness > root ? 4 + root * volume_stiffness + 2 * root / volume_stiffness : 8;
+}
+
+}  // namespace sinew

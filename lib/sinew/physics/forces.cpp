@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/forces.h>
+
+#include <sinew/core/parallel.h>
+#include <sinew/physics/reference/pair_pass.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t particles_per_piece = 512, particles_per_sum = 16384;
+
+HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
+  return {body.rest[particles.id[i]], particles.position(i), particles.velocity(i),
+          particles.radius};
+}
+
+/// Calls visit(bone, pull) for every bone that holds particle i.
+template <class Visit>
+void for_each_pull(const Particles& particles, const Body& body, const Pose& pose, std::size_t i,
+                   Visit&& visit) {
+  const HeldParticle particle = held(particles, body, i);
+  for (const Influence& influence : body.binding.of(particles.id[i])) {
+    const int b = influence.bone;
+    visit(b, bone_pull(body.springs[b], influence, body.skeleton.bones[b], pose[b], particle));
+  }
+}
+
+}  // namespace
+
+void bone_forces(const Particles& particles, const Body& body, const Pose& pose, Forces& forces) {
+  const std::size_t n = particles.size();
+  for (auto* vectors : {&forces.bone, &forces.bone_damping}) vectors->assign(n, Vec3::Zero());
+  for (auto* powers : {&forces.bone_power, &forces.bone_damping_power}) powers->assign(n, 0.0);
+  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_pull(particles, body, pose, i, [&](int, const BonePull& pull) {
+        forces.bone[i] += pull.force();
+        forces.bone_damping[i] += pull.damping;
+        forces.bone_power[i] += pull.power;
+        forces.bone_damping_power[i] += pull.damping_power;
+      });
+  });
+}
+
+std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose) {
+  const std::size_t pieces = particles.size() / particles_per_sum + 1;
+  std::vector<std::vector<Reaction>> parts(pieces, std::vector<Reaction>(pose.size()));
+  parallel_for(particles.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
+    auto& part = parts[begin / particles_per_sum];
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_pull(particles, body, pose, i, [&](int b, const BonePull& pull) {
+        part[b].force -= pull.force();
+        part[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(pull.force());
+        part[b].power += pull.power;
+      });
+  });
+  std::vector<Reaction> on(pose.size());
+  for (const auto& part : parts)  // in the order of the pieces, whichever thread made them
+    for (std::size_t b = 0; b < on.size(); ++b) {
+      on[b].force += part[b].force;
+      on[b].moment += part[b].moment;
+      on[b].power += part[b].power;
+    }
+  return on;
+}
+
+double bone_energy(const Particles& particles, const Body& body, const Pose& pose) {
+  return parallel_sum(particles.size(), particles_per_piece,
+                      [&](std::size_t begin, std::size_t end) {
+                        double sum = 0;
+                        for (std::size_t i = begin; i < end; ++i)
+                          for_each_pull(particles, body, pose, i,
+                                        [&](int, const BonePull& pull) { sum += pull.energy; });
+                        return sum;
+                      });
+}
+
+void pairwise_damping(const Particles& particles, const CellGrid& cells, const Material& material,
+                      Forces& forces) {
+  const bool central = material.damping_form == DampingForm::central;
+  for_each_particle(particles.size(), [&](std::size_t i) {
+    Vec3 sum = Vec3::Zero();
+    for_each_partner(
+        particles, cells, material.pair.b, i, [&](std::uint32_t j, const Vec3& offset, double d) {
+          const double share = (1.0 / forces.neighbours[i] + 1.0 / forces.neighbours[j]) / 2;
+          const Vec3 approach = particles.velocity(i) - particles.velocity(j);
+          const Vec3 along = direction_from(particles, offset, d, i, j);
+          sum += share * (central ? Vec3(approach.dot(along) * along) : approach);
+        });
+    forces.damping[i] = -material.damping * sum;
+  });
+}
+
+void pair_forces(const Particles& particles, const Material& material, Forces& forces) {
+  pair_pass(
+      particles, material,
+      [&](std::size_t, std::uint32_t, double d) { return material.pair.force(d); }, forces);
+}
+
+double pair_energy(const Particles& particles, const PairForce& pair) {
+  const CellGrid cells = cells_of(particles, pair.b);
+  return sum_over_particles(particles.size(), [&](std::size_t i) {
+    double sum = 0;
+    for_each_partner(particles, cells, pair.b, i, [&](std::uint32_t, const Vec3&, double d) {
+      sum += pair.potential(d) / 2;  // half for each of the two
+    });
+    return sum;
+  });
+}
+
+}  // namespace sinew

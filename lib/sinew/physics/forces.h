@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All forces on all particles at one moment: pairs (eq. 1), damping (eq. 2), bones. Each particle's
+// sums are made by one thread in a fixed order: the bits do not depend on the number of threads.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <sinew/core/particles.h>
+#include <sinew/physics/bone_force.h>
+#include <sinew/physics/material.h>
+#include <sinew/rig/binding.h>
+#include <sinew/rig/pose.h>
+
+namespace sinew {
+
+struct World;
+
+/// Forces in the order of the particles, N.
+struct Forces {
+  Points pair, damping, bone;
+  Points world;                 ///< obstacles, drag, fields, muscles; empty where there is no world
+  std::vector<int> neighbours;  ///< partners nearer than b
+
+  // Of bone_forces only: a simulation's own forces leave them out.
+  Points bone_damping;                     ///< the part of bone that damps
+  std::vector<double> bone_power;          ///< that the bones put in, W
+  std::vector<double> bone_damping_power;  ///< the damping's part of it, W
+
+  Vec3 total(std::size_t i) const {
+    const Vec3 own = pair[i] + damping[i] + bone[i];
+    return world.empty() ? own : Vec3(own + world[i]);
+  }
+};
+
+/// A body, how it is held and what it is made of: all that stays the same during a run.
+struct Body {
+  Points rest;  ///< positions at rest by particle id, m
+  Skeleton skeleton;
+  Binding binding;  ///< by particle id
+  Material material;
+  std::vector<BoneSprings> springs;         ///< per bone
+  std::shared_ptr<const World> world = {};  ///< none: nothing is around it
+};
+
+/// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbours.
+void pair_forces(const Particles& particles, const Material& material, Forces& forces);
+
+/// Bone forces at `pose`. Fills bone, bone_damping and the powers.
+void bone_forces(const Particles& particles, const Body& body, const Pose& pose, Forces& forces);
+
+/// Force and moment about its head that the body puts on a bone.
+struct Reaction {
+  Vec3 force = Vec3::Zero();   ///< N
+  Vec3 moment = Vec3::Zero();  ///< N m
+  double power = 0;            ///< that the bone puts into the body, W
+};
+
+/// Per bone: F = -sum f, M = -sum (x - head) x f; the power of a rigid bone is -(F.o' + M.omega).
+std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose);
+
+/// Stored energies, J.
+double pair_energy(const Particles& particles, const PairForce& pair);
+double bone_energy(const Particles& particles, const Body& body, const Pose& pose);
+
+}  // namespace sinew

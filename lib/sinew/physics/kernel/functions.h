@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernel's functions for the instruction set of the source file that includes this.
+#pragma once
+
+#include <sinew/physics/kernel/pruning.h>
+#include <sinew/physics/kernel/step.h>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace sinew::kernel {
+
+/// While it lives, numbers too small for full precision count as zero: velocities that die out
+/// would otherwise make every operation a hundred times slower.
+template <class L>
+class FlushedToZero {
+ public:
+#if defined(__SSE2__)
+  FlushedToZero() : before_(_mm_getcsr()) { _mm_setcsr(before_ | flush_to_zero | tiny_are_zero); }
+  ~FlushedToZero() { _mm_setcsr(before_); }
+
+ private:
+  static constexpr unsigned flush_to_zero = 0x8000, tiny_are_zero = 0x0040;
+  unsigned before_;
+#else
+  FlushedToZero() = default;
+  ~FlushedToZero() {}
+
+ public:
+#endif
+  FlushedToZero(const FlushedToZero&) = delete;
+  FlushedToZero& operator=(const FlushedToZero&) = delete;
+};
+
+template <class L>
+void step_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  const FlushedToZero<L> mode;
+  step_pieces<L>(step, begin, end);
+}
+
+template <class L>
+void probe_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  const FlushedToZero<L> mode;
+  probe_pieces<L>(step, begin, end);
+}
+
+template <class L>
+constexpr Functions<typename L::Real> functions() {
+  return {step_flushed<L>, probe_flushed<L>,   sift_range<L>,
+          sift_list<L>,    remember_blocks<L>, largest_displacement<L>};
+}
+
+}  // namespace sinew::kernel

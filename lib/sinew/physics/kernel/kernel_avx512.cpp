@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/kernel/functions.h>
+#include <sinew/physics/kernel/tables.h>
+
+namespace sinew::kernel {
+
+const Functions<double> doubles_avx512 = functions<lanes::Doubles>();
+const Functions<float> floats_avx512 = functions<lanes::Floats>();
+
+}  // namespace sinew::kernel

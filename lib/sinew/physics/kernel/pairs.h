@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the partners of a vector of particles do to them: eq. 1, and what eq. 2 needs to know.
+#pragma once
+
+#include <sinew/physics/kernel/parts.h>
+
+namespace sinew::kernel {
+
+template <class L>
+struct PairSums {
+  Triple<L> force = none<L>();       ///< eq. 1
+  Triple<L> velocities = none<L>();  ///< of the partners
+  typename L::V count = L::all(0);
+  typename L::V energy = L::all(0);  ///< half of each pair's; only when asked for
+};
+
+/// f / d of eq. 1 in all lanes, for d < b, from the squared distance.
+template <class L, class Real = typename L::Real>
+class PullLaw;
+
+/// Single precision: exact root and division.
+template <class L>
+class PullLaw<L, float> {
+ public:
+  using V = typename L::V;
+
+  SINEW_INLINE explicit PullLaw(const Law<float>& law)
+      : k1_(L::all(law.k1 / law.r)),
+        touching_(L::all(4 * law.k1 * law.r)),
+        b_(L::all(law.b)),
+        k2_(L::all(law.k2 / law.r)),
+        k2_a_(L::all(-law.k2 / law.r * law.a)) {}
+
+  /// Of the two terms one is zero. `d` is exact; at 0 it gives no number.
+  template <bool careful>
+  SINEW_INLINE V pull(V squared, V& d) const {
+    d = L::root(squared);
+    const V repulsion = L::larger(L::less_fused(k1_, squared, touching_), L::all(0));
+    const V stretch = L::larger(L::fused(k2_, d, k2_a_), L::all(0));
+    return L::less_fused(stretch, b_ - d, repulsion) / d;
+  }
+  /// Whether sums of a vector, of which one axis, want the careful way: after a distance of 0.
+  SINEW_INLINE bool asks_for_care(V, V force) const { return !L::every(L::at_most(force, force)); }
+
+ private:
+  V k1_, touching_, b_, k2_, k2_a_;
+};
+
+/// Double precision, in whose vectors root and division are slow. Nearly all pairs are between 1.5
+/// and 2.83 radii; there 1 / d is found in half the time as a minimax polynomial in s = d^2 with a
+/// relative error of 1.4e-3, improved by the series of 1 / sqrt(1 - h) up to h^5: an error of 2 in
+/// the last place, the same everywhere. Attraction, (d - a) (b - d) / d = a + b - (s + a b) / d, is
+/// written so that little is left to do once 1 / d is known: the loop waits for it.
+template <class L>
+class PullLaw<L, double> {
+ public:
+  using V = typename L::V;
+
+  SINEW_INLINE explicit PullLaw(const Law<double>& law)
+      : usual_(L::all((law.b * law.b <= 8 * law.r * law.r ? 2.25 : 1e300) * law.r * law.r)),
+        a2_(L::all(law.a * law.a)),
+        k1_(L::all(law.k1 / law.r)),
+        touching_(L::all(4 * law.k1 * law.r)),
+        k2_(L::all(law.k2 / law.r)),
+        k2_ab_(L::all(law.k2 / law.r * law.a * law.b)),
+        k2_a_b_(L::all(-law.k2 / law.r * (law.a + law.b))) {
+    constexpr double coefficients[] = {1.199850214, -0.3655432081, 0.07144285003, -0.007049514311,
+                                       0.0002723509958};
+    double scale = 1 / law.r;
+    for (int k = 0; k < 5; ++k) {
+      seed_[k] = L::all(coefficients[k] * scale);
+      scale /= law.r * law.r;
+    }
+  }
+
+  template <bool careful>
+  SINEW_INLINE V pull(V s, V& d) const {
+    V inverse = inverse_root(s);
+    if constexpr (careful) inverse = L::pick(L::less(s, usual_), L::all(1) / L::root(s), inverse);
+    d = s * inverse;
+    const auto attracted = L::at_most(a2_, s);
+    const V repulsion = L::larger(L::less_fused(k1_, s, touching_), L::all(0));
+    const V factor = L::pick(attracted, L::fused(k2_, s, k2_ab_), repulsion);
+    return L::fused(factor, inverse, L::keep(attracted, k2_a_b_));
+  }
+  SINEW_INLINE bool asks_for_care(V least, V) const { return L::any(L::less(least, usual_)); }
+
+ private:
+  SINEW_INLINE V inverse_root(V s) const {
+    const V s2 = s * s;
+    const V low = L::fused(seed_[1], s, seed_[0]);
+    const V high = L::fused(seed_[4], s2, L::fused(seed_[3], s, seed_[2]));
+    const V y = L::fused(s2, high, low);
+    const V h = L::less_fused(s * y, y, L::all(1)), h2 = h * h;
+    const V first = L::fused(L::all(3. / 8), h, L::all(1. / 2));
+    const V last = L::fused(L::all(63. / 256), h2, L::fused(L::all(35. / 128), h, L::all(5. / 16)));
+    return L::fused(y * h, L::fused(h2, last, first), y);
+  }
+
+  V seed_[5], usual_, a2_, k1_, touching_, k2_, k2_ab_, k2_a_b_;
+};
+
+/// The potential of eq. 1 at d < b.
+template <class L>
+SINEW_INLINE typename L::V potential(const Law<typename L::Real>& law, typename L::V d) {
+  using V = typename L::V;
+  const V a = L::all(law.a), b = L::all(law.b), r = L::all(law.r);
+  const V far = L::larger(d, a), left = b - far, overlap = L::larger(r + r - d, L::all(0));
+  const V deep = L::all(law.k2) * (left * left) * (far + far + b - L::all(3) * a) / (L::all(6) * r);
+  return L::all(law.k1) * (overlap * overlap) * (L::all(4) * r + d) / (L::all(3) * r) - deep;
+}
+
+/// +1 or -1: two particles in one place part along x, the lower id to the left.
+template <class L>
+SINEW_INLINE typename L::V way_out(const std::int32_t* id, std::ptrdiff_t i, std::ptrdiff_t j) {
+  typename L::Real way[L::width];
+  for (int k = 0; k < L::width; ++k)
+    way[k] = id[i + k] < id[j + k] ? typename L::Real(-1) : typename L::Real(1);
+  return L::load(way);
+}
+
+/// Eq. 1 at d = 0 has a size and no direction.
+template <class L>
+SINEW_INLINE void part(const Step<typename L::Real>& step, std::ptrdiff_t i, std::ptrdiff_t j,
+                       typename L::V squared, typename L::V& pull, typename L::V& d,
+                       typename L::V& apart_x) {
+  const auto together = L::at_most(squared, L::all(0));
+  if (!L::any(together)) return;
+  const typename L::Real push = 4 * step.law.k1 * step.law.r;
+  pull = L::pick(together, L::all(push), pull);
+  d = L::pick(together, L::all(0), d);
+  apart_x = L::pick(together, way_out<L>(step.id, i, j), apart_x);
+}
+
+/// The sums over the differences [begin, end); `least` tells the least squared distance met. What
+/// is `careful` treats all distances, what is not those that `law` does not ask care for.
+template <class L, bool energy, bool careful>
+SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const PullLaw<L>& law,
+                                   std::ptrdiff_t i, const std::int32_t* begin,
+                                   const std::int32_t* end, typename L::V& least) {
+  using V = typename L::V;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  const V b2 = L::all(step.law.b2);
+  // By themselves, not in a PairSums: so the compiler keeps them in registers.
+  V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
+  V closest = b2;
+  for (const std::int32_t* difference = begin; difference != end; ++difference) {
+    const std::ptrdiff_t j = i + *difference;
+    Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
+    const V squared = squared_distance<L>(apart);
+    const auto near = L::less(squared, b2);
+    if (!L::any(near)) continue;
+    closest = L::smaller(squared, closest);
+    V d;
+    V pull = law.template pull<careful>(squared, d);
+    if constexpr (careful) part<L>(step, i, j, squared, pull, d, apart.x);
+    pull = L::keep(near, pull);
+    fx = L::fused(pull, apart.x, fx);
+    fy = L::fused(pull, apart.y, fy);
+    fz = L::fused(pull, apart.z, fz);
+    su = L::add_where(near, su, L::load(step.before.v[0] + j));
+    sv = L::add_where(near, sv, L::load(step.before.v[1] + j));
+    sw = L::add_where(near, sw, L::load(step.before.v[2] + j));
+    count = L::add_where(near, count, L::all(1));
+    if constexpr (energy)
+      stored =
+          L::add_where(near, stored, L::all(typename L::Real(0.5)) * potential<L>(step.law, d));
+  }
+  least = closest;
+  return {{fx, fy, fz}, {su, sv, sw}, count, stored};
+}
+
+/// Apart from the others, so that they need not keep their values in memory for it.
+template <class L, bool energy>
+[[gnu::noinline, gnu::cold]] void sum_pairs_carefully(const Step<typename L::Real>& step,
+                                                      std::ptrdiff_t i, const std::int32_t* begin,
+                                                      const std::int32_t* end, PairSums<L>& sums) {
+  typename L::V least;
+  sums = sum_pairs<L, energy, true>(step, PullLaw<L>(step.law), i, begin, end, least);
+}
+
+template <class L, bool energy>
+SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const PullLaw<L>& law,
+                                   std::ptrdiff_t i, const std::int32_t* begin,
+                                   const std::int32_t* end) {
+  typename L::V least;
+  PairSums<L> sums = sum_pairs<L, energy, false>(step, law, i, begin, end, least);
+  if (law.asks_for_care(least, sums.force.x)) [[unlikely]] {
+    PairSums<L> careful;
+    sum_pairs_carefully<L, energy>(step, i, begin, end, careful);
+    sums.force = {careful.force.x, careful.force.y, careful.force.z};
+    sums.energy = careful.energy;
+  }
+  return sums;
+}
+
+/// Eq. 2: towards the mean velocity of the partners.
+template <class L>
+SINEW_INLINE Triple<L> damping_of(const PairSums<L>& sums, typename L::V rate,
+                                  const Triple<L>& velocity) {
+  const auto some = L::less(L::all(0), rate * sums.count);
+  const typename L::V share = L::all(1) / L::larger(sums.count, L::all(1));
+  const Triple<L> drag = rate * (share * sums.velocities - velocity);
+  return {L::keep(some, drag.x), L::keep(some, drag.y), L::keep(some, drag.z)};
+}
+
+}  // namespace sinew::kernel

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole step of a vector of particles, from the state before to the state after, and the sums
+// of a piece of blocks. Lanes are summed in their order within the block, whatever the width.
+#pragma once
+
+#include <sinew/physics/kernel/bones.h>
+#include <sinew/physics/kernel/pairs.h>
+
+namespace sinew::kernel {
+
+/// Sums of a piece, by place in the block.
+template <class L>
+struct Sums {
+  using Real = typename L::Real;
+  static constexpr int block = Traits<Real>::block;
+  Real power[block] = {}, lost[block] = {}, pair_energy[block] = {}, bone_energy[block] = {};
+  Real fastest[block] = {};
+  bool sound = true;
+};
+
+template <class L>
+SINEW_INLINE void add_to(typename L::Real* sum, typename L::V value) {
+  L::store(sum, L::load(sum) + value);
+}
+
+template <class L>
+struct Forces {
+  PairSums<L> pairs;
+  Triple<L> damping;
+  BoneSums<L> bones;
+  Triple<L> acceleration;
+};
+
+template <class L, bool energy>
+SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullLaw<L>& law,
+                                 std::size_t block, int lane, const Place<L>& here,
+                                 const Triple<L>& velocity) {
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  Forces<L> forces;
+  // First: this long chain of operations ends while those of the pairs go on.
+  forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
+  forces.pairs = pair_sums<L, energy>(step, law, i, step.lists.value + step.lists.first[block],
+                                      step.lists.value + step.lists.first[block + 1]);
+  forces.damping = damping_of<L>(forces.pairs, L::all(step.law.damping), velocity);
+  forces.acceleration = forces.pairs.force + forces.damping +
+                        (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
+  return forces;
+}
+
+/// The book: power of the bones, and what is lost at the velocity in the middle of the step.
+template <class L>
+SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
+                          const Triple<L>& velocity, int lane, Sums<L>& sums) {
+  const Triple<L> middle = fused<L>(L::all(step.middle), forces.acceleration, velocity);
+  const typename L::V lost = forces.bones.damping_power - dot<L>(forces.bones.damping, middle) -
+                             dot<L>(forces.damping, middle);
+  add_to<L>(sums.power + lane, forces.bones.power);
+  add_to<L>(sums.lost + lane, lost);
+}
+
+/// The fastest in the frames that carry them.
+template <class L>
+SINEW_INLINE void watch(const Step<typename L::Real>& step, std::size_t block, int lane,
+                        const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
+  const Triple<L> carried = by_carrier<L>(
+      step.carriers, block,
+      lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
+        return carried_by<L>(frame, from_centre<L>(frame, here));
+      });
+  const Triple<L> relative = drifting - carried;
+  L::store(sums.fastest + lane,
+           L::larger(dot<L>(relative, relative), L::load(sums.fastest + lane)));
+}
+
+template <class L>
+SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& kicked,
+                        const Triple<L>& carried, Sums<L>& sums) {
+  const Triple<L> relative = kicked - carried;
+  const typename L::V speed2 = dot<L>(relative, relative);
+  sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
+}
+
+template <class L>
+SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& law,
+                          std::size_t block, int lane, Sums<L>& sums) {
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  const Triple<L> velocity = load<L>(step.before.v, i);
+  const Forces<L> forces = forces_on<L, false>(step, law, block, lane, here, velocity);
+  const Triple<L> kicked = fused<L>(L::all(step.kick), forces.acceleration, velocity);
+  const Triple<L> drifting = step.drift_first ? velocity : kicked;
+  const Triple<L> by = L::all(step.drift) * drifting;
+  store<L>(step.after.v, i, kicked);
+  L::store_coord(step.after.x[0] + i, L::moved(here.x, by.x));
+  L::store_coord(step.after.x[1] + i, L::moved(here.y, by.y));
+  L::store_coord(step.after.x[2] + i, L::moved(here.z, by.z));
+  account<L>(step, forces, velocity, lane, sums);
+  guard<L>(step, kicked, forces.bones.carried, sums);
+  watch<L>(step, block, lane, here, drifting, sums);
+}
+
+template <class L>
+SINEW_INLINE void tell(const Step<typename L::Real>& step, const PullLaw<L>& law, std::size_t block,
+                       int lane, Sums<L>& sums) {
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  const Triple<L> velocity = load<L>(step.before.v, i);
+  const Forces<L> forces = forces_on<L, true>(step, law, block, lane, here, velocity);
+  store<L>(step.probed.pair, i, forces.pairs.force);
+  store<L>(step.probed.damping, i, forces.damping);
+  store<L>(step.probed.bone, i, forces.bones.spring + forces.bones.damping);
+  typename L::Real count[L::width];
+  L::store(count, forces.pairs.count);
+  for (int k = 0; k < L::width; ++k)
+    step.probed.partners[i + k] = static_cast<std::int32_t>(count[k]);
+  add_to<L>(sums.pair_energy + lane, forces.pairs.energy);
+  add_to<L>(sums.bone_energy + lane, forces.bones.energy);
+  account<L>(step, forces, velocity, lane, sums);
+}
+
+template <class L>
+SINEW_INLINE double sum_of(const typename L::Real* by_lane) {
+  double sum = 0;
+  for (int k = 0; k < Traits<typename L::Real>::block; ++k) sum += static_cast<double>(by_lane[k]);
+  return sum;
+}
+
+template <class L>
+SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
+  typename L::Real fastest = 0;
+  for (const typename L::Real speed2 : sums.fastest) fastest = speed2 > fastest ? speed2 : fastest;
+  return {sum_of<L>(sums.power),       sum_of<L>(sums.lost),         sum_of<L>(sums.pair_energy),
+          sum_of<L>(sums.bone_energy), static_cast<double>(fastest), sums.sound};
+}
+
+/// Calls visit(block, lane, sums) for every vector of the pieces, and keeps their totals.
+template <class L, class Visit>
+SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_t begin,
+                                  std::size_t end, Visit visit) {
+  constexpr int block_size = Traits<typename L::Real>::block;
+  for (std::size_t piece = begin; piece < end; ++piece) {
+    Sums<L> sums;
+    const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
+    for (std::size_t block = first; block < last && block < step.blocks; ++block)
+      for (int lane = 0; lane < block_size; lane += L::width) visit(block, lane, sums);
+    step.totals[piece] = totals_of(sums);
+  }
+}
+
+template <class L>
+void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  const PullLaw<L> law(step.law);
+  for_each_vector<L>(
+      step, begin,
+      end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
+        advance<L>(step, law, block, lane, sums);
+      });
+}
+
+template <class L>
+void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  const PullLaw<L> law(step.law);
+  for_each_vector<L>(
+      step, begin,
+      end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
+        tell<L>(step, law, block, lane, sums);
+      });
+}
+
+}  // namespace sinew::kernel

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/lists/block_state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sinew {
+
+namespace {
+
+// Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
+// at first; it is measured anew when it is larger than 1.25 of that, or off the middle by more than
+// an eighth of it, which is looked at when it may have travelled by 0.36 of it. So no particle
+// comes farther out than 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
+constexpr double body_range = 1073741824;  // 2^30
+constexpr double largest = 1.25, off_the_middle = 0.125, travelled = 0.36;
+
+}  // namespace
+
+template <>
+Measure measure_for<double>(const Box&, const PairForce&, double) {
+  return {};
+}
+
+template <>
+Measure measure_for<float>(const Box& box, const PairForce& pair, double step) {
+  // So wide that pads are out of each other's range as well.
+  const double extent = (box.isEmpty() ? 0 : box.sizes().maxCoeff()) + 16 * pair.b;
+  Measure measure;
+  measure.length = extent / body_range;
+  measure.time = step;
+  measure.origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
+  return measure;
+}
+
+template <>
+bool serves<double>(const Measure&, const Box&) {
+  return true;
+}
+
+template <>
+bool serves<float>(const Measure& measure, const Box& box) {
+  const double usual = body_range * measure.length;
+  return box.isEmpty() || ((box.center() - measure.origin).norm() < off_the_middle * usual &&
+                           box.sizes().maxCoeff() < largest * usual);
+}
+
+template <>
+double free_travel<double>(const Measure&) {
+  return std::numeric_limits<double>::infinity();
+}
+
+template <>
+double free_travel<float>(const Measure& measure) {
+  return travelled * body_range * measure.length;
+}
+
+namespace {
+
+constexpr std::int32_t first_pad = 1342177280;     // 1.25 * 2^30, farther than any particle
+constexpr std::uint32_t between_pads = 402653184;  // 0.375 * 2^30: four along each axis
+
+}  // namespace
+
+template <class Real>
+BlockState<Real>::BlockState(std::size_t particles) : size_(particles) {
+  const std::size_t slots = (blocks() + 2) * block;
+  for (auto& axis : x_) axis.resize(slots);
+  for (auto& axis : v_) axis.resize(slots);
+  pad();
+}
+
+template <class Real>
+kernel::State<Real> BlockState<Real>::arrays() {
+  kernel::State<Real> state{};
+  for (int axis = 0; axis < 3; ++axis) {
+    state.x[axis] = x_[axis].data() + block;
+    state.v[axis] = v_[axis].data() + block;
+  }
+  return state;
+}
+
+template <>
+Vec3 BlockState<double>::position(std::size_t k, const Measure&) const {
+  const std::size_t slot = k + block;
+  return {x_[0][slot], x_[1][slot], x_[2][slot]};
+}
+
+template <>
+void BlockState<double>::set_position(std::size_t k, const Vec3& p, const Measure&) {
+  for (int axis = 0; axis < 3; ++axis) x_[axis][k + block] = p[axis];
+}
+
+template <>
+Vec3 BlockState<float>::position(std::size_t k, const Measure& measure) const {
+  const std::size_t slot = k + block;
+  const Vec3 units(x_[0][slot], x_[1][slot], x_[2][slot]);
+  return measure.origin + measure.length * units;
+}
+
+template <>
+void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Measure& measure) {
+  const Vec3 units = (p - measure.origin) / measure.length;
+  for (int axis = 0; axis < 3; ++axis)
+    x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(units[axis]));
+}
+
+template <class Real>
+Vec3 BlockState<Real>::velocity(std::size_t k, const Measure& measure) const {
+  const std::size_t slot = k + block;
+  const double scale = measure.length / measure.time;
+  return scale * Vec3(v_[0][slot], v_[1][slot], v_[2][slot]);
+}
+
+template <class Real>
+void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Measure& measure) {
+  for (int axis = 0; axis < 3; ++axis)
+    v_[axis][k + block] = static_cast<Real>(measure.velocity(v[axis]));
+}
+
+template <class Real>
+auto BlockState<Real>::columns() const -> MovingColumns<Coord, Real> {
+  const auto part = [&](const auto& axis) {
+    const auto first = axis.begin() + block;
+    return std::vector(first, first + static_cast<std::ptrdiff_t>(size_));
+  };
+  MovingColumns<Coord, Real> columns;
+  for (int axis = 0; axis < 3; ++axis)
+    columns.x[axis] = part(x_[axis]), columns.v[axis] = part(v_[axis]);
+  return columns;
+}
+
+template <class Real>
+void BlockState<Real>::set_columns(const MovingColumns<Coord, Real>& columns) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::copy(columns.x[axis].begin(), columns.x[axis].end(), x_[axis].begin() + block);
+    std::copy(columns.v[axis].begin(), columns.v[axis].end(), v_[axis].begin() + block);
+  }
+  pad();
+}
+
+template <>
+void BlockState<double>::pad(std::size_t slot, int number) {
+  for (auto& axis : x_) axis[slot] = 1e30 * (1 + number);  // a float holds it
+  for (auto& axis : v_) axis[slot] = 0;
+}
+
+template <>
+void BlockState<float>::pad(std::size_t slot, int number) {
+  const std::uint32_t place[3] = {static_cast<std::uint32_t>(number % 4),
+                                  static_cast<std::uint32_t>(number / 4 % 4),
+                                  static_cast<std::uint32_t>(number / 16)};
+  for (int axis = 0; axis < 3; ++axis)
+    x_[axis][slot] = static_cast<std::int32_t>(first_pad + place[axis] * between_pads);
+  for (auto& axis : v_) axis[slot] = 0;
+}
+
+template <class Real>
+void BlockState<Real>::pad() {
+  int number = 0;
+  for (std::size_t slot = 0; slot < block; ++slot) pad(slot, number++);
+  for (std::size_t slot = block + size_; slot < x_[0].size(); ++slot) pad(slot, number++);
+}
+
+template <class Real>
+void BlockState<Real>::pad_last_block() {
+  for (std::size_t k = size_; k < blocks() * block; ++k)
+    pad(k + block, static_cast<int>(block + k - size_));
+}
+
+template class BlockState<double>;
+template class BlockState<float>;
+
+}  // namespace sinew

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Positions and velocities in the kernel's form: whole blocks in an order of their own, with a pad
+// of nobody's particles at each end.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <sinew/core/particles.h>
+#include <sinew/core/simulation_state.h>
+#include <sinew/core/vector.h>
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/pair_force.h>
+
+namespace sinew {
+
+// Lengths, times and places as the kernel has them.
+
+/// How the kernel measures. Double precision keeps metres and seconds. Single precision counts time
+/// in steps and positions as whole numbers of a small length from an origin.
+struct Measure {
+  double length = 1;  ///< m
+  double time = 1;    ///< s
+  Vec3 origin = Vec3::Zero();
+
+  double acceleration(double si) const { return si * time * time / length; }
+  double velocity(double si) const { return si * time / length; }
+};
+
+/// The measure for particles within `box` (m) that take steps of `step` (s).
+template <class Real>
+Measure measure_for(const Box& box, const PairForce& pair, double step);
+
+/// Whether a measure still serves particles within `box` (m): whole numbers hold a body that has
+/// grown or travelled far in a measure of its own.
+template <class Real>
+bool serves(const Measure& measure, const Box& box);
+
+/// How far particles may travel before the measure is looked at again: m.
+template <class Real>
+double free_travel(const Measure& measure);
+
+/// a - b as the kernel has it: whole numbers wrap round.
+inline double difference_of(double a, double b) { return a - b; }
+inline std::int32_t difference_of(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+template <class Real>
+class BlockState {
+ public:
+  using Coord = typename kernel::Traits<Real>::Coord;
+  static constexpr int block = kernel::Traits<Real>::block;
+
+  BlockState() = default;
+  explicit BlockState(std::size_t particles);
+
+  std::size_t size() const { return size_; }
+  std::size_t blocks() const { return (size_ + block - 1) / block; }
+  /// Pointers to the first particle; one block before it and one after the last may be read.
+  kernel::State<Real> arrays();
+
+  Vec3 position(std::size_t k, const Measure& measure) const;
+  void set_position(std::size_t k, const Vec3& p, const Measure& measure);
+  Vec3 velocity(std::size_t k, const Measure& measure) const;
+  void set_velocity(std::size_t k, const Vec3& v, const Measure& measure);
+
+  MovingColumns<Coord, Real> columns() const;  ///< without the pads
+  /// As many as there are.
+  void set_columns(const MovingColumns<Coord, Real>& columns);
+
+  /// Puts nobody's particles, far from everything and each other, before the first and after the
+  /// last.
+  void pad();
+  /// The same for the rest of the last block alone, which a step writes.
+  void pad_last_block();
+
+ private:
+  void pad(std::size_t slot, int number);
+
+  std::size_t size_ = 0;
+  std::array<std::vector<Coord>, 3> x_;
+  std::array<std::vector<Real>, 3> v_;
+};
+
+}  // namespace sinew

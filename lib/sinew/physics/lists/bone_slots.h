@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The binding in the kernel's form: for each block the bones that hold it, with the numbers of its
+// particles in each bone's frame side by side.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/physics/forces.h>
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/lists/block_state.h>
+
+namespace sinew {
+
+template <class Real>
+struct BoneSlots {
+  std::vector<std::uint32_t> first;  ///< blocks + 1 long
+  std::vector<kernel::Slot> slots;
+  std::vector<Real> held, shares;
+
+  /// Where on each bone's axis its frame has its origin, m from the head: amid what it holds, so
+  /// that few digits are lost far from a head.
+  std::vector<double> centre;
+};
+
+/// `id` gives the particles in the kernel's order.
+template <class Real>
+BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
+                           const Measure& measure);
+
+/// The bones at `pose` in the kernel's form, for particles of `mass` (kg).
+template <class Real>
+std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
+                                             std::span<const double> centre, double mass,
+                                             const Measure& measure);
+
+/// A rigid frame with its centre at the point that is at `centre` (m) now.
+template <class Real>
+kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& centre, const Measure& measure);
+
+}  // namespace sinew

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rigid frames in which lists of partners are judged: those of the bones, frames between bones
+// that meet, and the scene's. What rides along with its frame stands still there, and its lists
+// hold. Flesh about a bent joint follows neither of its bones; frames that share out the turn
+// between them follow it closer.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/physics/forces.h>
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/lists/block_state.h>
+#include <sinew/rig/pose.h>
+
+namespace sinew {
+
+class Carriers {
+ public:
+  Carriers() = default;
+  explicit Carriers(const Body& body);
+
+  /// Chooses for each particle of `state` a frame: that of the bone that leads it or, where flesh
+  /// as far from a joint has turned otherwise since the rest pose, one between the bones that meet
+  /// there. `id` by particle.
+  template <class Real>
+  void choose(const Body& body, const Pose& bones, const BlockState<Real>& state,
+              const Measure& measure, std::span<const std::int32_t> id);
+
+  /// By particle: its frame in `at`; the size of that for one that no bone leads.
+  std::span<const std::uint32_t> of_particles() const { return of_; }
+  /// The bones' frames, and the ones between that particles follow.
+  Pose at(const Pose& bones) const;
+
+ private:
+  /// Where a bone hangs on its parent.
+  struct Hinge {
+    std::size_t parent, child;
+    Vec3 place, axis;       ///< at rest; the axis, of unit length, points into the child
+    double before, beyond;  ///< how far along it, m, particles of the two bones reach
+    double width;           ///< of the flesh around, in diameters
+  };
+  struct Between {
+    std::size_t hinge;
+    double share;  ///< of the turn from parent to child
+  };
+  class Profile;
+
+  template <class Real>
+  std::vector<Profile> profiles(const Body& body, const Pose& bones, const BlockState<Real>& state,
+                                const Measure& measure, std::span<const std::int32_t> id) const;
+  std::uint32_t choice(int bone, const Vec3& rest, std::span<const Profile> profiles,
+                       std::size_t bones) const;
+  BonePose pose_of(const Between& between, const Pose& bones) const;
+  /// Leaves out the frames that nobody follows.
+  void compress(std::span<const Profile> profile, std::size_t bones);
+
+  std::vector<Hinge> hinges_;
+  std::vector<std::vector<std::size_t>> hinges_of_;  ///< by bone
+  std::vector<Between> between_;
+  std::vector<std::uint32_t> of_;
+};
+
+/// The carriers in the kernel's form.
+template <class Real>
+struct CarrierSlots {
+  std::vector<std::uint32_t> first;  ///< blocks + 1 long
+  std::vector<kernel::CarrierSlot> slots;
+  std::vector<Real> lanes;
+};
+
+template <class Real>
+CarrierSlots<Real> carrier_slots(std::span<const std::uint32_t> carrier);
+
+}  // namespace sinew

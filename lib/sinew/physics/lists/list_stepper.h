@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps with the kernel: the fast way, for the paper's pair force, damping and bones.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/bone_slots.h>
+#include <sinew/physics/lists/comoving_frames.h>
+#include <sinew/physics/lists/verlet_lists.h>
+#include <sinew/physics/stepper.h>
+
+namespace sinew {
+
+template <class Real>
+class ListStepper {
+ public:
+  ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
+              const Particles& particles, kernel::InstructionSet instructions);
+
+  StepSums step(const Pose& pose);
+  Balance evaluate(const Pose& pose, Forces& forces);
+  void read(const Pose& pose, Particles& particles);
+  ListCounts counts() const;
+
+  void save(SimulationState& state) const;
+  void restore(const SimulationState& state);
+
+ private:
+  static constexpr int block = BlockState<Real>::block;
+  /// A barrier costs more than the work below this many of them.
+  static constexpr std::size_t particles_per_thread = 8192;
+  static constexpr std::size_t pieces_per_thread =
+      particles_per_thread / (kernel::blocks_per_piece * BlockState<Real>::block);
+
+  void load(const Particles& particles);
+  void place_bones(const Pose& pose);
+  kernel::Holds<Real> holds() const;
+  kernel::Carriers<Real> carriers() const;
+  void place_carriers(const Pose& pose);
+  void choose_carriers(const Pose& pose);
+  kernel::Step<Real> job();
+  Riders<Real> riders();
+
+  void keep_lists_true(const Pose& pose);
+  void rebuild(const Pose& pose);
+  bool remeasure();
+  double travel_of_step(const Pose& pose) const;
+  bool must_look_at_order();
+  bool sort();
+  void find_slots();
+  void restore_order(const std::vector<std::uint32_t>& order);
+  void restore_measure(const WholeNumbers& saved);
+  StepSums sums_of_totals() const;
+  Failure failure(const Pose& pose);
+  Vec3 relative_velocity(const Pose& pose, std::size_t k) const;
+
+  std::shared_ptr<const Body> body_;
+  Stepping stepping_;
+  double mass_;  ///< of a particle, kg
+  kernel::Functions<Real> kernel_;
+  Measure measure_;
+  Box measured_box_;      ///< around the particles when the measure was looked at, m
+  double travelled_ = 0;  ///< since then, at most, m
+  BlockState<Real> state_, next_;
+  std::vector<std::int32_t> id_;       ///< with pads, as the states have
+  std::vector<std::uint32_t> caller_;  ///< place in the caller's order
+  BoneSlots<Real> slots_;
+  std::vector<kernel::BoneNow<Real>> bones_;  ///< where they are now
+  Carriers carriers_;
+  CarrierSlots<Real> carrier_slots_;
+  Pose carrier_pose_;
+  std::vector<kernel::FrameNow<Real>> frames_;  ///< of the carriers; the last stands still
+  std::int64_t steps_ = 0;
+  bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
+
+  PartnerLists<Real> lists_;
+  double mean_when_sorted_ =
+      45;  ///< differences per block in the wide list; here: of a packed body
+  std::int64_t order_looked_at_ = -1;  ///< before which step
+  std::int64_t sorts_ = 0;
+  double sorting_ = 0;             ///< s
+  std::optional<double> fastest_;  ///< in a step not yet followed, relative to the carriers, m/s
+
+  std::vector<kernel::Totals> totals_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/reference/cell_stepper.h>
+
+#include <atomic>
+#include <utility>
+
+#include <sinew/core/parallel.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t particles_per_piece = 512;
+
+std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
+  if (!remembers_neighbours(body.material)) return std::nullopt;
+  Points rest;
+  rest.reserve(particles.size());
+  for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
+  return Solid(body.material, std::move(rest));
+}
+
+}  // namespace
+
+CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
+                         Particles particles)
+    : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {
+  solid_ = solid_of(*body_, particles_);
+  if (!body_->world || body_->world->pins.empty()) return;
+  std::vector<std::size_t> place(particles_.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[particles_.id[i]] = i;
+  is_held_.resize(particles_.size());
+  for (const Pinned& pin : body_->world->pins) {
+    held_.push_back(place[pin.particle]);
+    is_held_[held_.back()] = true;
+  }
+}
+
+/// Puts what pins hold where it belongs, exactly: no error adds up from step to step.
+void CellStepper::hold(const Pose& pose) {
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const Pinned& pin = body_->world->pins[k];
+    const PinPose place = pin_pose(pin, body_->rest[pin.particle], body_->skeleton, pose);
+    particles_.set_position(held_[k], place.position);
+    particles_.set_velocity(held_[k], place.velocity);
+  }
+}
+
+/// After all others: dry friction answers them, and a pin bears whatever is left.
+void CellStepper::find_world_forces(const Pose& pose) {
+  const World& world = *body_->world;
+  const WorldNow now = world_at(world, time_, pose);
+  const Vec3 weight = particles_.mass * stepping_.gravity;
+  world_forces(particles_, world, now, world_);
+  forces_.world.clear();
+  Points others(particles_.size());
+  for (std::size_t i = 0; i < others.size(); ++i)
+    others[i] = forces_.total(i) + world_.total(i) + weight;
+  stop_sliding(particles_, world, now, others, stepping_.step, world_);
+  forces_.world.resize(particles_.size());
+  for (std::size_t i = 0; i < others.size(); ++i) forces_.world[i] = world_.total(i);
+  for (const std::size_t i : held_) forces_.world[i] -= forces_.total(i) + weight;
+}
+
+void CellStepper::find_forces(const Pose& pose) {
+  hold(pose);
+  if (solid_)
+    solid_->forces(particles_, forces_);
+  else
+    pair_forces(particles_, body_->material, forces_);
+  bone_forces(particles_, *body_, pose, forces_);
+  if (body_->world) find_world_forces(pose);
+}
+
+double CellStepper::stored_in_pairs() {
+  return solid_ ? solid_->energy(particles_) : pair_energy(particles_, body_->material.pair);
+}
+
+std::span<const std::int32_t> CellStepper::broken_bonds() const {
+  if (!solid_ || body_->material.model == MaterialModel::paper) return {};
+  return solid_->bonds().broken;
+}
+
+void CellStepper::save(SimulationState& state) const {
+  const Particles& now = particles_;
+  state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
+  state.kicked = kicked_;
+  if (!solid_) return;
+  state.rest_length = solid_->bonds().rest_length;
+  state.broken = solid_->bonds().broken;
+}
+
+void CellStepper::restore(const SimulationState& state) {
+  const auto* moving = std::get_if<MovingInDouble>(&state.moving);
+  if (moving == nullptr) throw not_a_state("it is in single precision");
+  check_moving(*moving, particles_.size());
+  if (solid_)
+    solid_->restore(state.rest_length, state.broken);
+  else if (!state.rest_length.empty())
+    throw not_a_state("it has bonds");
+  Particles& now = particles_;
+  now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
+  now.u = moving->v[0], now.v = moving->v[1], now.w = moving->v[2];
+  kicked_ = state.kicked;
+}
+
+Vec3 CellStepper::acceleration(std::size_t i) const {
+  return forces_.total(i) / particles_.mass + stepping_.gravity;
+}
+
+/// Velocities are half a step behind the forces, for velocity Verlet as well.
+Vec3 CellStepper::velocity_now(std::size_t i) const {
+  return particles_.velocity(i) + stepping_.step / 2 * acceleration(i);
+}
+
+void CellStepper::add_world(StepSums& sums) const {
+  Points velocities(particles_.size());
+  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = velocity_now(i);
+  const WorldPowers powers = world_powers(world_, velocities);
+  sums.lost += powers.lost;
+  sums.world_power = powers.obstacles + powers.fields + powers.muscles;
+  for (const std::size_t i : held_) {
+    sums.world_power += (forces_.world[i] - world_.total(i)).dot(velocities[i]);
+    sums.held_kinetic += particles_.mass / 2 * velocities[i].squaredNorm();
+  }
+}
+
+StepSums CellStepper::sums() const {
+  const std::size_t n = particles_.size();
+  StepSums sums;
+  sums.power = parallel_sum(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += forces_.bone_power[i];
+    return sum;
+  });
+  sums.lost = parallel_sum(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 velocity = velocity_now(i);
+      sum += forces_.bone_damping_power[i] - forces_.bone_damping[i].dot(velocity) -
+             forces_.damping[i].dot(velocity);
+    }
+    return sum;
+  });
+  if (body_->world) add_world(sums);
+  return sums;
+}
+
+void CellStepper::advance(std::size_t i, double kick) {
+  const Vec3 x = particles_.position(i), v = particles_.velocity(i);
+  const Vec3 kicked = v + kick * acceleration(i);
+  const bool drift_first = stepping_.integrator == Integrator::explicit_euler;
+  particles_.set_position(i, x + stepping_.step * (drift_first ? v : kicked));
+  particles_.set_velocity(i, kicked);
+}
+
+/// Over the step, relative to its bone, or to its motion before where it has none.
+Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose) const {
+  const auto bones = body_->binding.of(particles_.id[i]);
+  const Vec3 carried =
+      bones.empty() ? before.velocity : pose[bones.front().bone].velocity_at(before.position);
+  return stepping_.step * (particles_.velocity(i) - carried);
+}
+
+bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
+  if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
+  const double most = most_radii_per_step * particles_.radius;
+  // False for values that are not numbers as well.
+  return moved(i, before, pose).squaredNorm() <= most * most && particles_.position(i).allFinite();
+}
+
+/// Goes back to before the step, and tells who failed in it.
+Failure CellStepper::take_back(const Pose& pose) {
+  Failure failure;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Particle before{{before_.x[0][i], before_.x[1][i], before_.x[2][i]},
+                          {before_.v[0][i], before_.v[1][i], before_.v[2][i]}};
+    if (sound(i, before, pose)) continue;
+    const Vec3 way = moved(i, before, pose);
+    failure.all.push_back({i, way.allFinite() && particles_.position(i).allFinite(),
+                           way.allFinite() ? way.norm() : 0});
+  }
+  failure.first = failure.all.front();
+  Particles& now = particles_;
+  now.x = before_.x[0], now.y = before_.x[1], now.z = before_.x[2];
+  now.u = before_.v[0], now.v = before_.v[1], now.w = before_.v[2];
+  return failure;
+}
+
+StepSums CellStepper::step(const Pose& pose) {
+  find_forces(pose);
+  StepSums sums = this->sums();
+  if (solid_) sums.lost += solid_->evolve(particles_, stepping_.step) / stepping_.step;
+  const bool half = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
+  const double kick = half ? stepping_.step / 2 : stepping_.step;
+  const Particles& now = particles_;
+  before_ = {{now.x, now.y, now.z}, {now.u, now.v, now.w}};
+  std::atomic<bool> failed = false;
+  parallel_for(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Particle before{particles_.position(i), particles_.velocity(i)};
+      advance(i, kick);
+      if (!sound(i, before, pose)) failed = true;
+    }
+  });
+  if (failed)
+    sums.failure = take_back(pose);
+  else
+    kicked_ = true;
+  return sums;
+}
+
+Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
+  find_forces(pose);
+  const StepSums now = sums();
+  forces.pair = forces_.pair;
+  forces.damping = forces_.damping;
+  forces.bone = forces_.bone;
+  forces.world = forces_.world;
+  forces.neighbours = forces_.neighbours;
+  return {now.power,         now.lost,
+          stored_in_pairs(), bone_energy(particles_, *body_, pose),
+          now.world_power,   world_.contact_energy,
+          now.held_kinetic};
+}
+
+void CellStepper::read(const Pose& pose, Particles& particles) {
+  hold(pose);
+  particles = particles_;
+  if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
+  Forces forces;
+  evaluate(pose, forces);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    particles.set_velocity(i, particles.velocity(i) + stepping_.step / 2 * acceleration(i));
+}
+
+}  // namespace sinew

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps as the paper describes them, with its cells sorted anew in every step: the readable
+// reference, and the way for what the kernel does not know.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <sinew/physics/solid.h>
+#include <sinew/physics/stepper.h>
+#include <sinew/physics/world/world.h>
+#include <sinew/rig/pose.h>
+
+namespace sinew {
+
+class CellStepper {
+ public:
+  CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles particles);
+
+  /// The moment (s) of what is asked or done next: what surrounds the body changes with it.
+  void set_time(double time) { time_ = time; }
+
+  StepSums step(const Pose& pose);
+  Balance evaluate(const Pose& pose, Forces& forces);
+  void read(const Pose& pose, Particles& particles);
+  /// Bonds broken so far, by particle; none for a body without bonds.
+  std::span<const std::int32_t> broken_bonds() const;
+  /// As evaluated last; none without a world.
+  std::span<const Reaction> reactions_of_obstacles() const { return world_.reactions; }
+
+  void save(SimulationState& state) const;
+  void restore(const SimulationState& state);
+
+ private:
+  struct Particle {
+    Vec3 position, velocity;
+  };
+
+  void find_forces(const Pose& pose);
+  void find_world_forces(const Pose& pose);
+  void hold(const Pose& pose);
+  double stored_in_pairs();
+  Vec3 acceleration(std::size_t i) const;
+  Vec3 velocity_now(std::size_t i) const;
+  void add_world(StepSums& sums) const;
+  StepSums sums() const;
+  void advance(std::size_t i, double kick);
+  Vec3 moved(std::size_t i, const Particle& before, const Pose& pose) const;
+  bool sound(std::size_t i, const Particle& before, const Pose& pose) const;
+  Failure take_back(const Pose& pose);
+
+  std::shared_ptr<const Body> body_;
+  Stepping stepping_;
+  Particles particles_;
+  std::optional<Solid> solid_;  ///< of materials that remember who was whose neighbour
+  Forces forces_;
+  MovingInDouble before_;  ///< the step
+  double time_ = 0;
+  WorldForces world_;
+  std::vector<std::size_t> held_;  ///< place of each pin of the world
+  std::vector<bool> is_held_;      ///< empty where nothing is
+  bool kicked_ = false;            ///< velocities are half a step ahead (velocity Verlet)
+};
+
+}  // namespace sinew

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One walk through all pairs: what pushes them, who is whose partner, and the damping of eq. 2.
+#pragma once
+
+#include <cmath>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
+#include <sinew/physics/forces.h>
+
+namespace sinew {
+
+// Walking through the partners of a particle with the paper's cells: own and adjacent ones.
+
+inline constexpr std::size_t particles_per_walk = 256;
+
+inline CellGrid cells_of(const Particles& particles, double range) {
+  return {particles.x, particles.y, particles.z, range};
+}
+
+/// From j to i, seen from i. Two particles in one place part along x, the lower id to the left.
+inline Vec3 direction_from(const Particles& particles, const Vec3& offset, double d, std::size_t i,
+                           std::size_t j) {
+  return d > 0 ? Vec3(offset / d) : Vec3(particles.id[i] < particles.id[j] ? -1 : 1, 0, 0);
+}
+
+/// Calls visit(j, offset, d) for every partner j of particle i: x_i - x_j and its length d < b.
+template <class Visit>
+void for_each_partner(const Particles& particles, const CellGrid& cells, double b, std::size_t i,
+                      Visit&& visit) {
+  const Vec3 here = particles.position(i);
+  cells.for_each_near(here, [&](std::uint32_t j) {
+    if (j == i) return;
+    const Vec3 offset = here - particles.position(j);
+    const double squared = offset.squaredNorm();
+    if (squared < b * b) visit(j, offset, std::sqrt(squared));
+  });
+}
+
+/// Calls visit(i) for all particles, in parallel.
+template <class Visit>
+void for_each_particle(std::size_t particles, Visit&& visit) {
+  parallel_for(particles, particles_per_walk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) visit(i);
+  });
+}
+
+/// The sum of value(i) over all particles, the same for any number of threads.
+template <class Value>
+double sum_over_particles(std::size_t particles, Value&& value) {
+  return parallel_sum(particles, particles_per_walk, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += value(i);
+    return sum;
+  });
+}
+
+/// push(i, j, d) is the force along a pair at distance d (N; positive repels). Fills pair, damping
+/// and neighbours.
+template <class Push>
+void pair_pass(const Particles& particles, const Material& material, const Push& push,
+               Forces& forces);
+
+/// Damping by pairs with the mean of both counts, which must be known: keeps momentum, and with
+/// only the part along the pair (central) angular momentum as well.
+void pairwise_damping(const Particles& particles, const CellGrid& cells, const Material& material,
+                      Forces& forces);
+
+template <class Push>
+void pair_pass(const Particles& particles, const Material& material, const Push& push,
+               Forces& forces) {
+  forces.pair.resize(particles.size());
+  forces.damping.resize(particles.size());
+  forces.neighbours.resize(particles.size());
+  const CellGrid cells = cells_of(particles, material.pair.b);
+  for_each_particle(particles.size(), [&](std::size_t i) {
+    Vec3 force = Vec3::Zero(), velocities = Vec3::Zero();
+    int count = 0;
+    for_each_partner(particles, cells, material.pair.b, i,
+                     [&](std::uint32_t j, const Vec3& offset, double d) {
+                       force += push(i, j, d) * direction_from(particles, offset, d, i, j);
+                       velocities += particles.velocity(j);
+                       ++count;
+                     });
+    forces.pair[i] = force;
+    forces.neighbours[i] = count;
+    forces.damping[i] = Vec3::Zero();
+    if (count > 0 && material.damping > 0)  // towards the partners' mean velocity
+      forces.damping[i] = -material.damping * (particles.velocity(i) - velocities / count);
+  });
+  if (material.damping_form != DampingForm::paper)
+    pairwise_damping(particles, cells, material, forces);
+}
+
+}  // namespace sinew

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/text.h>
+#include <sinew/physics/solid.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t particles_per_piece = 512;
+
+const Particles& checked(const Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (!particles.position(i).allFinite())
+      throw bad_input(
+          "particle " + std::to_string(particles.id[i]) + " has a position that is not finite",
+          "fill the body again");
+  return particles;
+}
+
+bool is_finite(const BookEntries& book) {
+  return std::isfinite(book.work) && std::isfinite(book.dissipation) && std::isfinite(book.power);
+}
+
+}  // namespace
+
+Stepping stepping_of(const SolverSettings& solver, double step) {
+  return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbour_search};
+}
+
+bool lists_serve(const Body& body, const Motion& motion) {
+  return !body.world && !stretches(motion) && !remembers_neighbours(body.material) &&
+         body.material.damping_form == DampingForm::paper &&
+         std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
+           return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
+         });
+}
+
+Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& body,
+                                             const Motion& motion, const Stepping& stepping,
+                                             const Particles& particles,
+                                             kernel::InstructionSet instructions) {
+  if (stepping.neighbour_search == NeighbourSearch::cells || !lists_serve(*body, motion))
+    return CellStepper(body, stepping, particles);
+  if (stepping.precision == Precision::binary32)
+    return ListStepper<float>(body, stepping, particles, instructions);
+  return ListStepper<double>(body, stepping, particles, instructions);
+}
+
+Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
+                       kernel::InstructionSet instructions)
+    : body_(std::make_shared<const Body>(std::move(body))),
+      motion_(std::make_shared<const Motion>(std::move(motion))),
+      cursor_(body_->skeleton, *motion_),
+      stepping_(stepping),
+      stepper_(make_stepper(body_, *motion_, stepping, checked(particles), instructions)),
+      book_(stepping.step),
+      world_book_(stepping.step),
+      particles_(std::move(particles)) {
+  forget_read();
+}
+
+void Simulation::step() {
+  const Pose& now = pose();
+  tell_time();
+  StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
+  if (sums.failure) {
+    offenders_ = std::move(sums.failure->all);
+    fail(sums.failure->first);
+  }
+  book_.add_step(sums.power, sums.lost);
+  world_book_.add_step(sums.world_power, 0);
+  if (steps_ == 0) held_at_start_ = sums.held_kinetic;
+  ++steps_;
+  evaluated_ = false;
+  if (read_) forget_read();
+}
+
+/// Only cells know of surroundings that change with time.
+void Simulation::tell_time() const {
+  if (auto* cells = std::get_if<CellStepper>(&stepper_)) cells->set_time(time());
+}
+
+/// What was read last is of no use any more, and takes as much memory as half of the state.
+void Simulation::forget_read() {
+  for (auto* values :
+       {&particles_.x, &particles_.y, &particles_.z, &particles_.u, &particles_.v, &particles_.w})
+    std::vector<double>().swap(*values);
+  read_ = false;
+}
+
+void Simulation::fail(const Offender& first) const {
+  const std::int32_t id = particles_.id[first.particle];
+  const auto bones = body_->binding.of(id);
+  const std::string where =
+      bones.empty() ? "" : " on bone '" + body_->skeleton.bones[bones.front().bone].name + "'";
+  throw Error(Exit::unstable,
+              "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
+                  std::to_string(id) + where +
+                  (first.finite ? " moved over " + three_digits(most_radii_per_step) +
+                                      (bones.empty() ? " r off its motion before in one step"
+                                                     : " r relative to its bone in one step")
+                                : std::string(" reached a value that is not finite")) +
+                  "; use solver.time_step " + three_digits(stepping_.step / 2) + " or less");
+}
+
+const Particles& Simulation::particles() const {
+  if (!read_) {
+    const Pose& now = pose();
+    tell_time();
+    std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
+    read_ = true;
+  }
+  return particles_;
+}
+
+void Simulation::evaluate() {
+  if (evaluated_) return;
+  const Pose& now = pose();
+  tell_time();
+  balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
+  evaluated_ = true;
+}
+
+const Forces& Simulation::forces() {
+  evaluate();
+  return forces_;
+}
+
+Energies Simulation::energies() {
+  evaluate();
+  const Particles& now = particles();
+  // Velocities are half a step behind the positions but for velocity Verlet, which tells them
+  // at the same moment.
+  const double behind =
+      stepping_.integrator == Integrator::velocity_verlet ? 0 : stepping_.step / 2;
+  Energies energies;
+  energies.kinetic =
+      parallel_sum(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vec3 acceleration = forces_.total(i) / now.mass + stepping_.gravity;
+          sum += now.mass / 2 * (now.velocity(i) + behind * acceleration).squaredNorm();
+        }
+        return sum;
+      });
+  energies.gravity =
+      parallel_sum(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          sum -= now.mass * stepping_.gravity.dot(now.position(i));
+        return sum;
+      });
+  energies.pair = balance_.pair_energy;
+  energies.bone = balance_.bone_energy;
+  energies.work_of_bones = book_.work_until(balance_.power);
+  energies.dissipation = book_.dissipation_until(balance_.lost);
+  energies.contact = balance_.contact_energy;
+  // What pins hold moves as it is told: they give it its kinetic energy.
+  energies.work_of_world = world_book_.work_until(balance_.world_power) + balance_.held_kinetic -
+                           (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
+  return energies;
+}
+
+std::span<const std::int32_t> Simulation::broken_bonds() const {
+  const auto* cells = std::get_if<CellStepper>(&stepper_);
+  return cells != nullptr ? cells->broken_bonds() : std::span<const std::int32_t>();
+}
+
+std::span<const Reaction> Simulation::reactions_of_obstacles() {
+  evaluate();
+  const auto* cells = std::get_if<CellStepper>(&stepper_);
+  return cells != nullptr ? cells->reactions_of_obstacles() : std::span<const Reaction>();
+}
+
+SimulationState Simulation::save() const {
+  SimulationState state;
+  std::visit([&](const auto& stepper) { stepper.save(state); }, stepper_);
+  state.steps = steps_;
+  state.book = book_.entries();
+  state.world_book = world_book_.entries();
+  state.held_at_start = held_at_start_;
+  return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  if (!is_finite(state.book) || !is_finite(state.world_book) || !std::isfinite(state.held_at_start))
+    throw not_a_state("its energies are not finite");
+  std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
+  steps_ = state.steps;
+  book_.restore(state.book);
+  world_book_.restore(state.world_book);
+  held_at_start_ = state.held_at_start;
+  evaluated_ = false;
+  forget_read();
+}
+
+ListCounts Simulation::list_counts() const {
+  return std::visit(
+      [](const auto& stepper) {
+        if constexpr (requires { stepper.counts(); })
+          return stepper.counts();
+        else
+          return ListCounts{};
+      },
+      stepper_);
+}
+
+}  // namespace sinew

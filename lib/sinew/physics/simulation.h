@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body on its moving bones, advanced step by step:
+//
+//     Simulation simulation(body, motion, particles, stepping);
+//     while (simulation.time() < end) simulation.step();
+//
+// What it tells is in the order of the particles it was given.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <sinew/core/particles.h>
+#include <sinew/core/simulation_state.h>
+#include <sinew/physics/forces.h>
+#include <sinew/physics/lists/list_stepper.h>
+#include <sinew/physics/reference/cell_stepper.h>
+#include <sinew/physics/stepper.h>
+#include <sinew/rig/pose.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// What a scene's solver section says of stepping, with the step chosen for it, s.
+Stepping stepping_of(const SolverSettings& solver, double step);
+
+/// Whether steps with lists of partners know all that the body is subject to; those with the
+/// paper's cells always do.
+bool lists_serve(const Body& body, const Motion& motion);
+
+class Simulation {
+ public:
+  /// `particles` in any order, their id telling their place in body.rest. The kernel is compiled
+  /// for several instruction sets; all of them give the same bits. Throws bad input for a position
+  /// that is not finite.
+  Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
+             kernel::InstructionSet instructions = kernel::best_instruction_set());
+
+  /// Advances by one step. Throws Error (unstable) naming step, particle, cause and a cure when a
+  /// value is not finite or a particle moves over 0.25 r relative to its bone within the step (one
+  /// without a bone: relative to its motion before). The particles stay where they were before it;
+  /// bonds that broke in it stay broken.
+  void step();
+  /// Of the step that threw, in the order of the particles.
+  const std::vector<Offender>& offenders() const { return offenders_; }
+
+  double time() const { return static_cast<double>(steps_) * stepping_.step; }  ///< s
+  std::int64_t steps() const { return steps_; }
+  const Body& body() const { return *body_; }
+  const Particles& particles() const;
+  const Pose& pose() const { return cursor_.at(time()); }  ///< until the next step
+
+  /// At the present moment.
+  const Forces& forces();
+  /// Kinetic energy and dissipation are taken at the moment of the positions, so that the balance
+  /// closes to second order in the step.
+  Energies energies();
+
+  /// Bonds of each particle that are broken, in the order of the particles; none for the paper's
+  /// model, which has no bonds.
+  std::span<const std::int32_t> broken_bonds() const;
+
+  /// What the body does to each obstacle of its world at the present moment, about its frame.
+  std::span<const Reaction> reactions_of_obstacles();
+
+  /// What is needed to go on later from this moment with the same bits, on any number of threads.
+  SimulationState save() const;
+  /// Goes to that moment of a simulation of the same body, motion and stepping. Throws bad input
+  /// for a state that cannot be one.
+  void restore(const SimulationState& state);
+
+  /// How often lists of partners were made; none for cells.
+  ListCounts list_counts() const;
+
+ private:
+  using Stepper = std::variant<CellStepper, ListStepper<double>, ListStepper<float>>;
+
+  static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Motion& motion,
+                              const Stepping& stepping, const Particles& particles,
+                              kernel::InstructionSet instructions);
+  void evaluate();
+  void forget_read();
+  void tell_time() const;
+  [[noreturn]] void fail(const Offender& first) const;
+
+  std::shared_ptr<const Body> body_;
+  std::shared_ptr<const Motion> motion_;
+  mutable PoseCursor cursor_;
+  Stepping stepping_;
+  std::int64_t steps_ = 0;
+  mutable Stepper stepper_;
+  EnergyBook book_, world_book_;
+  double held_at_start_ = 0;  ///< kinetic energy of what pins hold, J
+
+  std::vector<Offender> offenders_;
+  mutable Particles particles_;  ///< as read last; radius, mass and ids always
+  mutable bool read_ = false;    ///< whether they are those of the present moment
+  Forces forces_;
+  Balance balance_;
+  bool evaluated_ = false;
+};
+
+}  // namespace sinew

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/solid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Eigenvalues>
+#include <utility>
+
+#include <sinew/core/particles.h>
+#include <sinew/physics/reference/pair_pass.h>
+#include <sinew/physics/stepper.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+
+/// Where j stands among the partners of i.
+std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
+  const auto begin = bonds.partners.partner.begin();
+  const auto last = begin + bonds.partners.first[i + 1];
+  const auto found = std::lower_bound(begin + bonds.partners.first[i], last, j);
+  return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
+}
+
+/// The rest length after a time: what exceeds the yield strain decays; 0 for a bond that breaks.
+double next_length(const BondStrength& strength, double length, double d, double time) {
+  if (strength.breaking_strain > 0 && d > length * (1 + strength.breaking_strain)) return 0;
+  if (strength.yield_strain <= 0) return length;
+  const double excess = std::abs(d - length) - strength.yield_strain * length;
+  if (excess <= 0) return length;
+  const double crept = excess * -std::expm1(-strength.creep_rate * time);
+  return length + (d > length ? crept : -crept);
+}
+
+double energy(const BondStrength& strength, const PairForce& contact, double length, double d) {
+  if (length > 0) return strength.stiffness / 2 * (d - length) * (d - length);
+  return d < 2 * contact.r ? contact.potential(d) - contact.potential(2 * contact.r) : 0;
+}
+
+}  // namespace
+
+bool Bonds::were_neighbours(std::size_t i, std::uint32_t j) const {
+  return entry_of(*this, i, j) != none;
+}
+
+bool Bonds::bonded(std::size_t i, std::uint32_t j) const {
+  const std::uint32_t entry = entry_of(*this, i, j);
+  return entry != none && whole(entry);
+}
+
+Bonds make_bonds(const Points& rest, double r) {
+  Bonds bonds;
+  bonds.partners = neighbours_within(rest, rest_neighbour_range(r));
+  bonds.rest_length.resize(bonds.partners.partner.size());
+  bonds.broken.assign(rest.size(), 0);
+  for_each_particle(rest.size(), [&](std::size_t i) {
+    for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e)
+      bonds.rest_length[e] = (rest[i] - rest[bonds.partners.partner[e]]).norm();
+  });
+  return bonds;
+}
+
+double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
+              const Particles& particles, double time) {
+  if (strength.breaking_strain <= 0 && strength.yield_strain <= 0) return 0;
+  // Both sides of a bond see the same distance to the last bit, and do the same with it.
+  return sum_over_particles(particles.size(), [&](std::size_t i) {
+    double released = 0;
+    for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e) {
+      if (!bonds.whole(e)) continue;
+      const double d =
+          (particles.position(i) - particles.position(bonds.partners.partner[e])).norm();
+      const double before = bonds.rest_length[e];
+      const double after = next_length(strength, before, d, time);
+      bonds.rest_length[e] = after;
+      bonds.broken[i] += after == 0;
+      released += (energy(strength, contact, before, d) - energy(strength, contact, after, d)) / 2;
+    }
+    return released;
+  });
+}
+
+namespace {
+
+Mat3 cofactors(const Mat3& F) {
+  Mat3 cof;
+  cof.col(0) = F.col(1).cross(F.col(2));
+  cof.col(1) = F.col(2).cross(F.col(0));
+  cof.col(2) = F.col(0).cross(F.col(1));
+  return cof;
+}
+
+Mat3 spread_at_rest(const Points& rest, const NeighbourLists& partners, std::size_t i) {
+  Mat3 A = Mat3::Zero();
+  for (const std::uint32_t j : partners.of(i)) {
+    const Vec3 X = rest[j] - rest[i];
+    A += X * X.transpose();
+  }
+  return A;
+}
+
+double weight_of(const Mat3& A, double d0) {
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double share = std::clamp(least / (4 * d0 * d0), 0.0, 1.0);
+  return share < 1e-9 ? 0 : share * share;
+}
+
+}  // namespace
+
+bool remembers_neighbours(const Material& material) {
+  return material.model != MaterialModel::paper ||
+         material.cohesion == Cohesion::initial_neighbours;
+}
+
+Solid::Solid(const Material& material, Points rest)
+    : material_(material), rest_(std::move(rest)), bonds_(make_bonds(rest_, material.pair.r)) {
+  if (material_.volume_stiffness <= 0) return;
+  const std::size_t n = rest_.size();
+  inverse_.assign(n, Mat3::Zero());
+  weight_.assign(n, 0);
+  volume_.assign(n, 0);
+  thrust_.assign(n, Mat3::Zero());
+  for_each_particle(n, [&](std::size_t i) {
+    const Mat3 A = spread_at_rest(rest_, bonds_.partners, i);
+    weight_[i] = weight_of(A, 2 * material_.pair.r);
+    if (weight_[i] > 0) inverse_[i] = A.inverse();
+  });
+}
+
+/// The force along a pair that cells find, N.
+double Solid::between(std::size_t i, std::uint32_t j, double d) const {
+  const PairForce& pair = material_.pair;
+  if (material_.model == MaterialModel::paper)
+    return d < 2 * pair.r || bonds_.were_neighbours(i, j) ? pair.force(d) : 0;
+  return d < 2 * pair.r && !bonds_.bonded(i, j) ? pair.force(d) : 0;
+}
+
+double Solid::potential(std::size_t i, std::uint32_t j, double d) const {
+  const PairForce& pair = material_.pair;
+  const double repulsion = d < 2 * pair.r ? pair.potential(d) - pair.potential(2 * pair.r) : 0;
+  if (material_.model == MaterialModel::paper)
+    return bonds_.were_neighbours(i, j) ? pair.potential(d) : repulsion;
+  return bonds_.bonded(i, j) ? 0 : repulsion;
+}
+
+/// F_i, and from it J_i and what its volume pushes with. Where a bond broke, flesh has come apart
+/// and keeps no volume.
+void Solid::find_volumes(const Particles& particles) {
+  if (material_.volume_stiffness <= 0) return;
+  const double V0 = volume_per_particle(material_.pair.r);
+  for_each_particle(rest_.size(), [&](std::size_t i) {
+    thrust_[i].setZero();
+    volume_[i] = 0;
+    if (weight_[i] == 0 || bonds_.broken[i] > 0) return;
+    Mat3 moved = Mat3::Zero();
+    for (const std::uint32_t j : bonds_.partners.of(i))
+      moved += (particles.position(j) - particles.position(i)) * (rest_[j] - rest_[i]).transpose();
+    const Mat3 F = moved * inverse_[i];
+    volume_[i] = F.determinant() - 1;
+    thrust_[i] =
+        material_.volume_stiffness * V0 * weight_[i] * volume_[i] * (cofactors(F) * inverse_[i]);
+  });
+}
+
+Vec3 Solid::bond_force(const Particles& particles, std::size_t i) const {
+  Vec3 force = Vec3::Zero();
+  for_each_bond(
+      bonds_, particles, i, [&](std::uint32_t j, const Vec3& offset, double d, double length) {
+        force -=
+            material_.bond.stiffness * (d - length) * direction_from(particles, offset, d, i, j);
+      });
+  return force;
+}
+
+/// Of its own volume and those it helps to span.
+Vec3 Solid::volume_force(std::size_t i) const {
+  Vec3 force = Vec3::Zero();
+  for (const std::uint32_t j : bonds_.partners.of(i))
+    force += (thrust_[i] + thrust_[j]) * (rest_[j] - rest_[i]);
+  return force;
+}
+
+double Solid::volume_energy(std::size_t i) const {
+  return material_.volume_stiffness / 2 * volume_per_particle(material_.pair.r) * weight_[i] *
+         volume_[i] * volume_[i];
+}
+
+void Solid::forces(const Particles& particles, Forces& forces) {
+  pair_pass(
+      particles, material_,
+      [&](std::size_t i, std::uint32_t j, double d) { return between(i, j, d); }, forces);
+  if (material_.model == MaterialModel::paper) return;
+  find_volumes(particles);
+  for_each_particle(particles.size(), [&](std::size_t i) {
+    forces.pair[i] += bond_force(particles, i);
+    if (material_.volume_stiffness > 0) forces.pair[i] += volume_force(i);
+  });
+}
+
+double Solid::energy(const Particles& particles) {
+  const CellGrid cells = cells_of(particles, material_.pair.b);
+  find_volumes(particles);
+  return sum_over_particles(particles.size(), [&](std::size_t i) {
+    double sum = 0;
+    for_each_partner(
+        particles, cells, material_.pair.b, i,
+        [&](std::uint32_t j, const Vec3&, double d) { sum += potential(i, j, d) / 2; });
+    if (material_.model != MaterialModel::paper)
+      for_each_bond(bonds_, particles, i, [&](std::uint32_t, const Vec3&, double d, double length) {
+        sum += material_.bond.stiffness / 4 * (d - length) * (d - length);
+      });
+    if (material_.volume_stiffness > 0) sum += volume_energy(i);
+    return sum;
+  });
+}
+
+void Solid::restore(const std::vector<double>& rest_length,
+                    const std::vector<std::int32_t>& broken) {
+  if (rest_length.size() != bonds_.rest_length.size() || broken.size() != bonds_.broken.size())
+    throw not_a_state("it has " + std::to_string(rest_length.size() / 2) + " bonds, not " +
+                      std::to_string(bonds_.size()));
+  if (!std::all_of(rest_length.begin(), rest_length.end(),
+                   [](double length) { return length >= 0 && std::isfinite(length); }))
+    throw not_a_state("a bond has no length");
+  bonds_.rest_length = rest_length;
+  bonds_.broken = broken;
+}
+
+double Solid::evolve(const Particles& particles, double step) {
+  if (material_.model == MaterialModel::paper) return 0;
+  const std::vector<std::int32_t> before = bonds_.broken;
+  double released = sinew::evolve(bonds_, material_.bond, material_.pair, particles, step);
+  if (material_.volume_stiffness <= 0) return released;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (before[i] == 0 && bonds_.broken[i] > 0) released += volume_energy(i);
+  return released;
+}
+
+}  // namespace sinew

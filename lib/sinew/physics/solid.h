@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What keeps its shape, beside the paper's body, which flows.
+//
+// bonded: neighbours at rest are bonds, f = -k (d - l) e; all other pairs repel by eq. 1.
+// bonded_volume: and each particle keeps its volume, U_i = (K_v / 2) V0 w_i (J_i - 1)^2 with J_i of
+// the least-squares deformation gradient F_i over its neighbours at rest,
+// F_i = sum dx dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The
+// weight w_i = min(1, lambda_min(A_i) / (4 d0^2))^2 fades out where neighbours are few: without it
+// the particles of a surface would halve the step.
+// paper with cohesion of initial neighbours: eq. 1, but only neighbours at rest attract each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/particles.h>
+#include <sinew/physics/forces.h>
+#include <sinew/physics/material.h>
+
+namespace sinew {
+
+// The bonds of a solid: what were neighbours at rest stay partners wherever they go. A bond is a
+// spring from its rest length; beyond a strain it breaks, and beyond another one its rest length
+// creeps after it (plastic flow).
+
+struct Bonds {
+  NeighbourLists partners;           ///< from both sides, in the order of the particles
+  std::vector<double> rest_length;   ///< by entry of partners, m; 0 once broken
+  std::vector<std::int32_t> broken;  ///< by particle
+
+  std::size_t size() const { return partners.partner.size() / 2; }
+  bool whole(std::size_t entry) const { return rest_length[entry] > 0; }
+  /// Whether i and j were neighbours at rest.
+  bool were_neighbours(std::size_t i, std::uint32_t j) const;
+  /// Whether a bond holds them together.
+  bool bonded(std::size_t i, std::uint32_t j) const;
+};
+
+/// Between all particles of radius `r` (m) that are neighbours at `rest` (m).
+Bonds make_bonds(const Points& rest, double r);
+
+/// Calls visit(j, offset, d, rest length) for the whole bonds of particle i: x_i - x_j, its length.
+template <class Visit>
+void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i, Visit&& visit) {
+  for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e) {
+    if (!bonds.whole(e)) continue;
+    const std::uint32_t j = bonds.partners.partner[e];
+    const Vec3 offset = particles.position(i) - particles.position(j);
+    visit(j, offset, offset.norm(), bonds.rest_length[e]);
+  }
+}
+
+/// Lets bonds creep and break over a time (s). A broken pair repels in contact as any other.
+/// Returns the energy that is lost, J.
+double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
+              const Particles& particles, double time);
+
+/// Whether a material's forces know who was whose neighbour at rest.
+bool remembers_neighbours(const Material& material);
+
+class Solid {
+ public:
+  /// `rest` in the order of the particles, m.
+  Solid(const Material& material, Points rest);
+
+  /// Pair forces, and eq. 2 between partners nearer than b. Fills pair, damping and neighbours.
+  void forces(const Particles& particles, Forces& forces);
+  /// Stored in bonds, contacts and volumes, J.
+  double energy(const Particles& particles);
+  /// Creep and fracture over a step (s), at the positions that forces were asked for last. Returns
+  /// the energy that is lost to them, J.
+  double evolve(const Particles& particles, double step);
+
+  const Bonds& bonds() const { return bonds_; }
+  /// Bonds as they were at another moment. Throws bad input where they are not this solid's.
+  void restore(const std::vector<double>& rest_length, const std::vector<std::int32_t>& broken);
+
+ private:
+  double between(std::size_t i, std::uint32_t j, double d) const;
+  double potential(std::size_t i, std::uint32_t j, double d) const;
+  Vec3 bond_force(const Particles& particles, std::size_t i) const;
+  void find_volumes(const Particles& particles);
+  Vec3 volume_force(std::size_t i) const;
+  double volume_energy(std::size_t i) const;
+
+  Material material_;
+  Points rest_;
+  Bonds bonds_;
+  std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept
+  std::vector<double> weight_;  ///< w_i
+  std::vector<double> volume_;  ///< J_i - 1 at the positions seen last
+  std::vector<Mat3> thrust_;    ///< K_v V0 w_i (J_i - 1) cof(F_i) A_i^-1, N/m
+};
+
+}  // namespace sinew

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every way of stepping offers the simulation: see list_stepper.h and cell_stepper.h.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/simulation_state.h>
+#include <sinew/physics/forces.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+// What the bones have put in and what was lost since the start, step by step.
+
+class EnergyBook {
+ public:
+  explicit EnergyBook(double step) : step_(step) {}
+
+  /// A step that began with this power of the bones and loss (W): trapezoid of the power.
+  void add_step(double power, double lost) {
+    now_.work = work_until(power);
+    now_.power = power;
+    now_.begun = true;
+    now_.dissipation += step_ * lost;
+  }
+
+  /// Up to a moment with that power, J.
+  double work_until(double power) const {
+    return now_.begun ? now_.work + step_ * (now_.power + power) / 2 : now_.work;
+  }
+  /// Half of the step that begins with that loss included, for the moment of the positions, J.
+  double dissipation_until(double lost) const { return now_.dissipation + step_ * lost / 2; }
+
+  const BookEntries& entries() const { return now_; }
+  void restore(const BookEntries& entries) { now_ = entries; }
+
+ private:
+  double step_;
+  BookEntries now_;
+};
+
+struct Stepping {
+  Integrator integrator = Integrator::symplectic_euler;
+  double step = 0;              ///< s
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  Precision precision = Precision::binary64;
+  NeighbourSearch neighbour_search = NeighbourSearch::lists;
+};
+
+// A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
+// only a run that has left the range of every limit is faster than several bonds at once.
+inline constexpr double most_radii_per_step = 0.25;
+
+/// A particle that left what is sane in a step, by its place in the caller's order.
+struct Offender {
+  std::size_t particle = 0;
+  bool finite = true;
+  double moved = 0;  ///< relative to its bone, m; 0 where that is not finite
+};
+
+/// A step that was not taken.
+struct Failure {
+  Offender first;  ///< of the lowest place
+  std::vector<Offender> all;
+};
+
+/// What a step adds to the book, at the moment of the positions it began with.
+struct StepSums {
+  double power = 0;  ///< of the bones, W
+  double lost = 0;   ///< to damping, drag and friction, W
+  std::optional<Failure> failure;
+  double world_power = 0;   ///< of moving obstacles, fields, muscles and pins, W
+  double held_kinetic = 0;  ///< of particles that pins hold, J
+};
+
+/// The book at one moment.
+struct Balance {
+  double power = 0, lost = 0;               ///< W
+  double pair_energy = 0, bone_energy = 0;  ///< J
+  double world_power = 0;                   ///< W
+  double contact_energy = 0;                ///< in the springs of obstacles, J
+  double held_kinetic = 0;                  ///< of particles that pins hold, J
+};
+
+/// Of a saved state that does not belong to a stepper, or that nothing has saved.
+inline Error not_a_state(const std::string& why) {
+  return bad_input("the saved state does not fit this body: " + why,
+                   "begin again without --resume");
+}
+
+/// Throws bad input unless there are `particles` positions and velocities, all of them finite.
+template <class Coord, class Real>
+void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particles) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (moving.x[axis].size() != particles || moving.v[axis].size() != particles)
+      throw not_a_state("it is of " + std::to_string(moving.x[axis].size()) + " particles, not " +
+                        std::to_string(particles));
+    for (std::size_t k = 0; k < particles; ++k)
+      if (!std::isfinite(static_cast<double>(moving.x[axis][k])) ||
+          !std::isfinite(moving.v[axis][k]))
+        throw not_a_state("particle " + std::to_string(k) + " has a value that is not finite");
+  }
+}
+
+/// How often lists were made, and how long they are.
+struct ListCounts {
+  std::int64_t rebuilds = 0, sifts = 0, looks = 0, sorts = 0;
+  std::int64_t strays = 0;      ///< particles that got new partners by themselves
+  double wide = 0, narrow = 0;  ///< differences per block
+  /// Wall time spent on them, s.
+  double rebuilding = 0, sifting = 0, looking = 0, sorting = 0;
+};
+
+}  // namespace sinew

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces that fill a region of space: wind, pull, suction, a whirl; and the drag of a medium.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include <sinew/physics/world/region.h>
+
+namespace sinew {
+
+struct UniformAcceleration {
+  Vec3 acceleration = Vec3::Zero();  ///< m/s^2
+};
+
+struct ForceDensity {
+  Vec3 density = Vec3::Zero();  ///< N per m^3 of the body at rest
+};
+
+/// Towards a point at one acceleration, from `core` inwards falling in proportion to the distance.
+struct Attraction {
+  Vec3 point = Vec3::Zero();  ///< m
+  double acceleration = 0;    ///< m/s^2; negative pushes away
+  double core = 0;            ///< m, > 0
+};
+
+/// Around an axis, right-handed, at one acceleration outside `core` and in proportion to the
+/// distance within.
+struct Swirl {
+  Vec3 point = Vec3::Zero();  ///< of the axis, m
+  Vec3 axis = Vec3::UnitZ();  ///< of any length but 0
+  double acceleration = 0;    ///< m/s^2
+  double core = 0;            ///< m, > 0
+};
+
+using FieldForm = std::variant<UniformAcceleration, ForceDensity, Attraction, Swirl>;
+
+struct ForceField {
+  std::string name;
+  FieldForm form;
+  Region region;
+  KeyedValue scale;  ///< over time; 1 without keys
+};
+
+/// A medium that moves at one velocity brakes what moves in it: f = -rate m (v - velocity).
+struct Drag {
+  double rate = 0;               ///< 1/s
+  Vec3 velocity = Vec3::Zero();  ///< of the medium, m/s
+};
+
+/// A particle as fields see it.
+struct Grain {
+  double mass;    ///< kg
+  double volume;  ///< of the body at rest, m^3
+};
+
+/// The force on a particle at `position` while the keys say `scale`, N.
+Vec3 field_force(const ForceField& field, double scale, const Vec3& position, const Grain& grain);
+
+/// A bound on how fast that force changes from place to place, whatever the time, N/m. A region's
+/// edge without falloff is left out: a particle crosses it in no time.
+double field_stiffness(const ForceField& field, const Grain& grain);
+
+/// Throws bad input for numbers that are not finite, cores that are not positive, an axis without
+/// direction, and bad regions or keys.
+void check_field(const ForceField& field);
+void check_drag(const Drag& drag);
+
+}  // namespace sinew

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/render/actors.h>
+
+#include <vtkActor.h>
+#include <vtkAppendPolyData.h>
+#include <vtkArrowSource.h>
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkOpenGLSphereMapper.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+#include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr Colour skin_colour{250, 218, 196};
+constexpr Colour edge_colour{104, 62, 42};
+constexpr Colour plain_colour{206, 164, 138};
+constexpr std::array<Colour, 3> axis_colours{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
+
+vtkNew<vtkPoints> vtk_points(const Points& points) {
+  vtkNew<vtkPoints> out;
+  out->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out->SetPoint(static_cast<vtkIdType>(i), points[i].data());
+  return out;
+}
+
+template <std::size_t N>
+vtkNew<vtkCellArray> vtk_cells(const std::vector<std::array<int, N>>& cells) {
+  vtkNew<vtkCellArray> out;
+  for (const auto& cell : cells) {
+    out->InsertNextCell(static_cast<int>(N));
+    for (const int point : cell) out->InsertCellPoint(point);
+  }
+  return out;
+}
+
+vtkProperty& add_actor(vtkRenderer& renderer, vtkMapper& mapper, const Colour& colour) {
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(&mapper);
+  renderer.AddActor(actor);
+  vtkProperty& look = *actor->GetProperty();
+  look.SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
+  look.SetAmbient(0.14);
+  look.SetDiffuse(0.9);
+  look.SetSpecular(0.12);
+  look.SetSpecularPower(24);
+  return look;
+}
+
+vtkNew<vtkPolyData> net(const Points& points, const std::vector<Shading::Edge>& edges) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtk_points(points));
+  data->SetLines(vtk_cells(edges));
+  return data;
+}
+
+void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Shading::Edge>& edges,
+               double opacity, double width) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(net(points, edges));
+  vtkProperty& look = add_actor(renderer, *mapper, edge_colour);
+  look.LightingOff();
+  look.SetOpacity(opacity);  // below 1 it leaves the depths alone: lines cast no shadows
+  look.SetLineWidth(static_cast<float>(width));
+}
+
+double mean_length(const Points& points, const std::vector<Shading::Edge>& edges) {
+  double sum = 0;
+  for (const auto& [a, b] : edges) sum += (points[a] - points[b]).norm();
+  return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
+}
+
+/// Off the surface along its normals, or it would hide half of each line.
+Points lifted(const Triangles& surface, double by) {
+  Points points = surface.points;
+  const Points normals = point_normals(surface);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] += by * normals[i];
+  return points;
+}
+
+void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const Colour& colour) {
+  std::vector<Shading::Edge> pairs;
+  for (int i = 0; i + 1 < static_cast<int>(ends.size()); i += 2) pairs.push_back({i, i + 1});
+  vtkNew<vtkTubeFilter> tubes;
+  tubes->SetInputData(net(ends, pairs));
+  tubes->SetRadius(radius);
+  tubes->SetNumberOfSides(20);
+  tubes->CappingOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(tubes->GetOutputPort());
+  add_actor(renderer, *mapper, colour);
+}
+
+void add_balls(vtkRenderer& renderer, const Points& centres, double radius, const Colour& colour) {
+  vtkNew<vtkAppendPolyData> balls;
+  for (const Vec3& centre : centres) {
+    vtkNew<vtkSphereSource> ball;
+    ball->SetCenter(centre.x(), centre.y(), centre.z());
+    ball->SetRadius(radius);
+    ball->SetThetaResolution(24);
+    ball->SetPhiResolution(16);
+    balls->AddInputConnection(ball->GetOutputPort());
+  }
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(balls->GetOutputPort());
+  add_actor(renderer, *mapper, colour);
+}
+
+vtkNew<vtkUnsignedCharArray> colours_of(const Shot& shot, const ColourScale& scale) {
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(static_cast<vtkIdType>(shot.particles.size()));
+  for (std::size_t i = 0; i < shot.particles.size(); ++i) {
+    const Colour colour = shot.values.empty() ? plain_colour : scale.colour(shot.values[i]);
+    colours->SetTypedTuple(static_cast<vtkIdType>(i), colour.data());
+  }
+  return colours;
+}
+
+}  // namespace
+
+void add_particles(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale) {
+  if (shot.particles.empty()) return;
+  vtkNew<vtkCellArray> vertices;
+  for (std::size_t i = 0; i < shot.particles.size(); ++i) {
+    const auto point = static_cast<vtkIdType>(i);
+    vertices->InsertNextCell(1, &point);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtk_points(shot.particles));
+  data->SetVerts(vertices);
+  data->GetPointData()->SetScalars(colours_of(shot, scale));
+  vtkNew<vtkOpenGLSphereMapper> mapper;  // one quadrangle each, round by its shader
+  mapper->SetInputData(data);
+  mapper->SetRadius(static_cast<float>(shot.radius));
+  add_actor(renderer, *mapper, palette::paper);
+}
+
+void add_skin(vtkRenderer& renderer, const Shot& shot, const Shading& skin) {
+  if (skin.faces.empty()) return;
+  const Triangles shaded = skin.at(shot.surface.points);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  for (const Vec3& normal : point_normals(shaded)) normals->InsertNextTuple(normal.data());
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtk_points(shaded.points));
+  data->SetPolys(vtk_cells(shaded.faces));
+  data->GetPointData()->SetNormals(normals);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkProperty& look = add_actor(renderer, *mapper, skin_colour);
+  look.SetAmbient(0.34);
+  look.SetDiffuse(0.62);
+  look.SetSpecular(0.02);
+}
+
+void add_net(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style) {
+  constexpr double wide_enough = 7;  // pixels between lines, below which they grey the skin
+  if (mean_length(shot.surface.points, skin.lines) < wide_enough * style.pixel) return;
+  add_lines(renderer, lifted(shot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
+}
+
+void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin,
+                 const LineStyle& style) {
+  add_lines(renderer, lifted(shot.surface, style.lift), skin.creases, 0.8, style.width);
+}
+
+void add_bones(vtkRenderer& renderer, const Shot& shot, double thickness, const Colour& colour) {
+  if (shot.bones.empty()) return;
+  Points tubes, joints;
+  std::array<Points, 3> axes;
+  for (const ShotBone& bone : shot.bones) {
+    tubes.insert(tubes.end(), {bone.head, bone.tail});
+    joints.insert(joints.end(), {bone.head, bone.tail});
+    for (int k = 0; k < 3; ++k)
+      axes[k].insert(axes[k].end(), {bone.head, bone.head + 3.2 * thickness * bone.axes.col(k)});
+  }
+  add_tubes(renderer, tubes, 0.3 * thickness, colour);
+  add_balls(renderer, joints, 0.55 * thickness, colour);
+  for (int k = 0; k < 3; ++k)  // the one along the bone sheathes it
+    add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, axis_colours[k]);
+}
+
+namespace {
+
+vtkNew<vtkPolyData> data_of(const std::vector<ShotArrow>& arrows, const ColourScale& scale) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> along;
+  along->SetName("along");
+  along->SetNumberOfComponents(3);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  for (const ShotArrow& arrow : arrows) {
+    points->InsertNextPoint(arrow.from.data());
+    along->InsertNextTuple(arrow.along.data());
+    colours->InsertNextTypedTuple(scale.colour(arrow.value).data());
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(along);
+  data->GetPointData()->SetScalars(colours);
+  return data;
+}
+
+}  // namespace
+
+void add_arrows(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale) {
+  if (shot.arrows.empty()) return;
+  vtkNew<vtkArrowSource> shape;
+  shape->SetTipRadius(0.11);
+  shape->SetShaftRadius(0.04);
+  shape->SetTipResolution(16);
+  shape->SetShaftResolution(12);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data_of(shot.arrows, scale));
+  mapper->SetSourceConnection(shape->GetOutputPort());
+  mapper->SetOrientationArray("along");
+  mapper->SetScaleArray("along");
+  mapper->SetScaleModeToScaleByMagnitude();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetAmbient(0.3);
+  actor->GetProperty()->SetDiffuse(0.75);
+  renderer.AddActor(actor);
+}
+
+}  // namespace sinew

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/render/camera.h>
+
+#include <algorithm>
+
+#include <sinew/core/error.h>
+
+namespace sinew {
+
+Mat3 view_from(const Vec3& towards_viewer) {
+  const Vec3 back = towards_viewer.normalized();
+  const Vec3 right = Vec3::UnitZ().cross(back).normalized();
+  Mat3 view;
+  view << right.transpose(), back.cross(right).transpose(), back.transpose();
+  return view;
+}
+
+Mat3 three_quarter_view() { return view_from({0.42, -1, 0.36}); }
+
+Mat3 view_from_above() { return Mat3::Identity(); }
+
+Box seen(const Mat3& view, const Shot& shot) {
+  Box box;
+  const auto add = [&](const Vec3& point, double around) {
+    if (!point.allFinite())
+      throw bad_input("a position to draw is not finite", "draw earlier frames of the run");
+    const Vec3 p = view * point, reach = Vec3::Constant(around);
+    box.extend(Box(p - reach, p + reach));
+  };
+  for (const Vec3& point : shot.particles) add(point, shot.radius);
+  for (const Vec3& point : shot.surface.points) add(point, 0);
+  for (const ShotArrow& arrow : shot.arrows) add(arrow.from + arrow.along, 0);
+  for (const ShotBone& bone : shot.bones) add(bone.head, shot.radius), add(bone.tail, shot.radius);
+  return box;
+}
+
+double metres_per_pixel(const Box& frame, int width, int height) {
+  if (frame.isEmpty()) return 1;
+  const Vec3 size = frame.sizes();
+  const double scale = std::max(size.x() / width, size.y() / height);
+  return scale > 0 ? scale : 1;
+}
+
+}  // namespace sinew

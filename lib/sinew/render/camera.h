@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From where a picture is seen: a parallel projection, so that sizes can be compared anywhere in
+// it.
+#pragma once
+
+#include <sinew/render/snapshot.h>
+
+namespace sinew {
+
+/// Rows: to the right, up, and towards the viewer, who stands in front of the body (at -y), a
+/// little to its right and above; z is up. A bend in the x-z plane is seen nearly at its true size.
+Mat3 three_quarter_view();
+
+/// The view of someone who stands in the direction `towards_viewer` (not along z, not zero).
+Mat3 view_from(const Vec3& towards_viewer);
+
+/// The view of someone who looks down, x to the right and y upwards.
+Mat3 view_from_above();
+
+struct Camera {
+  Mat3 view = three_quarter_view();
+  Box frame;  ///< in the view's directions, m; all of it is in the picture
+};
+
+/// The box around everything in `shot` in the directions of `view`, m; empty for an empty shot.
+/// Throws bad input for positions that are not finite.
+Box seen(const Mat3& view, const Shot& shot);
+
+/// Metres per pixel at which `frame` just fits into a picture.
+double metres_per_pixel(const Box& frame, int width, int height);
+
+}  // namespace sinew

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/render/display.h>
+
+#include <X11/Xlib.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+
+#include <sinew/core/error.h>
+
+namespace sinew {
+namespace {
+
+constexpr int not_found = 127;  // as shells say it
+
+Error no_display(const std::string& why) {
+  return Error(Exit::not_written,
+               "no display to draw on: " + why + "; install it with: apt-get install xvfb");
+}
+
+/// The connection stays open while the program runs: a server whose last client leaves starts anew,
+/// and refuses for that moment whom it served before.
+bool display_answers() {
+  static Display* connection = nullptr;
+  if (!connection && std::getenv("DISPLAY")) connection = XOpenDisplay(nullptr);
+  return connection;
+}
+
+/// In the child: becomes the display `name` and writes to `report` when it is ready.
+[[noreturn]] void become_xvfb(pid_t parent, const char* name, int report, const char* report_text) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(1);  // it died before it could be watched
+  setsid();                           // Ctrl-C is for the program that draws, not for its display
+  const int null = open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
+  fcntl(report, F_SETFD, 0);
+  execlp("Xvfb", "Xvfb", name, "-displayfd", report_text, "-screen", "0", "1280x1024x24",
+         "-nolisten", "tcp", static_cast<char*>(nullptr));
+  _exit(errno == ENOENT ? not_found : 1);
+}
+
+/// Whether a whole line comes before the other end closes.
+bool line_comes(int file) {
+  char byte = 0;
+  ssize_t count = 0;
+  do count = read(file, &byte, 1);
+  while ((count < 0 && errno == EINTR) || (count > 0 && byte != '\n'));
+  return count > 0;
+}
+
+/// Starts a display of that name, which dies with this process; whether it is ready.
+bool start_xvfb(const std::string& name) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw no_display("too many open files to start Xvfb");
+  const std::string report = std::to_string(ends[1]);
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) become_xvfb(parent, name.c_str(), ends[1], report.c_str());
+  close(ends[1]);
+  const bool ready = child > 0 && line_comes(ends[0]);
+  close(ends[0]);
+  if (ready) return true;
+  int status = 0;
+  if (child > 0) waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_found)
+    throw no_display("Xvfb is not installed");
+  return false;
+}
+
+}  // namespace
+
+void ensure_display() {
+  if (display_answers()) return;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    // Not the first free number: a display that is just ending there takes the next one's socket.
+    std::string name = ":";
+    name += std::to_string(100 + (getpid() + 7919 * attempt) % 50000);
+    if (!start_xvfb(name)) continue;
+    setenv("DISPLAY", name.c_str(), 1);
+    if (display_answers()) return;
+  }
+  throw no_display("Xvfb does not start");
+}
+
+}  // namespace sinew

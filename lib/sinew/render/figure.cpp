@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/render/figure.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/error.h>
+#include <sinew/render/text.h>
+
+namespace sinew {
+
+namespace {
+
+struct Layout {
+  TextStyle words;
+  int margin = 0;
+  int top = 0;             ///< of the panels
+  int wide = 0, high = 0;  ///< each panel
+  int foot = 0;            ///< where caption and colours begin
+};
+
+Layout layout_of(const std::vector<Panel>& panels, const PlateOptions& options) {
+  Layout layout;
+  const int count = static_cast<int>(panels.size());
+  layout.words.size = std::max(11, options.height / 32);
+  layout.margin = options.height / 30;
+  const bool titled = std::any_of(panels.begin(), panels.end(),
+                                  [](const Panel& panel) { return !panel.title.empty(); });
+  layout.top = layout.margin + (titled ? line_height(layout.words) : 0);
+  layout.foot = options.height - colour_bar_height(layout.words) - layout.margin;
+  layout.wide = (options.width - (count + 1) * layout.margin) / count;
+  layout.high = layout.foot - layout.margin - layout.top;
+  return layout;
+}
+
+}  // namespace
+
+Image plate(const std::vector<Panel>& panels, const PlateOptions& options) {
+  if (panels.empty()) throw bad_input("a plate needs panels", "give at least one");
+  const Layout layout = layout_of(panels, options);
+  Image image(options.width, options.height);
+  int x = layout.margin;
+  for (const Panel& panel : panels) {
+    const PictureOptions picture{panel.view, options.camera, layout.wide, layout.high,
+                                 4,          options.finish};
+    paste(image, panel.painter->draw(*panel.shot, picture), x, layout.top);
+    TextStyle title = layout.words;
+    title.align = Align::centre;
+    write_text(image, panel.title, x + layout.wide / 2, layout.margin / 2, title);
+    x += layout.wide + layout.margin;
+  }
+  write_text(image, panels.front().shot->caption, 2 * layout.margin, layout.foot, layout.words);
+  if (std::none_of(panels.begin(), panels.end(),
+                   [](const Panel& panel) { return shows_values(panel.view); }))
+    return image;
+  const int bar = std::min(options.width / 3, 3 * options.height / 5);
+  draw_colour_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
+                  layout.foot, bar, layout.words);
+  return image;
+}
+
+namespace {
+
+struct Column {
+  Box frame;  ///< as wide as its shots, as high as all of them
+  int x = 0, width = 0;
+};
+
+/// Where everything lies on the sheet, pixels.
+struct Layout {
+  std::vector<Column> columns;
+  std::vector<int> rows;  ///< where the panels of each begin
+  int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
+  TextStyle text;
+};
+
+std::vector<Column> columns_of(const std::vector<SheetRow>& rows, const Mat3& view) {
+  std::vector<Column> columns(rows.front().shots->size());
+  Box all;
+  for (const SheetRow& row : rows)
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].frame.extend(seen(view, (*row.shots)[i]));
+  for (const Column& column : columns) all.extend(column.frame);
+  for (Column& column : columns)
+    for (int axis : {1, 2}) {
+      column.frame.min()[axis] = all.min()[axis];
+      column.frame.max()[axis] = all.max()[axis];
+    }
+  return columns;
+}
+
+double summed_width(const std::vector<Column>& columns) {
+  double sum = 0;
+  for (const Column& column : columns) sum += column.frame.sizes().x();
+  return sum;
+}
+
+int caption_lines(const std::vector<Shot>& shots) {
+  std::ptrdiff_t most = 0;
+  for (const Shot& shot : shots)
+    if (!shot.caption.empty())
+      most = std::max(most, 1 + std::count(shot.caption.begin(), shot.caption.end(), '\n'));
+  return static_cast<int>(most);
+}
+
+/// The largest scale at which the columns, with gaps between, fit into the width and the row
+/// height.
+void lay_columns(Layout& layout, const SheetOptions& options) {
+  const int count = static_cast<int>(layout.columns.size()), gap = layout.margin;
+  const double space = options.width - (count + 1) * gap;
+  const double high = layout.columns.front().frame.sizes().y();
+  const double scale = std::min(space / summed_width(layout.columns), options.row_height / high);
+  layout.row_height = std::max(16, static_cast<int>(std::lround(scale * high)));
+  layout.width = gap;
+  for (Column& column : layout.columns) {
+    column.x = layout.width;
+    column.width = std::max(16, static_cast<int>(std::lround(scale * column.frame.sizes().x())));
+    layout.width += column.width + gap;
+  }
+}
+
+bool show_values(const std::vector<SheetRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const SheetRow& row) { return shows_values(row.view); });
+}
+
+Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+  Layout layout;
+  layout.columns = columns_of(rows, options.view);
+  layout.margin = std::max(12, options.width / 32);
+  layout.text.size = std::max(11, options.width / 64);
+  lay_columns(layout, options);
+  int y = 0;
+  for (const SheetRow& row : rows) {
+    y += layout.margin + (row.title.empty() ? 0 : line_height(layout.text));
+    layout.rows.push_back(y);
+    y += layout.row_height;
+  }
+  layout.captions = y + layout.margin / 2;
+  layout.bar = layout.captions + caption_lines(*rows.front().shots) * line_height(layout.text) +
+               layout.margin / 2;
+  layout.height =
+      layout.bar + (show_values(rows) ? colour_bar_height(layout.text) + layout.margin / 2 : 0);
+  return layout;
+}
+
+void draw_row(Image& sheet, const SheetRow& row, int y, const Layout& layout,
+              const SheetOptions& options) {
+  write_text(sheet, row.title, layout.margin, y - line_height(layout.text), layout.text);
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    const Column& column = layout.columns[i];
+    const PictureOptions panel{
+        row.view, {options.view, column.frame}, column.width, layout.row_height, 1, options.finish};
+    paste(sheet, row.painter->draw((*row.shots)[i], panel), column.x, y);
+  }
+}
+
+void write_captions(Image& sheet, const std::vector<Shot>& shots, const Layout& layout) {
+  TextStyle words = layout.text;
+  words.align = Align::centre;
+  for (std::size_t i = 0; i < shots.size(); ++i)
+    write_text(sheet, shots[i].caption, layout.columns[i].x + layout.columns[i].width / 2,
+               layout.captions, words);
+}
+
+void check(const std::vector<SheetRow>& rows) {
+  if (rows.empty() || rows.front().shots->empty())
+    throw bad_input("a contact sheet needs shots", "give at least one");
+  for (const SheetRow& row : rows)
+    if (row.shots->size() != rows.front().shots->size())
+      throw bad_input("rows of a contact sheet differ in length", "give the same moments to each");
+}
+
+}  // namespace
+
+Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+  check(rows);
+  const Layout layout = layout_of(rows, options);
+  Image sheet(layout.width, layout.height);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    draw_row(sheet, rows[i], layout.rows[i], layout, options);
+  write_captions(sheet, *rows.front().shots, layout);
+  if (!show_values(rows)) return sheet;
+  TextStyle words = layout.text;
+  words.size = std::max(10, words.size * 4 / 5);
+  const int bar = layout.width / 3;
+  draw_colour_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
+                  words);
+  return sheet;
+}
+
+Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options) {
+  return contact_sheet(
+      {{&painter, &shots, View::surface, ""}, {&painter, &shots, View::particles, ""}}, options);
+}
+
+}  // namespace sinew

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A picture as plain bytes, the few things done to it, and its PNG file.
+#pragma once
+
+#include <string>
+
+#include <sinew/render/color.h>
+
+namespace sinew {
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel, rows from the top, each from the left
+
+  Image() = default;
+  Image(int columns, int rows, const Colour& colour = palette::paper);
+
+  std::uint8_t* at(int x, int y) { return &rgb[3 * (static_cast<std::size_t>(y) * width + x)]; }
+  const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+};
+
+/// Half the width and height: the mean of 2 x 2 pixels each.
+Image halved(const Image& image);
+
+/// Puts `part` with its left upper corner at (x, y); what lies outside is cut off.
+void paste(Image& image, const Image& part, int x, int y);
+
+/// Paints the pixels of a rectangle, cut off at the borders.
+void fill(Image& image, int x, int y, int width, int height, const Colour& colour);
+
+/// Writes `image` to `path`, which appears complete or not at all. Throws not written.
+void write_png(const Image& image, const std::string& path);
+
+}  // namespace sinew

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws a shot. Needs an X display (display.h).
+#pragma once
+
+#include <sinew/render/shading.h>
+#include <sinew/render/stage.h>
+
+namespace sinew {
+
+enum class View {
+  surface,    ///< the skin, the bones shining through
+  particles,  ///< spheres of their true size in the colours of their values
+  both,       ///< the particles within the net of the skin, the bones shining through
+  arrows,     ///< the shot's arrows within a pale skin
+  bones,      ///< the bones and their axes within a pale skin
+};
+
+/// Whether its colours mean values.
+constexpr bool shows_values(View view) { return view != View::surface && view != View::bones; }
+
+struct PictureOptions {
+  View view = View::both;
+  Camera camera;
+  int width = 960, height = 720;  ///< pixels
+  int margin = 24;                ///< pixels around the camera's frame, at least
+  Finish finish = Finish::fine;
+};
+
+/// Keeps what all pictures of a run share: the stage, the skin's edges, the meaning of the colours.
+class Painter {
+ public:
+  /// `rest` is the surface at rest; the shots have its faces. Throws as Stage does.
+  Painter(const Triangles& rest, ColourScale scale);
+
+  const ColourScale& scale() const { return scale_; }
+
+  /// Throws bad input for a shot that does not fit the rest surface or has not one value per
+  /// particle (or none), and for a size outside 16 .. 8192.
+  Image draw(const Shot& shot, const PictureOptions& options);
+
+ private:
+  struct Sizes;
+  Image particles(const Shot& shot, const Sizes& sizes, bool skin_and_bones);
+  Image surface(const Shot& shot, const Sizes& sizes);
+  Image pale_skin(const Shot& shot, const Sizes& sizes);
+
+  Shading skin_;
+  ColourScale scale_;
+  Stage stage_;
+};
+
+}  // namespace sinew

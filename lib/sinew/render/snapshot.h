@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a picture is made of: one moment of a run as plain values, in any order the files gave.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/core/vector.h>
+#include <sinew/render/color.h>
+
+namespace sinew {
+
+struct ShotBone {
+  Vec3 head = Vec3::Zero(), tail = Vec3::Zero();  ///< m
+  Mat3 axes = Mat3::Identity();                   ///< columns: along the bone, and two sides
+};
+
+/// A vector to be seen: a force at a particle, say.
+struct ShotArrow {
+  Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; as long as it is drawn
+  double value = 0;                                ///< shown in colour
+};
+
+/// One moment. Any part may be empty and is then not drawn.
+struct Shot {
+  std::string caption;         ///< written under the picture, may have several lines
+  Points particles;            ///< n x 3, m
+  double radius = 0;           ///< of each particle, m
+  std::vector<double> values;  ///< one per particle, shown in colour; empty: all alike
+  Triangles surface;           ///< the same faces in all shots of a run
+  std::vector<ShotBone> bones;
+  std::vector<ShotArrow> arrows;
+};
+
+/// What the colours of the particles mean, the same for all pictures of a run.
+struct ColourScale {
+  std::string name;  ///< of the quantity, "displacement"
+  std::string unit;  ///< "m", or empty for a plain number
+  double low = 0, high = 1;
+  ColourMap map = ColourMap::indigo;
+
+  /// Where `value` lies between low and high: 0 .. 1, values outside at the ends.
+  double position(double value) const;
+  Colour colour(double value) const { return mapped_colour(position(value), map); }
+};
+
+}  // namespace sinew

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/rig/curve.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+namespace {
+
+using Vec4 = Eigen::Vector4d;
+
+/// The last key not after `time`, which lies between the first and the last. Most clips have even
+/// times: the guess then is right.
+std::size_t key_before(const std::vector<double>& times, double time) {
+  const std::size_t last = times.size() - 2;
+  const double share = (time - times.front()) / (times.back() - times.front());
+  const auto guess =
+      std::min(static_cast<std::size_t>(share * static_cast<double>(last + 1)), last);
+  if (times[guess] <= time && time < times[guess + 1]) return guess;
+  return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) -
+                                  times.begin()) -
+         1;
+}
+
+/// A place between two keys.
+struct Span {
+  std::size_t key;  ///< the earlier one; the later is key + 1
+  double duration;  ///< s
+  PieceTime time;
+};
+
+Span span_at(const std::vector<double>& times, double time) {
+  const std::size_t key = key_before(times, time);
+  const double begin = times[key], end = times[key + 1];
+  return {key, end - begin, {begin, end, begin, 1 / (end - begin)}};
+}
+
+/// Where a curve holds: before its first key and after its last.
+struct Hold {
+  std::size_t key;
+  PieceTime time;
+};
+
+std::optional<Hold> hold_at(const std::vector<double>& times, double time) {
+  constexpr double ever = PieceTime::never;
+  if (time < times.front()) return Hold{0, {-ever, times.front()}};
+  if (time >= times.back()) return Hold{times.size() - 1, {times.back(), ever}};
+  return std::nullopt;
+}
+
+/// The way from one key to the next, 0 to 1, as a polynomial without a constant; not of cubic.
+std::array<double, 3> way_of(Interpolation interpolation) {
+  if (interpolation == Interpolation::step) return {0, 0, 0};
+  if (interpolation == Interpolation::smooth) return {0, 3, -2};
+  return {1, 0, 0};
+}
+
+/// Hermite's polynomial; the tangents are those at the keys times the duration between them.
+template <class Value>
+std::array<Value, 4> hermite(const Value& from, const Value& leave, const Value& to,
+                             const Value& arrive) {
+  const Value way = to - from;
+  return {from, leave, 3 * way - 2 * leave - arrive, leave + arrive - 2 * way};
+}
+
+/// The slope at a key of the parabola through it and its neighbours, from the slopes of the ways to
+/// it and from it, which last `before` and `after`.
+template <class Value>
+Value slope_between(const Value& to_it, double before, const Value& from_it, double after) {
+  return (after * to_it + before * from_it) / (before + after);
+}
+
+template <class Value>
+Value zero_of();
+template <>
+double zero_of<double>() {
+  return 0;
+}
+template <>
+Vec3 zero_of<Vec3>() {
+  return Vec3::Zero();
+}
+
+/// The ways that meet at a key: from the key before and to the key after, by the number of the key
+/// each leads to. The ends have none but where the curve is cyclic.
+struct Ways {
+  std::size_t to_it, from_it;
+};
+
+template <class AnyCurve>
+std::optional<Ways> ways_at(const AnyCurve& curve, std::size_t key) {
+  const std::size_t last = curve.times.size() - 1;
+  if (key > 0 && key < last) return Ways{key, key + 1};
+  return curve.cyclic ? std::optional(Ways{last, 1}) : std::nullopt;
+}
+
+template <class Value>
+Value made_tangent(const Curve<Value>& curve, std::size_t key) {
+  const auto ways = ways_at(curve, key);
+  if (!ways) return zero_of<Value>();
+  const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
+  const auto slope = [&](std::size_t k) -> Value {
+    return (curve.values[k] - curve.values[k - 1]) / duration(k);
+  };
+  return slope_between<Value>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
+                              duration(ways->from_it));
+}
+
+template <class Value>
+std::array<Value, 4> cubic(const Curve<Value>& curve, const Span& span) {
+  const std::size_t k = span.key;
+  const Value leave = curve.out.empty() ? made_tangent(curve, k) : curve.out[k];
+  const Value arrive = curve.in.empty() ? made_tangent(curve, k + 1) : curve.in[k + 1];
+  return hermite<Value>(curve.values[k], span.duration * leave, curve.values[k + 1],
+                        span.duration * arrive);
+}
+
+/// The rotation vector from key - 1 to key.
+Vec3 turn_to(const RotationCurve& curve, std::size_t key) {
+  if (!curve.turns.empty()) return curve.turns[key];
+  return rotation_vector(curve.values[key] * curve.values[key - 1].conjugate());
+}
+
+Vec3 made_velocity(const RotationCurve& curve, std::size_t key) {
+  const auto ways = ways_at(curve, key);
+  if (!ways) return Vec3::Zero();
+  const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
+  const auto slope = [&](std::size_t k) -> Vec3 { return turn_to(curve, k) / duration(k); };
+  return slope_between<Vec3>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
+                             duration(ways->from_it));
+}
+
+/// The vector of `rotation` that is nearest to `wanted`, which may be longer than pi.
+Vec3 rotation_vector_near(const Quat& rotation, const Vec3& wanted) {
+  const Vec3 shortest = rotation_vector(rotation);
+  const double angle = shortest.norm();
+  if (angle < 1e-9) return shortest;  // no axis of its own
+  const Vec3 axis = shortest / angle;
+  return axis * (angle + 2 * pi * std::round((axis.dot(wanted) - angle) / (2 * pi)));
+}
+
+bool parallel(const Vec3& a, const Vec3& b) {
+  return a.cross(b).norm() <= 1e-12 * a.norm() * b.norm();
+}
+
+Vec4 as_4(const Vec3& v) { return {v.x(), v.y(), v.z(), 0}; }
+
+/// The way between two keys as three turns, one after the other, each along its own polynomial.
+void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
+  const Vec3 turn = turn_to(curve, span.key + 1);
+  const Vec3 first = span.duration / 3 * made_velocity(curve, span.key);
+  const Vec3 third = span.duration / 3 * made_velocity(curve, span.key + 1);
+  Vec3 second = turn - first - third;
+  if (!parallel(turn, first) || !parallel(turn, third) || !parallel(first, third))
+    second =
+        rotation_vector_near(rotation_by(-third) * rotation_by(turn) * rotation_by(-first), second);
+  piece.form = RotationPiece::Form::turns;
+  piece.c = {curve.values[span.key].coeffs(), as_4(first), as_4(second), as_4(third)};
+}
+
+/// glTF's: components one by one.
+void put_tangents(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
+  const std::size_t k = span.key;
+  piece.form = RotationPiece::Form::tangents;
+  piece.c = hermite<Vec4>(curve.values[k].coeffs(), span.duration * curve.out[k].coeffs(),
+                          curve.values[k + 1].coeffs(), span.duration * curve.in[k + 1].coeffs());
+}
+
+}  // namespace
+
+template <class Value>
+CurvePiece<Value> Curve<Value>::piece_at(double time) const {
+  const Value zero = zero_of<Value>();
+  if (const auto hold = hold_at(times, time))
+    return {hold->time, {values[hold->key], zero, zero, zero}};
+  const Span span = span_at(times, time);
+  if (interpolation == Interpolation::cubic) return {span.time, cubic(*this, span)};
+  const auto [linear, square, cube] = way_of(interpolation);
+  const Value &from = values[span.key], difference = values[span.key + 1] - from;
+  return {span.time, {from, linear * difference, square * difference, cube * difference}};
+}
+
+template struct Curve<double>;
+template struct Curve<Vec3>;
+
+RotationPiece RotationCurve::piece_at(double time) const {
+  RotationPiece piece;
+  if (const auto hold = hold_at(times, time)) {
+    piece.time = hold->time;
+    piece.c = {values[hold->key].coeffs(), Vec4::Zero()};
+    return piece;
+  }
+  const Span span = span_at(times, time);
+  piece.time = span.time;
+  if (interpolation != Interpolation::cubic) {
+    piece.way = way_of(interpolation);
+    piece.c = {values[span.key].coeffs(), as_4(turn_to(*this, span.key + 1))};
+  } else if (in.empty() || out.empty()) {
+    put_turns(*this, span, piece);
+  } else {
+    put_tangents(*this, span, piece);
+  }
+  return piece;
+}
+
+namespace {
+
+using Vec4 = Eigen::Vector4d;
+
+RotationSample by_turn(const RotationPiece& piece, double s) {
+  const auto& [linear, square, cube] = piece.way;
+  const Vec3 turn = piece.c[1].head<3>();
+  const double way = s * (linear + s * (square + s * cube));
+  const double rate = piece.time.speed * (linear + s * (2 * square + s * (3 * cube)));
+  return {rotation_by(way * turn) * Quat(piece.c[0]), rate * turn};
+}
+
+RotationSample by_turns(const RotationPiece& piece, double s) {
+  const double r = 1 - s;
+  const Vec3 one = piece.c[1].head<3>(), two = piece.c[2].head<3>(), three = piece.c[3].head<3>();
+  const Quat first = rotation_by((1 - r * r * r) * one),
+             second = rotation_by(s * s * (3 - 2 * s) * two),
+             third = rotation_by(s * s * s * three);
+  const Vec3 rate = 3 * s * s * three + third * (6 * s * r * two + second * (3 * r * r * one));
+  return {third * second * first * Quat(piece.c[0]), piece.time.speed * rate};
+}
+
+RotationSample by_tangents(const RotationPiece& piece, double s) {
+  const auto& c = piece.c;
+  const Vec4 mixed = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+  const Vec4 slope = piece.time.speed * (c[1] + s * (2 * c[2] + s * (3 * c[3])));
+  const double size = mixed.norm();
+  if (size == 0) return {Quat(c[0]).normalized(), Vec3::Zero()};
+  const Vec4 unit = mixed / size;
+  const Quat value(unit), rate(Vec4((slope - unit * unit.dot(slope)) / size));
+  return {value, 2 * (rate * value.conjugate()).vec()};
+}
+
+}  // namespace
+
+RotationSample RotationPiece::at(double moment) const {
+  const double s = time.s(moment);
+  if (form == Form::turns) return by_turns(*this, s);
+  return form == Form::turn ? by_turn(*this, s) : by_tangents(*this, s);
+}
+
+}  // namespace sinew

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/rig/motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/core/vector.h>
+#include <sinew/rig/motion_checks.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr double least_stretch = 0.01;  // what a cubic between positive keys may go below
+
+/// A moment of the clip, and how fast it passes there: 1, 0 where it holds, -1 on the way back.
+struct ClipTime {
+  double time, speed;
+};
+
+/// `passed` s after the clip has begun; before that it holds its beginning.
+ClipTime clip_time(const Motion& motion, double passed) {
+  if (passed < 0) return {motion.start, 0};
+  const double length = clip_length(motion);
+  const bool within = passed < length;
+  if (within || motion.extrapolation == Extrapolation::hold || !(length > 0))
+    return {motion.start + std::min(passed, length), within ? 1.0 : 0.0};
+  if (motion.extrapolation == Extrapolation::loop)
+    return {motion.start + std::fmod(passed, length), 1};
+  const double way = std::fmod(passed, 2 * length);
+  if (way < length) return {motion.start + way, 1};
+  return {motion.start + 2 * length - way, -1};
+}
+
+void slow_down(LocalMotion& motion, double speed) {
+  if (speed == 1) return;
+  motion.angular_velocity *= speed;
+  motion.twist_rate *= speed;
+  motion.velocity *= speed;
+  motion.stretch_rate *= speed;
+}
+
+/// On the way from rest to `goal`: a share `way` of it, which grows by `rate` per second.
+LocalMotion ramped(const LocalMotion& goal, double way, double rate) {
+  const Vec3 turn = rotation_vector(goal.rotation);
+  LocalMotion motion;
+  motion.rotation = rotation_by(way * turn);
+  motion.angular_velocity = rate * turn;
+  motion.twist = way * goal.twist;
+  motion.twist_rate = rate * goal.twist;
+  motion.translation = way * goal.translation;
+  motion.velocity = rate * goal.translation;
+  motion.stretch = 1 + way * (goal.stretch - 1);
+  motion.stretch_rate = rate * (goal.stretch - 1);
+  return motion;
+}
+
+void place(RotationCurve& curve, const Mat3& turn) {
+  const Quat q(turn);
+  for (auto* values : {&curve.values, &curve.in, &curve.out})
+    for (Quat& value : *values) value = q * value * q.conjugate();
+  for (Vec3& vector : curve.turns) vector = turn * vector;
+}
+
+void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
+  for (auto* values : {&curve.values, &curve.in, &curve.out})
+    for (Vec3& value : *values) value = scale * (turn * value);
+}
+
+/// Writes down the short ways from key to key, which the pieces of the curve else find anew.
+void find_turns(RotationCurve& curve) {
+  if (curve.empty() || !curve.turns.empty()) return;
+  std::vector<Vec3> turns = {Vec3::Zero()};
+  for (std::size_t k = 1; k < curve.values.size(); ++k)
+    turns.push_back(rotation_vector(curve.values[k] * curve.values[k - 1].conjugate()));
+  curve.turns = std::move(turns);
+}
+
+template <class Curve, class Piece>
+auto sample_of(const Curve& curve, double time, Piece& piece) {
+  if (!piece.time.covers(time)) piece = curve.piece_at(time);
+  return piece.at(time);
+}
+
+}  // namespace
+
+TrackCursor::TrackCursor(const Track& track)
+    : turns(!track.rotation.empty()),
+      twists(!track.twist.empty()),
+      shifts(!track.translation.empty()),
+      stretches(!track.stretch.empty()) {}
+
+LocalMotion Track::at(double time) const {
+  TrackCursor cursor(*this);
+  return at(time, cursor);
+}
+
+LocalMotion Track::at(double time, TrackCursor& cursor) const {
+  LocalMotion motion;
+  if (cursor.turns) {
+    const auto sample = sample_of(rotation, time, cursor.rotation);
+    motion.rotation = sample.value;
+    motion.angular_velocity = sample.angular_velocity;
+  }
+  if (cursor.twists) {
+    const auto sample = sample_of(twist, time, cursor.twist);
+    motion.twist = sample.value;
+    motion.twist_rate = sample.rate;
+  }
+  if (cursor.shifts) {
+    const auto sample = sample_of(translation, time, cursor.translation);
+    motion.translation = sample.value;
+    motion.velocity = sample.rate;
+  }
+  if (cursor.stretches) {
+    const auto sample = sample_of(stretch, time, cursor.stretch);
+    const bool held = sample.value < least_stretch;
+    motion.stretch = held ? least_stretch : sample.value;
+    motion.stretch_rate = held ? 0 : sample.rate;
+  }
+  return motion;
+}
+
+double last_key(const Track& track) {
+  double last = 0;
+  for (const auto* times :
+       {&track.rotation.times, &track.twist.times, &track.translation.times, &track.stretch.times})
+    if (!times->empty()) last = std::max(last, times->back());
+  return last;
+}
+
+double last_key(const Motion& motion) {
+  double last = 0;
+  for (const Track& track : motion.tracks) last = std::max(last, last_key(track));
+  return last;
+}
+
+double clip_length(const Motion& motion) {
+  return std::max(0.0, (motion.end ? *motion.end : last_key(motion)) - motion.start);
+}
+
+bool stretches(const Motion& motion) {
+  return std::any_of(motion.tracks.begin(), motion.tracks.end(), [](const Track& track) {
+    const auto& values = track.stretch.values;
+    return std::any_of(values.begin(), values.end(), [](double value) { return value != 1; });
+  });
+}
+
+Motion played(Motion clip, const Settings& settings) {
+  const MotionSettings& asked = settings.motion;
+  clip.extrapolation = asked.extrapolation;
+  clip.start = asked.start;
+  clip.end = asked.end;
+  clip.preroll = asked.preroll;
+  const double last = last_key(clip);
+  if (!clip.tracks.empty() && clip.start > 0 && clip.start >= clip.end.value_or(last))
+    throw bad_input(settings.place("motion.start"),
+                    "the clip would start at " + number_text(clip.start) +
+                        " s, and its last key is at " + number_text(last) + " s",
+                    "give a start before that");
+  for (Track& track : clip.tracks) {
+    const bool cyclic = clip.extrapolation == Extrapolation::loop;
+    track.rotation.cyclic = track.twist.cyclic = cyclic;
+    track.translation.cyclic = track.stretch.cyclic = cyclic;
+    find_turns(track.rotation);
+  }
+  if (!clip.end) clip.end = last;
+  return clip;
+}
+
+Motion placed(Motion motion, double scale, const Mat3& turn) {
+  if (scale == 1 && turn == Mat3::Identity()) return motion;
+  for (Track& track : motion.tracks) {
+    place(track.rotation, turn);
+    place(track.translation, scale, turn);
+  }
+  return motion;
+}
+
+ClipMoment clip_moment(const Motion& motion, double time) {
+  const ClipTime clip = clip_time(motion, time - motion.preroll);
+  if (time >= motion.preroll || motion.preroll <= 0) return {clip.time, clip.speed};
+  const double s = std::max(0.0, time / motion.preroll);
+  return {clip.time, clip.speed, true, s * s * (3 - 2 * s), 6 * s * (1 - s) / motion.preroll};
+}
+
+LocalMotion local_motion(const Track& track, const ClipMoment& moment, TrackCursor& cursor) {
+  LocalMotion local = track.at(moment.time, cursor);
+  if (moment.ramps) return ramped(local, moment.way, moment.rate);
+  slow_down(local, moment.speed);
+  return local;
+}
+
+std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion,
+                                       double time) {
+  std::vector<LocalMotion> local(skeleton.size());
+  const ClipMoment moment = clip_moment(motion, time);
+  for (const Track& track : motion.tracks) {
+    const auto bone = static_cast<std::size_t>(track.bone);
+    TrackCursor cursor(track);
+    local[bone] = local_motion(track, moment, cursor);
+    limit(skeleton.bones[bone], local[bone]);
+  }
+  return local;
+}
+
+const Clip& find_clip(const std::vector<Clip>& clips, std::string_view name) {
+  const auto found =
+      std::find_if(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+  if (found != clips.end()) return *found;
+  std::vector<std::string_view> names;
+  for (const Clip& clip : clips) names.push_back(clip.name);
+  throw bad_input("there is no clip " + shown(name),
+                  names.empty() ? "give a file with an animation" : suggestion(name, names));
+}
+
+}  // namespace sinew

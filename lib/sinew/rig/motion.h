@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys over time for the bones of a skeleton, and the pose they give at any moment.
+//
+// A bone's rotation turns it, and all that hangs on it, about its head; it is given in the
+// directions of its parent (of the scene for a root), which at rest are the scene's. Twist turns
+// the bone about its own axis before that rotation and is kept apart, so that it may pass 180
+// degrees. Translation shifts the head in the parent's directions. Stretch is a factor of the
+// bone's length; it moves the heads of its children as far as they lie along it.
+//
+// A run begins at rest. Over the preroll the bones go smoothly (smoothstep) to the pose with which
+// the clip begins; then the clip runs from its start to its end and goes on as its extrapolation
+// says.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sinew/rig/curve.h>
+#include <sinew/rig/pose.h>
+#include <sinew/rig/skeleton.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// What a motion says of one bone at one moment, relative to the parent, with its rate of change.
+struct LocalMotion {
+  Quat rotation = Quat::Identity();
+  Vec3 angular_velocity = Vec3::Zero();  ///< of rotation, in the parent's directions, rad/s
+  double twist = 0, twist_rate = 0;      ///< rad, rad/s
+  Vec3 translation = Vec3::Zero();       ///< m, in the parent's directions
+  Vec3 velocity = Vec3::Zero();          ///< of translation, m/s
+  double stretch = 1, stretch_rate = 0;  ///< of the bone's length, 1/s
+};
+
+struct TrackCursor;
+
+/// What moves of one bone; a curve without keys leaves its part at rest.
+struct Track {
+  int bone = no_bone;
+  RotationCurve rotation;
+  Curve<double> twist;      ///< rad
+  Curve<Vec3> translation;  ///< m
+  Curve<double> stretch;    ///< > 0
+
+  LocalMotion at(double time) const;  ///< time of the clip, s
+  LocalMotion at(double time, TrackCursor& cursor) const;
+};
+
+/// Where in its curves a track was last: near moments find the same pieces.
+struct TrackCursor {
+  explicit TrackCursor(const Track& track);
+
+  bool turns, twists, shifts, stretches;  ///< which curves there are
+  RotationPiece rotation;
+  CurvePiece<double> twist, stretch;
+  CurvePiece<Vec3> translation;
+};
+
+struct Motion {
+  std::vector<Track> tracks;  ///< at most one per bone
+  Extrapolation extrapolation = Extrapolation::hold;
+  double start = 0;                ///< s of the clip: what of it is used
+  std::optional<double> end = {};  ///< s of the clip; none: its last key
+  double preroll = 0;              ///< s before the clip begins
+};
+
+/// Time of the last key, s of the clip; 0 without keys.
+double last_key(const Track& track);
+double last_key(const Motion& motion);
+
+/// What of the clip is used, s.
+double clip_length(const Motion& motion);
+
+/// Whether any bone changes its length.
+bool stretches(const Motion& motion);
+
+/// A clip's motion with what a scene's section motion says of it: start, end, extrapolation and
+/// preroll. Throws bad input for a clip that would end
+/// before it starts.
+Motion played(Motion clip, const Settings& settings);
+
+/// The motion in a scene's directions and lengths, as the skeleton by its `placed`.
+Motion placed(Motion motion, double scale, const Mat3& turn);
+
+/// Builds the motion a scene describes. Throws bad input, naming the scene's line, for an unknown
+/// bone, two tracks of one bone, keys out of order, with no or two times, in frames of no known
+/// rate, or with a rotation given in two ways, by half, or by a quaternion that is no rotation.
+Motion make_motion(const Settings& settings, const Skeleton& skeleton);
+
+/// What a time of the scene is for a clip.
+struct ClipMoment {
+  double time = 0;           ///< of the clip, s
+  double speed = 1;          ///< s of the clip per s; 0 where it holds, -1 on the way back
+  bool ramps = false;        ///< within the preroll:
+  double way = 1, rate = 0;  ///< how much of the pose is reached, and its growth, 1/s
+};
+
+ClipMoment clip_moment(const Motion& motion, double time);
+
+/// What a track asks of its bone then, whatever its limits.
+LocalMotion local_motion(const Track& track, const ClipMoment& moment, TrackCursor& cursor);
+
+/// What each bone does at `time` (s of the scene), held within its limits.
+std::vector<LocalMotion> local_motions(const Skeleton& skeleton, const Motion& motion, double time);
+
+/// The pose at `time` (s of the scene), with the velocities of the moving bones. For many times:
+/// pose_cursor.h.
+Pose pose_at(const Skeleton& skeleton, const Motion& motion, double time);
+
+// What a file of a rig holds: a skeleton and the motions it knows by name.
+
+struct Clip {
+  std::string name;
+  Motion motion;
+  double duration = 0;    ///< s
+  int frames = 0;         ///< 0 where keys lie in no frames
+  double frame_time = 0;  ///< s between frames; 0 where keys lie in no frames
+};
+
+struct Rig {
+  Skeleton skeleton;
+  std::vector<Clip> clips;
+};
+
+/// Throws bad input (without the path) for a name that is not there, with the nearest one that is.
+const Clip& find_clip(const std::vector<Clip>& clips, std::string_view name);
+
+}  // namespace sinew

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/rig/motion_checks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <sinew/core/text.h>
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+namespace {
+
+/// A rotation as a twist about `axis`, then a swing by `lean` about `about` (across the axis).
+struct Parts {
+  Vec3 axis, about;
+  double lean = 0, twist = 0;
+
+  Quat twist_turn() const { return rotation_by(twist * axis); }
+};
+
+Parts parts_of(const Quat& rotation, const Vec3& axis) {
+  const double along = rotation.vec().dot(axis), length = std::hypot(rotation.w(), along);
+  Parts parts{axis, Vec3::Zero()};
+  if (length > 0)
+    parts.twist = rotation_vector({rotation.w() / length, axis.x() * along / length,
+                                   axis.y() * along / length, axis.z() * along / length})
+                      .dot(axis);
+  const Vec3 swing = rotation_vector(rotation * parts.twist_turn().conjugate());
+  parts.lean = swing.norm();
+  if (parts.lean > 0) parts.about = swing / parts.lean;
+  return parts;
+}
+
+/// How fast the parts change: lean, the way the bone leans (round its axis at rest), twist; rad/s.
+struct Rates {
+  double lean, round, twist;
+};
+
+/// From omega = round (axis - direction) + lean about + twist direction.
+Rates rates_of(const Parts& parts, const Vec3& omega) {
+  const Vec3 direction = rotation_by(parts.lean * parts.about) * parts.axis;
+  const double sine = std::sin(parts.lean);
+  const double across = omega.cross(direction).dot(parts.about);
+  return {omega.dot(parts.about), sine > 0 ? across / sine : 0,
+          omega.dot(direction) + across * std::tan(parts.lean / 2)};
+}
+
+void limit_swing(const Bone& bone, const Parts& parts, const Rates& rates, LocalMotion& motion) {
+  const Vec3& axis = bone.axis();
+  const Quat swing = rotation_by(bone.limits.swing * parts.about);
+  const Vec3 direction = swing * axis;
+  motion.rotation = swing * parts.twist_turn();
+  motion.angular_velocity = rates.round * (axis - direction) + rates.twist * direction;
+}
+
+}  // namespace
+
+Excess limit(const Bone& bone, LocalMotion& motion) {
+  const JointLimits& limits = bone.limits;
+  if (!limits.any()) return {};
+  const Parts parts = parts_of(motion.rotation, bone.axis());
+  const Rates rates = rates_of(parts, motion.angular_velocity);
+  const double twist = parts.twist + motion.twist;
+  const double allowed = std::clamp(twist, limits.least_twist, limits.most_twist);
+  const Excess excess = {std::max(0.0, parts.lean - limits.swing), std::abs(twist - allowed)};
+  if (excess.swing > 0) limit_swing(bone, parts, rates, motion);
+  if (excess.twist > 0) {
+    motion.twist += allowed - twist;
+    motion.twist_rate = -rates.twist;  // takes back what the rotation turns about the bone
+  }
+  return excess;
+}
+
+namespace {
+
+/// Moments of the scene at which to look at a track: its keys and three more between each two.
+std::vector<double> moments_of(const Track& track, const Motion& motion) {
+  const double length = clip_length(motion);
+  std::vector<double> keys = {0, length};
+  for (const auto* times : {&track.rotation.times, &track.twist.times})
+    for (const double time : *times)
+      if (time > motion.start && time < motion.start + length) keys.push_back(time - motion.start);
+  std::sort(keys.begin(), keys.end());
+  std::vector<double> moments;
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i)
+    for (int part = 0; part < 4; ++part)
+      moments.push_back(motion.preroll + keys[i] + (keys[i + 1] - keys[i]) * part / 4);
+  moments.push_back(motion.preroll + length);
+  return moments;
+}
+
+}  // namespace
+
+std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& motion) {
+  std::vector<LimitPassed> all;
+  for (const Track& track : motion.tracks) {
+    const Bone& bone = skeleton.bones[static_cast<std::size_t>(track.bone)];
+    if (!bone.limits.any()) continue;
+    LimitPassed passed;
+    for (const double time : moments_of(track, motion)) {
+      LocalMotion asked = track.at(motion.start + time - motion.preroll);
+      const Excess excess = limit(bone, asked);
+      if (excess.any() && !passed.most.any()) passed.bone = track.bone, passed.time = time;
+      passed.most.swing = std::max(passed.most.swing, excess.swing);
+      passed.most.twist = std::max(passed.most.twist, excess.twist);
+    }
+    if (passed.most.any()) all.push_back(passed);
+  }
+  return all;
+}
+
+namespace {
+
+constexpr double least_turn = pi / 180;
+
+/// How far a bone's motion is from another of the same bone.
+struct Gap {
+  double turn = 0;   ///< rad
+  double shift = 0;  ///< m, of head or tail
+};
+
+Gap gap_between(const Bone& bone, const LocalMotion& one, const LocalMotion& other) {
+  return {rotation_vector(one.rotation * other.rotation.conjugate()).norm() +
+              std::abs(one.twist - other.twist),
+          (one.translation - other.translation).norm() +
+              bone.length * std::abs(one.stretch - other.stretch)};
+}
+
+/// The bones whose gap is worth a word, told by the one that turns furthest.
+struct Worst {
+  std::size_t count = 0;
+  std::string name;
+  Gap gap;
+
+  std::string text() const {
+    std::string words = "bone '" + name + "'";
+    if (count > 1) words += " (and " + std::to_string(count - 1) + " more)";
+    return words;
+  }
+  std::string size() const {
+    std::string words = three_digits(degrees(gap.turn)) + " degrees";
+    if (gap.shift > 0) words += " and " + three_digits(gap.shift) + " m";
+    return words;
+  }
+};
+
+Worst worst_of(const Skeleton& skeleton, const Motion& motion, double least_shift,
+               const std::function<Gap(const Bone&, const Track&)>& gap_of) {
+  Worst worst;
+  for (const Track& track : motion.tracks) {
+    const Bone& bone = skeleton.bones[static_cast<std::size_t>(track.bone)];
+    const Gap gap = gap_of(bone, track);
+    if (gap.turn <= least_turn && gap.shift <= least_shift) continue;
+    const bool first = worst.count++ == 0;
+    if (first || gap.turn > worst.gap.turn) worst.name = bone.name, worst.gap = gap;
+  }
+  return worst;
+}
+
+using Warnings = std::vector<std::string>;
+
+void warn_of_start(const Skeleton& skeleton, const Motion& motion, double least_shift,
+                   Warnings& warnings) {
+  if (motion.preroll > 0) return;
+  const Worst worst =
+      worst_of(skeleton, motion, least_shift, [&](const Bone& bone, const Track& track) {
+        return gap_between(bone, track.at(motion.start), {});
+      });
+  if (worst.count > 0)
+    warnings.push_back(worst.text() + " does not begin at rest but " + worst.size() +
+                       " from it: the body is torn at the first step; set motion.preroll to 1, or "
+                       "begin its keys with one that has no rotation and no translation");
+}
+
+void warn_of_loop(const Skeleton& skeleton, const Motion& motion, double least_shift,
+                  Warnings& warnings) {
+  if (motion.extrapolation != Extrapolation::loop) return;
+  const double end = motion.start + clip_length(motion);
+  const Worst worst =
+      worst_of(skeleton, motion, least_shift, [&](const Bone& bone, const Track& track) {
+        return gap_between(bone, track.at(motion.start), track.at(end));
+      });
+  if (worst.count > 0)
+    warnings.push_back(worst.text() + " ends the clip " + worst.size() +
+                       " from where it begins it: it jumps each time the loop begins again; use "
+                       "motion.extrapolation ping_pong, or end with the first key");
+}
+
+template <class Curve>
+bool steps(const Curve& curve) {
+  return curve.interpolation == Interpolation::step && curve.times.size() > 1;
+}
+
+void warn_of_steps(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
+  for (const Track& track : motion.tracks)
+    if (steps(track.rotation) || steps(track.twist) || steps(track.translation) ||
+        steps(track.stretch))
+      warnings.push_back("bone '" + skeleton.bones[static_cast<std::size_t>(track.bone)].name +
+                         "' jumps from key to key: the body is torn at each; use interpolation "
+                         "linear, smooth or cubic");
+}
+
+void warn_of_limits(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
+  for (const LimitPassed& passed : limits_passed(skeleton, motion)) {
+    std::string text = "bone '" + skeleton.bones[static_cast<std::size_t>(passed.bone)].name +
+                       "' is held at its limits, first at " + three_digits(passed.time) + " s:";
+    if (passed.most.swing > 0)
+      text += " swing by " + three_digits(degrees(passed.most.swing)) + " degrees beyond";
+    if (passed.most.swing > 0 && passed.most.twist > 0) text += ',';
+    if (passed.most.twist > 0)
+      text += " twist by " + three_digits(degrees(passed.most.twist)) + " degrees beyond";
+    warnings.push_back(text + "; widen its limits, or turn it less");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
+                                         double least_shift) {
+  Warnings warnings;
+  warn_of_start(skeleton, motion, least_shift, warnings);
+  warn_of_loop(skeleton, motion, least_shift, warnings);
+  warn_of_steps(skeleton, motion, warnings);
+  warn_of_limits(skeleton, motion, warnings);
+  return warnings;
+}
+
+}  // namespace sinew

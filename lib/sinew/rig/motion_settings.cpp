@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <sinew/core/text.h>
+#include <sinew/core/vector.h>
+#include <sinew/rig/motion.h>
+
+namespace sinew {
+namespace {
+
+std::string path_of(std::size_t track) { return "motion.tracks[" + std::to_string(track) + "]"; }
+
+std::string path_of(std::size_t track, std::size_t key) {
+  return path_of(track) + ".keys[" + std::to_string(key) + "]";
+}
+
+Quat from_euler(const Vec3& angles, const std::string& order) {
+  Quat rotation = Quat::Identity();  // "xyz": about x first, then y, then z, in fixed directions
+  for (const char name : order) {
+    const int axis = name - 'x';
+    rotation = Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis)) * rotation;
+  }
+  return rotation;
+}
+
+constexpr double largest_rounding = 1e-3;  // of a quaternion's length: more is no rounding
+
+Quat from_quaternion(const std::array<double, 4>& given, const Place& place) {
+  const Quat rotation(given[0], given[1], given[2], given[3]);
+  const double length = rotation.norm();
+  if (!(std::abs(length - 1) <= largest_rounding))
+    throw bad_input(place, "a quaternion of length " + number_text(length) + " is no rotation",
+                    "give [w, x, y, z] of length 1");
+  return rotation.normalized();
+}
+
+Quat rotation_of(const KeySettings& key, const std::string& order, const Place& place) {
+  const int ways = (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
+  if (ways > 1)
+    throw bad_input(place, "a key gives its rotation twice",
+                    "keep one of euler, quaternion, and axis and angle");
+  if (key.euler) return from_euler(*key.euler, order);
+  if (key.quaternion) return from_quaternion(*key.quaternion, place);
+  if (key.axis && !key.angle)
+    throw bad_input(place, "an axis without an angle", "give angle: DEGREES");
+  if (!key.angle) return Quat::Identity();
+  if (!key.axis || key.axis->norm() == 0)
+    throw bad_input(place, "an angle without an axis", "give axis: [x, y, z], not all zero");
+  return Quat(Eigen::AngleAxisd(radians(*key.angle), key.axis->normalized()));
+}
+
+/// Whether a key asks for any rotation; euler angles of 0 do not.
+bool is_turned(const KeySettings& key) {
+  const bool by_quaternion = key.quaternion && *key.quaternion != std::array<double, 4>{1, 0, 0, 0};
+  return key.angle || by_quaternion || (key.euler && !key.euler->isZero(0));
+}
+
+/// The angle of a key about `axis`, if that is how it is given; no rotation is no angle.
+std::optional<double> angle_about(const Vec3& axis, const KeySettings& key) {
+  if (!is_turned(key)) return 0;
+  if (!key.axis || (key.axis->normalized() - axis).norm() > 1e-12) return std::nullopt;
+  return radians(*key.angle);
+}
+
+/// From one key to the next: angles about one axis as they are given, of any size; else the short
+/// way.
+Vec3 turn_between(const KeySettings& from, const KeySettings& to, const Quat& start,
+                  const Quat& end) {
+  const auto given = to.axis ? to.axis : from.axis;
+  if (given) {
+    const Vec3 axis = given->normalized();
+    const auto before = angle_about(axis, from), after = angle_about(axis, to);
+    if (before && after) return (*after - *before) * axis;
+  }
+  return rotation_vector(end * start.conjugate());
+}
+
+void check_order(const TrackSettings& track, const Place& place) {
+  std::string sorted = track.order;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted != "xyz")
+    throw bad_input(place, "'" + track.order + "' is no order of euler angles",
+                    "use xyz, xzy, yxz, yzx, zxy or zyx");
+}
+
+double time_of(const Settings& settings, const KeySettings& key, const std::string& path) {
+  if (key.time && key.frame)
+    throw bad_input(settings.place(path + ".frame"), "a key gives its time twice",
+                    "keep one of time and frame");
+  if (key.time) return *key.time;
+  if (!key.frame)
+    throw bad_input(settings.place(path), path + ".time is missing",
+                    "add time: SECONDS, or frame: NUMBER");
+  if (!settings.motion.frame_rate)
+    throw bad_input(settings.place(path + ".frame"),
+                    "a key in frames, and nobody says how many there are in a second",
+                    "give motion: frame_rate: as in 30, or time: instead of frame:");
+  return *key.frame / *settings.motion.frame_rate;
+}
+
+/// The keys' times, s.
+std::vector<double> times_of(const Settings& settings, std::size_t index) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < settings.tracks[index].keys.size(); ++i) {
+    const KeySettings& key = settings.tracks[index].keys[i];
+    const std::string path = path_of(index, i);
+    const double time = time_of(settings, key, path);
+    if (i > 0 && !(time > times.back()))
+      throw bad_input(settings.place(path + (key.frame ? ".frame" : ".time")),
+                      "keys are not in ascending time", "sort them, each with its own time");
+    times.push_back(time);
+  }
+  if (times.empty())
+    throw bad_input(settings.place(path_of(index)), "a track without keys",
+                    "give it keys, or remove it");
+  return times;
+}
+
+RotationCurve rotation_curve(const Settings& settings, std::size_t index) {
+  const TrackSettings& track = settings.tracks[index];
+  RotationCurve curve;
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    const KeySettings& key = track.keys[i];
+    const Quat rotation = rotation_of(key, track.order, settings.place(path_of(index, i)));
+    curve.turns.push_back(
+        i > 0 ? turn_between(track.keys[i - 1], key, curve.values.back(), rotation) : Vec3::Zero());
+    curve.values.push_back(rotation);
+  }
+  return curve;
+}
+
+template <class Value, class Of>
+Curve<Value> curve_of(const TrackSettings& track, Of&& of) {
+  Curve<Value> curve;
+  for (const KeySettings& key : track.keys) curve.values.push_back(of(key));
+  return curve;
+}
+
+int bone_of(const Settings& settings, std::size_t index, const Skeleton& skeleton,
+            const Motion& earlier) {
+  const std::string& name = settings.tracks[index].bone;
+  const Place place = settings.place(path_of(index) + ".bone");
+  const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
+                                  [&](const Bone& bone) { return bone.name == name; });
+  if (found == skeleton.bones.end())
+    throw bad_input(place, "there is no bone '" + name + "'", "use a name from skeleton.bones");
+  const int bone = static_cast<int>(found - skeleton.bones.begin());
+  for (const Track& track : earlier.tracks)
+    if (track.bone == bone)
+      throw bad_input(place, "bone '" + name + "' has two tracks", "put all its keys into one");
+  return bone;
+}
+
+/// Twist, translation and stretch are curves only where a key asks for some.
+Track make_track(const Settings& settings, std::size_t index) {
+  const TrackSettings& given = settings.tracks[index];
+  const std::vector<double> times = times_of(settings, index);
+  const auto any = [&](auto&& says) {
+    return std::any_of(given.keys.begin(), given.keys.end(), says);
+  };
+  Track track;
+  track.rotation = rotation_curve(settings, index);
+  if (any([](const KeySettings& key) { return key.twist != 0; }))
+    track.twist = curve_of<double>(given, [](const auto& key) { return radians(key.twist); });
+  if (any([](const KeySettings& key) { return key.translation != Vec3::Zero(); }))
+    track.translation = curve_of<Vec3>(given, [](const auto& key) { return key.translation; });
+  if (any([](const KeySettings& key) { return key.stretch != 1; }))
+    track.stretch = curve_of<double>(given, [](const auto& key) { return key.stretch; });
+  const auto finish = [&](auto& curve) {
+    curve.interpolation = given.interpolation;
+    if (!curve.values.empty()) curve.times = times;
+  };
+  finish(track.rotation), finish(track.twist), finish(track.translation), finish(track.stretch);
+  return track;
+}
+
+}  // namespace
+
+Motion make_motion(const Settings& settings, const Skeleton& skeleton) {
+  Motion motion;
+  for (std::size_t i = 0; i < settings.tracks.size(); ++i) {
+    check_order(settings.tracks[i], settings.place(path_of(i) + ".order"));
+    const int bone = bone_of(settings, i, skeleton, motion);
+    motion.tracks.push_back(make_track(settings, i));
+    motion.tracks.back().bone = bone;
+  }
+  return placed(played(std::move(motion), settings), settings.skeleton.scale,
+                to_scene(settings.skeleton));
+}
+
+}  // namespace sinew

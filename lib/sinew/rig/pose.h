@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where every bone is at one moment, and how it moves.
+#pragma once
+
+#include <vector>
+
+#include <sinew/rig/motion.h>
+#include <sinew/rig/skeleton.h>
+
+namespace sinew {
+
+struct BonePose {
+  RigidFrame frame;                      ///< head and axes now; at rest it is Bone::rest
+  Mat3 turn = Mat3::Identity();          ///< rotation since rest, frame.rotation rest.rotation^T
+  Vec3 velocity = Vec3::Zero();          ///< of the head, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  double twist = 0;                      ///< turn about the bone itself asked by the motion, rad
+  double stretch = 1;                    ///< of the length: what was s along the axis is stretch s
+  double stretch_rate = 0;               ///< 1/s
+
+  Vec3 axis() const { return frame.rotation.col(0); }
+  /// Where the bone has carried a point that was at `point` when the bone was `bone` at rest.
+  Vec3 carried(const Vec3& point, const Bone& bone) const {
+    const Vec3 offset = point - bone.head();
+    const double longer = (stretch - 1) * bone.axis().dot(offset);
+    return frame.origin + turn * (offset + longer * bone.axis());
+  }
+  /// Velocity of the point of this bone that is at `p` now, m/s; rigid: without its stretching.
+  Vec3 rigid_velocity_at(const Vec3& p) const {
+    return velocity + angular_velocity.cross(p - frame.origin);
+  }
+  Vec3 velocity_at(const Vec3& p) const {
+    if (stretch_rate == 0) return rigid_velocity_at(p);
+    return rigid_velocity_at(p) + stretch_rate / stretch * axis().dot(p - frame.origin) * axis();
+  }
+};
+
+using Pose = std::vector<BonePose>;  ///< one per bone, in the skeleton's order
+
+/// The pose at rest, without motion.
+Pose rest_pose(const Skeleton& skeleton);
+
+// Poses of one motion at many times, as a run asks for them: step by step. What stays the same from
+// one to the next is found once: the piece of each curve between two keys, and how bones hang on
+// each other. Any order of times gives the same bits.
+
+class PoseCursor {
+ public:
+  /// Both must stay, as they are.
+  PoseCursor(const Skeleton& skeleton, const Motion& motion);
+
+  /// The pose at `time`, s of the scene; there until the next call.
+  const Pose& at(double time);
+
+ private:
+  /// A bone on its parent; the scene holds roots.
+  struct Link {
+    int parent = no_bone, track = -1;  ///< -1: nothing moves it
+    bool limited = false;
+    Vec3 offset = Vec3::Zero();    ///< of its head from the parent's, at rest
+    Vec3 along = Vec3::Zero();     ///< the part of it along the parent, which stretches
+    Vec3 axis = Vec3::Zero();      ///< its own, at rest
+    Mat3 rest = Mat3::Identity();  ///< its axes at rest
+  };
+
+  static void carry(const Link& link, const BonePose& parent, BonePose& pose);
+  static void move(const Link& link, const LocalMotion& local, const BonePose& parent,
+                   BonePose& pose);
+
+  const Skeleton* skeleton_;
+  const Motion* motion_;
+  std::vector<Link> links_;           ///< of each bone
+  std::vector<TrackCursor> cursors_;  ///< of each track
+  Pose pose_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/rig/skin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
+
+namespace sinew {
+namespace {
+
+constexpr double reach_in_radii = 6;
+constexpr std::size_t least_particles = 20;  // fewer would let single particles show in the skin
+constexpr double margin = 1.05;  // h beyond the last of them, which counts a little then
+constexpr std::size_t vertices_per_piece = 512;  // and particles
+
+struct Near {
+  double distance;
+  std::uint32_t particle;
+  bool operator<(const Near& other) const {
+    return distance != other.distance ? distance < other.distance : particle < other.particle;
+  }
+};
+
+std::vector<Near> within(const CellGrid& grid, const Points& points, const Vec3& vertex,
+                         double range) {
+  std::vector<Near> near;
+  grid.for_each_near(vertex, [&](std::uint32_t j) {
+    const double distance = (points[j] - vertex).norm();
+    if (distance < range) near.push_back({distance, j});
+  });
+  std::sort(near.begin(), near.end());
+  return near;
+}
+
+/// The particles around a vertex and the distance h at which their weights end.
+struct Support {
+  std::vector<Near> near;
+  double h = 0;
+};
+
+/// Empty where fewer than `wanted` particles lie within `wide`.
+std::optional<Support> support_within(const CellGrid& grid, const Points& points,
+                                      const Vec3& vertex, double range, double wide,
+                                      std::size_t wanted) {
+  std::vector<Near> near = within(grid, points, vertex, margin * wide);
+  if (near.size() < wanted || near[wanted - 1].distance >= wide) return std::nullopt;
+  const double h = std::max(range, margin * near[wanted - 1].distance);
+  std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
+  return Support{std::move(near), h};
+}
+
+/// Of each vertex; looked for twice as far for the few that have found too little.
+std::vector<Support> supports_of(const Points& vertices, const Points& points, double range) {
+  std::vector<Support> supports(vertices.size());
+  if (points.empty()) return supports;
+  const std::size_t wanted = std::min(least_particles, points.size());
+  std::vector<std::uint32_t> left(vertices.size());
+  std::iota(left.begin(), left.end(), 0);
+  for (double wide = range; !left.empty(); wide *= 2) {
+    const CellGrid grid(points, margin * wide);
+    std::vector<char> found(left.size());
+    parallel_for(left.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        if (auto support = support_within(grid, points, vertices[left[k]], range, wide, wanted))
+          supports[left[k]] = *std::move(support), found[k] = 1;
+    });
+    std::size_t k = 0;
+    std::erase_if(left, [&](std::uint32_t) { return found[k++] != 0; });
+  }
+  return supports;
+}
+
+void add_weights(Skin& skin, const Support& support) {
+  double sum = 0;
+  for (const Near& one : support.near) {
+    const double rise = 1 - (one.distance / support.h) * (one.distance / support.h);
+    skin.particle.push_back(one.particle);
+    skin.weight.push_back(rise * rise * rise);
+    sum += skin.weight.back();
+  }
+  for (std::size_t k = skin.first.back(); k < skin.weight.size(); ++k) skin.weight[k] /= sum;
+  skin.first.push_back(static_cast<std::uint32_t>(skin.weight.size()));
+}
+
+std::vector<std::uint32_t> indices_of(const std::vector<char>& marked) {
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i]) indices.push_back(static_cast<std::uint32_t>(i));
+  return indices;
+}
+
+/// Marks the points closer than `range` to one that is marked.
+void mark_neighbours(const CellGrid& grid, const Points& points, double range,
+                     std::vector<char>& marked) {
+  const std::vector<std::uint32_t> from = indices_of(marked);
+  std::vector<std::vector<std::uint32_t>> found((from.size() + vertices_per_piece - 1) /
+                                                vertices_per_piece);
+  parallel_for(from.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      grid.for_each_near(points[from[k]], [&](std::uint32_t j) {
+        if (!marked[j] && (points[j] - points[from[k]]).squaredNorm() < range * range)
+          found[begin / vertices_per_piece].push_back(j);
+      });
+  });
+  for (const auto& some : found)
+    for (const std::uint32_t j : some) marked[j] = 1;
+}
+
+/// Keeps of the body what the skin needs.
+void add_body(Skin& skin, const Points& points, double radius) {
+  const double range = rest_neighbour_range(radius);
+  std::vector<char> marked(points.size());
+  for (const std::uint32_t j : skin.particle) marked[j] = 1;
+  const std::vector<char> carriers = marked;
+  const CellGrid grid(points, range);
+  for (int ring = 0; ring < 2; ++ring) mark_neighbours(grid, points, range, marked);
+  skin.near = indices_of(marked);
+  std::vector<std::uint32_t> place(points.size());
+  Points near;
+  for (const std::uint32_t j : skin.near) {
+    place[j] = static_cast<std::uint32_t>(near.size());
+    near.push_back(points[j]);
+    skin.carries.push_back(carriers[j]);
+  }
+  for (std::uint32_t& j : skin.particle) j = place[j];
+  skin.shape = rest_shape(std::move(near), range);
+}
+
+/// How particle j turns, seen with its neighbours' neighbours: alone it may be the end of a line.
+Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
+  Mat3 spread = moved_spread(body, now, j);
+  for (const auto k : body.neighbours.of(j)) spread += moved_spread(body, now, k);
+  return rotation_part(spread);
+}
+
+Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
+  constexpr std::size_t least_neighbours = 4;
+  if (!body.defined(j) || body.neighbours.of(j).size() < least_neighbours)
+    return rotation_around(body, now, j);
+  const Mat3 F = deformation_gradient(body, now, j);
+  const double J = F.determinant();
+  const bool reliable = J > 0.3 && J < 3;
+  return reliable ? F : rotation_part(F);
+}
+
+/// Whether two particles follow bones that share no joint.
+bool strangers(const Skeleton& skeleton, const Binding& binding, std::uint32_t i, std::uint32_t j) {
+  const int a = binding.bone(i), b = binding.bone(j);
+  if (a == no_bone || b == no_bone || a == b) return false;
+  return skeleton.bones[a].parent != b && skeleton.bones[b].parent != a;
+}
+
+/// Which of the particles around a vertex touching ones lead to from the nearest.
+std::vector<char> reached_from_nearest(const Support& support, const Points& points, double range) {
+  const std::vector<Near>& near = support.near;
+  std::vector<char> reached(near.size());
+  std::vector<std::size_t> next = {0};
+  reached[0] = 1;
+  while (!next.empty()) {
+    const Vec3& from = points[near[next.back()].particle];
+    next.pop_back();
+    for (std::size_t k = 0; k < near.size(); ++k)
+      if (!reached[k] && (points[near[k].particle] - from).squaredNorm() < range * range)
+        reached[k] = 1, next.push_back(k);
+  }
+  return reached;
+}
+
+void drop_strangers(const Points& points, double radius, const Skeleton& skeleton,
+                    const Binding& binding, Support& support) {
+  if (support.near.empty()) return;
+  const std::uint32_t nearest = support.near.front().particle;
+  const auto is_stranger = [&](const Near& one) {
+    return strangers(skeleton, binding, nearest, one.particle);
+  };
+  if (std::none_of(support.near.begin(), support.near.end(), is_stranger)) return;
+  const auto reached = reached_from_nearest(support, points, rest_neighbour_range(radius));
+  std::size_t k = 0;
+  std::erase_if(support.near, [&](const Near& one) { return !reached[k++] && is_stranger(one); });
+}
+
+Skin skin_of(const Points& vertices, const Points& points, double radius,
+             const std::vector<Support>& supports) {
+  Skin skin;
+  skin.rest = vertices;
+  skin.first.push_back(0);
+  for (const Support& support : supports) add_weights(skin, support);
+  add_body(skin, points, radius);
+  return skin;
+}
+
+}  // namespace
+
+Skin make_skin(const Points& vertices, const Points& points, double radius) {
+  return skin_of(vertices, points, radius, supports_of(vertices, points, reach_in_radii * radius));
+}
+
+Skin make_skin(const Points& vertices, const Points& points, double radius,
+               const Skeleton& skeleton, const Binding& binding) {
+  std::vector<Support> supports = supports_of(vertices, points, reach_in_radii * radius);
+  parallel_for(supports.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      drop_strangers(points, radius, skeleton, binding, supports[i]);
+  });
+  return skin_of(vertices, points, radius, supports);
+}
+
+Points follow(const Skin& skin, const Points& now) {
+  Points near(skin.near.size());
+  for (std::size_t j = 0; j < near.size(); ++j) near[j] = now[skin.near[j]];
+  std::vector<Mat3> carriers(near.size());
+  parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      if (skin.carries[j]) carriers[j] = carrier(skin.shape, near, j);
+  });
+  Points moved(skin.rest.size(), Vec3::Zero());
+  parallel_for(moved.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k) {
+        const std::uint32_t j = skin.particle[k];
+        moved[i] +=
+            skin.weight[k] * (near[j] + carriers[j] * (skin.rest[i] - skin.shape.points[j]));
+      }
+  });
+  return moved;
+}
+
+}  // namespace sinew

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface follows the particles: each vertex X is carried by the affine motions of the
+// particles near it, x = sum_j w_j (x_j + F_j (X - X_j)), with w_j = (1 - (s / h)^2)^3 normalised,
+// s = |X - X_j|. Exact for affine motion of the body.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <sinew/core/deformation.h>
+#include <sinew/core/vector.h>
+#include <sinew/rig/binding.h>
+
+namespace sinew {
+
+struct Skin {
+  Points rest;                          ///< vertices at rest, n x 3, m
+  std::vector<std::uint32_t> first;     ///< n + 1 long; vertex i has [first[i], first[i + 1])
+  std::vector<std::uint32_t> particle;  ///< places in `near`
+  std::vector<double> weight;           ///< sums to 1 for each vertex
+
+  /// The particles that matter, ascending indices into the body's rest points: those that carry
+  /// vertices, and their neighbours and theirs, which tell how they deform.
+  std::vector<std::uint32_t> near;
+  std::vector<char> carries;  ///< whether each of them carries a vertex
+  RestShape shape;            ///< of these alone; whole for those that carry and their neighbours
+};
+
+/// Ties vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m) within
+/// h = max(6 radius, 1.05 times the distance of the 20th particle). In parallel.
+Skin make_skin(const Points& vertices, const Points& points, double radius);
+
+/// The same, but a vertex follows no particles of bones that are strangers to that of its nearest
+/// particle (neither the same nor parent and child), where no way of touching particles within h
+/// leads to them: fingers do not bleed into each other.
+Skin make_skin(const Points& vertices, const Points& points, double radius,
+               const Skeleton& skeleton, const Binding& binding);
+
+/// The vertices when the particles are at `now` (m, in the order of the body's points). In
+/// parallel.
+Points follow(const Skin& skin, const Points& now);
+
+}  // namespace sinew

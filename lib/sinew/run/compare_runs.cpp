@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/compare_runs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "command/command.h"
+#include "command/results.h"
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/mesh/surface_distance.h>
+#include <sinew/metrics/files.h>
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/report/comparison_page.h>
+#include <sinew/metrics/table.h>
+#include <sinew/run/run_files.h>
+#include <sinew/settings/row.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double same_place = 1e-6;        // radii: two bodies began alike
+constexpr double same_float_place = 1e-3;  // radii: likewise, of surfaces read from Float32
+
+/// One of the two runs, with what is known of it before the other.
+struct Side {
+  explicit Side(const fs::path& folder) : run(open_run({folder})), rest(rest_of(run)) {}
+
+  RunFiles run;
+  RestBody rest;
+  Measured measured;
+  Film film;
+};
+
+std::string name_of(const fs::path& folder) {
+  return fs::absolute(folder / ".").lexically_normal().parent_path().filename();
+}
+
+using Pair = std::array<std::size_t, 2>;
+
+/// Frames of the same times, ascending.
+std::vector<Pair> matched_frames(const RunFiles& first, const RunFiles& second) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < first.frames(); ++i)
+    if (const auto j = frame_at(second.particle_rows, first.particle_rows[i].time))
+      if (*j < second.frames()) pairs.push_back({i, *j});
+  if (pairs.empty())
+    throw bad_input("the runs have no frame at the same time",
+                    "run both with the same output.interval");
+  return pairs;
+}
+
+bool began_alike(const Points& one, const Points& other, double tolerance) {
+  if (one.size() != other.size()) return false;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if ((one[i] - other[i]).norm() > tolerance) return false;
+  return true;
+}
+
+/// Which points are the same in both runs, so that their distance means something.
+struct Alike {
+  bool particles = false, surface = false;
+};
+
+Alike alike(const Side& first, const Side& second) {
+  const double r = first.rest.radius;
+  return {
+      began_alike(first.rest.shape.points, second.rest.shape.points, same_place * r),
+      first.run.surface.faces == second.run.surface.faces &&
+          began_alike(first.run.surface.points, second.run.surface.points, same_float_place * r)};
+}
+
+std::string counted(const Points& one, const Points& other, const char* what) {
+  std::string text = std::to_string(one.size());
+  text += " and ";
+  text += std::to_string(other.size());
+  return text + ' ' + what;
+}
+
+std::vector<std::string> remarks_on(const Side& first, const Side& second, const Alike& same,
+                                    std::size_t pairs) {
+  std::vector<std::string> remarks;
+  if (!same.particles)
+    remarks.push_back("The particles are not the same (" +
+                      counted(first.rest.shape.points, second.rest.shape.points, "of them") +
+                      ", or at other places at rest): no distance between them is taken.");
+  if (!same.surface)
+    remarks.push_back("The surfaces are not the same mesh (" +
+                      counted(first.run.surface.points, second.run.surface.points, "points") +
+                      "): only nearest places are compared.");
+  const std::size_t lone = first.run.frames() + second.run.frames() - 2 * pairs;
+  if (lone > 0)
+    remarks.push_back(std::to_string(lone) +
+                      " frames have no counterpart at their time in the other run.");
+  return remarks;
+}
+
+Statistics apart(const Points& one, const Points& other) {
+  return statistics(one.size(), [&](std::size_t i) { return (one[i] - other[i]).norm(); });
+}
+
+void add_distances(FrameMetrics& out, const FrameState& one, const FrameState& other,
+                   const Side& first, const Side& second, const Alike& same) {
+  if (same.particles) {
+    const Statistics particles = apart(one.positions, other.positions);
+    out.reference_particles_rms = particles.rms();
+    out.reference_particles_max = particles.max();
+  }
+  if (same.surface) {
+    const Statistics points = apart(one.surface_points, other.surface_points);
+    out.reference_surface_rms = points.rms();
+    out.reference_surface_max = points.max();
+  }
+  const SurfaceGap gap = surface_gap({one.surface_points, first.run.surface.faces},
+                                     {other.surface_points, second.run.surface.faces});
+  out.reference_hausdorff = gap.hausdorff;
+  out.reference_distance_mean = gap.mean;
+}
+
+void add_shot(Side& side, std::size_t number, const FrameState& state) {
+  if (side.film.wants(number))
+    add_frame(side.film, number, side.rest, state, particle_values(side.rest, state));
+}
+
+/// What takes both runs at once: distances into the second one's metrics, and the films.
+void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, const Alike& same) {
+  for (Side* side : {&first, &second}) side->film = plan_film(side->rest, pairs.size(), 0.5);
+  second.film.wanted = first.film.wanted;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const FrameState one = measured_frame(read_frame(first.run, pairs[k][0]));
+    const FrameState other = measured_frame(read_frame(second.run, pairs[k][1]));
+    add_distances(second.measured.frames[pairs[k][1]], one, other, first, second, same);
+    add_shot(first, k, one);
+    add_shot(second, k, other);
+  }
+}
+
+ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::size_t which) {
+  ComparedRun run{name_of(side.run.folder.path), {}, side.measured.summary, side.rest.radius};
+  for (const Pair& pair : pairs) run.frames.push_back(side.measured.frames[pair[which]]);
+  return run;
+}
+
+/// The settings that differ, by section.
+std::vector<FactGroup> differing_settings(const Settings& first, const Settings& second) {
+  std::vector<FactGroup> groups;
+  for (const auto& row : settings_table()) {
+    const std::string one = scene_text(row.get(first), row.absent),
+                      other = scene_text(row.get(second), row.absent);
+    if (one == other) continue;
+    if (groups.empty() || groups.back().title != row.section)
+      groups.push_back({std::string(row.section), {}});
+    groups.back().facts.push_back({std::string(row.name), one + " → " + other});
+  }
+  return groups;
+}
+
+void refuse_own_folders(const fs::path& out, const fs::path& first, const fs::path& second) {
+  std::error_code none;
+  for (const fs::path& run : {first, second})
+    if (fs::equivalent(out, run, none))
+      throw bad_input(Place{out.string()}, "is one of the runs: their reports would be lost",
+                      "name another folder with -o");
+  if (fs::exists(out / "run.json", none))
+    throw bad_input(Place{out.string()}, "holds a run: its reports would be lost",
+                    "name another folder with -o");
+}
+
+void write_comparison(const RunComparison& compared, const Side& first, const Side& second,
+                      const fs::path& out) {
+  create({out});
+  write_file(out / "compare.csv", comparison_csv(compared));
+  write_file(out / "metrics.json", comparison_json(compared));
+  const Film film = side_by_side(first.film, second.film, {"a: ", "b: "});
+  write_file(out / "report.html",
+             comparison_html({version(), compared, film,
+                              differing_settings(first.run.settings, second.run.settings),
+                              first.run.scene_text, second.run.scene_text}));
+}
+
+}  // namespace
+
+RunComparison compare_runs(const fs::path& first_folder, const fs::path& second_folder,
+                           const HowToMeasure& how, const fs::path& out) {
+  refuse_own_folders(out, first_folder, second_folder);
+  Side first(first_folder), second(second_folder);
+  const std::vector<Pair> pairs = matched_frames(first.run, second.run);
+  for (Side* side : {&first, &second})
+    side->measured = measure_run(side->run, {{}, {}, {}, how.ahead, false});
+  const Alike same = alike(first, second);
+  hold_together(first, second, pairs, same);
+  RunComparison compared = compare(compared_run(first, pairs, 0), compared_run(second, pairs, 1));
+  compared.remarks = remarks_on(first, second, same, pairs.size());
+  for (const Limit& limit : how.limits)
+    compared.checks.push_back(check_limit(limit, compared.differences, compared.summary));
+  write_comparison(compared, first, second, out);
+  return compared;
+}
+
+void print_comparison(const RunComparison& compared, bool as_json) {
+  Results results;
+  results.add("frames", compared.differences.size());
+  if (!compared.remarks.empty()) results.add("remarks", compared.remarks);
+  const auto metrics = metrics_table();
+  for (std::size_t i = 1; i < metrics.size(); ++i) {
+    const auto largest = largest_difference(compared, i);
+    if (!largest) continue;
+    const std::string name(metrics[i].name);
+    results.add(is_distance(name) ? name : name + "_difference",
+                compared.differences[*largest].*metrics[i].value, std::string(metrics[i].unit));
+  }
+  results.print(as_json);
+}
+
+}  // namespace sinew

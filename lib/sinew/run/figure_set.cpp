@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/figure_set.h>
+
+#include <algorithm>
+
+#include <sinew/render/figure.h>
+#include <sinew/render/movie.h>
+
+namespace sinew {
+namespace {
+
+std::string numbered(std::size_t frame) {
+  const std::string digits = std::to_string(frame);
+  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
+}
+
+}  // namespace
+
+Album::Album(std::vector<const DrawnRun*> runs, std::size_t look, AlbumOptions options)
+    : runs_(std::move(runs)), look_(look), options_(std::move(options)) {
+  for (const DrawnRun* run : runs_) painters_.emplace_back(run->files().surface, scale());
+}
+
+ColourScale Album::scale() const {
+  const DrawnValues& values = drawn(0).values;
+  ColourScale scale{values.name(), values.unit(), drawn(0).range.low, drawn(0).range.high,
+                    options_.colours};
+  for (std::size_t run = 1; run < runs_.size(); ++run) {
+    scale.low = std::min(scale.low, drawn(run).range.low);
+    scale.high = std::max(scale.high, drawn(run).range.high);
+  }
+  if (options_.range) scale.low = (*options_.range)[0], scale.high = (*options_.range)[1];
+  if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing has moved
+  return scale;
+}
+
+/// Frames of the first run.
+std::vector<std::size_t> Album::moments() const {
+  if (options_.times.empty()) return runs_.front()->telling_frames();
+  std::vector<std::size_t> frames;
+  for (const double time : options_.times) frames.push_back(runs_.front()->frame_at(time));
+  return frames;
+}
+
+/// Of each run, at the time of the first one's frame.
+std::vector<Shot> Album::shots(std::size_t frame) const {
+  const double time = runs_.front()->files().particle_rows[frame].time;
+  std::vector<Shot> shots;
+  for (std::size_t run = 0; run < runs_.size(); ++run)
+    shots.push_back(runs_[run]->shot(runs_[run]->frame_at(time), drawn(run)));
+  return shots;
+}
+
+std::string Album::title(std::size_t run) const {
+  return runs_.size() > 1 ? runs_[run]->name() : "";
+}
+
+std::string Album::name() const {
+  return (runs_.size() > 1 ? "compare_" : "") + std::string(drawn(0).look.name);
+}
+
+PlateOptions Album::plate_options(Finish finish) const {
+  PlateOptions plate;
+  plate.camera.view = options_.view;
+  for (const DrawnRun* run : runs_) plate.camera.frame.extend(run->story().frame);
+  plate.width = options_.width;
+  plate.height = options_.height;
+  plate.finish = finish;
+  return plate;
+}
+
+std::vector<Panel> Album::panels(const std::vector<Shot>& shots) {
+  std::vector<Panel> panels;
+  for (std::size_t run = 0; run < shots.size(); ++run)
+    panels.push_back({&painters_[run], &shots[run], drawn(run).look.view, title(run)});
+  return panels;
+}
+
+/// The box around these moments of all runs.
+Box Album::frame_of(const std::vector<std::size_t>& frames) const {
+  Box box;
+  for (const std::size_t frame : frames)
+    for (const Shot& shot : shots(frame)) box.extend(seen(options_.view, shot));
+  return box;
+}
+
+int Album::pictures() {
+  const std::vector<std::size_t> frames = moments();
+  PlateOptions options = plate_options(Finish::fine);
+  options.camera.frame = frame_of(frames);
+  for (const std::size_t frame : frames) {
+    const std::vector<Shot> moment = shots(frame);
+    write_png(plate(panels(moment), options), place(name() + '_' + numbered(frame) + ".png"));
+  }
+  return static_cast<int>(frames.size());
+}
+
+void Album::sheet() {
+  std::vector<std::vector<Shot>> over_time(runs_.size());
+  for (const std::size_t frame : moments()) {
+    std::vector<Shot> moment = shots(frame);
+    for (std::size_t run = 0; run < runs_.size(); ++run)
+      over_time[run].push_back(std::move(moment[run]));
+  }
+  SheetOptions sheet;
+  sheet.view = options_.view;
+  sheet.width = options_.width * 5 / 4;  // several moments want more room
+  sheet.row_height = options_.height * 7 / 9;
+  if (of_body()) {
+    write_png(contact_sheet(painters_[0], over_time[0], sheet), place("contact_sheet.png"));
+    return;
+  }
+  std::vector<SheetRow> rows;
+  for (std::size_t run = 0; run < runs_.size(); ++run)
+    rows.push_back({&painters_[run], &over_time[run], drawn(run).look.view, title(run)});
+  write_png(contact_sheet(rows, sheet), place(name() + "_sheet.png"));
+}
+
+void Album::movie() {
+  MovieOptions movie;
+  movie.width = options_.width & ~1;  // H.264 wants even sizes
+  movie.height = options_.height & ~1;
+  const double interval = runs_.front()->files().settings.output.interval;
+  movie.frames_per_second = std::clamp(1 / interval, 0.1, 240.0);
+  Movie film(place(of_body() ? "movie.mp4" : name() + ".mp4"), movie);
+  PlateOptions options = plate_options(Finish::quick);
+  options.width = movie.width;
+  options.height = movie.height;
+  for (std::size_t frame = 0; frame < runs_.front()->files().frames(); ++frame) {
+    const std::vector<Shot> moment = shots(frame);
+    std::vector<Panel> side_by_side = panels(moment);
+    if (of_body())
+      side_by_side = {{&painters_[0], &moment[0], View::surface, ""},
+                      {&painters_[0], &moment[0], View::particles, ""}};
+    film.add(plate(side_by_side, options));
+  }
+  film.finish();
+}
+
+}  // namespace sinew

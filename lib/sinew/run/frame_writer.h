@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes what a simulation is at this moment as one frame of each series, while it goes on
+// stepping: a frame is copied and handed to a thread of its own. Beside the series: bones.csv and,
+// where the scene asks for them, the surface by skinning alone and its export for animators.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <sinew/core/background.h>
+#include <sinew/core/triangles.h>
+#include <sinew/io/bone_table.h>
+#include <sinew/io/frames.h>
+#include <sinew/io/point_cache.h>
+#include <sinew/io/series.h>
+#include <sinew/metrics/rest_body.h>
+#include <sinew/physics/simulation.h>
+#include <sinew/physics/world/world.h>
+#include <sinew/rig/skin.h>
+#include <sinew/rig/skinning.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+class Recorder {
+ public:
+  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame;
+  /// `kept`: times (s) of frames that are there already. Throws not written, and bad input when one
+  /// of those is missing.
+  Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
+           const Triangles& surface, std::vector<Triangles> obstacles,
+           std::span<const double> kept = {});
+
+  /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
+  /// not written, of a frame before it too: then nothing more is written.
+  void add(Simulation& simulation, double time);
+  /// Does what make() returns once all frames before are written, unless that fails.
+  void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
+  /// Waits until all frames are written and named by the PVDs. Throws not written.
+  void close();
+
+  /// How long add() has waited for frames before to be written, s.
+  double waited() const { return writer_.waited(); }
+
+  /// Frames that every series holds.
+  int written() const { return written_; }
+
+ private:
+  /// What a frame is made of, in the order of the particles.
+  struct Moved {
+    Moment moment;
+    Particles particles;
+    Points force_pair, force_damping, force_bone, force_world;
+    std::vector<std::int32_t> neighbours, broken_bonds;
+    Energies energies;
+    Pose pose;
+    std::vector<Reaction> reactions;
+    std::vector<ObstaclePose> obstacles;
+    std::vector<Reaction> on_obstacles;
+  };
+
+  /// The surface moved by skinning alone, in a series of its own.
+  struct Skinned {
+    Points (*method)(const Points&, const BoneWeights&, const Skeleton&, const Pose&);
+    std::unique_ptr<Series> series;
+  };
+
+  void begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
+                     const Body& body, std::span<const double> kept);
+  void begin_export(const std::filesystem::path& folder, std::size_t kept);
+  void begin_arrays(const OutputSettings& output, const Body& body);
+  void add_arrays(const Moved& frame, Dataset& particles) const;
+  void write_surfaces(const Moved& frame, const Points& particles);
+  static void take(Simulation& simulation, double time, Moved& frame);
+  void write(const Moved& frame);
+
+  std::filesystem::path folder_;
+  double interval_;  ///< s between frames
+  Skeleton skeleton_;
+  Points rest_;  ///< of the particles, in the written order
+  Skin skin_;
+  Triangles surface_;  ///< its points as they are in the frame being written
+  std::vector<std::int32_t> particle_bone_, surface_bone_;
+  std::vector<Triangles> obstacles_;
+  std::vector<double> particle_weight_;
+  Series particles_, skins_, bones_, frames_;
+  std::optional<Series> obstacle_series_;  ///< where the scene has some
+  BoneTable bone_table_;
+  BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not asked for
+  std::vector<Skinned> skinned_;
+  std::unique_ptr<PointCache> export_;
+  std::vector<std::string_view> arrays_;  ///< that the scene asks for besides
+  std::optional<RestBody> measured_;      ///< what they are worked out from, if any
+  std::array<Moved, 2> moved_;  ///< one being written, one waiting; their room is used again
+  std::size_t taken_ = 0;
+  std::atomic<int> written_ = 0;
+  Background writer_;  ///< the last member: it ends before what it works with
+};
+
+/// The bone that holds each particle most, in the written order.
+std::vector<std::int32_t> bones_of_particles(const Body& body);
+/// That bone's share in it.
+std::vector<double> weights_of_particles(const Body& body);
+
+}  // namespace sinew

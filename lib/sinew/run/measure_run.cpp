@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/measure_run.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/dataset.h>
+#include <sinew/core/error.h>
+#include <sinew/io/series.h>
+#include <sinew/mesh/self_intersections.h>
+#include <sinew/mesh/surface_distance.h>
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/metrics/report/charts.h>
+#include <sinew/metrics/summary.h>
+#include <sinew/metrics/table.h>
+#include <sinew/run/report_input.h>
+#include <sinew/run/run_files.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr double same_time = 1e-6;  // s
+
+/// The skin with each point carried by its bone; nothing where a point has none.
+std::optional<Triangles> rigid_pose(const RunFiles& run, const FrameState& state) {
+  Triangles posed{Points(run.surface.points.size()), run.surface.faces};
+  for (std::size_t i = 0; i < posed.points.size(); ++i) {
+    const std::int32_t bone = run.surface_bone[i];
+    if (bone < 0) return std::nullopt;
+    posed.points[i] =
+        carried(run.surface.points[i], run.skeleton.bones[bone].rest, state.bones[bone]);
+  }
+  return posed;
+}
+
+std::optional<Triangles> surface_at(const SurfaceSeries& series, double time) {
+  const auto frame = frame_at(series.rows, time);
+  if (!frame) return std::nullopt;
+  return read_surface_frame(series.folder / series.rows[*frame].file);
+}
+
+struct GapMetrics {
+  double FrameMetrics::*hausdorff;
+  double FrameMetrics::*mean;
+};
+
+void add_gap(FrameMetrics& out, const GapMetrics& to, const Triangles& surface,
+             const std::optional<Triangles>& other) {
+  if (!other) return;
+  const SurfaceGap gap = surface_gap(surface, *other);
+  out.*to.hausdorff = gap.hausdorff;
+  out.*to.mean = gap.mean;
+}
+
+/// Point by point, where both are the same mesh.
+void add_point_distances(FrameMetrics& out, const Triangles& surface, const Triangles& other) {
+  if (surface.faces != other.faces || surface.points.size() != other.points.size()) return;
+  const Statistics apart = statistics(surface.points.size(), [&](std::size_t i) {
+    return (surface.points[i] - other.points[i]).norm();
+  });
+  out.reference_surface_rms = apart.rms();
+  out.reference_surface_max = apart.max();
+}
+
+}  // namespace
+
+SurfaceSeries open_surfaces(const std::filesystem::path& pvd) {
+  SurfaceSeries series{pvd.parent_path(), read_pvd(pvd)};
+  if (series.rows.empty())
+    throw bad_input(Place{pvd.string()}, "names no frames", "give the surface.pvd of a run");
+  return series;
+}
+
+std::optional<std::size_t> frame_at(const std::vector<PvdRow>& rows, double time) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const PvdRow& row) {
+    return std::abs(row.time - time) <= same_time;
+  });
+  if (found == rows.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - rows.begin());
+}
+
+Triangles read_surface_frame(const std::filesystem::path& file) {
+  Dataset data = read_vtu(file, {});
+  if (data.kind != CellKind::triangle || data.cells() == 0 || !all_finite(data.points))
+    throw bad_input(Place{file.string()}, "does not hold a surface of triangles",
+                    "give the surface series of a run");
+  Triangles surface{std::move(data.points), {}};
+  for (std::size_t c = 0; c < data.cells(); ++c)
+    surface.faces.push_back(
+        {data.connectivity[3 * c], data.connectivity[3 * c + 1], data.connectivity[3 * c + 2]});
+  return surface;
+}
+
+void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameState& state,
+                         const std::optional<SurfaceSeries>& reference) {
+  using M = FrameMetrics;
+  const Triangles surface{state.surface_points, run.surface.faces};
+  out.self_intersections = static_cast<double>(self_intersections(surface).pairs);
+  add_gap(out, {&M::pose_hausdorff, &M::pose_distance_mean}, surface, rigid_pose(run, state));
+  const std::filesystem::path& folder = run.folder.path;
+  add_gap(out, {&M::lbs_hausdorff, &M::lbs_distance_mean}, surface,
+          surface_at({folder, run.lbs_rows}, state.time));
+  add_gap(out, {&M::dqs_hausdorff, &M::dqs_distance_mean}, surface,
+          surface_at({folder, run.dqs_rows}, state.time));
+  if (!reference) return;
+  const auto other = surface_at(*reference, state.time);
+  add_gap(out, {&M::reference_hausdorff, &M::reference_distance_mean}, surface, other);
+  if (other) add_point_distances(out, surface, *other);
+}
+
+namespace {
+
+/// Frames that one goes to look at are in the film even where it leaves others out.
+void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& run) {
+  for (const std::string_view name : telling_metrics()) {
+    const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
+    if (!worst || measured.film.has(*worst)) continue;
+    const FrameState state = measured_frame(read_frame(run, *worst));
+    add_frame(measured.film, *worst, rest, state, particle_values(rest, state));
+  }
+}
+
+/// What the frames were like in order, beside their metrics.
+struct Course {
+  std::vector<std::vector<RigidFrame>> poses;
+  std::vector<double> times;
+  std::vector<std::vector<std::int64_t>> worst_particles;
+};
+
+/// Arrays that were asked for, beside the run's own series.
+class ValueSeries {
+ public:
+  ValueSeries(const RunFiles& run, const std::vector<std::string_view>& arrays) : arrays_(arrays) {
+    if (arrays_.empty()) return;
+    const OutputSettings& output = run.settings.output;
+    series_.emplace(run.folder.path, VtuFormat{output.encoding, output.double_precision, "values",
+                                               run.body.particles.radius});
+  }
+
+  void add(const RestBody& rest, const FrameState& state) {
+    if (!series_) return;
+    Dataset data;
+    data.time = state.time;
+    data.points = state.positions;
+    data.connectivity = vertex_cells(data.points.size());
+    data.point_columns = particle_arrays(rest, state, arrays_);
+    data.point_columns.push_back(column("id", vertex_cells(data.points.size())));
+    series_->add(data);
+  }
+
+  void close() {
+    if (series_) series_->close();
+  }
+
+ private:
+  std::vector<std::string_view> arrays_;
+  std::optional<Series> series_;
+};
+
+void measure_one(Measured& measured, Course& course, const RestBody& rest, const RunFiles& run,
+                 const FrameState& state, const HowToMeasure& how) {
+  const std::size_t i = measured.frames.size();
+  MeasuredFrame frame = measure_frame(rest, state);
+  add_surface_metrics(frame.metrics, run, state, how.reference);
+  measured.frames.push_back(frame.metrics);
+  for (const BoneMetrics& bone : measure_bones(rest, state, frame.particles))
+    measured.bones.push_back(bone);
+  for (const SectionMetrics& row :
+       measure_sections(rest.sections, state.surface_points, state.time))
+    measured.sections.push_back(row);
+  if (measured.film.wants(i)) add_frame(measured.film, i, rest, state, frame.particles);
+  course.worst_particles.push_back(std::move(frame.worst_particles));
+  course.poses.push_back(state.bones);
+  course.times.push_back(state.time);
+}
+
+Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& run,
+                      const HowToMeasure& how) {
+  Course course;
+  FramesInOrder frames(run, how.ahead);
+  ValueSeries values(run, how.arrays);
+  for (std::size_t i = 0; i < run.frames(); ++i) {
+    const FrameState state = measured_frame(frames.next());
+    measure_one(measured, course, rest, run, state, how);
+    values.add(rest, state);
+  }
+  values.close();
+  return course;
+}
+
+}  // namespace
+
+RestBody rest_of(const RunFiles& run) {
+  RestInput input = measured_body(run);
+  input.start = read_frame(run, 0).energies;
+  return rest_body(std::move(input));
+}
+
+Measured measure_run(const RunFiles& run, const HowToMeasure& how) {
+  const RestBody rest = rest_of(run);
+  Measured measured;
+  if (how.film) measured.film = plan_film(rest, run.frames());
+  const Course course = measure_frames(measured, rest, run, how);
+  const double radius = run.body.particles.radius;
+  std::vector<Hold> stills = holds(course.poses, radius);
+  for (Hold& hold : stills)
+    hold.settled = settling_time(hold, course.times, radius,
+                                 [&](std::size_t i) { return read_frame(run, i).positions; });
+  measured.summary = summarize(measured.frames, radius, std::move(stills));
+  add_worst_particles(measured.summary, course.worst_particles);
+  for (const Limit& limit : how.limits)
+    measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
+  if (how.film) add_worst_frames(measured, rest, run);
+  return measured;
+}
+
+}  // namespace sinew

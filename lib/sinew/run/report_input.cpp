@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/report_input.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command/command.h"
+#include <sinew/core/particles.h>
+#include <sinew/core/text.h>
+#include <sinew/physics/bone_force.h>
+#include <sinew/rig/binding.h>
+#include <sinew/run/run_files.h>
+#include <sinew/run/run_record.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr int samples = 300;
+
+/// y at even steps of x, low and high included.
+template <class Law>
+CurveLine sampled(const char* name, double low, double high, const Law& law) {
+  CurveLine line{name, {}, {}};
+  for (int i = 0; i <= samples; ++i) {
+    line.x.push_back(low + (high - low) * i / samples);
+    line.y.push_back(law(line.x.back()));
+  }
+  return line;
+}
+
+std::string number(const char* name, double value, const char* unit) {
+  return std::string(name) + " = " + three_digits(value) + ' ' + unit;
+}
+
+Curve pair_curve(const Material& material) {
+  const PairForce pair = material.pair;
+  Curve curve{
+      "Force between two particles", "", "distance d in r", "f in N, repulsion positive", {}};
+  curve.note = "f = k1 (4r² − d²) below 2r, −k2 (d − a)(b − d) from a to b, nothing beyond; " +
+               number("k1", pair.k1, "Pa, ") + number("k2", pair.k2, "Pa, ") +
+               number("a", pair.a / pair.r, "r, ") + number("b", pair.b / pair.r, "r.");
+  if (material.model != MaterialModel::paper)
+    curve.note += " Rest neighbours are held by bonds instead; others feel its repulsion.";
+  curve.lines.push_back(sampled("force", 1.5, 1.15 * pair.b / pair.r,
+                                [&](double d) { return pair.force(d * pair.r); }));
+  if (material.model == MaterialModel::paper) return curve;
+  const double stiffness = material.bond.stiffness;
+  curve.lines.push_back(sampled("bond", 1.5, 1.15 * pair.b / pair.r,
+                                [&](double d) { return -stiffness * (d - 2) * pair.r; }));
+  return curve;
+}
+
+Curve energy_curve(const PairForce& pair) {
+  Curve curve{"Energy of two particles", "", "distance d in r", "phi in J", {}};
+  curve.note = "Its slope is the force; how deep it is says what it takes to part two particles.";
+  curve.lines.push_back(sampled("energy", 1.5, 1.15 * pair.b / pair.r,
+                                [&](double d) { return pair.potential(d * pair.r); }));
+  return curve;
+}
+
+Curve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
+  Curve curve{"Pull of a bone on a particle", "", "away from its place, in r", "force in N", {}};
+  const bool anchored = springs.front().form == BoneForce::anchor;
+  curve.note = anchored ? "f = −k_b (x − q), q the place the bone would carry the particle to."
+                        : "Radial: f = −k_b (|x − p| − l0), p the nearest point of the bone.";
+  constexpr std::size_t most_bones = 6;  // as many lines as can be told apart
+  for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)
+    curve.lines.push_back(sampled(skeleton.bones[b].name.c_str(), -2, 2,
+                                  [&](double x) { return -springs[b].radial * x * r; }));
+  return curve;
+}
+
+Curve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
+  Curve curve{"Turning pull of a bone", "", "turned away by, degrees", "force in N", {}};
+  curve.note = "f = −k_tau rho alpha for a particle at a distance rho = 5 r from the bone.";
+  constexpr std::size_t most_bones = 6;
+  for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)
+    curve.lines.push_back(sampled(skeleton.bones[b].name.c_str(), -90, 90, [&](double angle) {
+      return -springs[b].twist * 5 * r * radians(angle);
+    }));
+  return curve;
+}
+
+}  // namespace
+
+std::vector<Curve> law_curves(const RunFiles& run) {
+  const Material material = material_of(run);
+  std::vector<Curve> curves{pair_curve(material)};
+  if (material.model == MaterialModel::paper) curves.push_back(energy_curve(material.pair));
+  if (run.skeleton.size() == 0) return curves;
+  const double r = run.body.particles.radius;
+  const Binding binding = bind_to_bones(positions_of(run.body.particles), run.skeleton,
+                                        volume_per_particle(r), run.settings.binding.joint_zone);
+  const std::vector<BoneSprings> springs = bone_springs(run.settings.binding, material, binding);
+  curves.push_back(bone_curve(springs, run.skeleton, r));
+  if (springs.front().form == BoneForce::paper && springs.front().twist_form == TwistForm::servo)
+    curves.push_back(twist_curve(springs, run.skeleton, r));
+  return curves;
+}
+
+namespace {
+
+std::string with_unit(double value, const char* unit) {
+  return three_digits(value) + (*unit ? std::string(" ") + unit : "");
+}
+
+/// A value of JSON for people.
+std::string shown_value(const nlohmann::ordered_json& value) {
+  if (value.is_number_float()) return three_digits(value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string list;
+  for (const auto& item : value) (list += list.empty() ? "" : ", ") += shown_value(item);
+  return list;
+}
+
+/// The report of the fill, as body.vtu keeps it.
+FactGroup fill_facts(const std::string& body_meta) {
+  FactGroup group{"Filling", {}};
+  const auto meta = nlohmann::ordered_json::parse(body_meta, nullptr, false);
+  if (!meta.is_object() || !meta.contains("fill")) return group;
+  const auto units = meta.value("fill_units", nlohmann::ordered_json::object());
+  for (const auto& [key, value] : meta["fill"].items()) {
+    std::string name = key;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const std::string unit = units.value(key, "");
+    group.facts.push_back({name, shown_value(value) + (unit.empty() ? "" : ' ' + unit)});
+  }
+  return group;
+}
+
+std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body_meta) {
+  const auto record = read_record(folder);
+  const auto number = [&](const char* key, const char* unit) {
+    return with_unit(record.value(key, 0.0), unit);
+  };
+  const auto material = record.value("material", nlohmann::ordered_json::object());
+  const auto constant = [&](const char* key, const char* unit) {
+    return with_unit(material.value(key, 0.0), unit);
+  };
+  return {{"Run",
+           {{"status", record.value("status", "")},
+            {"particles", std::to_string(record.value("particles", 0))},
+            {"frames", std::to_string(record.value("frames", 0))},
+            {"steps", std::to_string(record.value("steps", std::int64_t{0}))},
+            {"time step", number("time_step", "s")},
+            {"share of the stability limit", number("time_step_factor", "")},
+            {"precision", record.value("precision", "")},
+            {"neighbour search", record.value("neighbour_search", "")},
+            {"instruction set", record.value("instruction_set", "")},
+            {"particle-steps per second", number("particle_steps_per_second", "")},
+            {"state hash", record.value("state_hash", "")},
+            {"started", record.value("started", "")}}},
+          {"Material",
+           {{"Young's modulus", constant("young_modulus", "Pa")},
+            {"k1", constant("k1", "Pa")},
+            {"k2", constant("k2", "Pa")},
+            {"a", constant("a", "m")},
+            {"b", constant("b", "m")},
+            {"lambda", constant("lambda", "")},
+            {"damping constant C", constant("damping", "kg/s")},
+            {"particle radius", number("radius", "m")},
+            {"particle mass", number("particle_mass", "kg")}}},
+          fill_facts(body_meta)};
+}
+
+/// "0.533 s" for the picture of frame 16, else the file's own name.
+std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
+  const std::string name = picture.stem().string();
+  const auto digits = name.find_first_of("0123456789");
+  if (digits == std::string::npos) return "Over time";
+  const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);
+  return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
+}
+
+/// The pictures that render has left: the contact sheet, then single moments in order.
+std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
+  std::vector<Picture> pictures;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.pictures(), none))
+    if (entry.path().extension() == ".png")
+      pictures.push_back(
+          {"pictures/" + entry.path().filename().string(), caption_of(entry.path(), measured)});
+  const auto is_sheet = [](const Picture& picture) {
+    return picture.path.find("contact_sheet") != std::string::npos;
+  };
+  std::sort(pictures.begin(), pictures.end(), [&](const Picture& a, const Picture& b) {
+    return is_sheet(a) != is_sheet(b) ? is_sheet(a) : a.path < b.path;
+  });
+  return pictures;
+}
+
+std::string title_of(const RunFolder& folder) {
+  return std::filesystem::absolute(folder.path / ".").lexically_normal().parent_path().filename();
+}
+
+}  // namespace
+
+ReportInput report_input(const RunFiles& run, Measured measured) {
+  ReportInput input;
+  input.title = title_of(run.folder);
+  input.version = version();
+  input.radius = run.body.particles.radius;
+  try {
+    input.facts = facts_of(run.folder, run.body.meta);
+  } catch (const nlohmann::json::exception&) {
+    throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
+                    "run the scene again with --force");
+  }
+  input.pictures = pictures_in(run.folder, measured);
+  input.frames = std::move(measured.frames);
+  input.summary = std::move(measured.summary);
+  input.checks = std::move(measured.checks);
+  input.film = std::move(measured.film);
+  input.curves = law_curves(run);
+  if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
+    input.movie = "pictures/movie.mp4";
+  input.scene_text = run.scene_text;
+  return input;
+}
+
+}  // namespace sinew

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/run_checkpoints.h>
+
+#include <memory>
+#include <sstream>
+
+#include "command/command.h"
+#include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/hash.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+/// Lines of a resolved scene that say something of the results, without their comments.
+std::vector<std::string> deciding_lines(const std::string& resolved) {
+  std::vector<std::string> lines;
+  std::istringstream text(resolved);
+  for (std::string line; std::getline(text, line);) {
+    line = line.substr(0, line.find("  # "));
+    if (!line.starts_with("  checkpoint_interval:") && !line.starts_with("  wall_time:"))
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string trimmed(const std::string& line) {
+  const auto first = line.find_first_not_of(' ');
+  return first == std::string::npos ? "nothing" : line.substr(first);
+}
+
+Error another_run(const std::string& what) {
+  return bad_input("--resume goes on with the same run only: " + what,
+                   "give what the run began with, or replace the run with --force");
+}
+
+void add(const Triangles& surface, Hash& hash) {
+  for (const Vec3& point : surface.points) hash.add(point.data(), 3 * sizeof(double));
+  for (const auto& face : surface.faces) hash.add(face.data(), sizeof face);
+}
+
+/// The body at rest, what holds it, and its skin.
+std::uint64_t body_hash(const Body& body, const Triangles& surface) {
+  Hash hash;
+  for (const Vec3& point : body.rest) hash.add(point.data(), 3 * sizeof(double));
+  for (const Influence& influence : body.binding.influences) {
+    hash.add(&influence.bone, sizeof influence.bone);
+    hash.add(&influence.weight, sizeof influence.weight);
+  }
+  add(surface, hash);
+  return hash.value();
+}
+
+/// The bones at moments of the run, and the obstacles around it.
+std::uint64_t motion_hash(const Setup& setup) {
+  constexpr int moments = 1000;
+  const double end = setup.steps.step * setup.steps.per_frame * setup.frames;
+  Hash hash;
+  for (int i = 0; i <= moments; ++i)
+    for (const BonePose& bone : pose_at(setup.body.skeleton, setup.motion, end * i / moments)) {
+      hash.add(bone.frame.origin.data(), 3 * sizeof(double));
+      hash.add(bone.frame.rotation.data(), 9 * sizeof(double));
+    }
+  for (const Triangles& obstacle : setup.obstacles) add(obstacle, hash);
+  return hash.value();
+}
+
+}  // namespace
+
+void check_same_scene(const RunFolder& folder, const std::string& resolved) {
+  if (!std::filesystem::exists(folder.scene())) return;
+  const auto there = deciding_lines(read_file(folder.scene())), here = deciding_lines(resolved);
+  for (std::size_t i = 0; i < std::max(there.size(), here.size()); ++i) {
+    const std::string before = i < there.size() ? there[i] : "",
+                      now = i < here.size() ? here[i] : "";
+    if (before != now)
+      throw another_run("it has '" + trimmed(before) + "' where the scene has '" + trimmed(now) +
+                        "'");
+  }
+}
+
+RunIdentity identity_of(const std::string& resolved, const Setup& setup, const Triangles& surface) {
+  Hash scene;
+  for (const std::string& line : deciding_lines(resolved)) scene.add(line + '\n');
+  return {version(),          scene.value(),          body_hash(setup.body, surface),
+          motion_hash(setup), setup.body.rest.size(), setup.steps.step};
+}
+
+RunKeeper::RunKeeper(const RunFolder& folder, const Settings& settings)
+    : checkpoints_(folder.checkpoints()),
+      interval_(settings.output.checkpoint_interval),
+      limit_(settings.solver.wall_time) {}
+
+std::optional<SimulationState> RunKeeper::resume(const RunIdentity& run, std::string& complaint) {
+  auto found = checkpoints_.newest(run.particles, complaint);
+  if (!found) return std::nullopt;
+  const RunIdentity& was = found->run;
+  if (was.program != run.program)
+    throw another_run("it is of sinew " + was.program + ", this is " + run.program);
+  if (was.time_step != run.time_step)
+    throw another_run("its step is " + number_text(was.time_step) + " s, not " +
+                      number_text(run.time_step) + " s");
+  if (was.body != run.body) throw another_run("its body is another");
+  if (was.motion != run.motion) throw another_run("its motion is another");
+  if (was.scene != run.scene) throw another_run("its scene is another");
+  return std::move(found->state);
+}
+
+void RunKeeper::save(const Simulation& simulation, Recorder& recorder) {
+  recorder.then([&]() -> Background::Job {
+    auto checkpoint = std::make_shared<const Checkpoint>(Checkpoint{run_, simulation.save()});
+    return [this, checkpoint] { checkpoints_.write(*checkpoint); };
+  });
+  since_ = Stopwatch();
+}
+
+}  // namespace sinew

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/run_files.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <sinew/core/dataset.h>
+#include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/scene/rig.h>
+#include <sinew/settings/read_scene.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t read_ahead = 1;  // frames: each is large
+
+std::vector<PvdRow> rows_of(const RunFolder& folder, const char* series) {
+  return read_pvd(folder.path / (std::string(series) + ".pvd"));
+}
+
+/// Runs `job`; what it throws is told of `file`.
+template <class Job>
+auto told_of(const std::filesystem::path& file, Job&& job) {
+  try {
+    return job();
+  } catch (const Error& error) {
+    throw error.within(Place{file.string()});
+  }
+}
+
+Error of_another_body(const std::filesystem::path& file, const char* what) {
+  return bad_input(Place{file.string()},
+                   std::string("has another number of ") + what + " than the run",
+                   "run the scene again with --force");
+}
+
+/// The rows of a series that a scene may ask for.
+std::vector<PvdRow> rows_if_there(const RunFolder& folder, const char* series) {
+  std::error_code unreachable;
+  const bool there =
+      std::filesystem::exists(folder.path / (std::string(series) + ".pvd"), unreachable);
+  return there ? rows_of(folder, series) : std::vector<PvdRow>();
+}
+
+/// The skin at rest, and the bone of each of its points.
+void read_rest_surface(RunFiles& run) {
+  const auto file = run.folder.path / run.surface_rows.front().file;
+  const Dataset data = read_vtu(file);
+  if (data.kind != CellKind::triangle)
+    throw bad_input(Place{file.string()}, "does not hold triangles", "run the scene again");
+  const Points moved = told_of(file, [&] { return vectors(data.point_columns, "displacement"); });
+  run.surface_bone = told_of(file, [&] { return integers(data.point_columns, "bone"); });
+  for (const std::int32_t bone : run.surface_bone)
+    if (bone < -1 || bone >= static_cast<std::int32_t>(run.skeleton.size()))
+      throw bad_input(Place{file.string()},
+                      "names bone " + std::to_string(bone) + ", which the run does not have",
+                      "run the scene again with --force");
+  Triangles& surface = run.surface;
+  surface.points = data.points;
+  for (std::size_t i = 0; i < moved.size(); ++i) surface.points[i] -= moved[i];
+  for (std::size_t c = 0; c < data.cells(); ++c)
+    surface.faces.push_back(
+        {data.connectivity[3 * c], data.connectivity[3 * c + 1], data.connectivity[3 * c + 2]});
+}
+
+double field(const Dataset& data, const char* name) {
+  const auto& values = numbers(data.field_columns, name);
+  const double value = values.empty() ? 0 : values.front();
+  if (!std::isfinite(value))
+    throw bad_input(std::string(name) + " is not finite", "run the scene again with --force");
+  return value;
+}
+
+Energies energies_of(const Dataset& data) {
+  return {field(data, "kinetic_energy"), field(data, "pair_energy"),   field(data, "bone_energy"),
+          field(data, "gravity_energy"), field(data, "work_of_bones"), field(data, "dissipation"),
+          field(data, "contact_energy"), field(data, "work_of_world")};
+}
+
+void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
+  const auto file = run.folder.path / run.particle_rows[index].file;
+  const Dataset data = read_vtu(file, {"displacement", "velocity", "broken_bonds"});
+  if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
+  told_of(file, [&] {
+    frame.positions = vectors(data.point_columns, "displacement");
+    frame.displacement.resize(frame.positions.size());
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+      frame.displacement[i] = frame.positions[i].norm();
+      frame.positions[i] += run.body.particles.position(i);
+    }
+    frame.velocities = vectors(data.point_columns, "velocity");
+    frame.energies = energies_of(data);
+    if (find(data.point_columns, "broken_bonds"))
+      frame.broken_bonds = integers(data.point_columns, "broken_bonds");
+  });
+}
+
+void read_surface_points(const RunFiles& run, std::size_t index, RunFrame& frame) {
+  const auto file = run.folder.path / run.surface_rows[index].file;
+  Dataset data = read_vtu(file, {});
+  if (data.points.size() != run.surface.points.size()) throw of_another_body(file, "points");
+  frame.surface_points = std::move(data.points);
+}
+
+/// Axes that are no rotation, or a length that is none, would be measured without a word.
+void check_bone(const RigidFrame& bone, double length, std::size_t index) {
+  constexpr double rounding = 1e-3;  // of single precision, by far
+  const Mat3 product = bone.rotation.transpose() * bone.rotation;
+  if (!product.isIdentity(rounding) || !(std::isfinite(length) && length > 0))
+    throw bad_input("bone " + std::to_string(index) + " has no length or axes at no right angles",
+                    "run the scene again with --force");
+}
+
+void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
+  const auto file = run.folder.path / run.frame_rows[index].file;
+  const Dataset data = read_vtu(file);
+  if (data.points.size() != run.skeleton.size()) throw of_another_body(file, "bones");
+  told_of(file, [&] {
+    const Points x = vectors(data.point_columns, "axis_x");
+    const Points y = vectors(data.point_columns, "axis_y");
+    const Points z = vectors(data.point_columns, "axis_z");
+    frame.bone_lengths = numbers(data.point_columns, "length");
+    for (std::size_t b = 0; b < data.points.size(); ++b) {
+      RigidFrame bone{data.points[b], Mat3::Identity()};
+      bone.rotation << x[b], y[b], z[b];
+      check_bone(bone, frame.bone_lengths[b], b);
+      frame.bones.push_back(bone);
+    }
+  });
+}
+
+/// Rows of frames that not all series have go; those that stay are of the same times.
+void trim_rows(RunFiles& run) {
+  const std::array<std::pair<const char*, std::vector<PvdRow>*>, 3> series{
+      {{"particles.pvd", &run.particle_rows},
+       {"surface.pvd", &run.surface_rows},
+       {"frames.pvd", &run.frame_rows}}};
+  std::size_t frames = run.particle_rows.size();
+  for (const auto& [name, rows] : series) {
+    frames = std::min(frames, rows->size());
+    run.frames_named = std::max(run.frames_named, rows->size());
+  }
+  if (frames == 0)
+    throw bad_input(Place{run.folder.path.string()}, "the run has no frames",
+                    "run the scene again");
+  for (const auto& [name, rows] : series) {
+    rows->resize(frames);
+    for (std::size_t i = 0; i < frames; ++i)
+      if ((*rows)[i].time != run.particle_rows[i].time)
+        throw bad_input(Place{(run.folder.path / name).string()},
+                        "has a frame at " + number_text((*rows)[i].time) +
+                            " s where particles.pvd has one at " +
+                            number_text(run.particle_rows[i].time) + " s",
+                        "run the scene again with --force");
+  }
+}
+
+}  // namespace
+
+RunFiles open_run(const RunFolder& folder) {
+  if (!folder.used())
+    throw bad_input(Place{folder.path.string()}, "is not the folder of a run",
+                    "give the folder that sinew run or sinew simulate has written");
+  RunFiles run;
+  run.folder = folder;
+  run.scene_text = read_file(folder.scene());
+  run.settings = read_scene(folder.scene());
+  run.skeleton = rig_of(run.settings).skeleton;
+  run.body = read_body(folder.body());
+  if (!run.body.bone)
+    throw bad_input(Place{folder.body().string()}, "has no array 'bone'",
+                    "run the scene again with --force");
+  run.particle_rows = rows_of(folder, "particles");
+  run.surface_rows = rows_of(folder, "surface");
+  run.frame_rows = rows_of(folder, "frames");
+  trim_rows(run);
+  run.lbs_rows = rows_if_there(folder, "skin_lbs");
+  run.dqs_rows = rows_if_there(folder, "skin_dqs");
+  read_rest_surface(run);
+  return run;
+}
+
+RunFrame read_frame(const RunFiles& run, std::size_t index) {
+  RunFrame frame;
+  frame.time = run.particle_rows[index].time;
+  read_particles(run, index, frame);
+  read_surface_points(run, index, frame);
+  read_bones(run, index, frame);
+  return frame;
+}
+
+FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {
+  for (std::size_t i = 0; i < read_ahead; ++i) begin();
+}
+
+RunFrame FramesInOrder::next() {
+  RunFrame frame = coming_.front().get();
+  coming_.pop_front();
+  begin();
+  return frame;
+}
+
+void FramesInOrder::begin() {
+  if (index_ == run_.frames()) return;
+  coming_.push_back(std::async(ahead_ ? std::launch::async : std::launch::deferred,
+                               [&run = run_, index = index_++] { return read_frame(run, index); }));
+}
+
+Material material_of(const RunFiles& run) {
+  return make_material(run.settings.material,
+                       shape_of(positions_of(run.body.particles), run.body.particles.radius,
+                                run.body.particles.mass));
+}
+
+PairLaw pair_law(const Material& material) {
+  const PairForce pair = material.pair;
+  const auto all = [pair](double d) { return pair.force(d); };
+  const auto repulsion = [pair](double d) { return d < 2 * pair.r ? pair.force(d) : 0; };
+  if (material.model == MaterialModel::paper) {
+    if (material.cohesion == Cohesion::all) return {all, {}, 0};
+    return {repulsion, [pair](double d, double) { return pair.force(d); }, 0};
+  }
+  if (material.bond.breaking_strain > 0 || material.bond.yield_strain > 0) return {};
+  const double k = material.bond.stiffness;
+  return {repulsion, [k](double d, double rest) { return -k * (d - rest); },
+          material.volume_stiffness};
+}
+
+RestInput measured_body(const Material& material, const Skeleton& skeleton) {
+  RestInput input;
+  for (const Bone& bone : skeleton.bones)
+    input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
+  input.radius = material.pair.r;
+  input.interaction_range = material.pair.b;
+  input.mass = material.mass;
+  input.law = pair_law(material);
+  return input;
+}
+
+RestInput measured_body(const RunFiles& run) {
+  RestInput input = measured_body(material_of(run), run.skeleton);
+  input.positions = positions_of(run.body.particles);
+  input.surface = run.surface;
+  input.bone.assign(run.body.bone->begin(), run.body.bone->end());
+  if (run.body.weight) input.weight = *run.body.weight;
+  return input;
+}
+
+FrameState measured_frame(RunFrame frame) {
+  return {frame.time,
+          std::move(frame.positions),
+          std::move(frame.velocities),
+          std::move(frame.surface_points),
+          std::move(frame.bones),
+          frame.energies,
+          std::move(frame.bone_lengths),
+          std::move(frame.broken_bonds)};
+}
+
+}  // namespace sinew

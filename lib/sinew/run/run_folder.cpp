@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/run_folder.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <regex>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <sinew/core/error.h>
+
+namespace sinew {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
+bool written_by_a_run(const fs::path& relative) {
+  static const std::regex ours(
+      "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|report\\.html|"
+      "metrics(_bones)?\\.(csv|json)|(bones|sections)\\.csv|surface\\.(obj|pc2|glb)|blowup\\.vtu|"
+      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
+      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/"
+      "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
+      "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
+      "pictures/((compare_)?(body|surface|particles|section|strain|forces|bones)"
+      "_([0-9]{6,}|sheet)\\.png|contact_sheet\\.png|\\.?(movie|(compare_)?(body|surface|particles|"
+      "section|strain|forces|bones))\\.mp4(\\.tmp)?)");
+  return std::regex_match(relative.generic_string(), ours);
+}
+
+/// Checkpoints first: without them nobody goes on with what is half gone.
+std::vector<fs::path> files_of_run(const RunFolder& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (const char* part : {"checkpoint", "", "particles", "surface", "bones", "frames", "obstacles",
+                           "skin_lbs", "skin_dqs", "values", "pictures"})
+    for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
+      if (!entry.is_directory(failed) &&
+          written_by_a_run(entry.path().lexically_relative(folder.path / "")))
+        files.push_back(entry.path());
+  return files;
+}
+
+}  // namespace
+
+RunFolder run_folder(const fs::path& scene, const fs::path& chosen) {
+  return {chosen.empty() ? fs::path("out") / scene.stem() : chosen};
+}
+
+void create(const RunFolder& folder) {
+  std::error_code failed;
+  fs::create_directories(folder.path, failed);
+  if (failed)
+    throw not_written(folder.path.string(), "cannot be created (" + failed.message() + ")",
+                      "choose another folder with -o");
+}
+
+void remove_old_run(const RunFolder& folder) {
+  std::error_code failed;
+  const auto give_up = [&](const fs::path& file) {
+    throw not_written(file.string(), "cannot be removed (" + failed.message() + ")",
+                      "remove it by hand or choose another folder with -o");
+  };
+  // Until all is gone something says whose files these are. A new name needs no space.
+  if (fs::exists(folder.record(), failed)) fs::rename(folder.record(), folder.old_record(), failed);
+  if (failed) give_up(folder.record());
+  for (const fs::path& file : files_of_run(folder)) {
+    fs::remove(file, failed);
+    if (failed) give_up(file);
+  }
+  fs::remove(folder.old_record(), failed);
+  if (failed) give_up(folder.old_record());
+}
+
+void refuse_foreign_files(const RunFolder& folder) {
+  for (const fs::path& file : files_of_run(folder)) {
+    // Of a run killed before it had its record.
+    if (file.filename().string().front() == '.' && file.extension() == ".tmp") continue;
+    throw bad_input(Place{file.string()}, "is there, but no run.json of a run beside it",
+                    "choose another folder with -o, or move the file away");
+  }
+}
+
+std::uint64_t size_of_old_run(const RunFolder& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code failed;
+  for (const fs::path& file : files_of_run(folder)) {
+    const auto size = fs::file_size(file, failed);
+    if (!failed) bytes += size;
+  }
+  return bytes;
+}
+
+namespace {
+
+std::string this_process() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return "process " + std::to_string(::getpid()) + " on " + host.data();
+}
+
+/// What a lock says of its holder: one line of letters, whatever stands there.
+std::string holder_of(int lock) {
+  std::array<char, 400> text{};
+  const ssize_t size = ::pread(lock, text.data(), text.size(), 0);
+  std::string holder(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+  holder = holder.substr(0, holder.find('\n'));
+  std::replace_if(
+      holder.begin(), holder.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return holder;
+}
+
+bool put_holder(int lock, const std::string& holder) {
+  return ::ftruncate(lock, 0) == 0 &&
+         ::pwrite(lock, holder.data(), holder.size(), 0) == static_cast<ssize_t>(holder.size());
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const RunFolder& folder) {
+  const fs::path path = folder.path / ".lock";
+  const auto cannot_be_made = [&] {
+    const std::string why = std::strerror(errno);
+    if (file_ >= 0) ::close(file_);
+    return not_written(path.string(), "cannot be made (" + why + ")",
+                       "make space, or choose a folder you may write to with -o");
+  };
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (file_ < 0) throw cannot_be_made();
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    const std::string holder = holder_of(file_);
+    ::close(file_);
+    throw bad_input(
+        Place{folder.path.string()},
+        "another sinew is working in this folder" + (holder.empty() ? "" : ": " + holder),
+        "wait for it, or choose another folder with -o");
+  }
+  left_by_ = holder_of(file_);
+  if (!put_holder(file_, this_process() + '\n')) throw cannot_be_made();
+}
+
+FolderLock::~FolderLock() {
+  put_holder(file_, "");
+  ::close(file_);
+}
+
+}  // namespace sinew

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/run_log.h>
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <sinew/core/hash.h>
+#include <sinew/core/particles.h>
+#include <sinew/io/arrays.h>
+#include <sinew/run/run_record.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json arrays_with_units() {
+  Json arrays;
+  for (const WrittenArray& array : written_arrays())
+    arrays[std::string(array.series)][std::string(array.name)] = {
+        {"on", place_text(array.place)}, {"unit", array.unit}, {"meaning", array.help}};
+  return arrays;
+}
+
+Json bones_of(const Skeleton& skeleton) {
+  Json bones = Json::array();
+  for (const Bone& bone : skeleton.bones)
+    bones.push_back({{"name", bone.name}, {"parent", bone.parent}, {"length", bone.length}});
+  return bones;
+}
+
+Json material_of(const Material& material) {
+  return {{"k1", material.pair.k1},
+          {"k2", material.pair.k2},
+          {"a", material.pair.a},
+          {"b", material.pair.b},
+          {"lambda", material.pair.lambda()},
+          {"contact_stiffness", material.pair.contact_stiffness()},
+          {"tension_stiffness", material.pair.tension_stiffness()},
+          {"damping", material.damping},
+          {"young_modulus", material.young_modulus()}};
+}
+
+Json lists_of(const ListCounts& counts) {
+  return {{"rebuilds", counts.rebuilds},
+          {"sifts", counts.sifts},
+          {"looks", counts.looks},
+          {"sorts", counts.sorts},
+          {"strays", counts.strays}};
+}
+
+/// Keeps what a run that is resumed has spent and when it began.
+void go_on_from(const Json& before, Json& record) {
+  for (const char* key : {"started", "seconds"})
+    if (before.contains(key)) record[key] = before[key];
+  record["resumed"] = 1 + before.value("resumed", 0);
+}
+
+}  // namespace
+
+Journal::Journal(const RunFolder& folder, int argc, char** argv, bool resumed)
+    : folder_(folder), record_(begin_record(argc, argv)) {
+  record_["seconds"] = Json::object();
+  record_["resumed"] = 0;
+  if (resumed) go_on_from(read_record(folder), record_);
+  write_record(folder_, record_);
+  try {
+    auto sink =
+        std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !resumed);
+    log_ = std::make_shared<spdlog::logger>("run", std::move(sink));
+  } catch (const spdlog::spdlog_ex& error) {
+    throw not_written(folder.log().string(), error.what(), "choose another folder with -o");
+  }
+  log_->set_pattern("%Y-%m-%d %H:%M:%S  %v");
+  log_->set_error_handler([this](const std::string&) { log_failed_ = true; });
+  std::string command;
+  for (int i = 0; i < argc; ++i) command += std::string(i > 0 ? " " : "") + argv[i];
+  log("sinew " + record_["version"].get<std::string>() + ": " + command);
+}
+
+Journal::~Journal() = default;
+
+void Journal::log(const std::string& line) {
+  log_->info(line);
+  log_->flush();
+  if (log_failed_)
+    throw not_written(folder_.log().string(), "could not be written", "make space on the disk");
+}
+
+void Journal::describe(const Settings& settings, const Setup& setup) {
+  const StepChoice& steps = setup.steps;
+  record_["particles"] = setup.body.rest.size();
+  record_["radius"] = setup.body.material.pair.r;
+  record_["particle_mass"] = setup.body.material.mass;
+  record_["material"] = material_of(setup.body.material);
+  record_["bones"] = bones_of(setup.body.skeleton);
+  record_["duration"] = settings.solver.duration;
+  record_["frame_interval"] = settings.output.interval;
+  record_["time_step"] = steps.step;
+  record_["time_step_limit"] = steps.limit;
+  record_["time_step_factor"] = steps.factor();
+  record_["steps_per_frame"] = steps.per_frame;
+  describe(step_way(settings.solver, setup.body, setup.motion));
+  record_["steps"] = 0;
+  record_["frames"] = 0;
+  record_["arrays"] = arrays_with_units();
+  write_record(folder_, record_);
+  log(std::to_string(setup.body.rest.size()) + " particles of radius " +
+      number_text(setup.body.material.pair.r) + " m, " + std::to_string(setup.frames) +
+      " frames of " + std::to_string(steps.per_frame) + " steps");
+  log("stability limit " + number_text(steps.limit) + " s, step " + number_text(steps.step) +
+      " s, factor " + number_text(steps.factor()));
+}
+
+void Journal::describe(const StepWay& way) {
+  record_["precision"] = name_of(way.precision);
+  record_["neighbour_search"] = name_of(way.search);
+  record_["instruction_set"] = kernel::name_of(way.instructions);
+  log(std::string("steps in ") + name_of(way.precision) + " precision, partners by " +
+      name_of(way.search) + ", instructions " + kernel::name_of(way.instructions) +
+      (way.unserved ? ", for " + way.unserved->key + " is " + way.unserved->value : ""));
+}
+
+void Journal::spend(const std::string& stage, double seconds) {
+  record_["seconds"][stage] = record_["seconds"].value(stage, 0.0) + seconds;
+}
+
+void Journal::checkpoint(std::int64_t steps) {
+  record_["steps"] = steps;
+  write_record(folder_, record_);
+  log("checkpoint at step " + std::to_string(steps));
+}
+
+void Journal::frame(int frame, double time) {
+  record_["frames"] = frame + 1;
+  log("frame " + std::to_string(frame) + " at " + number_text(time) + " s");
+}
+
+void Journal::frames(int written) { record_["frames"] = written; }
+
+void Journal::end(const std::string& status, const Simulation& simulation) {
+  const double stepping = record_["seconds"].value("stepping", 0.0);
+  const auto steps = static_cast<double>(simulation.steps());
+  record_["status"] = status;
+  record_["steps"] = simulation.steps();
+  record_["particle_steps_per_second"] =
+      stepping > 0 ? steps * static_cast<double>(simulation.particles().size()) / stepping : 0.0;
+  record_["lists"] = lists_of(simulation.list_counts());
+  record_["state_hash"] = hash_text(state_hash(simulation.particles()));
+  write_record(folder_, record_);
+  log(status + " after " + std::to_string(simulation.steps()) + " steps");
+}
+
+void Journal::fail(const std::string& status, const std::string& why) {
+  record_["status"] = status;
+  record_["error"] = why;
+  try {
+    write_record(folder_, record_);
+    log(status + ": " + why);
+  } catch (const Error&) {
+    // The error being told matters more than that the disk takes no word of it.
+  }
+}
+
+}  // namespace sinew

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The journal of a run: run.json for programs, log.txt for people.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include <sinew/run/run_folder.h>
+#include <sinew/scene/setup.h>
+#include <sinew/scene/stepper_choice.h>
+#include <sinew/settings/settings.h>
+
+namespace spdlog {
+class logger;
+}
+
+namespace sinew {
+
+class Journal {
+ public:
+  /// Begins both files, status "running". Throws not written.
+  /// A run that is resumed goes on with what they hold.
+  Journal(const RunFolder& folder, int argc, char** argv, bool resumed = false);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  void describe(const Settings& settings, const Setup& setup);
+
+  /// Adds to the seconds of a stage.
+  void spend(const std::string& stage, double seconds);
+  /// Writes run.json as far as the run has come. Throws not written.
+  void checkpoint(std::int64_t steps);
+  void frame(int frame, double time);
+  /// How many frames there are, where a failure has left fewer than were begun.
+  void frames(int written);
+
+  /// Writes run.json as it stands now, and what `simulation` came to. Throws not written.
+  void end(const std::string& status, const Simulation& simulation);
+  /// The end of a run that threw, as far as the disk still takes it.
+  void fail(const std::string& status, const std::string& why);
+
+  const nlohmann::ordered_json& record() const { return record_; }
+
+ private:
+  void describe(const StepWay& way);
+  void log(const std::string& line);
+
+  RunFolder folder_;
+  nlohmann::ordered_json record_;
+  std::shared_ptr<spdlog::logger> log_;
+  bool log_failed_ = false;
+};
+
+}  // namespace sinew

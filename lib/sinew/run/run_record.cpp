@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/run_record.h>
+
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "command/command.h"
+#include <sinew/core/file.h>
+
+namespace sinew {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+bool is_seconds(const nlohmann::ordered_json& value) {
+  return value.is_object() && std::all_of(value.begin(), value.end(),
+                                          [](const auto& spent) { return spent.is_number(); });
+}
+
+bool is_count(const nlohmann::ordered_json& value) {
+  return value.is_number_unsigned() && value.get<std::uint64_t>() <= 1'000'000'000;
+}
+
+/// Whether it is of sinew, and what a run that goes on takes from it is of the right kind.
+bool is_record(const nlohmann::ordered_json& record) {
+  using Json = nlohmann::ordered_json;
+  return record.is_object() && record.value("program", Json()) == "sinew" &&
+         record.value("status", Json("")).is_string() &&
+         record.value("started", Json("")).is_string() &&
+         is_seconds(record.value("seconds", Json::object())) &&
+         is_count(record.value("resumed", Json(0u)));
+}
+
+}  // namespace
+
+nlohmann::ordered_json read_record(const RunFolder& folder) {
+  auto record = nlohmann::ordered_json::parse(read_file(folder.record()), nullptr, false);
+  if (is_record(record)) return record;
+  throw bad_input(Place{folder.record().string()}, "is not the record of a run",
+                  "run the scene again with --force");
+}
+
+void write_record(const RunFolder& folder, const nlohmann::ordered_json& record) {
+  const std::string text = record.dump(2) + '\n';
+  NewFile file(folder.record());
+  file.write(text.data(), text.size());
+  file.finish(Durability::synced);
+}
+
+void record_stage(const RunFolder& folder, const std::string& stage, double seconds) {
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(folder);
+  } catch (const Error&) {
+    return;  // a run still going on writes its record itself; a folder for reading keeps its own
+  }
+  auto record = read_record(folder);
+  if (!record["seconds"].is_object()) record["seconds"] = nlohmann::ordered_json::object();
+  record["seconds"][stage] = seconds;
+  write_record(folder, record);
+}
+
+std::string status_of(const RunFolder& folder) {
+  std::error_code unreachable;
+  if (!std::filesystem::exists(folder.record(), unreachable)) return "";
+  const auto record = read_record(folder);
+  const auto status = record.find("status");
+  return status != record.end() && status->is_string() ? status->get<std::string>() : "";
+}
+
+nlohmann::ordered_json begin_record(int argc, char** argv) {
+  nlohmann::ordered_json record;
+  record["program"] = "sinew";
+  record["version"] = version();
+  record["status"] = "running";
+  record["command"] = std::vector<std::string>(argv, argv + argc);
+  record["host"] = host_name();
+  record["cores"] = std::thread::hardware_concurrency();
+  record["started"] = utc_now();
+  return record;
+}
+
+}  // namespace sinew

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/snapshots.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include <sinew/core/dataset.h>
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/io/arrays.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/render/camera.h>
+#include <sinew/run/run_files.h>
+
+namespace sinew {
+
+Shot shot_of(const RunFiles& run, RunFrame frame, double angle) {
+  Shot shot;
+  shot.caption = three_digits(frame.time) + " s,  " +
+                 std::to_string(static_cast<int>(std::lround(degrees(angle)))) + "\u00b0";
+  shot.particles = std::move(frame.positions);
+  shot.radius = run.body.particles.radius;
+  shot.values = std::move(frame.displacement);
+  shot.surface = {std::move(frame.surface_points), run.surface.faces};
+  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
+    const RigidFrame& bone = frame.bones[b];
+    const Vec3 tail = bone.origin + frame.bone_lengths[b] * bone.rotation.col(0);
+    shot.bones.push_back({bone.origin, tail, bone.rotation});
+  }
+  return shot;
+}
+
+namespace {
+
+struct MeasuredArray {
+  std::string_view name, unit;
+  std::vector<double> ParticleValues::*values;
+};
+
+constexpr std::array<MeasuredArray, 6> measured_arrays = {{
+    {"strain", "", &ParticleValues::strain},
+    {"stretch", "", &ParticleValues::stretch},
+    {"J", "", &ParticleValues::J},
+    {"D2min", "m^2", &ParticleValues::D2min},
+    {"von_mises", "Pa", &ParticleValues::von_mises},
+    {"speed", "m/s", &ParticleValues::speed},
+}};
+
+const MeasuredArray* find_measured(const std::string& name) {
+  for (const MeasuredArray& array : measured_arrays)
+    if (array.name == name) return &array;
+  return nullptr;
+}
+
+Error unknown(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const MeasuredArray& array : measured_arrays) names.push_back(array.name);
+  for (const WrittenArray& array : written_arrays())
+    if (array.series == "particles" && array.place == ArrayPlace::point && array.name != "Points")
+      names.push_back(array.name);
+  return bad_input("particles have no array " + shown(name), suggestion(name, names));
+}
+
+Dataset columns_of(const RunFiles& run, std::size_t index, const std::string& name) {
+  const auto file = run.folder.path / run.particle_rows[index].file;
+  Dataset data = read_vtu(file, {name.c_str()});
+  if (!find(data.point_columns, name))
+    throw bad_input(Place{file.string()}, "has no array " + shown(name),
+                    "choose another one; sinew info FILE lists them");
+  if (data.points.size() != run.body.particles.size())
+    throw bad_input(Place{file.string()}, "has another number of particles than the run",
+                    "run the scene again with --force");
+  return data;
+}
+
+}  // namespace
+
+DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&run), name_(name) {
+  if (const MeasuredArray* array = find_measured(name)) {
+    unit_ = array->unit;
+    rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
+    if (name == "von_mises" && !rest_->law.force)
+      throw bad_input("von_mises cannot be measured in a run with this material", "show strain");
+    return;
+  }
+  const WrittenArray* array = find_written("particles", ArrayPlace::point, name);
+  if (!array || name == "Points") throw unknown(name);
+  if (array->unit != "1") unit_ = array->unit;
+  components_ = std::max<int>(1, static_cast<int>(array->components.size()));
+}
+
+std::vector<double> DrawnValues::measured(const RunFrame& frame) const {
+  const FrameState state = measured_frame(frame);
+  return particle_values(*rest_, state).*find_measured(name_)->values;
+}
+
+std::vector<double> DrawnValues::at(std::size_t index, const RunFrame& frame) const {
+  if (rest_) return measured(frame);
+  if (name_ == "displacement") return frame.displacement;
+  if (components_ == 1) {
+    const Dataset data = columns_of(*run_, index, name_);
+    const Column& column = *find(data.point_columns, name_);
+    if (const auto* whole = std::get_if<std::vector<std::int32_t>>(&column.values))
+      return {whole->begin(), whole->end()};
+    return numbers(data.point_columns, name_);
+  }
+  std::vector<double> sizes;
+  for (const Vec3& vector : drawn_vectors(*run_, index, name_)) sizes.push_back(vector.norm());
+  return sizes;
+}
+
+DrawnValues::Range DrawnValues::range_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return value != value; });
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t stray = values.size() / 100;
+  const double low = values[stray], high = values[values.size() - 1 - stray];
+  return {values.front() >= 0 && low < high / 2 ? 0 : low, high};
+}
+
+Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name) {
+  return vectors(columns_of(run, index, name).point_columns, name);
+}
+
+namespace {
+
+constexpr std::size_t most_arrows = 900;  // more of them hide each other
+constexpr double longest_arrow = 0.25;    // of the body's longest side
+constexpr double shortest_arrow = 0.1;    // of the longest: shorter ones are dots
+constexpr double least_turn = 0.01;       // rad: below it no bone tells the story
+constexpr std::size_t moments_without_turn = 5;
+
+double largest_turn(const RunFiles& run, const RunFrame& frame) {
+  double most = 0;
+  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
+    const Mat3 turn = frame.bones[b].rotation * run.skeleton.bones[b].rest.rotation.transpose();
+    most = std::max(most, Eigen::AngleAxisd(turn).angle());
+  }
+  return most;
+}
+
+/// Evenly over all frames, the first and the last among them.
+std::vector<std::size_t> spread_over(std::size_t frames) {
+  const std::size_t count = std::min(frames, moments_without_turn);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k)
+    chosen.push_back(count == 1 ? 0 : k * (frames - 1) / (count - 1));
+  return chosen;
+}
+
+void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool first) {
+  range.low = first ? other.low : std::min(range.low, other.low);
+  range.high = first ? other.high : std::max(range.high, other.high);
+}
+
+}  // namespace
+
+DrawnRun::DrawnRun(const std::string& folder, const std::vector<Look>& looks,
+                   const std::string& array, const Mat3& view, bool ahead)
+    : run_(open_run({folder})), view_(view) {
+  for (const Look& look : looks)
+    looks_.push_back(
+        {look, DrawnValues(run_, array.empty() ? std::string(look.array) : array), {}});
+  read_story(view, ahead);
+}
+
+void DrawnRun::read_story(const Mat3& view, bool ahead) {
+  FramesInOrder frames(run_, ahead);
+  for (std::size_t i = 0; i < run_.frames(); ++i) {
+    RunFrame frame = frames.next();
+    story_.angle.push_back(largest_turn(run_, frame));
+    for (DrawnLook& drawn : looks_)
+      widen(drawn.range, DrawnValues::range_of(drawn.values.at(i, frame)), i == 0);
+    story_.frame.extend(seen(view, shot_of(run_, std::move(frame), 0)));
+  }
+}
+
+std::string DrawnRun::name() const {
+  const auto path = std::filesystem::absolute(run_.folder.path / ".").lexically_normal();
+  return path.parent_path().filename();
+}
+
+std::size_t DrawnRun::frame_at(double time) const {
+  const auto& rows = run_.particle_rows;
+  const auto nearer = [time](const PvdRow& a, const PvdRow& b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  };
+  return static_cast<std::size_t>(
+      std::min_element(rows.begin(), rows.begin() + run_.frames(), nearer) - rows.begin());
+}
+
+std::vector<std::size_t> DrawnRun::telling_frames() const {
+  const std::vector<double>& angle = story_.angle;
+  const double most = *std::max_element(angle.begin(), angle.end());
+  if (most < least_turn) return spread_over(angle.size());
+  std::size_t half = 0, farthest = 0;
+  while (angle[half] < most / 2) ++half;
+  for (std::size_t i = 0; i < angle.size(); ++i)
+    if (angle[i] >= most * (1 - 1e-5)) farthest = i;
+  std::vector<std::size_t> frames{0, half, farthest, angle.size() - 1};
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  return frames;
+}
+
+/// The cut stands upright across the viewer's direction at rest and bends with the body, so that
+/// the same particles are seen at all times.
+void DrawnRun::cut_open(Shot& shot) const {
+  const Points rest = positions_of(run_.body.particles);
+  const Vec3 back = view_.row(2);
+  Vec3 across = Vec3::UnitY();
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
+    if (std::abs(axis.dot(back)) > std::abs(across.dot(back))) across = axis;
+  if (across.dot(back) < 0) across = -across;
+  const double middle = across.dot(bounds(rest).center());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (across.dot(rest[i]) > middle) continue;
+    shot.particles[kept] = shot.particles[i];
+    shot.values[kept++] = shot.values[i];
+  }
+  shot.particles.resize(kept);
+  shot.values.resize(kept);
+}
+
+void DrawnRun::add_arrows(Shot& shot, std::size_t index, const DrawnLook& drawn) const {
+  const Points vectors = drawn_vectors(run_, index, drawn.values.name());
+  const double size = bounds(positions_of(run_.body.particles)).sizes().maxCoeff();
+  const double strongest = drawn.range.high;
+  if (!(strongest > 0)) return;
+  const std::size_t stride = std::max<std::size_t>(1, vectors.size() / most_arrows);
+  for (std::size_t i = 0; i < vectors.size(); i += stride) {
+    const double force = vectors[i].norm();
+    if (!(force > shortest_arrow * strongest)) continue;
+    const double length = longest_arrow * size * std::min(1.0, force / strongest);
+    shot.arrows.push_back({shot.particles[i], length / force * vectors[i], force});
+  }
+}
+
+Shot DrawnRun::shot(std::size_t index, const DrawnLook& drawn) const {
+  RunFrame frame = read_frame(run_, index);
+  std::vector<double> values = drawn.values.at(index, frame);
+  Shot shot = shot_of(run_, std::move(frame), story_.angle[index]);
+  shot.values = std::move(values);
+  if (drawn.look.cut_open) cut_open(shot);
+  if (drawn.look.view == View::arrows) add_arrows(shot, index, drawn);
+  return shot;
+}
+
+}  // namespace sinew

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/view_presets.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::array<Look, 7> all_looks = {{
+    {"body", View::both, false, "displacement", "particles within the skin's edges, and the bones"},
+    {"surface", View::surface, false, "displacement", "the skin, the bones shining through"},
+    {"particles", View::particles, false, "displacement", "spheres of their true size"},
+    {"section", View::both, true, "displacement", "the body cut open along its middle"},
+    {"strain", View::particles, false, "strain", "particles by their equivalent strain"},
+    {"forces", View::arrows, false, "force_pair", "arrows of a force within the pale skin"},
+    {"bones", View::bones, false, "displacement", "the bones and their axes in the pale skin"},
+}};
+
+struct NamedView {
+  std::string_view name;
+  std::array<double, 3> towards_viewer;
+};
+
+constexpr std::array<NamedView, 6> views = {{{"three_quarter", {0.42, -1, 0.36}},
+                                             {"front", {0, -1, 0}},
+                                             {"back", {0, 1, 0}},
+                                             {"left", {-1, 0, 0}},
+                                             {"right", {1, 0, 0}},
+                                             {"top", {0, 0, 1}}}};
+
+/// The entry of that name in a table, or an error that says what is `wanted`.
+template <class Table>
+const auto& entry_named(const Table& table, const std::string& name, const char* wanted) {
+  std::vector<std::string_view> names;
+  for (const auto& entry : table) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
+  }
+  throw bad_input("there is no " + std::string(wanted) + ' ' + shown(name),
+                  suggestion(name, names));
+}
+
+Mat3 view_towards(const Vec3& viewer) {
+  const bool upright = std::abs(viewer.x()) + std::abs(viewer.y()) < 1e-6 * std::abs(viewer.z());
+  return upright ? view_from_above() : view_from(viewer);
+}
+
+}  // namespace
+
+std::span<const Look> looks() { return all_looks; }
+
+const Look& look_named(const std::string& name) { return entry_named(all_looks, name, "view"); }
+
+ColourMap colour_map_named(const std::string& name) {
+  return entry_named(colour_maps(), name, "colour map").map;
+}
+
+Mat3 view_named(const std::string& text) {
+  Vec3 towards = Vec3::Zero();
+  char rest = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &towards.x(), &towards.y(), &towards.z(), &rest);
+  if (read <= 0) {
+    const auto& [x, y, z] = entry_named(views, text, "camera").towards_viewer;
+    return view_towards({x, y, z});
+  }
+  if (read != 3 || !towards.allFinite() || towards.isZero(0))
+    throw bad_input(shown(text) + " is no direction of a camera",
+                    "give three numbers, not all zero: --camera 1,-2,0.5");
+  return view_towards(towards);
+}
+
+}  // namespace sinew

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/body.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "command/command.h"
+#include <sinew/core/file.h>
+#include <sinew/core/hash.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/text.h>
+#include <sinew/io/gltf/read_gltf.h>
+#include <sinew/mesh/read_surface.h>
+#include <sinew/mesh/readers/mesh_text.h>
+#include <sinew/settings/row.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+
+namespace {
+
+PolygonSoup read_any(const std::string& path) {
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  return extension == ".gltf" || extension == ".glb" ? read_gltf(path) : read_polygons(path);
+}
+
+}  // namespace
+
+Surface read_body_mesh(const BodySettings& body) { return read_surface(body, read_any); }
+
+namespace {
+
+constexpr std::uint64_t largest_mesh = std::uint64_t{4} << 30;  // bytes
+
+}  // namespace
+
+bool is_scene(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs) {
+  if (std::filesystem::path(output).extension() != ".vtu")
+    throw bad_input("'" + output + "' is no name for a VTU file", "give a name that ends in .vtu");
+  std::error_code missing;
+  for (const std::string& input : inputs)
+    if (std::filesystem::equivalent(output, input, missing))
+      throw bad_input(Place{output}, "is an input, and would be replaced",
+                      "give another name with -o");
+}
+
+/// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
+Mat3 lattice_axes(const BodySettings& body) {
+  const Vec3& angles = body.lattice_rotation;
+  if (angles.isZero(0)) return Mat3::Identity();
+  const auto about = [&](int axis) {
+    return Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis));
+  };
+  return (about(2) * about(1) * about(0)).toRotationMatrix();
+}
+
+Surface read_mesh(const Settings& settings) {
+  return told_at(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
+}
+
+Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
+  const BodySettings& body = settings.body;
+  PackOptions options;
+  options.packing = body.packing;
+  options.radius = body.radius;
+  options.count = body.count;
+  options.density = settings.material.density;
+  options.lattice_origin = body.lattice_origin;
+  options.lattice_axes = lattice_axes(body);
+  options.keep = body.keep;
+  options.clearance = body.clearance;
+  options.thickness = body.thickness;
+  options.verify = verify;
+  return told_at(settings, body.radius ? "body.radius" : "body.count",
+                 [&] { return pack(surface, options); });
+}
+
+BodyFile body_file(Filling filling, const std::string& origin) {
+  nlohmann::ordered_json meta;
+  meta["program"] = "sinew";
+  meta["version"] = version();
+  meta["origin"] = origin;
+  for (const ReportRow& row : rows_of(filling.report)) {
+    meta["fill"][row.key] = nlohmann::ordered_json::parse(row.value, nullptr, false);
+    if (!row.unit.empty()) meta["fill_units"][row.key] = row.unit;
+  }
+  meta["fill"]["warnings"] = filling.report.warnings;
+  BodyFile body;
+  body.particles = std::move(filling.particles);
+  body.neighbours = std::move(filling.neighbours);
+  body.component = std::move(filling.component);
+  body.meta = meta.dump();
+  return body;
+}
+
+std::string origin_of(const Settings& settings) {
+  Hash hash;
+  hash.add(
+      told_at(settings, "body.mesh", [&] { return read_file(settings.body.mesh, largest_mesh); }));
+  for (const auto& field : settings_table())
+    if ((field.section == "body" && field.name != "mesh") || field.name == "density")
+      hash.add(scene_text(field.get(settings), "") + '\n');
+  return hash_text(hash.value());
+}
+
+std::optional<BodyFile> body_of_scene(const std::filesystem::path& path,
+                                      const std::string& origin) {
+  std::error_code unreachable;
+  if (!std::filesystem::exists(path, unreachable)) return std::nullopt;
+  try {
+    BodyFile body = read_body(path);
+    const auto meta = nlohmann::json::parse(body.meta, nullptr, false);
+    if (meta.is_object() && meta.value("origin", "") == origin) return body;
+  } catch (const Error&) {
+    // Not a body, or a torn one: it is made again.
+  }
+  return std::nullopt;
+}
+
+}  // namespace sinew

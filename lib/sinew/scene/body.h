@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The body of a scene: its mesh read, filled and ready to be written or moved.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+
+#include <sinew/core/error.h>
+#include <sinew/fill/pack.h>
+#include <sinew/io/single_files.h>
+#include <sinew/mesh/surface.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+// The mesh of a scene, or on the command line, ready to be filled: read by the room that knows its
+// format, repaired where that was asked for, cleaned.
+
+inline constexpr const char* mesh_formats = "OBJ, OFF, STL, PLY, glTF, GLB";
+
+/// Reads body.mesh with the options of the section body. Throws Error (bad input) naming the file.
+Surface read_body_mesh(const BodySettings& body);
+
+/// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
+bool is_scene(const std::filesystem::path& path);
+
+/// Runs `job`; what it throws is told as reached through a line of the scene.
+template <class Job>
+auto told_at(const Settings& settings, const char* key, Job&& job) {
+  try {
+    return job();
+  } catch (const Error& error) {
+    const Place place = settings.place(key);
+    if (place.file == settings.body.mesh) throw;  // a mesh without a scene: it names itself
+    throw error.within(place);
+  }
+}
+
+/// Throws Error (bad input) where an output is no .vtu, or one of the inputs.
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);
+
+/// The directions of the packing, as columns.
+Mat3 lattice_axes(const BodySettings& body);
+
+/// Reads the mesh that a scene names. Errors name the scene's line.
+Surface read_mesh(const Settings& settings);
+
+/// Fills it as the scene says. Errors name the scene's line. `verify`: every site is asked of CGAL.
+Filling fill_body(const Settings& settings, const Surface& surface, bool verify = false);
+
+/// What body.vtu holds of a filling; `origin` tells from what it was made.
+BodyFile body_file(Filling filling, const std::string& origin);
+
+/// A text that is the same for the same mesh file and the same way of filling it.
+std::string origin_of(const Settings& settings);
+
+/// The body of this very scene, if `path` holds it.
+std::optional<BodyFile> body_of_scene(const std::filesystem::path& path, const std::string& origin);
+
+}  // namespace sinew

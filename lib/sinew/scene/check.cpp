@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/check.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/requested_arrays.h>
+#include <sinew/core/text.h>
+#include <sinew/io/arrays.h>
+#include <sinew/physics/solid.h>
+#include <sinew/physics/world/world.h>
+#include <sinew/rig/motion_checks.h>
+#include <sinew/scene/stepper_choice.h>
+
+namespace sinew {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Real numbers per particle (position, displacement, velocity, four forces, radius, weight) and per
+// point of the surface (position, displacement, normal), and whole numbers beside them.
+constexpr double reals_per_particle = 23, wholes_per_particle = 6;
+constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
+// Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
+constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
+// Positions, velocities and order of three checkpoints, one of them in the making; and their bonds.
+constexpr double checkpoints_per_particle = 3 * 52, bonds_per_particle = 3 * (12 * 8 + 4);
+constexpr double exported_per_point = 24;        // bytes in surface.pc2 and surface.glb
+constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
+// Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
+// disk (two copies, and one as numbers in double) with the rest shape and its binding; lists take
+// about 280 in double and 160 in single precision.
+constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 1130;
+constexpr double memory_with_cells = 1500;
+constexpr double memory_per_point = 600, memory_beside = 30e6;
+
+double memory_per_particle(const StepWay& way) {
+  if (way.search == NeighbourSearch::cells) return memory_with_cells;
+  return way.precision == Precision::binary64 ? memory_with_lists_double : memory_with_lists_single;
+}
+
+/// Numbers of a particle in the arrays that the scene asks for.
+double requested_numbers(const OutputSettings& output) {
+  double numbers = 0;
+  for (const std::string_view name : requested_arrays(output.arrays)) {
+    const WrittenArray* row = find_written("particles", ArrayPlace::point, name);
+    numbers += std::max(1.0, static_cast<double>(row->components.size()));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
+               std::size_t surface_faces) {
+  const OutputSettings& output = settings.output;
+  const auto particles = static_cast<double>(setup.body.rest.size());
+  const auto points = static_cast<double>(surface_points);
+  const auto faces = static_cast<double>(surface_faces);
+  const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
+  const double reals_of_world = setup.body.world ? 3 : 0;  // one more force
+  const double reals =
+      particles * (reals_per_particle + reals_of_world + requested_numbers(output)) +
+      surfaces * points * reals_per_point;
+  const double wholes = particles * wholes_per_particle +
+                        surfaces * (points * wholes_per_point + faces * wholes_per_face);
+  const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
+  const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;
+  const double coded =
+      raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
+  const double exported = output.export_surface ? points * exported_per_point : 0;
+  const bool bonds = remembers_neighbours(setup.body.material);
+  const double checkpoints =
+      particles * (checkpoints_per_particle + (bonds ? bonds_per_particle : 0));
+  Needs needs;
+  needs.disk = static_cast<std::uint64_t>(
+      (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
+  const StepWay way = step_way(settings.solver, setup.body, setup.motion);
+  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
+                                            points * memory_per_point + memory_beside);
+  return needs;
+}
+
+std::uint64_t free_space(const fs::path& folder) {
+  fs::path existing = fs::absolute(folder).lexically_normal();
+  std::error_code failed;
+  while (!fs::exists(existing, failed) && existing.has_relative_path())
+    existing = existing.parent_path();
+  const auto space = fs::space(existing, failed);
+  return failed ? UINT64_MAX : space.available;
+}
+
+void check_space(const fs::path& folder, const Needs& needs, std::uint64_t freed) {
+  const std::uint64_t space = free_space(folder);
+  const std::uint64_t available = space > UINT64_MAX - freed ? space : space + freed;
+  if (needs.disk <= available) return;
+  throw not_written(
+      folder.string(),
+      "the run needs about " + bytes_text(needs.disk) + ", the disk has " + bytes_text(available),
+      "make space, choose another folder with -o, or make output.interval longer");
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
+  auto value = static_cast<double>(bytes);
+  int unit = 0;
+  for (; value >= 1000 && unit < 6; ++unit) value /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
+  return text;
+}
+
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+// Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
+constexpr double largest_stable_b = 2.75;
+constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
+constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
+constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
+// In square roots of what a bone holds of the cross-section: 0.6 is the rim of a round limb.
+constexpr double far_from_bone = 3;
+constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
+
+void warn_of_material(const PairForce& pair, Warnings& warnings) {
+  if (pair.b > largest_stable_b * pair.r)
+    warnings.push_back("b is " + three_digits(pair.b / pair.r) +
+                       " radii: second neighbours at 2.83 weaken the packing until it collapses by "
+                       "itself; set material.b to 2.75 or less");
+  if (pair.a > 2 * pair.r * (1 + 1e-9))
+    warnings.push_back("a is " + three_digits(pair.a / pair.r) +
+                       " radii: between 2 and a neighbours do not pull and a free body swells; set "
+                       "material.a to 2");
+}
+
+void warn_of_step(const StepChoice& steps, Warnings& warnings) {
+  const std::string share =
+      "the time step is " + three_digits(steps.factor()) + " of the stability limit: ";
+  if (steps.factor() > 1)
+    warnings.push_back(share + "the run will become unstable; use solver.time_step " +
+                       three_digits(steps.limit / 2) + " or auto");
+  else if (steps.factor() > 0.9)
+    warnings.push_back(share + "bent joints rattle above 0.9; use solver.time_step auto");
+}
+
+void warn_of_speed(double speed, Warnings& warnings) {
+  if (speed > fastest_bone)
+    warnings.push_back("a bone moves particles by " + three_digits(speed) +
+                       " radii in a step: the body cannot follow; slow the motion down or shorten "
+                       "solver.time_step");
+}
+
+std::string bone_of(const Setup& setup, const Track& track) {
+  return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
+}
+
+/// How far the track turns the bone about itself at most, by its rotations and its twist, rad.
+double turn_about_bone(const Bone& bone, const Track& track) {
+  double turned = 0, twisted = 0;
+  for (const Quat& rotation : track.rotation.values) {
+    const double along = rotation.vec().dot(bone.axis());
+    turned = std::max(turned, std::abs(2 * std::atan2(along, std::abs(rotation.w()))));
+  }
+  for (const double twist : track.twist.values) twisted = std::max(twisted, std::abs(twist));
+  return turned + twisted;
+}
+
+/// Planes of particles over which a turn about the bone is spread.
+double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
+  const double length = joint_zone * std::sqrt(setup.body.binding.cross_section[bone]);
+  return std::max(1.0, length / half_plane_spacing(setup.body.material.pair.r));
+}
+
+void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
+  const Bone& bone = setup.body.skeleton.bones[track.bone];
+  if (bone.parent == no_bone || setup.weights_given) return;
+  const double turn = turn_about_bone(bone, track);
+  const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
+  if (step > steepest_joint)
+    warnings.push_back("bone " + bone_of(setup, track) + " turns " + three_digits(degrees(turn)) +
+                       " degrees about itself, " + three_digits(step) +
+                       " from one plane of particles to the next: that cuts the body; set "
+                       "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
+}
+
+void warn_of_idle_bones(const Body& body, Warnings& warnings) {
+  for (std::size_t b = 0; b < body.skeleton.size(); ++b)
+    if (!(body.binding.cross_section[b] > 0))
+      warnings.push_back("no particle follows bone '" + body.skeleton.bones[b].name +
+                         "'; move it into the body");
+}
+
+/// Particles farther from their bone than this are held by a long arm, m.
+double longest_arm(const Body& body, int bone) {
+  Box box;
+  for (const Vec3& point : body.rest) box.extend(point);
+  return std::min(box.diagonal().norm() / 2,
+                  far_from_bone * std::sqrt(body.binding.cross_section[bone]));
+}
+
+void warn_of_far_particles(const Body& body, Warnings& warnings) {
+  const std::size_t bones = body.skeleton.size();
+  std::vector<double> limit, farthest(bones, 0.0);
+  for (std::size_t b = 0; b < bones; ++b) limit.push_back(longest_arm(body, static_cast<int>(b)));
+  std::vector<std::size_t> count(bones, 0);
+  for (std::size_t i = 0; i < body.rest.size(); ++i) {
+    const int bone = body.binding.bone(i);
+    if (bone == no_bone) continue;
+    const double distance = distance_to(body.skeleton.bones[bone], body.rest[i]);
+    if (distance > limit[bone]) ++count[bone];
+    farthest[bone] = std::max(farthest[bone], distance);
+  }
+  for (std::size_t b = 0; b < bones; ++b)
+    if (count[b] > 0)
+      warnings.push_back(std::to_string(count[b]) + " particles of bone '" +
+                         body.skeleton.bones[b].name + "' are farther from it than " +
+                         three_digits(limit[b]) + " m, up to " + three_digits(farthest[b]) +
+                         " m; add a bone there, or let them follow the others by "
+                         "binding.core_radius");
+}
+
+void warn_of_unreached(const Binding& binding, Warnings& warnings) {
+  if (binding.unreached > 0)
+    warnings.push_back(std::to_string(binding.unreached) +
+                       " particles are reached from no bone inside the body and follow the nearest "
+                       "through the air; close the body's gaps, or give it a bone in each piece");
+}
+
+void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
+  const StepWay way = step_way(solver, setup.body, setup.motion);
+  if (!way.unserved || setup.body.material.model != MaterialModel::paper) return;
+  const auto& [key, value, served] = *way.unserved;
+  std::string warning = key;
+  warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
+  if (solver.precision == Precision::binary32) warning += ", in double precision";
+  warning += ", about " + three_digits(std::round(slowness_of_cells(solver.precision))) +
+             " times slower; use " + key + ' ' + served + " where its difference does not matter";
+  warnings.push_back(warning);
+}
+
+/// A body that begins within an obstacle is thrown out of it.
+void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
+  if (!setup.body.world) return;
+  const World& world = *setup.body.world;
+  const WorldNow start = world_at(world, 0, pose_at(setup.body.skeleton, setup.motion, 0));
+  const double r = setup.body.material.pair.r;
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    std::size_t count = 0;
+    for (const Vec3& place : setup.body.rest) {
+      const double pressing =
+          contact(world.obstacles[k], start.obstacles[k], place, Vec3::Zero(), r).pressing;
+      count += pressing > deepest_start * r * world.obstacles[k].stiffness;
+    }
+    if (count > 0)
+      warnings.push_back(std::to_string(count) + " particles begin over " +
+                         three_digits(deepest_start) + " radii within obstacle '" +
+                         world.obstacles[k].name +
+                         "', which throws them out; move it away from the body");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
+                                     double bone_speed) {
+  Warnings warnings;
+  if (setup.body.material.model == MaterialModel::paper)
+    warn_of_material(setup.body.material.pair, warnings);
+  warn_of_step(setup.steps, warnings);
+  warn_of_speed(bone_speed, warnings);
+  for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
+  for (std::string& warning :
+       motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
+    warnings.push_back(std::move(warning));
+  warn_of_idle_bones(setup.body, warnings);
+  warn_of_far_particles(setup.body, warnings);
+  warn_of_unreached(setup.body.binding, warnings);
+  warn_of_cells(setup, solver, warnings);
+  warn_of_overlaps(setup, warnings);
+  return warnings;
+}
+
+}  // namespace sinew

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run will need before it needs it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sinew/scene/setup.h>
+#include <sinew/scene/stepper_choice.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+struct Needs {
+  std::uint64_t disk = 0;    ///< bytes of all frames and checkpoints
+  std::uint64_t memory = 0;  ///< bytes while stepping
+};
+
+Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
+               std::size_t surface_faces);
+
+/// Bytes a user may still write where `folder` lies or will lie.
+std::uint64_t free_space(const std::filesystem::path& folder);
+
+/// Throws not written when the disk has less room than the run needs; `freed` bytes will be given
+/// back before it begins.
+void check_space(const std::filesystem::path& folder, const Needs& needs, std::uint64_t freed);
+
+/// "12.3 MB"
+std::string bytes_text(std::uint64_t bytes);
+
+// What is doubtful in a scene that may be run all the same.
+
+/// Each a line with the number, the reason and the cure. `bone_speed` in radii per step.
+std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
+                                     double bone_speed);
+
+}  // namespace sinew

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rig of a scene: skeleton and motion, from the scene's own lists or from files of any format.
+#pragma once
+
+#include <filesystem>
+
+#include <sinew/rig/motion.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// File names of rigs and clips that are not YAML, as help texts list them.
+inline constexpr const char* rig_formats = "BVH, glTF, GLB";
+
+/// Whether a file that is no YAML holds a rig, and whether it may hold a mesh: glTF may hold both.
+bool holds_rig(const std::filesystem::path& path);
+bool holds_mesh(const std::filesystem::path& path);
+
+/// What such a file holds, in its own directions and units. Throws bad input, with the path.
+Rig read_rig(const std::filesystem::path& path, const MotionSettings& motion);
+
+struct SceneRig {
+  Skeleton skeleton;
+  Motion motion;
+};
+
+/// The clip of a file moves the bones that have the names of its own. Throws bad input, naming the
+/// scene's line.
+SceneRig rig_of(const Settings& settings);
+
+}  // namespace sinew

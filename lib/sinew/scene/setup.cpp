@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/setup.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/io/gltf/read_rig.h>
+#include <sinew/physics/time_step.h>
+#include <sinew/rig/pose.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/world.h>
+
+namespace sinew {
+
+namespace {
+
+/// The weights of the mesh in skeleton.file, as the rig stands in the scene.
+BoneWeights weights_of_file(const Settings& settings, const Points& rest) {
+  const std::filesystem::path file = settings.skeleton.file;
+  const std::string type = lower(file.extension().string());
+  const Place place = settings.place("binding.method");
+  if (type != ".gltf" && type != ".glb")
+    throw bad_input(place, "there is no glTF file to take weights from",
+                    "name a .gltf or .glb with a skinned mesh in skeleton.file, or choose inside");
+  GltfRig rig = told_at(settings, "skeleton.file", [&] { return read_gltf_rig(file); });
+  if (rig.weights.weights.empty())
+    throw bad_input(place, file.filename().string() + " holds no skinned mesh, so no weights",
+                    "choose nearest or inside");
+  const Mat3 turn = to_scene(settings.skeleton);
+  for (Vec3& point : rig.mesh.points) point = settings.skeleton.scale * (turn * point);
+  return carried_weights(rig.mesh.points, rig.weights, rest);
+}
+
+int bone_named(const Settings& settings, const std::string& path, const Skeleton& skeleton,
+               const std::string& name) {
+  if (name.empty()) return no_bone;
+  std::vector<std::string_view> names;
+  for (const Bone& bone : skeleton.bones) names.emplace_back(bone.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw bad_input(settings.place(path), "no bone is named '" + name + "'",
+                    suggestion(name, names));
+  return static_cast<int>(found - names.begin());
+}
+
+std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
+                                  const std::vector<double>& numbers, std::size_t particles) {
+  std::vector<std::uint32_t> ids;
+  for (const double number : numbers) {
+    if (number != std::floor(number) || number >= static_cast<double>(particles))
+      throw bad_input(settings.place(path), "there is no particle " + number_text(number),
+                      "give whole numbers from 0 to " + std::to_string(particles - 1));
+    ids.push_back(static_cast<std::uint32_t>(number));
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleton& skeleton,
+                      std::size_t particles) {
+  const BoundSettings& given = settings.bound[index];
+  const std::string path = "binding.explicit[" + std::to_string(index) + "]";
+  const bool box = given.low && given.high, ball = given.centre && given.radius;
+  if (given.low.has_value() != given.high.has_value())
+    throw bad_input(settings.place(path), "the box has one corner", "give both low and high");
+  if (given.centre.has_value() != given.radius.has_value())
+    throw bad_input(settings.place(path), "the ball lacks its centre or its radius",
+                    "give both centre and radius");
+  if (!box && !ball && !given.ids)
+    throw bad_input(settings.place(path), "the entry names no particles",
+                    "give ids, low and high of a box, or centre and radius of a ball");
+  BoundRegion region;
+  region.bone = bone_named(settings, path + ".bone", skeleton, given.bone);
+  if (given.ids) region.ids = ids_of(settings, path + ".ids", *given.ids, particles);
+  if (box) region.box = Box(*given.low, *given.high);
+  if (ball) region.centre = *given.centre, region.radius = *given.radius;
+  return region;
+}
+
+}  // namespace
+
+Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Points& rest,
+                   double radius) {
+  const BindingSettings& given = settings.binding;
+  BindOptions options;
+  options.radius = radius;
+  options.inside = given.method == BindMethod::inside;
+  options.joint_zone = given.joint_zone;
+  if (given.core_radius) options.core_radius = *given.core_radius;
+  for (std::size_t i = 0; i < settings.bound.size(); ++i)
+    options.regions.push_back(region_of(settings, i, skeleton, rest.size()));
+  if (given.method == BindMethod::file) options.weights = weights_of_file(settings, rest);
+  return bind_to_bones(rest, skeleton, options);
+}
+
+namespace {
+
+constexpr double most_steps = 2e9;  // files count them in 32 bits
+
+int frames_of(const Settings& settings) {
+  const double frames = std::ceil(settings.solver.duration / settings.output.interval - 1e-6);
+  if (!(frames <= 1e6))
+    throw bad_input(settings.place("solver.duration"), "the run would have over a million frames",
+                    "make output.interval longer");
+  return static_cast<int>(frames);
+}
+
+BodyShape shape_of(const Settings& settings, const Points& rest, const Particles& particles) {
+  BodyShape shape = sinew::shape_of(rest, particles.radius, particles.mass);
+  shape.lattice = lattice_axes(settings.body);
+  return shape;
+}
+
+Body make_body(const Settings& settings, const Skeleton& skeleton, const Particles& particles) {
+  Body body;
+  body.rest = positions_of(particles);
+  body.skeleton = skeleton;
+  body.binding = bind_scene(settings, body.skeleton, body.rest, particles.radius);
+  body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
+  body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
+  return body;
+}
+
+StepChoice steps_of(const Settings& settings, const Body& body) {
+  const double limit = step_limit(settings.solver.integrator, body, load_of(body));
+  try {
+    return choose_step(settings.solver, limit, settings.output.interval);
+  } catch (const Error& error) {
+    throw error.within(settings.place("solver.integrator"));
+  }
+}
+
+}  // namespace
+
+Setup set_up(const Settings& settings, const Particles& particles) {
+  Setup setup;
+  setup.frames = frames_of(settings);
+  SceneRig rig = rig_of(settings);
+  setup.body = make_body(settings, rig.skeleton, particles);
+  SceneWorld around = world_of(settings, setup.body);
+  setup.body.world = std::move(around.world);
+  setup.obstacles = std::move(around.obstacles);
+  setup.motion = std::move(rig.motion);
+  setup.joint_zone = settings.binding.joint_zone;
+  setup.weights_given = settings.binding.method == BindMethod::file;
+  setup.steps = steps_of(settings, setup.body);
+  if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
+    throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
+                    "make solver.duration shorter or solver.time_step longer");
+  return setup;
+}
+
+Simulation start(const Settings& settings, Setup setup, Particles particles) {
+  return Simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
+                    stepping_of(settings.solver, setup.steps.step));
+}
+
+double bone_speed(const Setup& setup, double interval) {
+  const Body& body = setup.body;
+  std::vector<double> reach(body.skeleton.size(), 0.0);  // from the bone's axis
+  for (const Influence& influence : body.binding.influences)
+    reach[influence.bone] = std::max(reach[influence.bone], influence.rest_distance);
+  double fastest = 0;
+  constexpr int samples_per_frame = 4;
+  PoseCursor poses(body.skeleton, setup.motion);
+  for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
+    const Pose& pose = poses.at(sample * interval / samples_per_frame);
+    for (std::size_t b = 0; b < pose.size(); ++b) {
+      const double length = pose[b].stretch * body.skeleton.bones[b].length;
+      const Vec3 tail = pose[b].frame.origin + length * pose[b].axis();
+      const double spin = pose[b].angular_velocity.norm() * reach[b];
+      fastest = std::max(
+          {fastest, pose[b].velocity.norm() + spin, pose[b].velocity_at(tail).norm() + spin});
+    }
+  }
+  return fastest * setup.steps.step / body.material.pair.r;
+}
+
+}  // namespace sinew

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/world.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/mesh/surface_distance.h>
+#include <sinew/physics/world/shapes.h>
+#include <sinew/physics/world/world.h>
+#include <sinew/rig/motion.h>
+#include <sinew/scene/body.h>
+
+namespace sinew {
+namespace {
+
+std::string entry(const char* list, std::size_t index) {
+  std::string path = "world.";
+  path += list;
+  path += '[' + std::to_string(index) + ']';
+  return path;
+}
+
+int bone_named(const std::string& name, const std::string& path, const Settings& settings,
+               const Skeleton& skeleton) {
+  if (name.empty()) return no_bone;
+  for (std::size_t b = 0; b < skeleton.size(); ++b)
+    if (skeleton.bones[b].name == name) return static_cast<int>(b);
+  throw bad_input(settings.place(path + ".bone"), "there is no bone '" + name + "'",
+                  "use a name from skeleton.bones");
+}
+
+Region region_of(const RegionSettings& given) {
+  Region region;
+  region.falloff = given.falloff;
+  if (given.low)
+    region.shape = BoxShape{(*given.low + *given.high) / 2, (*given.high - *given.low) / 2};
+  else if (given.centre)
+    region.shape = SphereShape{*given.centre, *given.radius};
+  return region;
+}
+
+KeyedValue values_of(const std::vector<ValueKeySettings>& keys) {
+  KeyedValue values;
+  for (const ValueKeySettings& key : keys) {
+    values.times.push_back(key.time);
+    values.values.push_back(key.value);
+  }
+  return values;
+}
+
+FieldForm form_of(const FieldSettings& given) {
+  switch (given.shape) {
+    case FieldShape::uniform:
+      return UniformAcceleration{*given.acceleration};
+    case FieldShape::density:
+      return ForceDensity{*given.density};
+    case FieldShape::attraction:
+      return Attraction{*given.point, *given.strength, *given.core};
+    case FieldShape::swirl:
+      return Swirl{*given.point, given.axis, *given.strength, *given.core};
+  }
+  return UniformAcceleration{};
+}
+
+/// A shape about its own middle, and where that is in the scene.
+struct Placed {
+  Shape shape;
+  Vec3 middle = Vec3::Zero();
+  Triangles surface;
+};
+
+Placed placed_mesh(const ObstacleSettings& given, const BodySettings& body) {
+  BodySettings file;
+  file.mesh = given.mesh;
+  file.unit = body.unit;
+  file.scale = body.scale;
+  const Surface surface = read_body_mesh(file);
+  Placed placed;
+  placed.surface = surface.triangles;
+  const Box box = bounds(placed.surface.points);
+  placed.middle = box.center();
+  for (Vec3& point : placed.surface.points) point -= placed.middle;
+  MeshShape shape;
+  shape.bounds = bounds(placed.surface.points);
+  shape.distance = [distance = std::make_shared<SurfaceDistance>(surface),
+                    middle = placed.middle](const Vec3& point) -> SignedDistance {
+    const NearestPlace nearest = distance->from(point + middle);
+    return {nearest.distance, nearest.normal};
+  };
+  placed.shape = std::move(shape);
+  return placed;
+}
+
+Mat3 rotation_about_axes(const Vec3& angles) {
+  Mat3 turn = Mat3::Identity();
+  for (int axis = 0; axis < 3; ++axis)
+    turn = Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis)) * turn;
+  return turn;
+}
+
+/// `size`: of the body, m.
+Placed placed_shape(const ObstacleSettings& given, const BodySettings& body, double size) {
+  const Vec3 zero = Vec3::Zero();
+  Placed placed;
+  switch (given.shape) {
+    case ObstacleShape::mesh:
+      return placed_mesh(given, body);
+    case ObstacleShape::plane:
+      placed = {PlaneShape{zero, given.normal}, given.point, {}};
+      break;
+    case ObstacleShape::sphere:
+      placed = {SphereShape{zero, *given.radius}, *given.centre, {}};
+      break;
+    case ObstacleShape::capsule: {
+      const Vec3 middle = (*given.from + *given.to) / 2;
+      placed = {CapsuleShape{*given.from - middle, *given.to - middle, *given.radius}, middle, {}};
+      break;
+    }
+    case ObstacleShape::box:
+      placed = {
+          BoxShape{zero, *given.size / 2, rotation_about_axes(given.rotation)}, *given.centre, {}};
+      break;
+  }
+  placed.surface = surface_of(placed.shape, size);
+  return placed;
+}
+
+/// The motion that the keys of an obstacle give: that of a bone with its head in the middle.
+ObstacleMotion keyed(const ObstacleSettings& given, const Vec3& middle) {
+  Settings scene;
+  scene.bones = {{given.name, "", middle, Vec3(middle + Vec3::UnitX())}};
+  TrackSettings track;
+  track.bone = given.name;
+  track.interpolation = given.interpolation;
+  for (const PlaceKeySettings& key : given.keys) {
+    KeySettings& made = track.keys.emplace_back();
+    made.time = key.time;
+    made.translation = key.translation;
+    made.axis = key.axis;
+    made.angle = key.angle;
+  }
+  scene.tracks = {track};
+  const Skeleton skeleton = make_skeleton(scene);
+  return [skeleton, motion = make_motion(scene, skeleton)](double time, const Pose&) {
+    const BonePose bone = pose_at(skeleton, motion, time).front();
+    return ObstaclePose{{bone.frame.origin, bone.turn}, bone.velocity, bone.angular_velocity};
+  };
+}
+
+ObstacleMotion motion_of(const ObstacleSettings& given, const Vec3& middle, int bone,
+                         const Skeleton& skeleton) {
+  if (!given.keys.empty()) return keyed(given, middle);
+  const RigidFrame frame = {middle, Mat3::Identity()};
+  return bone == no_bone ? still(frame) : riding(bone, skeleton.bones[bone], frame);
+}
+
+void add_obstacles(const Settings& settings, const Body& body, World& world,
+                   std::vector<Triangles>& surfaces) {
+  const Material& material = body.material;
+  const double k = material.pair.contact_stiffness();
+  const double size = 2 * bounds(body.rest).diagonal().norm();
+  for (std::size_t i = 0; i < settings.world.obstacles.size(); ++i) {
+    const ObstacleSettings& given = settings.world.obstacles[i];
+    const std::string path = entry("obstacles", i);
+    const int bone = bone_named(given.bone, path, settings, body.skeleton);
+    Placed placed = told_at(settings, (path + ".mesh").c_str(),
+                            [&] { return placed_shape(given, settings.body, size); });
+    Obstacle obstacle;
+    obstacle.name = given.name;
+    obstacle.shape = std::move(placed.shape);
+    obstacle.motion = motion_of(given, placed.middle, bone, body.skeleton);
+    obstacle.stiffness = given.stiffness * k;
+    obstacle.damping = given.damping * std::sqrt(obstacle.stiffness * material.mass);
+    obstacle.friction = given.friction;
+    world.obstacles.push_back(std::move(obstacle));
+    surfaces.push_back(std::move(placed.surface));
+  }
+}
+
+void add_pins(const Settings& settings, const Body& body, World& world) {
+  std::vector<Pin> pins;
+  for (std::size_t i = 0; i < settings.world.pins.size(); ++i) {
+    const PinSettings& given = settings.world.pins[i];
+    pins.push_back({region_of(given.region),
+                    bone_named(given.bone, entry("pins", i), settings, body.skeleton)});
+  }
+  world.pins = told_at(settings, "world.pins", [&] {
+    return pinned(body.rest, pins, static_cast<int>(body.skeleton.size()));
+  });
+}
+
+Muscle muscle_of(const MuscleSettings& given, const std::string& path, const Settings& settings,
+                 const Body& body) {
+  const int bone = bone_named(given.bone, path, settings, body.skeleton);
+  Muscle muscle;
+  muscle.name = given.name;
+  muscle.direction = given.direction ? *given.direction : body.skeleton.bones[bone].axis();
+  muscle.strength = given.strength;
+  muscle.activation = values_of(given.keys);
+  const Region region = region_of(given.region);
+  muscle.shares = bone == no_bone || region.shape ? shares_in(region, body.rest)
+                                                  : shares_bound_to(bone, body.binding);
+  if (muscle.shares.empty())
+    throw bad_input(settings.place(path), "muscle '" + given.name + "' has no particles",
+                    "place its region on the body at rest, or name a bone that holds some");
+  return muscle;
+}
+
+void add_muscles(const Settings& settings, const Body& body, World& world) {
+  std::vector<Muscle> muscles;
+  for (std::size_t i = 0; i < settings.world.muscles.size(); ++i)
+    muscles.push_back(muscle_of(settings.world.muscles[i], entry("muscles", i), settings, body));
+  if (muscles.empty()) return;
+  world.muscles = told_at(settings, "world.muscles", [&] {
+    return make_muscles(body.rest, body.material.pair.r, std::move(muscles));
+  });
+}
+
+}  // namespace
+
+SceneWorld world_of(const Settings& settings, const Body& body) {
+  if (settings.world.empty()) return {};
+  SceneWorld made;
+  World world;
+  add_obstacles(settings, body, world, made.obstacles);
+  world.drag.rate = settings.world.drag;
+  for (const FieldSettings& given : settings.world.fields)
+    world.fields.push_back(
+        {given.name, form_of(given), region_of(given.region), values_of(given.keys)});
+  add_muscles(settings, body, world);
+  add_pins(settings, body, world);
+  told_at(settings, "world", [&] { check_world(world); });
+  made.world = std::make_shared<const World>(std::move(world));
+  return made;
+}
+
+WorldLoad load_of(const Body& body) {
+  if (!body.world) return {};
+  Particles particle;
+  particle.radius = body.material.pair.r;
+  particle.mass = body.material.mass;
+  return {added_stiffness(*body.world, particle), added_damping(*body.world, particle)};
+}
+
+}  // namespace sinew

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/settings/checks.h>
+
+#include <array>
+#include <string>
+
+#include <sinew/core/requested_arrays.h>
+#include <sinew/settings/settings.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+namespace {
+
+/// Whether the scene gives this key a value (auto is none).
+bool is_given(const Settings& settings, std::string_view path) {
+  if (settings.places.find(path) == settings.places.end()) return false;
+  for (const auto& row : settings_table())
+    if (std::string(row.section) + '.' + std::string(row.name) == path)
+      return !std::holds_alternative<std::monostate>(row.get(settings));
+  return false;
+}
+
+void check_pair(const Settings& settings, const EitherOr& pair) {
+  const bool first = is_given(settings, pair.first), second = is_given(settings, pair.second);
+  const std::string names = std::string(pair.first) + " and " + std::string(pair.second);
+  if (first && second)
+    throw bad_input(settings.place(std::string(pair.second)), names + " are both given",
+                    "keep one of them");
+  if (pair.needed && !first && !second)
+    throw bad_input(settings.place(std::string(pair.first)), names + " are both missing",
+                    "give one of them");
+}
+
+/// The place of the first of two keys that the scene gives.
+Place place_of(const Settings& settings, const char* first, const char* second) {
+  return settings.place(is_given(settings, first) ? first : second);
+}
+
+void check_material(const Settings& settings) {
+  const MaterialSettings& material = settings.material;
+  if (!(material.a < material.b))
+    throw bad_input(place_of(settings, "material.a", "material.b"),
+                    "attraction would end at b = " + number_text(material.b) +
+                        " radii before it begins at a = " + number_text(material.a),
+                    "give an a below b");
+  const bool has_bonds = material.model != MaterialModel::paper;
+  for (const char* key : {"material.breaking_strain", "material.yield_strain"})
+    if (is_given(settings, key) && !has_bonds)
+      throw bad_input(settings.place(key),
+                      std::string(key) + " is of bonds, and the paper's model has none",
+                      "set material.model to bonded or bonded_volume, or remove it");
+  if (material.cohesion != Cohesion::all && has_bonds)
+    throw bad_input(settings.place("material.cohesion"),
+                    "bonded models attract none but their bonds",
+                    "remove material.cohesion, or set material.model to paper");
+  if (!material.modulus_direction) return;
+  if (material.modulus_direction->norm() == 0)
+    throw bad_input(settings.place("material.modulus_direction"), "a direction without length",
+                    "give [x, y, z], not all zero");
+  if (settings.body.packing != Packing::fcc)
+    throw bad_input(settings.place("material.modulus_direction"),
+                    "moduli along a direction are known for fcc only",
+                    "set body.packing to fcc, or remove it");
+}
+
+/// Tells of a name that is none by the scene's line.
+void check_arrays(const Settings& settings) {
+  try {
+    requested_arrays(settings.output.arrays);
+  } catch (const Error& error) {
+    throw error.within(settings.place("output.arrays"));
+  }
+}
+
+void check_axes(const Settings& settings) {
+  const char* cure = "name two different axes, as in up: y and forward: z";
+  if (to_scene(settings.body).determinant() < 0.5)
+    throw bad_input(place_of(settings, "body.forward", "body.up"),
+                    "up and forward of the mesh lie along one axis", cure);
+  if (to_scene(settings.skeleton).determinant() < 0.5)
+    throw bad_input(place_of(settings, "skeleton.forward", "skeleton.up"),
+                    "up and forward of the rig lie along one axis", cure);
+}
+
+void check_clip(const Settings& settings) {
+  const MotionSettings& motion = settings.motion;
+  if (motion.end && !(*motion.end > motion.start))
+    throw bad_input(place_of(settings, "motion.end", "motion.start"),
+                    "the clip would end at " + number_text(*motion.end) +
+                        " s before it begins at " + number_text(motion.start) + " s",
+                    "give an end after motion.start");
+}
+
+}  // namespace
+
+std::span<const EitherOr> either_or() {
+  static constexpr std::array<EitherOr, 4> pairs = {{
+      {"body.radius", "body.count", true},
+      {"material.young_modulus", "material.k1", false},
+      {"material.lambda", "material.k2", false},
+      {"material.damping", "material.damping_ratio", false},
+  }};
+  return pairs;
+}
+
+std::string_view rival_of(std::string_view path) {
+  for (const EitherOr& pair : either_or()) {
+    if (pair.first == path) return pair.second;
+    if (pair.second == path) return pair.first;
+  }
+  return "";
+}
+
+void apply_preset(Settings& settings) {
+  MaterialSettings& material = settings.material;
+  const MaterialPreset* preset = preset_named(material.preset);
+  if (preset == nullptr) return;
+  const auto free = [&](std::string_view key) {
+    const std::string_view rival = rival_of(key);
+    const bool written = settings.places.find(key) != settings.places.end();  // as none, too
+    return !written && (rival.empty() || !is_given(settings, rival));
+  };
+  if (free("material.density")) material.density = preset->density;
+  if (free("material.young_modulus")) material.young_modulus = preset->young_modulus;
+  if (free("material.poisson_ratio")) material.poisson_ratio = preset->poisson_ratio;
+  if (free("material.damping_ratio")) material.damping_ratio = preset->damping_ratio;
+  if (preset->yield_strain && free("material.model")) material.model = MaterialModel::bonded;
+  if (material.model != MaterialModel::paper && free("material.yield_strain"))
+    material.yield_strain = preset->yield_strain;
+}
+
+void check_together(const Settings& settings) {
+  for (const EitherOr& pair : either_or()) check_pair(settings, pair);
+  check_material(settings);
+  check_axes(settings);
+  check_clip(settings);
+  check_arrays(settings);
+  const double duration = settings.solver.duration, interval = settings.output.interval;
+  if (duration > 0 && interval > duration)
+    throw bad_input(
+        place_of(settings, "output.interval", "solver.duration"),
+        "frames every " + number_text(interval) + " s in a run of " + number_text(duration) + " s",
+        "give output.interval a value up to solver.duration");
+}
+
+}  // namespace sinew

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/settings/read_scene.h>
+
+#include <array>
+
+#include <sinew/core/text.h>
+#include <sinew/settings/checks.h>
+#include <sinew/settings/read_rig.h>
+#include <sinew/settings/read_world.h>
+#include <sinew/settings/table.h>
+#include <sinew/settings/text_file.h>
+#include <sinew/settings/values.h>
+
+namespace sinew {
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+/// The value below `key`, which is put into the mapping when it lacks it.
+YamlNode& child(YamlNode& map, const std::string& key, const Place& place) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i)
+    if (map.keys[i].name == key) return map.items[i];
+  map.keys.push_back({key, place});
+  map.items.push_back({Kind::empty, place, "", false, {}, {}});
+  return map.items.back();
+}
+
+void remove(YamlNode& scene, std::string_view path) {
+  const auto dot = path.find('.');
+  for (std::size_t s = 0; s < scene.keys.size(); ++s) {
+    if (scene.keys[s].name != path.substr(0, dot)) continue;
+    YamlNode& section = scene.items[s];
+    for (std::size_t i = section.keys.size(); i-- > 0;) {
+      if (section.keys[i].name != path.substr(dot + 1)) continue;
+      section.keys.erase(section.keys.begin() + static_cast<std::ptrdiff_t>(i));
+      section.items.erase(section.items.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+/// Whether the text takes its key back, as in body.count=auto; all rivals have this word for it.
+bool is_absent_word(const YamlNode& value) { return !value.quoted && value.text == "auto"; }
+
+void place_all(YamlNode& node, const Place& place) {
+  node.place = place;
+  for (YamlKey& key : node.keys) key.place = place;
+  for (YamlNode& item : node.items) place_all(item, place);
+}
+
+}  // namespace
+
+Override parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::string path = text.substr(0, equals);
+  const auto dot = path.find('.');
+  if (equals == text.npos || dot == path.npos || dot == 0 || dot + 1 == path.size())
+    throw bad_input("--set " + shown(text) + " is no setting",
+                    "write --set section.key=value, as in --set body.radius=0.01");
+  return {path, text.substr(equals + 1), "--set " + text};
+}
+
+void apply_override(const Override& given, YamlNode& scene) {
+  const Place place = {given.given};
+  YamlNode value = parse_yaml(given.value, place.file);
+  place_all(value, place);
+  if (scene.kind != Kind::map) return;
+  const auto dot = given.path.find('.');
+  YamlNode& section = child(scene, given.path.substr(0, dot), place);
+  if (section.kind == Kind::empty) section.kind = Kind::map;
+  if (section.kind != Kind::map) return;
+  if (!is_absent_word(value)) remove(scene, rival_of(given.path));
+  child(section, given.path.substr(dot + 1), place) = std::move(value);
+}
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+std::vector<Field<Settings>> rows_of(std::string_view section) {
+  std::vector<Field<Settings>> rows;
+  for (const auto& row : settings_table())
+    if (row.section == section) rows.push_back(row);
+  return rows;
+}
+
+/// The keys of a section that hold lists.
+std::span<const std::string_view> lists_of(std::string_view section) {
+  static constexpr std::array<std::string_view, 3> lists = {"bones", "tracks", "explicit"};
+  if (section == "skeleton") return std::span(lists).first(1);
+  if (section == "motion") return std::span(lists).subspan(1, 1);
+  if (section == "binding") return std::span(lists).last(1);
+  if (section == "world") return world_lists;
+  return {};
+}
+
+/// A section that is not there has all its defaults, and is missed where it must not be.
+YamlNode section_of(const YamlNode& scene, std::string_view name, Settings& settings) {
+  YamlNode section;
+  section.place = settings.place("");
+  for (std::size_t i = 0; i < scene.keys.size(); ++i) {
+    if (scene.keys[i].name != name) continue;
+    section = scene.items[i];
+    if (section.kind != Kind::scalar) section.place = scene.keys[i].place;
+    settings.places[std::string(name)] = scene.keys[i].place;
+  }
+  return section;
+}
+
+Settings read_settings(const YamlNode& scene, const std::string& file,
+                       std::span<const std::string_view> known) {
+  Settings settings;
+  settings.places[""] = {file};
+  if (scene.kind == Kind::empty)
+    throw bad_input({file}, "there is no scene in this file",
+                    "write its sections: " + listed(known));
+  check_keys(scene, "", known);
+  for (const std::string_view name : known) {
+    const YamlNode section = section_of(scene, name, settings);
+    const auto rows = rows_of(name);
+    read_fields<Settings>(section, std::string(name), rows, lists_of(name), settings,
+                          settings.places);
+    if (name == "skeleton") read_bones(section, settings);
+    if (name == "motion") read_tracks(section, settings);
+    if (name == "world") read_world(section, settings);
+    if (name == "binding") read_bound(section, settings);
+  }
+  return settings;
+}
+
+}  // namespace
+
+Settings read_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
+  const std::string file = path.string();
+  YamlNode scene = parse_yaml(read_text(path), file);
+  for (const Override& given : overrides) apply_override(given, scene);
+  Settings settings = read_settings(scene, file, sections());
+  apply_preset(settings);
+  check_together(settings);
+  open_paths_from_here(settings, path.parent_path());
+  read_rig_files(settings);
+  return settings;
+}
+
+Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides) {
+  static constexpr std::array<std::string_view, 2> known = {"body", "material"};
+  const Place place = {mesh.string()};
+  const YamlNode path = {Kind::scalar, place, mesh.string(), true, {}, {}};
+  const YamlNode body = {Kind::map, place, "", false, {path}, {{"mesh", place}}};
+  YamlNode scene = {Kind::map, place, "", false, {body}, {{"body", place}}};
+  for (const Override& given : overrides) apply_override(given, scene);
+  Settings settings = read_settings(scene, place.file, known);
+  apply_preset(settings);
+  check_together(settings);
+  return settings;
+}
+
+}  // namespace sinew

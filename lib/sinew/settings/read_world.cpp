@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/settings/read_world.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <sinew/settings/text_file.h>
+#include <sinew/settings/values.h>
+#include <sinew/settings/write_scene.h>
+
+namespace sinew {
+namespace {
+
+std::string entry(const std::string& path, std::string_view list, std::size_t index) {
+  return path_below(path, list) + '[' + std::to_string(index) + ']';
+}
+
+bool has_entries(const YamlNode& node, std::string_view list) {
+  const YamlNode* found = node.find(list);
+  return found != nullptr && (found->kind == YamlNode::Kind::scalar || !found->items.empty());
+}
+
+/// Calls read(item, path, entry) for the entries of a list that may be missing or empty.
+template <class Owner, class Read>
+void read_entries(const YamlNode& node, const std::string& path, std::string_view list,
+                  std::vector<Owner>& owners, Places& places, const Read& read) {
+  if (!has_entries(node, list)) return;
+  const auto items = list_below(node, path, list, places);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    read(items[i], entry(path, list, i), owners.emplace_back());
+}
+
+/// Keys below an entry, each later than the one before.
+template <class Key>
+void read_keys(const YamlNode& node, const std::string& path, std::span<const Field<Key>> rows,
+               std::vector<Key>& keys, Settings& settings) {
+  read_entries(node, path, "keys", keys, settings.places,
+               [&](const YamlNode& item, const std::string& below, Key& key) {
+                 read_fields(item, below, rows, "", key, settings.places);
+                 if (keys.size() > 1 && !(key.time > keys[keys.size() - 2].time))
+                   throw bad_input(settings.place(below + ".time"),
+                                   "keys are not in ascending time",
+                                   "sort them, each with its own time");
+               });
+}
+
+/// The name of an entry, or what stands in its place.
+template <class Owner>
+void check_names(const std::vector<Owner>& owners, std::string_view list,
+                 const Settings& settings) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < owners.size(); ++i)
+    if (!seen.insert(owners[i].name).second)
+      throw bad_input(settings.place(entry("world", list, i) + ".name"),
+                      "two of world." + std::string(list) + " are named '" + owners[i].name + '\'',
+                      "give each a name of its own");
+}
+
+void check_region(const RegionSettings& region, const std::string& path, const Settings& settings) {
+  const bool box = region.low || region.high, ball = region.centre || region.radius;
+  const Place place = settings.place(path);
+  if (box && ball)
+    throw bad_input(place, path + " has a region given as a box and as a ball",
+                    "keep low and high, or centre and radius");
+  if (box && !(region.low && region.high))
+    throw bad_input(place, path + " has one corner of a box", "give low and high");
+  if (ball && !(region.centre && region.radius))
+    throw bad_input(place, path + " has half of a ball", "give centre and radius");
+  if (box && !(region.low->array() < region.high->array()).all())
+    throw bad_input(settings.place(path + ".low"), path + ".low is not below high on all axes",
+                    "give the least corner as low and the greatest as high");
+}
+
+bool has_region(const RegionSettings& region) { return region.low || region.centre; }
+
+/// Throws unless a key that `owner` needs is given.
+void require(bool given, const std::string& path, const std::string& key, const std::string& owner,
+             const Settings& settings) {
+  if (!given)
+    throw bad_input(settings.place(path),
+                    path + '.' + key + " is missing, which a " + owner + " needs",
+                    "add " + key + ':');
+}
+
+/// Throws unless the keys that a shape needs are given.
+void check_shape(const ObstacleSettings& obstacle, const std::string& path,
+                 const Settings& settings) {
+  const auto need = [&](bool given, const char* key, const char* shape) {
+    require(given, path, key, shape, settings);
+  };
+  switch (obstacle.shape) {
+    case ObstacleShape::plane:
+      if (obstacle.normal.norm() == 0)
+        throw bad_input(settings.place(path + ".normal"), "a direction without length",
+                        "give [x, y, z], not all zero");
+      return;
+    case ObstacleShape::sphere:
+      need(obstacle.centre.has_value(), "centre", "sphere");
+      return need(obstacle.radius.has_value(), "radius", "sphere");
+    case ObstacleShape::capsule:
+      need(obstacle.from.has_value(), "from", "capsule");
+      need(obstacle.to.has_value(), "to", "capsule");
+      return need(obstacle.radius.has_value(), "radius", "capsule");
+    case ObstacleShape::box:
+      need(obstacle.centre.has_value(), "centre", "box");
+      need(obstacle.size.has_value(), "size", "box");
+      if (!(obstacle.size->array() > 0).all())
+        throw bad_input(settings.place(path + ".size"), "a box without size along an axis",
+                        "give three lengths above 0");
+      return;
+    case ObstacleShape::mesh:
+      return need(!obstacle.mesh.empty(), "mesh", "mesh");
+  }
+}
+
+void read_obstacle(const YamlNode& item, const std::string& path, ObstacleSettings& obstacle,
+                   Settings& settings) {
+  read_fields(item, path, obstacle_fields(), "keys", obstacle, settings.places);
+  check_shape(obstacle, path, settings);
+  read_keys(item, path, place_key_fields(), obstacle.keys, settings);
+  for (std::size_t i = 0; i < obstacle.keys.size(); ++i)
+    if (obstacle.keys[i].axis.norm() == 0)
+      throw bad_input(settings.place(entry(path, "keys", i) + ".axis"),
+                      "a direction without length", "give [x, y, z], not all zero");
+  if (!obstacle.bone.empty() && !obstacle.keys.empty())
+    throw bad_input(settings.place(path + ".keys"), path + " has a bone and keys of its own",
+                    "keep one of them");
+}
+
+void read_pin(const YamlNode& item, const std::string& path, PinSettings& pin, Settings& settings) {
+  read_fields(item, path, pin_fields(), "", pin, settings.places);
+  check_region(pin.region, path, settings);
+  if (!has_region(pin.region))
+    throw bad_input(settings.place(path), path + " has no region",
+                    "add low: and high: of a box, or centre: and radius: of a ball");
+}
+
+/// Throws unless the keys that a field's shape needs are given.
+void check_field(const FieldSettings& field, const std::string& path, const Settings& settings) {
+  const auto need = [&](bool given, const char* key, const std::string& shape) {
+    require(given, path, key, "field of shape " + shape, settings);
+  };
+  const auto need_centre = [&](const char* shape) {
+    need(field.point.has_value(), "point", shape);
+    need(field.strength.has_value(), "strength", shape);
+    need(field.core.has_value(), "core", shape);
+  };
+  switch (field.shape) {
+    case FieldShape::uniform:
+      return need(field.acceleration.has_value(), "acceleration", "uniform");
+    case FieldShape::density:
+      return need(field.density.has_value(), "density", "density");
+    case FieldShape::attraction:
+      return need_centre("attraction");
+    case FieldShape::swirl:
+      if (field.axis.norm() == 0)
+        throw bad_input(settings.place(path + ".axis"), "a direction without length",
+                        "give [x, y, z], not all zero");
+      return need_centre("swirl");
+  }
+}
+
+void read_field(const YamlNode& item, const std::string& path, FieldSettings& field,
+                Settings& settings) {
+  read_fields(item, path, field_fields(), "keys", field, settings.places);
+  check_field(field, path, settings);
+  check_region(field.region, path, settings);
+  read_keys(item, path, strength_fields(), field.keys, settings);
+}
+
+void read_muscle(const YamlNode& item, const std::string& path, MuscleSettings& muscle,
+                 Settings& settings) {
+  read_fields(item, path, muscle_fields(), "keys", muscle, settings.places);
+  check_region(muscle.region, path, settings);
+  read_keys(item, path, activation_fields(), muscle.keys, settings);
+  if (muscle.bone.empty() && !muscle.direction)
+    throw bad_input(settings.place(path), path + " has neither a bone nor a direction",
+                    "add bone: with the name of a bone, or direction: [x, y, z]");
+  if (muscle.direction && muscle.direction->norm() == 0)
+    throw bad_input(settings.place(path + ".direction"), "a direction without length",
+                    "give [x, y, z], not all zero");
+}
+
+/// One list of the section, `  NAME:` and its entries.
+template <class Owner, class Entry>
+std::string list_text(std::string_view name, const std::vector<Owner>& owners,
+                      const Entry& entry_text) {
+  std::string text = "  " + std::string(name) + ':';
+  if (owners.empty()) return text + " []\n";
+  text += '\n';
+  for (const Owner& owner : owners) text += entry_text(owner, &owner == &owners.front());
+  return text;
+}
+
+template <class Owner>
+std::string with_keys(std::span<const Field<typename decltype(Owner::keys)::value_type>> rows,
+                      const Owner& owner, bool first) {
+  if (owner.keys.empty()) return "      keys: []\n";
+  std::string text = "      keys:\n";
+  for (const auto& key : owner.keys)
+    text += entry_text(rows, key, 8, first && &key == &owner.keys.front());
+  return text;
+}
+
+}  // namespace
+
+void read_world(const YamlNode& node, Settings& settings) {
+  WorldSettings& world = settings.world;
+  const auto with = [&](auto read) {
+    return [&settings, read](const YamlNode& item, const std::string& path, auto& owner) {
+      read(item, path, owner, settings);
+    };
+  };
+  Places& places = settings.places;
+  read_entries(node, "world", "obstacles", world.obstacles, places, with(read_obstacle));
+  read_entries(node, "world", "pins", world.pins, places, with(read_pin));
+  read_entries(node, "world", "fields", world.fields, places, with(read_field));
+  read_entries(node, "world", "muscles", world.muscles, places, with(read_muscle));
+  check_names(world.obstacles, "obstacles", settings);
+  check_names(world.fields, "fields", settings);
+  check_names(world.muscles, "muscles", settings);
+}
+
+std::string world_text(const Settings& settings, const std::filesystem::path& folder) {
+  const WorldSettings& world = settings.world;
+  std::string text =
+      list_text("obstacles", world.obstacles, [&](ObstacleSettings obstacle, bool first) {
+        obstacle.mesh = path_in(folder, obstacle.mesh);
+        return entry_text(obstacle_fields(), obstacle, 4, first) +
+               with_keys(place_key_fields(), obstacle, first);
+      });
+  text += list_text("pins", world.pins, [](const PinSettings& pin, bool first) {
+    return entry_text(pin_fields(), pin, 4, first);
+  });
+  text += list_text("fields", world.fields, [](const FieldSettings& field, bool first) {
+    return entry_text(field_fields(), field, 4, first) + with_keys(strength_fields(), field, first);
+  });
+  text += list_text("muscles", world.muscles, [](const MuscleSettings& muscle, bool first) {
+    return entry_text(muscle_fields(), muscle, 4, first) +
+           with_keys(activation_fields(), muscle, first);
+  });
+  return text;
+}
+
+}  // namespace sinew

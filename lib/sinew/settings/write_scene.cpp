@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/settings/write_scene.h>
+
+#include <sinew/settings/checks.h>
+#include <sinew/settings/read_world.h>
+#include <sinew/settings/text_file.h>
+
+namespace sinew {
+namespace {
+
+std::string bones_text(const Settings& settings) {
+  if (settings.bones.empty()) return "";  // they stand in skeleton.file
+  std::string text = "  bones:\n";
+  for (const BoneSettings& bone : settings.bones) {
+    const bool first = &bone == &settings.bones.front();
+    text += entry_text(bone_fields(), bone, 4, first) + "      limits:\n";
+    for (const auto& row : limit_fields())
+      text += "        " + line_text(row, row.get(bone.limits), first);
+  }
+  return text;
+}
+
+std::string tracks_text(const Settings& settings) {
+  if (settings.tracks.empty()) return "  tracks: []\n";
+  std::string text = "  tracks:\n";
+  for (const TrackSettings& track : settings.tracks) {
+    const bool first = &track == &settings.tracks.front();
+    text += entry_text(track_fields(), track, 4, first) + "      keys:\n";
+    for (const KeySettings& key : track.keys)
+      text += entry_text(key_fields(), key, 8, first && &key == &track.keys.front());
+  }
+  return text;
+}
+
+std::string bound_text(const Settings& settings) {
+  if (settings.bound.empty()) return "";
+  std::string text = "  explicit:\n";
+  for (const BoundSettings& bound : settings.bound)
+    text += entry_text(bound_fields(), bound, 4, &bound == &settings.bound.front());
+  return text;
+}
+
+/// Whether a key with a default must stay out because its rival is given.
+bool is_replaced(const Settings& settings, const Field<Settings>& row) {
+  const std::string name = std::string(row.section) + '.' + std::string(row.name);
+  for (const auto& other : settings_table())
+    if (row.absent.empty() &&
+        std::string(other.section) + '.' + std::string(other.name) == rival_of(name))
+      return !std::holds_alternative<std::monostate>(other.get(settings));
+  return false;
+}
+
+/// Relative paths as the scene in `folder` sees them.
+FieldValue value_in(const std::filesystem::path& folder, const Settings& settings,
+                    const Field<Settings>& row) {
+  const FieldValue value = row.get(settings);
+  const auto* text = std::get_if<std::string>(&value);
+  if (row.kind != FieldKind::path || text == nullptr) return value;
+  return path_in(folder, *text);
+}
+
+std::string section_text(const Settings& settings, std::string_view section,
+                         const std::filesystem::path& folder) {
+  std::string text;
+  for (const auto& row : settings_table()) {
+    if (row.section != section || is_replaced(settings, row)) continue;
+    text += "  " + line_text(row, value_in(folder, settings, row), true);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string resolved_scene(const Settings& settings, const std::filesystem::path& folder) {
+  std::string text = "# Every setting of this run. SI units, angles in degrees.\n";
+  for (const std::string_view section : sections()) {
+    text += '\n' + std::string(section) + ":\n" + section_text(settings, section, folder);
+    if (section == "skeleton") text += bones_text(settings);
+    if (section == "motion") text += tracks_text(settings);
+    if (section == "world") text += world_text(settings, folder);
+    if (section == "binding") text += bound_text(settings);
+  }
+  return text;
+}
+
+}  // namespace sinew

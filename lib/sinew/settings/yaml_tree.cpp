@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/settings/yaml_tree.h>
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <unordered_map>
+#include <utility>
+
+#include <sinew/core/text.h>
+#include <sinew/settings/text_file.h>
+
+namespace sinew {
+namespace {
+
+std::size_t node_count(const YamlNode& node) {
+  std::size_t count = 1;
+  for (const YamlNode& item : node.items) count += node_count(item);
+  return count;
+}
+
+/// Builds the tree from the parser's events.
+class Builder : public YAML::EventHandler {
+ public:
+  explicit Builder(std::string file) : file_(std::move(file)) {}
+
+  YamlNode root;
+  Place last_quote;  ///< of the last scalar that was no plain word
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (std::exchange(begun_, true))
+      throw bad_input(at(mark), "a second document begins here",
+                      "keep one scene per file, and check the indentation");
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    YamlNode node;
+    node.place = at(mark);
+    add(std::move(node), anchor);
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& text) override {
+    refuse_tag(mark, tag);
+    YamlNode node;
+    node.kind = YamlNode::Kind::scalar;
+    node.place = at(mark);
+    node.text = text;
+    node.quoted = tag == "!";
+    if (node.quoted) last_quote = node.place;
+    add(std::move(node), anchor);
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = anchored_.find(anchor);
+    if (found == anchored_.end())
+      throw bad_input(at(mark), "an alias inside the value it stands for", "write the value out");
+    count_nodes(node_count(found->second), at(mark));
+    attach(found->second);
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(YamlNode::Kind::list, mark, tag, anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(YamlNode::Kind::map, mark, tag, anchor);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    YamlNode node;
+    YAML::anchor_t anchor;
+    std::unordered_map<std::string, int> lines;  ///< of the keys so far
+  };
+
+  Place at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
+
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
+    if (!tag.empty() && tag != "?" && tag != "!")
+      throw bad_input(at(mark), "the tag " + shown(tag), "remove it: scenes have no tags");
+  }
+
+  void count_nodes(std::size_t more, const Place& place) {
+    count_ += more;
+    if (count_ > most_nodes)
+      throw bad_input(place, "more than 100000 values in one scene", "shorten it");
+  }
+
+  void open(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
+            YAML::anchor_t anchor) {
+    refuse_tag(mark, tag);
+    if (open_.size() == deepest_node)
+      throw bad_input(at(mark), "lists and mappings nested more than 32 deep",
+                      "check brackets and indentation");
+    YamlNode node;
+    node.kind = kind;
+    node.place = at(mark);
+    open_.push_back({std::move(node), anchor, {}});
+  }
+
+  void close() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    add(std::move(done.node), done.anchor);
+  }
+
+  /// A finished value that stands in the text itself.
+  void add(YamlNode node, YAML::anchor_t anchor) {
+    count_nodes(1, node.place);
+    if (anchor != 0) anchored_[anchor] = node;
+    attach(std::move(node));
+  }
+
+  void attach(YamlNode node) {
+    if (open_.empty()) {
+      root = std::move(node);
+    } else if (Open& parent = open_.back(); parent.node.kind == YamlNode::Kind::map &&
+                                            parent.node.keys.size() == parent.node.items.size()) {
+      add_key(parent, node);
+    } else {
+      if (parent.node.kind == YamlNode::Kind::map && node.kind == YamlNode::Kind::empty)
+        node.place = parent.node.keys.back().place;  // the parser names the next token
+      parent.node.items.push_back(std::move(node));
+    }
+  }
+
+  void add_key(Open& parent, const YamlNode& key) {
+    if (key.kind != YamlNode::Kind::scalar)
+      throw bad_input(key.place, "a key that is no word", "write 'key: value'");
+    const auto [first, is_new] = parent.lines.emplace(key.text, key.place.line);
+    if (!is_new)
+      throw bad_input(
+          key.place, "the key " + shown(key.text) + " stands here twice",
+          "remove one of them (the first is on line " + std::to_string(first->second) + ")");
+    parent.node.keys.push_back({key.text, key.place});
+  }
+
+  std::string file_;
+  bool begun_ = false;
+  std::size_t count_ = 0;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, YamlNode> anchored_;  ///< values with a name, once they are complete
+};
+
+/// yaml-cpp keeps everything in brackets in memory before it says a word about it.
+void check_brackets(std::string_view text, const std::string& file) {
+  const auto parts = std::count_if(text.begin(), text.end(),
+                                   [](char c) { return c == '[' || c == '{' || c == ','; });
+  if (static_cast<std::size_t>(parts) > 2 * most_nodes)
+    throw bad_input({file}, "more than 200000 brackets and commas", "shorten the scene");
+}
+
+/// yaml-cpp lets quotes run to the end of the file. If the last ones do, they have no closing mark.
+void check_closing_quote(std::string_view text, const Place& place) {
+  std::size_t i = offset_of(text, place);
+  while (i < text.size() &&
+         (text[i] == '&' || text[i] == '!'))  // an anchor stands before the value
+    i = text.find_first_not_of(" \t\r\n", std::min(text.find_first_of(" \t\r\n", i), text.size()));
+  if (i >= text.size() || (text[i] != '"' && text[i] != '\'')) return;  // a block of text
+  const char quote = text[i];
+  for (++i; i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\')
+      ++i;
+    else if (text[i] == quote && quote == '\'' && text.substr(i + 1, 1) == "'")
+      ++i;
+    else if (text[i] == quote)
+      return;
+  }
+  throw bad_input(place, "quotes that are never closed", "close them on the same line");
+}
+
+}  // namespace
+
+const YamlNode* YamlNode::find(std::string_view key) const {
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (keys[i].name == key) return &items[i];
+  return nullptr;
+}
+
+YamlNode parse_yaml(std::string_view text, const std::string& file) {
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);  // a byte order mark
+  check_text(text, file);
+  check_brackets(text, file);
+  std::istringstream in{std::string(text)};
+  Builder builder(file);
+  try {
+    YAML::Parser parser(in);
+    while (parser.HandleNextDocument(builder)) continue;
+  } catch (const YAML::Exception& error) {
+    const bool known = !error.mark.is_null();
+    throw bad_input({file, known ? error.mark.line + 1 : 0, known ? error.mark.column + 1 : 0},
+                    "this is not YAML (" + error.msg + ")",
+                    "check quotes, brackets, indentation and the space after each colon");
+  }
+  if (builder.last_quote.line > 0) check_closing_quote(text, builder.last_quote);
+  return std::move(builder.root);
+}
+
+}  // namespace sinew

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// YAML text as a plain tree in which every value knows where it stands.
+//
+// Stricter than YAML: no key twice, no tags, one document, and bounds that keep hostile text from
+// taking the machine's memory (aliases of aliases, lists of lists).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sinew/core/error.h>
+
+namespace sinew {
+
+inline constexpr std::size_t most_nodes = 100'000;  // values in one text, aliases written out
+inline constexpr std::size_t deepest_node = 32;     // lists and mappings inside each other
+
+struct YamlKey {
+  std::string name;
+  Place place;
+};
+
+struct YamlNode {
+  enum class Kind { empty, scalar, list, map };
+
+  Kind kind = Kind::empty;
+  Place place;                  ///< where the value begins; for an empty one its key
+  std::string text;             ///< of a scalar
+  bool quoted = false;          ///< the scalar stands in quotes, or is a block of text
+  std::vector<YamlNode> items;  ///< of a list, or the values of a map
+  std::vector<YamlKey> keys;    ///< of a map, one per item
+
+  /// The value of a key, or nullptr.
+  const YamlNode* find(std::string_view key) const;
+};
+
+/// Reads one document; empty text gives an empty node. Throws bad input, naming `file`, line and
+/// column, for wrong YAML and for what the head of this page excludes.
+YamlNode parse_yaml(std::string_view text, const std::string& file);
+
+}  // namespace sinew

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command/body_options.h"
+
+#include <algorithm>
+#include <array>
+
+#include <sinew/settings/row.h>
+#include <sinew/settings/table.h>
+
+namespace sinew {
+namespace {
+
+using Row = Field<Settings>;
+
+bool is_wanted(const Row& row, BodyOptions::Kind kind) {
+  static constexpr std::array<std::string_view, 8> of_mesh = {
+      "unit", "scale", "up", "forward", "weld", "rule", "close_holes", "wrap"};
+  if (row.section == "body" && kind == BodyOptions::Kind::mesh)
+    return std::find(of_mesh.begin(), of_mesh.end(), row.name) != of_mesh.end();
+  if (kind == BodyOptions::Kind::mesh) return false;
+  return (row.section == "body" && row.name != "mesh") ||
+         (row.section == "material" && row.name == "density");
+}
+
+std::vector<const Row*> rows(BodyOptions::Kind kind) {
+  std::vector<const Row*> wanted;
+  for (const Row& row : settings_table())
+    if (is_wanted(row, kind)) wanted.push_back(&row);
+  return wanted;
+}
+
+std::string option_name(const Row& row) {
+  std::string name = "--";
+  name += row.name;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string type_name(const Row& row) {
+  if (row.kind == FieldKind::vector) return "X,Y,Z";
+  if (row.kind != FieldKind::choice) return row.kind == FieldKind::whole ? "N" : "NUMBER";
+  std::string names;
+  for (const std::string_view choice : row.choices) (names += names.empty() ? "" : "|") += choice;
+  return names;
+}
+
+std::string help_of(const Row& row) {
+  std::string help(row.help);
+  if (!row.unit.empty()) (help += ", ") += row.unit;
+  if (row.absent.empty() && row.kind != FieldKind::flag)
+    help += " [" + scene_text(row.get(Settings{}), "") + ']';
+  return help;
+}
+
+}  // namespace
+
+void BodyOptions::declare(CLI::App& app, Kind kind) {
+  const auto wanted = rows(kind);
+  given_.resize(wanted.size());  // options keep the places of their values
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Row& row = *wanted[i];
+    Given& one = given_[i];
+    one.path = std::string(row.section) + '.' + std::string(row.name);
+    one.option = option_name(row);
+    one.flag = row.kind == FieldKind::flag;
+    const std::string help = help_of(row);
+    CLI::Option* option =
+        one.flag ? app.add_flag_function(
+                       one.option, [](std::int64_t) {}, help)
+                 : app.add_option(one.option, one.value, help)->type_name(type_name(row));
+    option->group("Options for a mesh");
+    one.parsed = option;
+  }
+}
+
+std::vector<Override> BodyOptions::overrides() const {
+  std::vector<Override> all;
+  for (const Given& one : given_) {
+    if (one.parsed->count() == 0) continue;
+    std::string value = one.flag ? "true" : one.value;
+    if (value.find(',') != std::string::npos && value.front() != '[') value = '[' + value + ']';
+    all.push_back({one.path, value, one.option + (one.flag ? "" : ' ' + one.value)});
+  }
+  return all;
+}
+
+}  // namespace sinew
