@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shapes of the example bodies, in metres; z points up.
+"""The shapes of the example bodies, in meters; z points up.
 
 A limb is a tube through knots (x, y, z, radius). The bones in configs/ run along the same knots.
 """

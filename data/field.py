@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smooth shapes as distance fields: negative inside, in metres, smoothly joined.
+"""Smooth shapes as distance fields: negative inside, in meters, smoothly joined.
 
 Only + - * / and square roots are used, which every machine rounds alike, so that the same shape
 comes out everywhere, bit for bit. (The built-in sum() of floats differs between Pythons.)
@@ -74,7 +74,7 @@ def tube(*knots):
     return field, low, high
 
 
-def ellipsoid(centre, radii, along=(1, 0, 0), beside=(0, 1, 0)):
+def ellipsoid(center, radii, along=(1, 0, 0), beside=(0, 1, 0)):
     """Half-axes `radii` along `along`, then across it towards `beside`, then across both.
 
     The distance is a good one near the surface and along the axes, not everywhere.
@@ -82,7 +82,7 @@ def ellipsoid(centre, radii, along=(1, 0, 0), beside=(0, 1, 0)):
     u = unit(along)
     v = unit(cross(cross(u, beside), u))
     w = cross(u, v)
-    cx, cy, cz = centre
+    cx, cy, cz = center
     (ux, uy, uz), (vx, vy, vz), (wx, wy, wz) = u, v, w
     ru, rv, rw = (1 / (r * r) for r in radii)
 
@@ -102,14 +102,14 @@ def ellipsoid(centre, radii, along=(1, 0, 0), beside=(0, 1, 0)):
 
     reach = [sqrt(sum_of(axis[i] * r * axis[i] * r for axis, r in zip((u, v, w), radii)))
              for i in range(3)]
-    return field, [c - d for c, d in zip(centre, reach)], [c + d for c, d in zip(centre, reach)]
+    return field, [c - d for c, d in zip(center, reach)], [c + d for c, d in zip(center, reach)]
 
 
-def flattened(part, centre, direction, factor):
-    """`part` pressed together along `direction`, towards the plane through `centre`."""
+def flattened(part, center, direction, factor):
+    """`part` pressed together along `direction`, towards the plane through `center`."""
     field, low, high = part
     ux, uy, uz = unit(direction)
-    cx, cy, cz = centre
+    cx, cy, cz = center
     stretch = 1 / factor - 1
 
     def pressed(x, y, z):

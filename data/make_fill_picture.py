@@ -30,12 +30,12 @@ def filled(sinew, name, radius, folder):
 
 
 def spheres(body, radius):
-    """Coloured by what they touch: 12 neighbours within, fewer at the surface."""
-    neighbours = vtk_to_numpy(body.GetPointData().GetArray("neighbours"))
-    colours = numpy_to_vtk((neighbours == 12).astype("f8"), deep=True)
+    """Colored by what they touch: 12 neighbors within, fewer at the surface."""
+    neighbors = vtk_to_numpy(body.GetPointData().GetArray("neighbors"))
+    colors = numpy_to_vtk((neighbors == 12).astype("f8"), deep=True)
     points = vtk.vtkPolyData()
     points.SetPoints(body.GetPoints())
-    points.GetPointData().SetScalars(colours)
+    points.GetPointData().SetScalars(colors)
     ball = vtk.vtkSphereSource()
     ball.SetRadius(radius)
     ball.SetThetaResolution(14)
@@ -86,8 +86,8 @@ def cut_open(body, axis, middle):
     places = vtk.vtkPoints()
     places.SetData(numpy_to_vtk(points[keep], deep=True))
     half.SetPoints(places)
-    column = numpy_to_vtk(vtk_to_numpy(body.GetPointData().GetArray("neighbours"))[keep], deep=True)
-    column.SetName("neighbours")
+    column = numpy_to_vtk(vtk_to_numpy(body.GetPointData().GetArray("neighbors"))[keep], deep=True)
+    column.SetName("neighbors")
     half.GetPointData().AddArray(column)
     return half
 

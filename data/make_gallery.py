@@ -58,7 +58,7 @@ def draw(sinew, runs, name):
         target = DATA / f"pictures/{name}.png"
         shutil.copy(Path(folder) / f"{taken}.png", target)
     if target.stat().st_size > LARGE:
-        # without dither spheres in 256 colours look the same, at a third of the size
+        # without dither spheres in 256 colors look the same, at a third of the size
         few = Image.open(target).quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
         few.save(target, optimize=True)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bodies
 from mesh_files import write_obj, write_ply
-from polygonise import polygonise
+from polygonize import polygonize
 
 MESHES = Path(__file__).resolve().parent / "meshes"
 ORIGIN = ["Made by data/make_meshes.py. SPDX-License-Identifier: GPL-3.0-or-later"]
@@ -16,7 +16,7 @@ ORIGIN = ["Made by data/make_meshes.py. SPDX-License-Identifier: GPL-3.0-or-late
 def grid_box(cells, low, size):
     """A closed box whose sides are grids of triangles: points shared, faces outward.
 
-    Points go layer by layer along z; the diagonals alternate like a chessboard's colours, so that
+    Points go layer by layer along z; the diagonals alternate like a chessboard's colors, so that
     no direction is preferred.
     """
     points, number = [], {}
@@ -51,12 +51,12 @@ def paper_box():
     plane = math.sqrt(2) * 0.010
     size = [11 * plane, 11 * plane, 49 * plane]
     points, faces = grid_box((8, 10, 25), (-size[0] / 2, -size[1] / 2, 0.0), size)
-    comment = ["The box of Komiya and Tokoi: 1062 points, lengths in metres.", *ORIGIN]
+    comment = ["The box of Komiya and Tokoi: 1062 points, lengths in meters.", *ORIGIN]
     write_obj(MESHES / "box.obj", comment, points, faces)
 
 
 def skin_of_cells(cells, edge):
-    """The surface of cubes (i, j, k) from k = 0 up, centred on 0 in x and y: points shared, outward."""
+    """The surface of cubes (i, j, k) from k = 0 up, centered on 0 in x and y: points shared, outward."""
     half = [max(cell[axis] for cell in cells) / 2 + 0.5 if axis < 2 else 0 for axis in range(3)]
     points, number, faces = [], {}, []
     for cell in sorted(cells):
@@ -89,13 +89,13 @@ def two_fingers():
     cells = {(i, j, k) for i in range(8) for j in range(3) for k in range(14)
              if k < 3 or i not in (3, 4)}
     points, faces = skin_of_cells(cells, 0.02)
-    comment = [f"Two fingers on a palm: {len(points)} points, lengths in metres.", *ORIGIN]
+    comment = [f"Two fingers on a palm: {len(points)} points, lengths in meters.", *ORIGIN]
     write_obj(MESHES / "two_fingers.obj", comment, points, faces)
 
 
 def smooth_body(name, body, cell):
-    points, faces = polygonise(body, cell)
-    comment = [f"{body.title}: {len(points)} points, lengths in metres.", *ORIGIN]
+    points, faces = polygonize(body, cell)
+    comment = [f"{body.title}: {len(points)} points, lengths in meters.", *ORIGIN]
     write_ply(MESHES / name, comment, points, faces, real="float")
 
 

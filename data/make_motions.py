@@ -4,7 +4,7 @@
 
 Needs nothing but Python. A BVH file keeps no keys and no easing: it holds the pose of every joint
 in each of 120 frames per second. Its y axis points up and its z axis forward, as is usual; its
-lengths are metres.
+lengths are meters.
 """
 
 import math

@@ -108,8 +108,8 @@ def whole(buffer, **parts):
         "accessors": buffer.accessors, "bufferViews": buffer.views, "buffers": [{"byteLength": len(buffer.data)}]}
 
 
-# The fox: colours of its parts, red, green and blue; its parts by height and by bone.
-COLOURS = {"coat": (0.72, 0.29, 0.08), "socks": (0.06, 0.05, 0.05), "tip": (0.85, 0.83, 0.8)}
+# The fox: colors of its parts, red, green and blue; its parts by height and by bone.
+COLORS = {"coat": (0.72, 0.29, 0.08), "socks": (0.06, 0.05, 0.05), "tip": (0.85, 0.83, 0.8)}
 SOCKS = 0.05  # m above the ground
 BRISK = 8  # how fast a bone's weight falls with distance: as its power
 LEAST = 0.02  # part of the heaviest weight; less is none
@@ -140,12 +140,12 @@ def part_of(corners, points, bones, joints):
 
 
 def fox_mesh(buffer, joints):
-    """One primitive for each colour; points on their borders stand in both."""
+    """One primitive for each color; points on their borders stand in both."""
     points, faces = read_mesh(DATA / "meshes" / "creature.ply")
     held = [shares(p, joints) for p in points]
     bones = [chosen[0] for chosen, _ in held]
     primitives = []
-    for material, part in enumerate(COLOURS):
+    for material, part in enumerate(COLORS):
         own = [face for face in faces if part_of(face, points, bones, joints) == part]
         used = sorted({corner for face in own for corner in face})
         place = {corner: i for i, corner in enumerate(used)}
@@ -203,8 +203,8 @@ def fox():
     return buffer.data, whole(
         buffer, nodes=nodes, meshes=meshes, animations=clips,
         skins=[{"joints": list(range(1, len(joints) + 1)), "inverseBindMatrices": binds}],
-        materials=[{"name": name, "pbrMetallicRoughness": {"baseColorFactor": [*colour, 1], "metallicFactor": 0}}
-                   for name, colour in COLOURS.items()])
+        materials=[{"name": name, "pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": 0}}
+                   for name, color in COLORS.items()])
 
 
 def glb(data, content):

@@ -20,7 +20,7 @@ function(sinew_library room)
   add_library(sinew::${room} ALIAS sinew_${room})
   set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(sinew_${room} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sinew>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(sinew_${room} PUBLIC cxx_std_20)
   target_link_libraries(sinew_${room}
     PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:sinew_options> ${ARG_PRIVATE})

@@ -12,7 +12,7 @@
 
 namespace sinew::test {
 
-/// Sites of FCC in an upright box of nx x ny x nz half-planes, x and y centred on 0, z from 0.
+/// Sites of FCC in an upright box of nx x ny x nz half-planes, x and y centered on 0, z from 0.
 inline Points fcc_box(int nx, int ny, int nz, double r) {
   const double s = half_plane_spacing(r);
   const int ci = nx / 2, cj = ny / 2, ck = nz / 2;  // the site in the middle exists
@@ -93,23 +93,23 @@ inline Settings box_scene(int half_planes = 49) {
 }
 
 /// Key of a rotation by `angle` degrees about y, or of a twist.
-inline KeySettings bend_key(double time, double angle) {
-  KeySettings key;
+inline KeyDefinition bend_key(double time, double angle) {
+  KeyDefinition key;
   key.time = time;
   key.axis = Vec3::UnitY();
   key.angle = angle;
   return key;
 }
 
-inline KeySettings twist_key(double time, double angle) {
-  KeySettings key;
+inline KeyDefinition twist_key(double time, double angle) {
+  KeyDefinition key;
   key.time = time;
   key.twist = angle;
   return key;
 }
 
-inline TrackSettings track(const std::string& bone, std::vector<KeySettings> keys) {
-  TrackSettings track;
+inline TrackDefinition track(const std::string& bone, std::vector<KeyDefinition> keys) {
+  TrackDefinition track;
   track.bone = bone;
   track.keys = std::move(keys);
   return track;

@@ -29,7 +29,7 @@ constexpr double slower_with_lists_in_motion = 1.8;
 /// body does not bear it.
 double speed_at_rest(const Settings& settings, Setup setup, const Particles& particles,
                      std::vector<std::string>& warnings) {
-  const double usual = usual_speed(step_way(settings.solver, setup.body, setup.motion));
+  const double usual = usual_speed(stepper_choice(settings.solver, setup.body, setup.motion));
   setup.motion = {};
   Simulation simulation = start(settings, std::move(setup), particles);
   double spent = 0;
@@ -47,9 +47,9 @@ double speed_at_rest(const Settings& settings, Setup setup, const Particles& par
   return steps > 0 ? steps * static_cast<double>(particles.size()) / spent : usual;
 }
 
-double speed_in_motion(const Setup& setup, const StepWay& way, double at_rest) {
+double speed_in_motion(const Setup& setup, const StepperChoice& way, double at_rest) {
   const bool lists_are_made_again =
-      way.search == NeighbourSearch::lists && !setup.motion.tracks.empty();
+      way.search == NeighborSearch::lists && !setup.motion.tracks.empty();
   return lists_are_made_again ? at_rest / slower_with_lists_in_motion : at_rest;
 }
 
@@ -125,9 +125,9 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("bone_speed", speed, "radii per step");
 }
 
-void add_way(const StepWay& way, Results& results) {
+void add_way(const StepperChoice& way, Results& results) {
   results.add("precision", name_of(way.precision));
-  results.add("neighbour_search", name_of(way.search));
+  results.add("neighbor_search", name_of(way.search));
   results.add("instruction_set", kernel::name_of(way.instructions));
 }
 
@@ -138,7 +138,7 @@ Exit check(const std::string& scene, const Common& common) {
   const Setup setup = set_up(settings, filling.particles);
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
-  const StepWay way = step_way(settings.solver, setup.body, setup.motion);
+  const StepperChoice way = stepper_choice(settings.solver, setup.body, setup.motion);
   const double speed = bone_speed(setup, settings.output.interval);
   auto warnings = warnings_of(setup, settings.solver, speed);
   warn_of_memory(needs, warnings);

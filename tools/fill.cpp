@@ -16,7 +16,7 @@ using namespace sinew;
 struct Options {
   std::string input, output = "body.vtu";
   bool verify = false;
-  BodyOptions body;
+  BodyFlags body;
 };
 
 void declare(CLI::App& app, Options& options) {

@@ -16,7 +16,7 @@ using namespace sinew;
 
 struct Options {
   std::string path, drawing;
-  BodyOptions body;
+  BodyFlags body;
   std::optional<double> radius;
 };
 
@@ -28,7 +28,7 @@ void add_scene(const Settings& settings, Results& results) {
   add_rig_info({std::move(scene.skeleton), {std::move(clip)}}, settings.body.radius, results);
 }
 
-BodySettings body_of_mesh(const Options& options, const Common& common) {
+BodyOptions body_of_mesh(const Options& options, const Common& common) {
   std::vector<Override> overrides = common.overrides;
   for (const Override& one : options.body.overrides()) overrides.push_back(one);
   overrides.push_back({"body.count", "1000", "--count 1000"});  // not used, but a body needs one
@@ -57,7 +57,7 @@ Exit info(const Options& options, const Common& common) {
     results.print(common.json);
     return Exit::done;
   }
-  BodySettings body;
+  BodyFlags body;
   if (is_scene(options.path)) {
     const Settings settings = read_scene(options.path, common.overrides);
     add_scene(settings, results);

@@ -108,6 +108,22 @@ Exit measure_folder(const Options& options, const Common& common) {
   return exit;
 }
 
+/// The largest differences.
+void print_comparison(const RunComparison& compared, bool as_json) {
+  Results results;
+  results.add("frames", compared.differences.size());
+  if (!compared.remarks.empty()) results.add("remarks", compared.remarks);
+  const auto metrics = metrics_table();
+  for (std::size_t i = 1; i < metrics.size(); ++i) {
+    const auto largest = largest_difference(compared, i);
+    if (!largest) continue;
+    const std::string name(metrics[i].name);
+    results.add(is_distance(name) ? name : name + "_difference",
+                compared.differences[*largest].*metrics[i].value, std::string(metrics[i].unit));
+  }
+  results.print(as_json);
+}
+
 Exit compare_folders(const Options& options, const Common& common) {
   if (options.out.empty())
     throw bad_input("two runs are compared into a folder of its own", "name it with -o");

@@ -15,7 +15,7 @@ namespace {
 using namespace sinew;
 
 struct Options {
-  std::string folder, other_folder, target, array, camera = "three_quarter", colours = "indigo";
+  std::string folder, other_folder, target, array, camera = "three_quarter", colors = "indigo";
   std::vector<std::string> views{"body"};
   std::vector<double> times, range;
   int width = 1280, height = 720;
@@ -24,15 +24,15 @@ struct Options {
 
 std::string help_of_views() {
   std::string text = "Comma-separated list of";
-  for (const Look& look : looks())
-    ((text += look.name == looks().front().name ? " " : ", ") += look.name) +=
+  for (const ViewPreset& look : view_presets())
+    ((text += look.name == view_presets().front().name ? " " : ", ") += look.name) +=
         " (" + std::string(look.help) + ')';
   return text;
 }
 
-std::string help_of_colours() {
+std::string help_of_colors() {
   std::string text;
-  for (const NamedColourMap& named : colour_maps())
+  for (const NamedColorMap& named : color_maps())
     (text += text.empty() ? "One of " : ", ") += named.name;
   return text;
 }
@@ -51,18 +51,18 @@ void declare_what(CLI::App& app, Options& options) {
       ->allow_extra_args(false)
       ->type_name("T,T,...");
   app.add_option("--array", options.array,
-                 "What is shown in colour: displacement, velocity, force_pair, strain, J, ...")
+                 "What is shown in color: displacement, velocity, force_pair, strain, J, ...")
       ->type_name("NAME");
   app.add_flag("--no-movie", options.no_movie, "Pictures only");
   app.add_option("-o", options.target, "Folder of the pictures, by default DIR/pictures");
 }
 
 void declare_how(CLI::App& app, Options& options) {
-  app.add_option("--range", options.range, "Values of the lowest and highest colour")
+  app.add_option("--range", options.range, "Values of the lowest and highest color")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LOW,HIGH");
-  app.add_option("--colours", options.colours, help_of_colours())
+  app.add_option("--colors", options.colors, help_of_colors())
       ->type_name("NAME")
       ->capture_default_str();
   app.add_option("--camera", options.camera,
@@ -77,25 +77,25 @@ void declare_how(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
-AlbumOptions album_options(const Options& options) {
-  AlbumOptions album;
-  album.width = options.width;
-  album.height = options.height;
-  album.view = view_named(options.camera);
-  album.colours = colour_map_named(options.colours);
-  album.times = options.times;
-  if (options.range.empty()) return album;
+FigureSetOptions figure_set_options(const Options& options) {
+  FigureSetOptions figure_set;
+  figure_set.width = options.width;
+  figure_set.height = options.height;
+  figure_set.view = view_named(options.camera);
+  figure_set.colors = color_map_named(options.colors);
+  figure_set.times = options.times;
+  if (options.range.empty()) return figure_set;
   if (options.range.size() != 2 || !(options.range[0] < options.range[1]))
-    throw bad_input("a range of colours needs two numbers, the lower one first",
+    throw bad_input("a range of colors needs two numbers, the lower one first",
                     "give it as --range 0,0.5");
-  album.range = {options.range[0], options.range[1]};
-  return album;
+  figure_set.range = {options.range[0], options.range[1]};
+  return figure_set;
 }
 
 Exit render(const Options& options, const Common& common) {
-  AlbumOptions album = album_options(options);
-  std::vector<Look> looks;
-  for (const std::string& view : options.views) looks.push_back(look_named(view));
+  FigureSetOptions figure_set = figure_set_options(options);
+  std::vector<ViewPreset> looks;
+  for (const std::string& view : options.views) looks.push_back(view_preset_named(view));
   ensure_display();
   Stopwatch watch;
   std::deque<DrawnRun> runs;
@@ -103,14 +103,14 @@ Exit render(const Options& options, const Common& common) {
   for (const std::string& folder : {options.folder, options.other_folder})
     if (!folder.empty())
       shown.push_back(
-          &runs.emplace_back(folder, looks, options.array, album.view, common.threads != 1));
+          &runs.emplace_back(folder, looks, options.array, figure_set.view, common.threads != 1));
   const RunFiles& run = runs.front().files();
-  album.folder =
+  figure_set.folder =
       options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
-  create({album.folder});
+  create({figure_set.folder});
   int pictures = 0;
   for (std::size_t look = 0; look < looks.size(); ++look) {
-    Album pages(shown, look, album);
+    FigureSet pages(shown, look, figure_set);
     pictures += pages.pictures() + 1;
     pages.sheet();
     if (!options.no_movie) pages.movie();
@@ -119,7 +119,7 @@ Exit render(const Options& options, const Common& common) {
   results.add("pictures", pictures);
   if (!options.no_movie) results.add("movie_frames", run.frames());
   record_stage(run.folder, "rendering", watch.lap());
-  results.add("folder", album.folder.string());
+  results.add("folder", figure_set.folder.string());
   results.print(common.json);
   return Exit::done;
 }
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
               "Draws pictures and a movie of a run.",
               {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080",
                "sinew render out/box_bend --view strain,section --times 0,0.5,1 --no-movie",
-               "sinew render out/box_bend --view forces --camera front --colours inferno",
+               "sinew render out/box_bend --view forces --camera front --colors inferno",
                "sinew render out/paper --compare out/bonded"}};
   about.takes_scene = false;
   return run_command(

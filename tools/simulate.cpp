@@ -94,41 +94,41 @@ struct Course {
   }
 };
 
-void save(const Simulation& simulation, RunKeeper& keeper, Recorder& recorder, Journal& journal) {
-  keeper.save(simulation, recorder);
-  journal.checkpoint(simulation.steps());
+void save(const Simulation& simulation, RunCheckpoints& run_checkpoints, FrameWriter& frame_writer, RunLog& run_log) {
+  run_checkpoints.save(simulation, frame_writer);
+  run_log.checkpoint(simulation.steps());
 }
 
 /// Steps to the end; stops after any step. A checkpoint comes after the frame of its moment.
-Exit step_through(Simulation& simulation, const Course& course, Recorder& recorder,
-                  Journal& journal, RunKeeper& keeper, Progress& progress) {
+Exit step_through(Simulation& simulation, const Course& course, FrameWriter& frame_writer,
+                  RunLog& run_log, RunCheckpoints& run_checkpoints, Progress& progress) {
   Stopwatch watch;
   const std::int64_t begun = simulation.steps();
   for (int frame = course.there;; simulation.step()) {
     if (simulation.steps() == std::int64_t{frame} * course.steps_per_frame) {
       const double time = frame * course.interval;
-      journal.spend("stepping", watch.lap());
-      recorder.add(simulation, time);
-      journal.frame(frame, time);
-      journal.spend("writing", watch.lap());  // what the stepping waited for it
-      progress.frame(frame++, time, simulation.steps(), recorder.waited());
+      run_log.spend("stepping", watch.lap());
+      frame_writer.add(simulation, time);
+      run_log.frame(frame, time);
+      run_log.spend("writing", watch.lap());  // what the stepping waited for it
+      progress.frame(frame++, time, simulation.steps(), frame_writer.waited());
     }
     if (frame > course.frames) return Exit::done;
     // However little time there is, a run that is resumed again and again comes to its end.
-    const bool stop = stop_asked() || (keeper.out_of_time() && simulation.steps() > begun);
-    if (!stop && !keeper.due()) continue;
-    journal.spend("stepping", watch.lap());
-    save(simulation, keeper, recorder, journal);
-    journal.spend("writing", watch.lap());
+    const bool stop = stop_asked() || (run_checkpoints.out_of_time() && simulation.steps() > begun);
+    if (!stop && !run_checkpoints.due()) continue;
+    run_log.spend("stepping", watch.lap());
+    save(simulation, run_checkpoints, frame_writer, run_log);
+    run_log.spend("writing", watch.lap());
     if (stop) return Exit::interrupted;
   }
 }
 
 /// Waits for the frames that are still being written.
-void close(Recorder& recorder, Journal& journal) {
+void close(FrameWriter& frame_writer, RunLog& run_log) {
   Stopwatch watch;
-  recorder.close();
-  journal.spend("writing", watch.lap());
+  frame_writer.close();
+  run_log.spend("writing", watch.lap());
 }
 
 /// The last sound state of an unstable run, with those who failed after it.
@@ -158,34 +158,34 @@ int frames_until(const SimulationState& state, const Course& course) {
 }
 
 /// Steps through and closes the series; the good frames of an unstable run too.
-Exit record_run(Simulation& simulation, const Course& course, Recorder& recorder, Journal& journal,
-                RunKeeper& keeper, const RunFolder& folder, const Common& common) {
+Exit record_run(Simulation& simulation, const Course& course, FrameWriter& frame_writer, RunLog& run_log,
+                RunCheckpoints& run_checkpoints, const RunFolder& folder, const Common& common) {
   try {
     Progress progress(course.frames, progress_style(common.quiet));
-    const Exit exit = step_through(simulation, course, recorder, journal, keeper, progress);
-    close(recorder, journal);
+    const Exit exit = step_through(simulation, course, frame_writer, run_log, run_checkpoints, progress);
+    close(frame_writer, run_log);
     return exit;
   } catch (const Error& error) {
-    journal.frames(recorder.written());
+    run_log.frames(frame_writer.written());
     if (error.exit() != Exit::unstable) throw;
-    close(recorder, journal);
-    journal.frames(recorder.written());
+    close(frame_writer, run_log);
+    run_log.frames(frame_writer.written());
     write_last_state(simulation, folder.blowup());
     say(common, "the body before the step that failed is in " + folder.blowup().string());
     throw;
   } catch (...) {
-    journal.frames(recorder.written());
+    run_log.frames(frame_writer.written());
     throw;
   }
 }
 
-Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder, Journal& journal,
-                RunKeeper& keeper, const std::optional<SimulationState>& state,
+Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder, RunLog& run_log,
+                RunCheckpoints& run_checkpoints, const std::optional<SimulationState>& state,
                 const Common& common) {
   try {
     Stopwatch watch;
     if (!state) write_beginning(settings, made, folder);
-    journal.spend("writing", watch.lap());
+    run_log.spend("writing", watch.lap());
     Course course{made.setup.frames, made.setup.steps.per_frame, settings.output.interval};
     std::vector<Triangles> obstacles = std::move(made.setup.obstacles);
     Simulation simulation = start(settings, std::move(made.setup), std::move(made.body.particles));
@@ -193,30 +193,30 @@ Exit run_to_end(const Settings& settings, Prepared made, const RunFolder& folder
     if (state) {
       simulation.restore(*state);
       course.there = frames_until(*state, course);
-      journal.frames(course.there);
+      run_log.frames(course.there);
     }
-    Recorder recorder(folder.path, settings.output, simulation.body(), made.surface.triangles,
+    FrameWriter frame_writer(folder.path, settings.output, simulation.body(), made.surface.triangles,
                       std::move(obstacles), course.times_there());
     simulation.forces();  // finds the first partners: no part of what writing costs
-    journal.spend("binding", watch.lap());
-    const Exit exit = record_run(simulation, course, recorder, journal, keeper, folder, common);
-    journal.end(exit == Exit::done ? "finished" : "stopped", simulation);
+    run_log.spend("binding", watch.lap());
+    const Exit exit = record_run(simulation, course, frame_writer, run_log, run_checkpoints, folder, common);
+    run_log.end(exit == Exit::done ? "finished" : "stopped", simulation);
     return exit;
   } catch (const Error& error) {
-    journal.fail(error.exit() == Exit::unstable ? "unstable" : "failed", error.what());
+    run_log.fail(error.exit() == Exit::unstable ? "unstable" : "failed", error.what());
     throw;
   } catch (const std::exception& error) {
-    journal.fail("failed", error.what());
+    run_log.fail("failed", error.what());
     throw;
   }
 }
 
-void print_results(const RunFolder& folder, const Journal& journal, bool as_json) {
-  const auto& record = journal.record();
+void print_results(const RunFolder& folder, const RunLog& run_log, bool as_json) {
+  const auto& record = run_log.record();
   Results results;
   results.add("folder", folder.path.string());
   for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",
-                          "time_step_factor", "precision", "neighbour_search", "instruction_set",
+                          "time_step_factor", "precision", "neighbor_search", "instruction_set",
                           "particle_steps_per_second", "state_hash"})
     results.add(key, record[key]);
   results.print(as_json);
@@ -241,11 +241,11 @@ std::string resume_words(const RunOptions& options, const Common& common, const 
 
 /// The state to go on with, when that is asked for and there is one.
 std::optional<SimulationState> state_to_resume(const RunFolder& folder, const RunOptions& options,
-                                               const RunIdentity& run, RunKeeper& keeper,
+                                               const RunIdentity& run, RunCheckpoints& run_checkpoints,
                                                const Common& common) {
   if (!options.resume || !folder.used()) return std::nullopt;
   std::string complaint;
-  auto state = keeper.resume(run, complaint);
+  auto state = run_checkpoints.resume(run, complaint);
   if (!complaint.empty()) say(common, "passed over: " + complaint);
   say(common, state ? "going on from step " + std::to_string(state->steps)
                     : "no checkpoint in " + folder.path.string() + ": beginning again");
@@ -264,15 +264,15 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
   const std::string resolved = resolved_scene(settings, folder.path);
   if (options.resume && folder.used()) check_same_scene(folder, resolved);
   Prepared made = prepare(settings, folder);
-  RunKeeper keeper(folder, settings);
+  RunCheckpoints run_checkpoints(folder, settings);
   const RunIdentity run = identity_of(resolved, made.setup, made.surface.triangles);
-  const auto state = state_to_resume(folder, options, run, keeper, common);
+  const auto state = state_to_resume(folder, options, run, run_checkpoints, common);
   if (!state) remove_old_run(folder);
-  keeper.keep_for(run);
-  Journal journal(folder, argc, argv, state.has_value());
-  journal.spend("filling", made.seconds_filling);
-  journal.spend("binding", made.seconds_binding);
-  journal.describe(settings, made.setup);
+  run_checkpoints.keep_for(run);
+  RunLog run_log(folder, argc, argv, state.has_value());
+  run_log.spend("filling", made.seconds_filling);
+  run_log.spend("binding", made.seconds_binding);
+  run_log.describe(settings, made.setup);
   say(common, "step " + three_digits(made.setup.steps.step) + " s, " +
                   three_digits(made.setup.steps.factor()) + " of the stability limit " +
                   three_digits(made.setup.steps.limit) + " s");
@@ -282,8 +282,8 @@ Exit simulate(int argc, char** argv, const RunOptions& options, const Common& co
     say(common, "sinew: warning: " + warning);
 
   catch_stop_signals();
-  const Exit exit = run_to_end(settings, std::move(made), folder, journal, keeper, state, common);
-  print_results(folder, journal, common.json);
+  const Exit exit = run_to_end(settings, std::move(made), folder, run_log, run_checkpoints, state, common);
+  print_results(folder, run_log, common.json);
   if (exit == Exit::interrupted)
     say(common, "sinew: stopped; go on with: " + resume_words(options, common, folder));
   return exit;

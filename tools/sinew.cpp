@@ -75,7 +75,7 @@ Exit become(const std::string& name, const std::vector<char*>& rest) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_told([&] {
+  return run_reporting_errors([&] {
     std::vector<char*> rest(argv + std::min(argc, 2), argv + argc);
     const std::string word = argc > 1 ? argv[1] : "";
     if (word.empty()) throw bad_input("no command given", "see sinew --help");

@@ -66,7 +66,7 @@ std::string table_named(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_told([&] {
+  return run_reporting_errors([&] {
     print_out(table_named(argc == 2 ? argv[1] : ""));
     return Exit::done;
   });

@@ -32,7 +32,7 @@ struct Options {
 void declare(CLI::App& app, Options& options) {
   app.add_option("DIR", options.folder, "Folder of the run")->required();
   app.add_flag("--live", options.live, "Follow a run that is still going");
-  app.add_option("--array", options.array, "What colours the particles, displacement if not given");
+  app.add_option("--array", options.array, "What colors the particles, displacement if not given");
   app.add_option("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
   app.add_option("--forces", options.forces,
                  "Arrows of a force: force_pair if none is named, force_bone, force ...")

@@ -25,7 +25,7 @@ void pairs_of(std::size_t i, const Particles& particles, const Material& materia
     ++count;
   }
   forces.pair[i] = force;
-  forces.neighbours[i] = count;
+  forces.neighbors[i] = count;
   forces.damping[i] = Vec3::Zero();
   if (count > 0)
     forces.damping[i] = material.damping * (velocities / count - particles.velocity(i));
@@ -37,7 +37,7 @@ void all_pair_forces(const Particles& particles, const Material& material, Force
   const std::size_t n = particles.size();
   forces.pair.resize(n);
   forces.damping.resize(n);
-  forces.neighbours.resize(n);
+  forces.neighbors.resize(n);
   parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) pairs_of(i, particles, material, forces);
   });

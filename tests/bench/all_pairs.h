@@ -7,7 +7,7 @@
 
 namespace sinew::bench {
 
-/// Pair forces and damping (the paper's form) of all pairs. Fills pair, damping and neighbours.
+/// Pair forces and damping (the paper's form) of all pairs. Fills pair, damping and neighbors.
 void all_pair_forces(const Particles& particles, const Material& material, Forces& forces);
 
 /// One step of symplectic Euler, s.

@@ -14,7 +14,7 @@ TEST(AllPairs, StepAsTheSimulationDoes) {
     const Particles start = settled(scene, condition);
     Particles particles = start;
     Simulation simulation =
-        simulation_of(scene, start, Precision::binary64, NeighbourSearch::cells);
+        simulation_of(scene, start, Precision::binary64, NeighborSearch::cells);
     Forces forces;
     for (int step = 0; step < 3; ++step) {
       step_all_pairs(particles, scene.body, simulation.pose(), scene.step, forces);

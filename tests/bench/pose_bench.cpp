@@ -24,7 +24,7 @@ Settings chain() {
   const double height = settings.bones[1].tail->z();
   settings.bones.clear();
   for (int i = 0; i < joints; ++i) {
-    BoneSettings bone;
+    BoneDefinition bone;
     bone.name = "joint" + std::to_string(i);
     if (i == 0) bone.head = Vec3::Zero();
     if (i > 0) bone.parent = settings.bones.back().name;

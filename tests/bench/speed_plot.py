@@ -28,12 +28,12 @@ class Axis:
         return [10.0**power for power in range(self.low, self.high + 1)]
 
 
-def text(x, y, words, anchor="start", colour="#222222", more=""):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{colour}" {more}>{escape(words)}</text>'
+def text(x, y, words, anchor="start", color="#222222", more=""):
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{color}" {more}>{escape(words)}</text>'
 
 
-def line(x1, y1, x2, y2, colour, more=""):
-    return f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" {more}/>'
+def line(x1, y1, x2, y2, color, more=""):
+    return f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{color}" {more}/>'
 
 
 def grid(across, up):
@@ -47,13 +47,13 @@ def grid(across, up):
     yield text(LEFT, TOP - 12, "million particle-steps per second, one thread")
 
 
-def curve(points, across, up, colour, dashed):
+def curve(points, across, up, color, dashed):
     places = [(across.at(x), up.at(y)) for x, y in points]
     path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
     dash = DASHED if dashed else ""
-    yield f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2" {dash}/>'
+    yield f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="2" {dash}/>'
     for x, y in places:
-        yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{colour}"/>'
+        yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{color}"/>'
 
 
 def curves(results):
@@ -71,18 +71,18 @@ def legend(kinds):
     x = WIDTH - RIGHT + 14
     entries = [(*KINDS[kind], "") for kind in kinds]
     entries += [("at rest", "#888888", ""), ("flowed", "#888888", DASHED)]
-    for number, (name, colour, dash) in enumerate(entries):
+    for number, (name, color, dash) in enumerate(entries):
         y = TOP + 12 + 20 * number
-        yield line(x, y - 4, x + 26, y - 4, colour, 'stroke-width="2" ' + dash)
+        yield line(x, y - 4, x + 26, y - 4, color, 'stroke-width="2" ' + dash)
         yield text(x + 32, y, name)
 
 
 def limit_lines(results, across, up):
     for kind in ("single", "double"):
         allowed = min(limit for other, *_, limit in limits(results) if other == kind)
-        colour = KINDS[kind][1]
-        yield line(LEFT, up.at(allowed), WIDTH - RIGHT, up.at(allowed), colour, 'stroke-dasharray="1 4"')
-        yield text(LEFT + 6, up.at(allowed) - 4, f"limit, {kind}", colour=colour, more='font-size="11"')
+        color = KINDS[kind][1]
+        yield line(LEFT, up.at(allowed), WIDTH - RIGHT, up.at(allowed), color, 'stroke-dasharray="1 4"')
+        yield text(LEFT + 6, up.at(allowed) - 4, f"limit, {kind}", color=color, more='font-size="11"')
 
 
 def svg(results):

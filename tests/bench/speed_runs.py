@@ -11,11 +11,11 @@ import sys
 from collections import defaultdict
 
 STEPS = {3_000: 100, 30_000: 100, 300_000: 100, 3_000_000: 40}  # of a round, as in step_bench's lists
-SKIN = {"rest": 0.1, "flowed": 0.15}  # d0; at rest 0.1 just leaves out the second neighbours
+SKIN = {"rest": 0.1, "flowed": 0.15}  # d0; at rest 0.1 just leaves out the second neighbors
 SHORTEST = 0.05  # s of measured time per figure of step_bench
 
 # Eq. 1 and nothing else: no damping, no bones. Atoms are sorted and lists built in the first run. Lists are checked
-# every 10 steps, which favours LAMMPS: in a flowed body they are too old by then ("dangerous builds"), and checking
+# every 10 steps, which favors LAMMPS: in a flowed body they are too old by then ("dangerous builds"), and checking
 # at every step costs it more than half of its speed.
 SCRIPT = """
 units lj
@@ -45,7 +45,7 @@ write_restart {state}.restart
 """
 LOOP = re.compile(r"Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms")
 COUNTS = {"builds": r"Neighbor list builds = (\d+)", "dangerous": r"Dangerous builds = (\d+)",
-          "neighbours": r"Ave neighs/atom = (\S+)"}
+          "neighbors": r"Ave neighs/atom = (\S+)"}
 
 
 def output_of(command, folder=None):

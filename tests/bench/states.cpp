@@ -13,7 +13,7 @@ namespace {
 constexpr double r = 0.010;             // m
 constexpr double turn = 90;             // degrees
 constexpr double bend_zone = 3;         // widths; the faces stretch and shrink by 26 %
-constexpr double crushed_width = 0.75;  // near the body-centred packing: 14 partners, not 12
+constexpr double crushed_width = 0.75;  // near the body-centered packing: 14 partners, not 12
 constexpr double strong_grip = 64;      // springs as stiff as bonds in the paper's box
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
 constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed"};
@@ -42,8 +42,8 @@ Vec3 bent(const Vec3& rest, const Bar& bar) {
   const double s = std::clamp(rest.z() - begin, 0.0, zone), angle = s / radius;
   const Vec3 along(std::sin(angle), 0, std::cos(angle)),
       across(std::cos(angle), 0, -std::sin(angle));
-  const Vec3 centre(radius, 0, begin);
-  return centre + (rest.x() - radius) * across + rest.y() * Vec3::UnitY() +
+  const Vec3 center(radius, 0, begin);
+  return center + (rest.x() - radius) * across + rest.y() * Vec3::UnitY() +
          (rest.z() - begin - s) * along;
 }
 
@@ -54,7 +54,7 @@ Vec3 twisted(const Vec3& rest, const Bar& bar) {
 Vec3 crushed(const Vec3& rest) { return {crushed_width * rest.x(), rest.y(), rest.z()}; }
 
 /// Two bones along the middle line; those of a bent body meet where its straight ends would.
-std::vector<BoneSettings> bones_of(Condition condition, const Bar& bar) {
+std::vector<BoneDefinition> bones_of(Condition condition, const Bar& bar) {
   const double straight = (bar.length() - bar.zone()) / 2;
   const double half = straight + bar.zone() / radians(turn);
   if (condition != Condition::bent) return test::box_scene(bar.along).bones;
@@ -63,7 +63,7 @@ std::vector<BoneSettings> bones_of(Condition condition, const Bar& bar) {
 }
 
 /// Springs as stiff as bonds, whatever the body's cross-section.
-void grip(BindingSettings& binding, const Bar& bar) {
+void grip(BindingOptions& binding, const Bar& bar) {
   const double widths = bar.across / static_cast<double>(paper_across);
   binding.stiffness = binding.twist_stiffness = binding.axial_stiffness =
       strong_grip * widths * widths;
@@ -116,7 +116,7 @@ Particles in_written_order(const Particles& particles) {
 }
 
 Particles after(int steps, const Scene& scene, const Particles& start) {
-  Simulation simulation = simulation_of(scene, start, Precision::binary64, NeighbourSearch::lists);
+  Simulation simulation = simulation_of(scene, start, Precision::binary64, NeighborSearch::lists);
   for (int step = 0; step < steps; ++step) simulation.step();
   return in_written_order(simulation.particles());
 }
@@ -158,11 +158,11 @@ Particles settled(const Scene& scene, Condition condition) {
 }
 
 Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,
-                         NeighbourSearch search) {
+                         NeighborSearch search) {
   Stepping stepping;
   stepping.step = scene.step;
   stepping.precision = precision;
-  stepping.neighbour_search = search;
+  stepping.neighbor_search = search;
   return Simulation(scene.body, scene.motion, particles, stepping);
 }
 

@@ -43,6 +43,6 @@ Particles settled(const Scene& scene, Condition condition);
 
 /// A simulation of the scene's body that starts with `particles`.
 Simulation simulation_of(const Scene& scene, const Particles& particles, Precision precision,
-                         NeighbourSearch search);
+                         NeighborSearch search);
 
 }  // namespace sinew::bench

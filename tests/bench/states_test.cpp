@@ -25,7 +25,7 @@ struct Bonds {
 
 Bonds bonds_of(const Scene& scene, const Points& now) {
   const double b = scene.body.material.pair.b, d0 = nearest_distance(scene.start.radius);
-  const auto lists = neighbours_within(scene_of(Condition::rest, count).body.rest, 1.1 * d0);
+  const auto lists = neighbors_within(scene_of(Condition::rest, count).body.rest, 1.1 * d0);
   Bonds bonds;
   for (std::size_t i = 0; i < now.size(); ++i)
     for (const auto j : lists.of(i)) {

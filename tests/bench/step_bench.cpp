@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Million particle-steps per second (Mps) of whole steps: pair forces, damping, bones, integration,
-// guards and the book of energies. The label is the hash of the state after the first five steps;
+// guards and the ledger of energies. The label is the hash of the state after the first five steps;
 // it must not depend on the number of threads. Beside them what this machine can do at most.
 //
 //   cmake --build build --target benches
@@ -78,7 +78,7 @@ class Stepper {
       return;
     }
     const auto precision = kind == Kind::single ? Precision::binary32 : Precision::binary64;
-    const auto search = kind == Kind::cells ? NeighbourSearch::cells : NeighbourSearch::lists;
+    const auto search = kind == Kind::cells ? NeighborSearch::cells : NeighborSearch::lists;
     simulation_.reset(new Simulation(simulation_of(from.scene, from.particles, precision, search)));
   }
 
@@ -115,7 +115,7 @@ int steps_per_lap(const Case& what) {
 /// Lists made in a lap, its first steps included.
 void count_lists(benchmark::State& state, const ListCounts& lists) {
   state.counters["rebuilds"] = static_cast<double>(lists.rebuilds);
-  state.counters["sifts"] = static_cast<double>(lists.sifts);
+  state.counters["prunings"] = static_cast<double>(lists.prunings);
   state.counters["sorts"] = static_cast<double>(lists.sorts);
   state.counters["offsets"] = lists.narrow;
 }

@@ -28,7 +28,7 @@ world:
   obstacles:
     - {{name: floor, shape: plane, friction: 0.5}}
     - {{name: ring, shape: capsule, from: [-0.3, 0, 0.9], to: [0.3, 0, 0.9], radius: 0.02, bone: upper}}
-  pins: [{{centre: [0, 0, 0.66], radius: 0.06, bone: upper}}]
+  pins: [{{center: [0, 0, 0.66], radius: 0.06, bone: upper}}]
   fields: [{{name: wind, acceleration: [0, 3, 0], low: [-1, -1, 0.3], high: [1, 1, 1], falloff: 0.05}}]
   muscles:
     - {{name: flexor, bone: upper, strength: 500, keys: [{{time: 0, activation: 0}}, {{time: 0.5, activation: 1}}]}}
@@ -41,7 +41,7 @@ WAYS = {
     "lists in single": (BEND, ["--set", "solver.precision=single"]),
     "world": (WORLD, EXTRAS),
     "velocity Verlet": (BEND, ["--set", "solver.integrator=velocity_verlet"]),
-    "cells": (BEND, ["--set", "solver.neighbour_search=cells"]),
+    "cells": (BEND, ["--set", "solver.neighbor_search=cells"]),
     "bonds that creep and break": (BEND, ["--set", "material.model=bonded", "--set", "material.yield_strain=0.01",
                                           "--set", "material.creep_rate=20", "--set", "material.breaking_strain=0.05"])}
 

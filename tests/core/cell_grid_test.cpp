@@ -40,7 +40,7 @@ std::vector<std::uint32_t> by_grid(const CellGrid& grid, const Points& points, c
 
 void expect_brute_force(const Points& points, double range) {
   const CellGrid grid(points, range);
-  const NeighbourLists lists = neighbours_within(points, range);
+  const NeighborLists lists = neighbors_within(points, range);
   ASSERT_EQ(lists.size(), points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::vector<std::uint32_t> expected = brute_force(points, points[i], range);
@@ -116,8 +116,8 @@ TEST(CellGrid, OnlyVisitsPointsOfTheCellsAround) {
     });
 }
 
-TEST(Neighbours, AreMutual) {
-  const NeighbourLists lists = neighbours_within(cloud(600, {1, 1, 1}, 12), 0.2);
+TEST(Neighbors, AreMutual) {
+  const NeighborLists lists = neighbors_within(cloud(600, {1, 1, 1}, 12), 0.2);
   for (std::uint32_t i = 0; i < lists.size(); ++i)
     for (const auto j : lists.of(i)) {
       const auto back = lists.of(j);
@@ -125,8 +125,8 @@ TEST(Neighbours, AreMutual) {
     }
 }
 
-TEST(Neighbours, AreNeverCapped) {
-  const NeighbourLists lists = neighbours_within(Points(2000, Vec3(1, 1, 1)), 0.5);
+TEST(Neighbors, AreNeverCapped) {
+  const NeighborLists lists = neighbors_within(Points(2000, Vec3(1, 1, 1)), 0.5);
   for (std::uint32_t i = 0; i < lists.size(); ++i) ASSERT_EQ(lists.of(i).size(), 1999u);
 }
 

@@ -19,7 +19,7 @@ using test::turned;
 RestShape box_shape(const Vec3& at = {0, 0, 0}) {
   Points points = test::fcc_box(5, 5, 7, 0.01);
   for (Vec3& point : points) point += at;
-  return rest_shape(points, rest_neighbour_range(0.01));
+  return rest_shape(points, rest_neighbor_range(0.01));
 }
 
 void expect_gradient(const RestShape& rest, const Mat3& F, double tolerance) {
@@ -45,7 +45,7 @@ TEST(DeformationGradient, OfARigidMotionIsItsRotation) {
 }
 
 TEST(DeformationGradient, KeepsDigitsFarFromTheOrigin) {
-  // Coordinates of 100 m hold 1.4e-14 m, that is 1e-12 of a neighbour's distance.
+  // Coordinates of 100 m hold 1.4e-14 m, that is 1e-12 of a neighbor's distance.
   const RestShape rest = box_shape({100, -100, 50});
   for (const Mat3& found : deformation_gradients(rest, affine(rest.points, turned({0, 1, 0}, 90))))
     ASSERT_LT((found - turned({0, 1, 0}, 90)).cwiseAbs().maxCoeff(), 1e-10);
@@ -53,20 +53,20 @@ TEST(DeformationGradient, KeepsDigitsFarFromTheOrigin) {
 
 TEST(RestShape, HasTheSameBitsForEveryThreadCount) {
   const Points points = test::fcc_box(15, 15, 21, 0.01);
-  const RestShape expected = rest_shape(points, rest_neighbour_range(0.01));
+  const RestShape expected = rest_shape(points, rest_neighbor_range(0.01));
   for (const int threads : {1, 2, 3, 8})
     with_threads(threads, [&] {
-      EXPECT_EQ(rest_shape(points, rest_neighbour_range(0.01)).inverse, expected.inverse);
+      EXPECT_EQ(rest_shape(points, rest_neighbor_range(0.01)).inverse, expected.inverse);
     });
 }
 
-TEST(DeformationGradient, UsesOnlyTheNeighboursOfItsOwnPoint) {
+TEST(DeformationGradient, UsesOnlyTheNeighborsOfItsOwnPoint) {
   const RestShape rest = box_shape();
   Points now = rest.points;
   now.back() += Vec3(0.002, 0, 0);
   const auto gradients = deformation_gradients(rest, now);
   for (std::uint32_t i = 0; i + 1 < now.size(); ++i) {
-    const auto row = rest.neighbours.of(i);
+    const auto row = rest.neighbors.of(i);
     const bool touches = std::find(row.begin(), row.end(), now.size() - 1) != row.end();
     EXPECT_EQ(touches, (gradients[i] - Mat3::Identity()).norm() > 1e-3) << i;
   }
@@ -77,7 +77,7 @@ TEST(DeformationGradient, IsUndefinedForPlanesLinesAndLonePoints) {
   for (const Points& points : {test::fcc_box(7, 7, 1, r), test::fcc_box(9, 1, 1, r),
                                Points{Vec3(1, 1, 1)}, Points{{0, 0, 0}, {0.02, 0, 0}}}) {
     const Mat3 R = turned({1, 1, 1}, 40);
-    const RestShape rest = rest_shape(affine(points, R), rest_neighbour_range(r));
+    const RestShape rest = rest_shape(affine(points, R), rest_neighbor_range(r));
     for (std::size_t i = 0; i < points.size(); ++i) {
       EXPECT_FALSE(rest.defined(i));
       EXPECT_EQ(deformation_gradient(rest, affine(points, 2 * R), i), Mat3::Identity());

@@ -112,7 +112,7 @@ def tool_breaches(tools, path):
             yield f"tools/{name} includes {included}: {room} must not see {owner}"
 
 
-def licence_breaches(source, path):
+def license_breaches(source, path):
     head = path.read_text().split("\n")[:2]
     line = head[1] if head[0].startswith("#!") and len(head) > 1 else head[0]
     if not re.fullmatch(r"(//|#) SPDX-License-Identifier: GPL-3\.0-or-later", line):
@@ -140,7 +140,7 @@ def breaches(source):
     for path in sorted((source / "tools").glob("*/*.[ch]*")):
         yield from tool_breaches(source / "tools", path)
     for path in source_files(source):
-        yield from licence_breaches(source, path)
+        yield from license_breaches(source, path)
 
 
 def main():

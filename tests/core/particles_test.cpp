@@ -74,11 +74,11 @@ TEST(StateHash, OfManyParticlesDependsNeitherOnOrderNorOnThreads) {
   }
 }
 
-TEST(ClosestPacking, HasTwelveNeighboursAndThePaperCounts) {
+TEST(ClosestPacking, HasTwelveNeighborsAndThePaperCounts) {
   const double r = 0.01;
   for (const Points& points : {test::fcc_box(11, 11, 49, r), test::hcp_ball(6, r)}) {
-    const auto first = neighbours_within(points, rest_neighbour_range(r));
-    const auto second = neighbours_within(points, 1.01 * second_distance(r));
+    const auto first = neighbors_within(points, rest_neighbor_range(r));
+    const auto second = neighbors_within(points, 1.01 * second_distance(r));
     std::size_t most = 0, most_second = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       most = std::max(most, first.of(i).size());

@@ -124,7 +124,7 @@ TEST(SettingsTable, HasTheNamesScriptsRelyOn) {
   for (const char* name :
        {"body.mesh", "body.radius", "body.count", "body.packing", "material.model",
         "material.density", "solver.integrator", "solver.time_step", "solver.duration",
-        "solver.precision", "solver.neighbour_search", "output.interval"})
+        "solver.precision", "solver.neighbor_search", "output.interval"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 

@@ -55,7 +55,7 @@ TEST(BrokenMesh, WithFlippedFacesLosesNothing) {
     EXPECT_EQ(wrong_share(body, shapes::flipped(body, 0.1)), 0);
 }
 
-/// Faces without neighbours cannot be turned back: the winding number has to bear them.
+/// Faces without neighbors cannot be turned back: the winding number has to bear them.
 TEST(BrokenMesh, OfLooseFlippedFacesLosesFewHundredths) {
   const auto body = shapes::sphere(1, 4);
   EXPECT_LE(wrong_share(body, shapes::torn(shapes::flipped(body, 0.1), 1e-9)), 2e-2);

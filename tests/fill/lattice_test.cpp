@@ -28,7 +28,7 @@ int at_distance(const Points& sites, const Vec3& from, double distance) {
 class EachPacking : public testing::TestWithParam<Packing> {};
 INSTANTIATE_TEST_SUITE_P(Lattice, EachPacking, testing::Values(Packing::fcc, Packing::hcp));
 
-TEST_P(EachPacking, HasASiteAtTheBoxCentre) {
+TEST_P(EachPacking, HasASiteAtTheBoxCenter) {
   const Box box(Vec3(1, 2, 3), Vec3(4, 4, 4));
   EXPECT_EQ(at_distance(sites_in(box, GetParam(), 0.1), box.center(), 0), 0);
   int there = 0;
@@ -36,7 +36,7 @@ TEST_P(EachPacking, HasASiteAtTheBoxCentre) {
   EXPECT_EQ(there, 1);
 }
 
-TEST_P(EachPacking, HasTwelveNeighboursAt2rAndSixAtTwoRootTwoR) {
+TEST_P(EachPacking, HasTwelveNeighborsAt2rAndSixAtTwoRootTwoR) {
   const double r = 0.3;
   const Points sites = sites_in(cube(12 * r), GetParam(), r);
   int inner = 0;

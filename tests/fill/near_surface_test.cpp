@@ -173,15 +173,15 @@ TEST_P(Near, FindsTheSitesOnAPointOrAFaceAtATinyDistance) {
 TEST_P(Near, KnowsNoOriginAndNoSize) {
   for (const double scale : {1e-6, 1e6})
     for (const double away : {0.0, 1e3}) {
-      const Vec3 centre = scale * away * Vec3(1, -2, 3);
+      const Vec3 center = scale * away * Vec3(1, -2, 3);
       const Lattice lattice =
-          lattice_in({centre - Vec3::Constant(scale), centre + Vec3::Constant(scale)}, GetParam(),
+          lattice_in({center - Vec3::Constant(scale), center + Vec3::Constant(scale)}, GetParam(),
                      0.2 * scale);
       Random random(4);
       for (int i = 0; i < 50; ++i) {
         Triangles triangles;
         add_triangle(random, 1, triangles);
-        for (Vec3& p : triangles.points) p = centre + scale * p;
+        for (Vec3& p : triangles.points) p = center + scale * p;
         expect_as_one_by_one(lattice, triangles, scale * random.number(0.01, 1));
       }
     }

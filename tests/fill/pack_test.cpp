@@ -67,7 +67,7 @@ TEST(PaperBox, HoldsThePapers2965Particles) {
   const Filling filling = pack(paper_box_surface(), with_radius(0.010));
   EXPECT_EQ(filling.particles.size(), 2965u);
   EXPECT_EQ(filling.report.ties, 0u);
-  EXPECT_EQ(filling.report.neighbours[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
+  EXPECT_EQ(filling.report.neighbors[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
 }
 
 TEST(Pack, GivesTheMeshsMassInAll) {
@@ -83,10 +83,10 @@ TEST(Pack, HasInnerParticlesTouching12OthersAt2r) {
   for (const Packing packing : {Packing::fcc, Packing::hcp}) {
     const Filling filling = pack(clean(shapes::sphere(1, 4)), with_radius(0.05, packing));
     const auto lists =
-        neighbours_within(positions_of(filling.particles), rest_neighbour_range(0.05));
+        neighbors_within(positions_of(filling.particles), rest_neighbor_range(0.05));
     for (std::size_t i = 0; i < filling.particles.size(); ++i) {
-      ASSERT_EQ(filling.neighbours[i], static_cast<int>(lists.of(i).size()));
-      ASSERT_TRUE(filling.neighbours[i] == 12 || filling.particles.position(i).norm() > 0.85);
+      ASSERT_EQ(filling.neighbors[i], static_cast<int>(lists.of(i).size()));
+      ASSERT_TRUE(filling.neighbors[i] == 12 || filling.particles.position(i).norm() > 0.85);
     }
     EXPECT_NEAR(filling.report.smallest_distance, 1, 1e-12);
     EXPECT_NEAR(filling.report.mean_distance, 1, 1e-12);
@@ -201,7 +201,7 @@ TEST(Pack, IsTheSameForAnyNumberOfThreads) {
       const Filling filling = pack(surface, with_radius(0.05));
       Hash hash;
       hash.add(filling.component.data(), filling.component.size() * sizeof(std::int32_t));
-      hash.add(filling.neighbours.data(), filling.neighbours.size() * sizeof(std::int32_t));
+      hash.add(filling.neighbors.data(), filling.neighbors.size() * sizeof(std::int32_t));
       hashes.push_back(state_hash(filling.particles) ^ hash.value());
     });
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
@@ -308,17 +308,17 @@ TEST(Pack, FillsAHollowBodyWithinACavity) {
   EXPECT_EQ(filling.report.bodies.size(), 2u);
   EXPECT_EQ(filling.report.cavities, 2);
   for (std::size_t i = 0; i < filling.particles.size(); ++i) {
-    const double from_centre = filling.particles.position(i).norm();
-    ASSERT_TRUE(from_centre > 0.79 || (from_centre > 0.29 && from_centre < 0.6));
-    ASSERT_EQ(filling.component[i], from_centre < 0.7 ? 1 : 0);
+    const double from_center = filling.particles.position(i).norm();
+    ASSERT_TRUE(from_center > 0.79 || (from_center > 0.29 && from_center < 0.6));
+    ASSERT_EQ(filling.component[i], from_center < 0.7 ? 1 : 0);
   }
 }
 
-TEST(Report, GivesTheSpheresCentreAndVolume) {
-  const Vec3 centre(1, 2, 3);
-  const FillReport report = pack(clean(shapes::sphere(1, 5, centre)), with_radius(0.05)).report;
-  EXPECT_LT((report.mesh.centre - centre).norm(), 1e-12);
-  EXPECT_LT((report.packed.centre - centre).norm(), 1e-12);
+TEST(Report, GivesTheSpheresCenterAndVolume) {
+  const Vec3 center(1, 2, 3);
+  const FillReport report = pack(clean(shapes::sphere(1, 5, center)), with_radius(0.05)).report;
+  EXPECT_LT((report.mesh.center - center).norm(), 1e-12);
+  EXPECT_LT((report.packed.center - center).norm(), 1e-12);
   EXPECT_NEAR(report.mesh.volume, 4 * pi / 3, 0.01);
   EXPECT_LT((report.box_size - Vec3::Constant(2)).norm(), 1e-12);
   EXPECT_EQ(rows_of(report)[0].key, "particles");
@@ -331,13 +331,13 @@ std::string row_of(const FillReport& report, const std::string& key) {
   return {};
 }
 
-TEST(Report, SaysZeroForACentreThatIsButRounding) {
+TEST(Report, SaysZeroForACenterThatIsButRounding) {
   FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
-  report.mesh.centre = {-3.2e-19, 1e-14, 1e-9};
-  report.packed.centre = {0, 0, 1e-9};
-  EXPECT_EQ(row_of(report, "mesh_centre_of_mass"), "[0, 0, 1e-09] m");
-  EXPECT_EQ(row_of(report, "centre_of_mass"), "[0, 0, 1e-09] m");
-  EXPECT_EQ(row_of(report, "centre_offset"), "0 m");
+  report.mesh.center = {-3.2e-19, 1e-14, 1e-9};
+  report.packed.center = {0, 0, 1e-9};
+  EXPECT_EQ(row_of(report, "mesh_center_of_mass"), "[0, 0, 1e-09] m");
+  EXPECT_EQ(row_of(report, "center_of_mass"), "[0, 0, 1e-09] m");
+  EXPECT_EQ(row_of(report, "center_offset"), "0 m");
   EXPECT_EQ(row_of(report, "smallest_distance").find("2r"), std::string::npos);
 }
 
@@ -349,9 +349,9 @@ TEST(Report, TellsRepairsOnlyWhereSomeWereDone) {
   EXPECT_EQ(row_of(report, "holes_closed"), "3 ");
 }
 
-TEST(Report, HasTheTetrahedronsCentre) {
+TEST(Report, HasTheTetrahedronsCenter) {
   const Surface surface = clean(shapes::moved(shapes::tetrahedron(), Vec3(100, 0, 0)));
-  EXPECT_LT((moments_of(surface.triangles).centre - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
+  EXPECT_LT((moments_of(surface.triangles).center - Vec3(100.25, 0.25, 0.25)).norm(), 1e-12);
 }
 
 double radius_named_in(const std::string& message) {
@@ -367,7 +367,7 @@ TEST(Pack, RefusesMoreParticlesThanMemoryHoldsAndNamesARadius) {
   EXPECT_LT(volume(surface.triangles) / volume_per_particle(named), 2147483647.0) << message;
 }
 
-/// The torus has no site in its hole's middle; in the box one lies at the centre whatever the
+/// The torus has no site in its hole's middle; in the box one lies at the center whatever the
 /// radius.
 TEST(Pack, RefusesARadiusThatFillsNothingAndNamesOneThatDoes) {
   const Surface torus = clean(shapes::torus(1, 0.4)), box = paper_box_surface();

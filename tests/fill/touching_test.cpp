@@ -20,10 +20,10 @@ TEST_P(TouchingInPacking, CountsTheSitesWithin2r) {
   const Lattice lattice = lattice_in(bounds(surface.triangles.points), GetParam(), r);
   const auto runs = inside_runs(lattice, surface).runs;
   const Touching found = touching_sites(lattice, runs);
-  const auto lists = neighbours_within(positions_of(lattice, runs), rest_neighbour_range(r));
-  ASSERT_EQ(found.neighbours.size(), count_of(runs));
-  for (std::size_t i = 0; i < found.neighbours.size(); ++i)
-    ASSERT_EQ(found.neighbours[i], static_cast<int>(lists.of(i).size()));
+  const auto lists = neighbors_within(positions_of(lattice, runs), rest_neighbor_range(r));
+  ASSERT_EQ(found.neighbors.size(), count_of(runs));
+  for (std::size_t i = 0; i < found.neighbors.size(); ++i)
+    ASSERT_EQ(found.neighbors[i], static_cast<int>(lists.of(i).size()));
   EXPECT_EQ(found.groups, 1);
 }
 

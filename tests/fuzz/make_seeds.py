@@ -59,14 +59,14 @@ material: {model: bonded, poisson_ratio: 0.4}
 skeleton: {bones: [{name: a, head: [0, 0, 0], tail: [0, 0, 1]}]}
 binding:
   joint_zone: 2
-  explicit: [{bone: a, ids: [0, 1]}, {low: [0, 0, 0], high: [1, 1, 1]}, {bone: a, centre: [0, 0, 0], radius: 1}]
+  explicit: [{bone: a, ids: [0, 1]}, {low: [0, 0, 0], high: [1, 1, 1]}, {bone: a, center: [0, 0, 0], radius: 1}]
 world:
   drag: 0.5
   obstacles:
     - {name: floor, shape: plane, friction: 0.5}
     - {name: ring, shape: capsule, from: [0, 0, 0], to: [1, 0, 0], radius: 0.1, bone: a}
-    - {name: ball, shape: sphere, centre: [1, 1, 1], radius: 0.1, keys: [{time: 0}, {time: 1, translation: [1, 0, 0]}]}
-  pins: [{centre: [0, 0, 0], radius: 0.1, bone: a}]
+    - {name: ball, shape: sphere, center: [1, 1, 1], radius: 0.1, keys: [{time: 0}, {time: 1, translation: [1, 0, 0]}]}
+  pins: [{center: [0, 0, 0], radius: 0.1, bone: a}]
   fields: [{name: wind, acceleration: [0, 3, 0], low: [0, 0, 0], high: [1, 1, 1], falloff: 0.05}]
   muscles: [{name: m, bone: a, strength: 500, keys: [{time: 0, activation: 0}, {time: 1, activation: 1}]}]
 """}
@@ -162,7 +162,7 @@ def main():
                                "".join("f %d/1/1 %d//1 %d\n" % tuple(c + 1 for c in face) for face in FACES) +
                                "f -1 -2 \\\n -3\n").encode())
     put("off", "tetrahedron", ("OFF\n4 4 0\n" + points + "".join("3 %d %d %d\n" % face for face in FACES)).encode())
-    put("off", "coloured", ("COFF 4 1 0\n" + "".join(line + " 1 0 0 1\n" for line in points.splitlines()) +
+    put("off", "colored", ("COFF 4 1 0\n" + "".join(line + " 1 0 0 1\n" for line in points.splitlines()) +
                             "3 0 1 2 255 0 0\n").encode())
     put("stl", "text", stl_text())
     put("stl", "binary", stl_binary())

@@ -96,7 +96,7 @@ def ply():
             "property_of_nothing": ("element vertex 4\n", ""), "no_vertices": ("element vertex", "element point"),
             "two_vertices": ("element face", "element vertex"), "no_faces": ("element face", "element edge"),
             "floats_as_counts": ("list uchar int", "list float int"), "corners_of_floats": ("uchar int", "uchar float"),
-            "no_corners": ("vertex_indices", "colours"), "words_missing": ("property float y", "property"),
+            "no_corners": ("vertex_indices", "colors"), "words_missing": ("property float y", "property"),
             "magic": ("ply\n", "plz\n"), "unknown_word": ("element face", "elephant face")}
     for name, (old, new) in head.items():
         files[f"head_{name}"] = replaced(PLY, old, new)

@@ -77,7 +77,7 @@ VALUES = {
     "animations": [{}],
     "animations.0.samplers.0.input": [99, -1, 5, 0, DROP], "animations.0.samplers.0.output": [99, -1, 4, 0, DROP],
     "animations.0.samplers.0.interpolation": ["BEZIER", 7, "CUBICSPLINE"], "animations.0.channels.0.sampler": [9, -1, DROP],
-    "animations.0.channels.0.target.node": [99, -1, "upper"], "animations.0.channels.0.target.path": ["colour", 7, "translation", DROP],
+    "animations.0.channels.0.target.node": [99, -1, "upper"], "animations.0.channels.0.target.path": ["color", 7, "translation", DROP],
     "accessors": [DROP, [], {}], "accessors.0.count": [10 ** 9, -1, 0, 2 ** 63, 1.5, "many", DROP, 1063, 2 ** 31],
     "accessors.0.componentType": [5126.5, 9999, 5121, "float", DROP, -1], "accessors.0.type": ["VEC2", "VEC9", 3, DROP, "SCALAR"],
     "accessors.0.bufferView": [99, -1, 0.5, "0"], "accessors.0.byteOffset": [-4, 10 ** 9, 2 ** 63, "4", 8],

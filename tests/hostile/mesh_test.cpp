@@ -347,7 +347,7 @@ TEST(Surface, OfLooseFacesOnlyHasNoHolesToClose) {
   const PolygonSoup loose = shapes::burst(shapes::sphere(1, 2), 0.5);
   const Folder folder;
   for (const auto& [name, content] : formats(loose)) {
-    BodySettings body = mesh_files::body_at(folder.file(name, content));
+    BodyOptions body = mesh_files::body_at(folder.file(name, content));
     body.close_holes = true;
     test::expect_bad_input([&] { read_surface(body); },
                            {body.mesh + ": all 128 faces are loose", "; ", "thickness"});

@@ -7,8 +7,8 @@
 
 #include <random>
 
-#include "config/small_scene.h"
-#include "config/temp_folder.h"
+#include "settings/small_scene.h"
+#include "settings/temp_folder.h"
 #include <sinew/settings/table.h>
 #include "hostile/scenes.h"
 #include <sinew/rig/motion.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "config/small_scene.h"
+#include "settings/small_scene.h"
 
 namespace sinew {
 

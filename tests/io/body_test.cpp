@@ -18,7 +18,7 @@ TEST_F(Body, ComesBackBitForBit) {
     EXPECT_EQ(state_hash(read.particles), state_hash(written.particles));
     EXPECT_EQ(read.particles.radius, written.particles.radius);
     EXPECT_EQ(read.particles.mass, written.particles.mass);
-    EXPECT_EQ(read.neighbours, written.neighbours);
+    EXPECT_EQ(read.neighbors, written.neighbors);
     EXPECT_EQ(read.component, written.component);
     EXPECT_EQ(read.bone, written.bone);
     EXPECT_EQ(read.meta, written.meta);

@@ -16,15 +16,15 @@ TEST(ParticlesDataset, PutsShuffledParticlesIntoTheWrittenOrder) {
   now.u = {20, 0, 10};
   const Points rest = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   const Points force = {{0, 2, 0}, {0, 0, 0}, {0, 1, 0}};
-  const std::vector<std::int32_t> bone = {5, 6, 7}, neighbours = {12, 10, 11};
+  const std::vector<std::int32_t> bone = {5, 6, 7}, neighbors = {12, 10, 11};
   const std::vector<double> weight = {1, 0.5, 0.25};
   const Dataset data =
-      particles_dataset({now, rest, bone, force, force, force, neighbours, {}, weight}, {3, 4});
+      particles_dataset({now, rest, bone, force, force, force, neighbors, {}, weight}, {3, 4});
   EXPECT_EQ(data.points, (Points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
   EXPECT_EQ(vectors(data.point_columns, "velocity"), (Points{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}}));
   EXPECT_EQ(vectors(data.point_columns, "force_bone"), (Points{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}));
   EXPECT_EQ(vectors(data.point_columns, "force"), (Points{{0, 0, 0}, {0, 3, 0}, {0, 6, 0}}));
-  EXPECT_EQ(integers(data.point_columns, "neighbours"), (std::vector<std::int32_t>{10, 11, 12}));
+  EXPECT_EQ(integers(data.point_columns, "neighbors"), (std::vector<std::int32_t>{10, 11, 12}));
   EXPECT_EQ(integers(data.point_columns, "bone"), bone);
   EXPECT_EQ(numbers(data.point_columns, "weight"), weight);
   EXPECT_EQ(integers(data.point_columns, "id"), (std::vector<std::int32_t>{0, 1, 2}));
@@ -89,11 +89,11 @@ TEST(ParticlesDataset, CarriesTheEnergies) {
 
 TEST(SurfaceDataset, HasUnitNormalsThatPointOutwards) {
   const Dataset data = SyntheticRun().surface({});
-  const Vec3 centre(0, 0, 0.24);
+  const Vec3 center(0, 0, 0.24);
   const Points normals = vectors(data.point_columns, "normal");
   for (std::size_t i = 0; i < normals.size(); ++i) {
     EXPECT_NEAR(normals[i].norm(), 1, rounding);
-    EXPECT_GT(normals[i].dot(data.points[i] - centre), 0);
+    EXPECT_GT(normals[i].dot(data.points[i] - center), 0);
   }
 }
 

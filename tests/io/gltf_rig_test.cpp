@@ -13,7 +13,7 @@ namespace {
 using namespace gltf_files;
 using test::expect_bad_input;
 
-constexpr double single = 1e-6;  // what single precision leaves of lengths of metres, and of turns
+constexpr double single = 1e-6;  // what single precision leaves of lengths of meters, and of turns
 
 class ReadGltfRig : public Scratch {
  protected:
@@ -217,7 +217,7 @@ TEST_F(ReadGltfRig, FindsClipsByName) {
   expect_bad_input([&] { find_clip({}, "run"); }, {"no clip 'run'", "with an animation"});
 }
 
-TEST_F(ReadGltfRig, NormalisesWeights) {
+TEST_F(ReadGltfRig, NormalizesWeights) {
   Gltf gltf = bar();
   Json& attributes = gltf.json["meshes"][0]["primitives"][0]["attributes"];
   std::vector<float> weights;

@@ -205,7 +205,7 @@ TEST_F(ReadGltf, PutsASkinnedMeshWhereItsTopmostJointWasBound) {
 }
 
 TEST_F(ReadGltf, ScalesASkinnedMeshAsItsJointsAre) {
-  Gltf gltf = one_tetrahedron();  // in centimetres, below a node that makes them metres
+  Gltf gltf = one_tetrahedron();  // in centimeters, below a node that makes them meters
   gltf.json["skins"] = {{{"joints", {1}}}};
   gltf.json["nodes"][0]["skin"] = 0;
   const int joint = gltf.node({{"translation", {100, 0, 0}}});

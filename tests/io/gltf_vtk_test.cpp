@@ -17,7 +17,7 @@ struct Made {
   bool moving_between = false;  ///< a node between two joints moves
   bool scaled = false;          ///< a joint changes its size
   bool mirrored = false;        ///< the node above all mirrors
-  bool whole = false;           ///< rotations are normalised 16-bit numbers
+  bool whole = false;           ///< rotations are normalized 16-bit numbers
   Form form = Form::packed;
 };
 
@@ -53,7 +53,7 @@ class Maker {
     if (!children.empty()) gltf_.json["nodes"].back()["children"] = children;
   }
 
-  /// Centimetres, below a node that makes them metres.
+  /// Centimeters, below a node that makes them meters.
   void add_nodes() {
     node("up", Vec3(1, 2, 3), 0.01, {1, 6});
     if (made_.mirrored) gltf_.json["nodes"][0]["scale"][0] = -0.01;

@@ -63,14 +63,14 @@ Settings settings() {
   scene.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, joint)},
                  {"upper", "lower", std::nullopt, Vec3(0, 0, size.z())}};
   const auto key = [](double time, double angle) {
-    KeySettings made;
+    KeyDefinition made;
     made.time = time;
     made.axis = Vec3(0, 1, 0);
     made.angle = angle;
     made.twist = angle / 3;
     return made;
   };
-  TrackSettings track;
+  TrackDefinition track;
   track.bone = "upper";
   track.keys = {key(0, 0), key(SyntheticRun::half_turn, 90)};
   scene.tracks = {track};
@@ -109,7 +109,7 @@ Dataset SyntheticRun::particles(Moment moment) const {
   const std::size_t n = count();
   Particles now = particles_at(rest, radius, 0.001);
   Points pair(n), damping(n), pull(n), world(n, Vec3(0, 1e-4, 0));
-  std::vector<std::int32_t> neighbours(n);
+  std::vector<std::int32_t> neighbors(n);
   // The physics may keep its particles in any order; here it is backwards.
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t w = n - 1 - i;
@@ -119,10 +119,10 @@ Dataset SyntheticRun::particles(Moment moment) const {
     pair[i] = 0.1 * (rest[w] - now.position(i));
     damping[i] = -0.01 * now.velocity(i);
     pull[i] = Vec3(0, 0, 1e-3 * bone[w]);
-    neighbours[i] = static_cast<std::int32_t>(w % 13);
+    neighbors[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, pair, damping, pull, neighbours, energies,
+  return particles_dataset({now, rest, bone, pair, damping, pull, neighbors, energies,
                             std::vector<double>(n, 1), world, std::vector<std::int32_t>(n, 1)},
                            moment);
 }
@@ -157,7 +157,7 @@ Dataset SyntheticRun::obstacles(Moment moment) const {
 BodyFile SyntheticRun::body() const {
   BodyFile body;
   body.particles = particles_at(rest, radius, 0.001);
-  body.neighbours.assign(count(), 12);
+  body.neighbors.assign(count(), 12);
   body.component.assign(count(), 0);
   body.bone = bone;
   body.weight.emplace(count(), 1.0);

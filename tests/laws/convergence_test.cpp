@@ -89,7 +89,7 @@ Model beside_a_bone(double damping) {
   model.name = "beside a bone";
   model.settings = test::box_scene(25);
   model.settings.binding.bone_damping = damping;
-  KeySettings begin = test::bend_key(-10, 0), end = test::bend_key(10, 0);
+  KeyDefinition begin = test::bend_key(-10, 0), end = test::bend_key(10, 0);
   const double speed = 0.2;
   begin.translation = {-10 * speed, 0, 0}, end.translation = {10 * speed, 0, 0};
   model.settings.tracks = {test::track("lower", {begin, end})};

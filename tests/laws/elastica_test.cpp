@@ -48,7 +48,7 @@ class SlenderBeam {
 
  private:
   static Material bonded() {
-    MaterialSettings settings;
+    MaterialOptions settings;
     settings.model = MaterialModel::bonded;
     return make_material(settings, r, 1);
   }

@@ -50,15 +50,15 @@ double rms(const Points& a, const Points& b, Counts&& counts) {
 }
 
 int inverted(const Points& now) {
-  const RestShape rest = rest_shape(box(), rest_neighbour_range(r));
+  const RestShape rest = rest_shape(box(), rest_neighbor_range(r));
   const auto gradients = deformation_gradients(rest, now);
   return static_cast<int>(std::count_if(gradients.begin(), gradients.end(),
                                         [](const Mat3& F) { return F.determinant() <= 0; }));
 }
 
-/// The share of neighbours at rest that are b or more apart.
+/// The share of neighbors at rest that are b or more apart.
 double broken(const Points& now, double b) {
-  const auto lists = neighbours_within(box(), rest_neighbour_range(r));
+  const auto lists = neighbors_within(box(), rest_neighbor_range(r));
   double pairs = 0, apart = 0;
   for (std::size_t i = 0; i < now.size(); ++i)
     for (const auto j : lists.of(i)) ++pairs, apart += (now[i] - now[j]).norm() >= b;

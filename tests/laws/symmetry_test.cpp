@@ -21,7 +21,7 @@ Settings everything_at_once() {
   Settings settings = test::box_scene(half_planes);
   settings.binding.joint_zone = 2;
   settings.solver.gravity = {0.5, 0, -2};
-  KeySettings end = test::bend_key(0.3, 50);
+  KeyDefinition end = test::bend_key(0.3, 50);
   end.twist = 40;
   end.translation = {0.3 * r, 0, 0.5 * r};
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), test::bend_key(0.3, -20)}),
@@ -75,12 +75,12 @@ double largest_distance(const Points& a, const Points& b) {
 
 /// The whole scene turned about the origin and shifted.
 Settings moved(Settings settings, const Mat3& turn, const Vec3& shift) {
-  for (BoneSettings& bone : settings.bones) {
+  for (BoneDefinition& bone : settings.bones) {
     if (bone.head) *bone.head = turn * *bone.head + shift;
     if (bone.tail) *bone.tail = turn * *bone.tail + shift;
   }
-  for (TrackSettings& track : settings.tracks)
-    for (KeySettings& key : track.keys) {
+  for (TrackDefinition& track : settings.tracks)
+    for (KeyDefinition& key : track.keys) {
       if (key.axis) *key.axis = turn * *key.axis;
       key.translation = turn * key.translation;
     }
@@ -123,8 +123,8 @@ TEST(Symmetry, AMirroredSceneRunsMirrored) {
   const Mat3 mirror = Vec3(1, -1, 1).asDiagonal();
   for (const Way& way : ways()) {
     Settings other = moved(way.settings, mirror, Vec3::Zero());
-    for (TrackSettings& track : other.tracks)
-      for (KeySettings& key : track.keys) key.angle = -*key.angle, key.twist = -key.twist;
+    for (TrackDefinition& track : other.tracks)
+      for (KeyDefinition& key : track.keys) key.angle = -*key.angle, key.twist = -key.twist;
     const Particles start = shaken_box(way.settings, rest);
     const Points here = run(way.settings, rest, start),
                  there = run(other, test::affine(rest, mirror), moved(start, mirror, Vec3::Zero()));
@@ -195,7 +195,7 @@ TEST(Symmetry, AnEvenMotionOfEverythingChangesNothing) {
     Settings still = way.settings;
     still.tracks.erase(still.tracks.begin());
     Settings carried = still;
-    KeySettings begin = test::bend_key(-1, 0), end = test::bend_key(1, 0);
+    KeyDefinition begin = test::bend_key(-1, 0), end = test::bend_key(1, 0);
     begin.translation = -wind, end.translation = wind;
     carried.tracks.push_back(test::track("lower", {begin, end}));
     carried.tracks.back().interpolation = Interpolation::linear;

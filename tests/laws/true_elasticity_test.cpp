@@ -18,7 +18,7 @@ double farthest_from_rest(const Simulation& simulation) {
   return most;
 }
 
-Simulation box(MaterialModel model, const std::vector<KeySettings>& keys, double joint_zone = 0) {
+Simulation box(MaterialModel model, const std::vector<KeyDefinition>& keys, double joint_zone = 0) {
   Settings settings = test::box_scene(25);
   settings.material.model = model;
   settings.binding.joint_zone = joint_zone;
@@ -60,7 +60,7 @@ TEST(BondedVolume, KeepsTheVolumeOfABentBoxCloserThanBonded) {
   const auto lost_volume = [](MaterialModel model) {
     Simulation simulation = box(model, {test::bend_key(0, 0), test::bend_key(1, 90)});
     step_until(simulation, 2);
-    const RestShape shape = rest_shape(simulation.body().rest, rest_neighbour_range(r));
+    const RestShape shape = rest_shape(simulation.body().rest, rest_neighbor_range(r));
     double volume = 0, whole = 0;
     const auto gradients = deformation_gradients(shape, positions_of(simulation.particles()));
     for (std::size_t i = 0; i < gradients.size(); ++i) {

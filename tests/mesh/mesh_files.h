@@ -131,8 +131,8 @@ class Folder {
 };
 
 /// The mesh at `path`, with all settings as they are by default.
-inline BodySettings body_at(const std::string& path) {
-  BodySettings body;
+inline BodyOptions body_at(const std::string& path) {
+  BodyOptions body;
   body.mesh = path;
   return body;
 }

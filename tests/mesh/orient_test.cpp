@@ -178,7 +178,7 @@ TEST(Orient, TellsThousandsOfCavities) {
   EXPECT_NEAR(volume(surface.triangles), 1728 * (1 - 4.0 / 3 * 0.064), 1e-9);
 }
 
-TEST(Orient, DoesNotTakeANeighbourInTheBoxOfATorusForACavity) {
+TEST(Orient, DoesNotTakeANeighborInTheBoxOfATorusForACavity) {
   const auto soup = together(shapes::torus(1, 0.25), inverted(sphere(0.2, 2)));
   EXPECT_NEAR(winding(clean(soup), {0.05, 0, 0}), 1, 1e-9);
 }

@@ -72,7 +72,7 @@ TEST(Read, TakesSeveralSolidsOfAnStl) {
 
 TEST(Read, TurnsTheMeshAsTheBodySays) {
   const Folder folder;
-  BodySettings body = mesh_files::body_at(folder.file(
+  BodyOptions body = mesh_files::body_at(folder.file(
       "a.obj", mesh_files::obj(shapes::box(Vec3::Zero(), Vec3(1, 2, 3)))));  // x 1, y 2, z 3 long
   const auto sizes = [&] { return Vec3(bounds(read_surface(body).triangles.points).sizes()); };
   body.scale = 2;
@@ -97,7 +97,7 @@ TEST(Read, TakesObjAsProgramsWriteIt) {
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
 }
 
-TEST(Read, TakesOffWithColoursAndCountsOnTheFirstLine) {
+TEST(Read, TakesOffWithColorsAndCountsOnTheFirstLine) {
   const Folder folder;
   const std::string body =
       "0 0 0 255 0 0\n1 0 0 0 0 0 # red\n\n0 1 0 9 9 9\n0 0 1 1 1 1\n"
@@ -144,7 +144,7 @@ TEST(Read, ScalesAndWelds) {
   auto torn = shapes::burst(shapes::tetrahedron(1000));
   torn.points[0].x() += 0.5;
   const std::string path = folder.file("a.obj", mesh_files::obj(torn));
-  BodySettings body = mesh_files::body_at(path);
+  BodyOptions body = mesh_files::body_at(path);
   body.scale = 1e-3;
   EXPECT_FALSE(read_surface(body).closed());
   body.weld = 1e-3;
@@ -160,7 +160,7 @@ TEST(Read, ScalesAndWelds) {
 TEST(Read, PassesTheRuleOn) {
   const auto soup = shapes::together(shapes::sphere(1, 2), shapes::sphere(0.5, 2));
   const double one = volume(prepare(shapes::sphere(1, 2), {}).triangles);
-  BodySettings hollow;
+  BodyOptions hollow;
   hollow.rule = FillRule::hollow;
   EXPECT_NEAR(volume(prepare(soup, hollow).triangles), one * 7 / 8, 1e-12);
   EXPECT_NEAR(volume(prepare(soup, {}).triangles), one * 9 / 8, 1e-12);

@@ -67,13 +67,13 @@ PolygonSoup quartered(PolygonSoup soup, Middle middle) {
 }
 
 /// An octahedron with each triangle cut in four `levels` times, points on the sphere.
-inline PolygonSoup sphere(double radius, int levels, const Vec3& centre = Vec3::Zero()) {
+inline PolygonSoup sphere(double radius, int levels, const Vec3& center = Vec3::Zero()) {
   PolygonSoup soup{
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
   const auto on_sphere = [](const Vec3& a, const Vec3& b) -> Vec3 { return (a + b).normalized(); };
   for (int level = 0; level < levels; ++level) soup = quartered(std::move(soup), on_sphere);
-  for (Vec3& point : soup.points) point = centre + radius * point;
+  for (Vec3& point : soup.points) point = center + radius * point;
   return soup;
 }
 

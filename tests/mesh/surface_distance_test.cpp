@@ -15,7 +15,7 @@ namespace sinew {
 namespace {
 
 Surface box_of(const Vec3& low, const Vec3& high) {
-  return prepare(shapes::box(low, high), BodySettings());
+  return prepare(shapes::box(low, high), BodyOptions());
 }
 
 /// Of a box about the origin, exactly.
@@ -64,7 +64,7 @@ TEST(SurfaceDistance, MayBeAskedFromManyThreads) {
 TEST(SurfaceDistance, RefusesHoles) {
   PolygonSoup open = shapes::box({0, 0, 0}, {1, 1, 1});
   open.polygons.pop_back();
-  const Surface surface = prepare(open, BodySettings());
+  const Surface surface = prepare(open, BodyOptions());
   test::expect_bad_input([&] { SurfaceDistance distance(surface); }, {"not closed (holes: 1)"});
 }
 

@@ -13,7 +13,7 @@
 namespace sinew {
 namespace {
 
-Triangles surface_of(const PolygonSoup& soup) { return prepare(soup, BodySettings()).triangles; }
+Triangles surface_of(const PolygonSoup& soup) { return prepare(soup, BodyOptions()).triangles; }
 
 Triangles moved(Triangles surface, const Vec3& way) {
   for (Vec3& point : surface.points) point += way;

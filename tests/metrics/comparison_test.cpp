@@ -154,26 +154,26 @@ TEST(ComparisonPage, EscapesNamesAndRemarks) {
   EXPECT_FALSE(contains(comparison_html(input), "<script>alert"));
 }
 
-Film film_of(const RestBody& body) {
-  Film film = plan_film(body, 2, 0.5);
+Playback playback_of(const RestBody& body) {
+  Playback playback = plan_playback(body, 2, 0.5);
   for (const std::size_t frame : {0, 1}) {
     const FrameState state =
         moved_rigidly(body, turned(30.0 * double(frame), {0, 1, 0}), {0, 0, 0});
-    add_frame(film, frame, body, state, particle_values(body, state));
+    add_frame(playback, frame, body, state, particle_values(body, state));
   }
-  return film;
+  return playback;
 }
 
 TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
   const RestBody body = rest_body(box_input());
-  const Film one = film_of(body), both = side_by_side(one, one, {"a: ", "b: "});
+  const Playback one = playback_of(body), both = side_by_side(one, one, {"a: ", "b: "});
   const std::size_t n = one.particles.size();
   ASSERT_EQ(both.frames.size(), 2u);
   EXPECT_EQ(both.particles.size(), 2 * n);
   EXPECT_EQ(both.bone_names,
             (std::vector<std::string>{"a: lower", "a: upper", "b: lower", "b: upper"}));
   EXPECT_EQ(both.bone[n], one.bone[0] + 2);
-  for (const FilmFrame& frame : both.frames) {
+  for (const PlaybackFrame& frame : both.frames) {
     ASSERT_EQ(frame.particles.size(), 6 * n);
     const float way = frame.particles[3 * n] - frame.particles[0];
     for (std::size_t i = 0; i < n; ++i) {
@@ -194,10 +194,10 @@ TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
 }
 
 TEST(SideBySide, DrawsBothWithBallsOfTheirOwnSize) {
-  const Film one = film_of(rest_body(box_input()));
-  Film other = one;
+  const Playback one = playback_of(rest_body(box_input()));
+  Playback other = one;
   other.balls.front().radius /= 3;
-  const Film both = side_by_side(one, other, {"a: ", "b: "});
+  const Playback both = side_by_side(one, other, {"a: ", "b: "});
   ASSERT_EQ(both.balls.size(), 2u);
   EXPECT_EQ(both.balls[0].radius, r);
   EXPECT_EQ(both.balls[1].radius, r / 3);
@@ -208,7 +208,7 @@ TEST(SideBySide, AFieldThatOnlyOneHasIsNoneForTheOther) {
   const RestBody without = rest_body(box_input());
   RestInput input = box_input();
   input.law.force = [](double d) { return 2 * r - d; };
-  const Film both = side_by_side(film_of(without), film_of(rest_body(input)), {"a: ", "b: "});
+  const Playback both = side_by_side(playback_of(without), playback_of(rest_body(input)), {"a: ", "b: "});
   const auto& stress = both.frames[0].values[4];
   ASSERT_EQ(stress.size(), 2 * without.particles());
   EXPECT_TRUE(std::isnan(stress.front()));

@@ -93,13 +93,13 @@ struct Measured {
   std::vector<BoneMetrics> bones;
   std::vector<SectionMetrics> sections;
   Summary summary;
-  Film film;
+  Playback playback;
 };
 
 Measured measured(double strength, double share) {
   Measured all{rest_body(lively_input()), {}, {}, {}, {}, {}, {}};
   all.states = lively_run(all.body, strength);
-  all.film = plan_film(all.body, all.states.size(), share);
+  all.playback = plan_playback(all.body, all.states.size(), share);
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<std::vector<std::int64_t>> worst;
   std::vector<double> times;
@@ -112,7 +112,7 @@ Measured measured(double strength, double share) {
     all.bones.insert(all.bones.end(), bones.begin(), bones.end());
     const auto sections = measure_sections(all.body.sections, state.surface_points, state.time);
     all.sections.insert(all.sections.end(), sections.begin(), sections.end());
-    if (all.film.wants(i)) add_frame(all.film, i, all.body, state, frame.particles);
+    if (all.playback.wants(i)) add_frame(all.playback, i, all.body, state, frame.particles);
     poses.push_back(state.bones);
     times.push_back(state.time);
   }
@@ -161,8 +161,8 @@ std::string own_part(std::string page) {
   for (const std::string_view part :
        {page_style(), chart_library(), scene_library(), page_script()})
     if (const std::size_t at = page.find(part); at != page.npos) page.erase(at, part.size());
-  const std::size_t licences = page.find("<summary>Licences");
-  return page.erase(licences, page.find("</details>", licences) - licences);
+  const std::size_t licenses = page.find("<summary>Licenses");
+  return page.erase(licenses, page.find("</details>", licenses) - licenses);
 }
 
 ReportInput report_of(const Measured& run) {
@@ -177,7 +177,7 @@ ReportInput report_of(const Measured& run) {
                             "residual_rms > 0.01"})
     input.checks.push_back(check_limit(parse_limit(limit), run.frames, run.summary));
   input.curves = {{"Law", "f", "d (r)", "f (N)", {{"pair", {0, 1, 2.5}, {3, 0.125, -1}}}}};
-  input.film = run.film;
+  input.playback = run.playback;
   return input;
 }
 
@@ -219,10 +219,10 @@ TEST(Golden, TheReportOfALongRunIsWhatItWas) {
   input.radius = r;
   input.frames = many_frames();
   input.summary = summarize(input.frames, r);
-  input.film = plan_film(body, input.frames.size(), 4e-3);
-  for (const std::size_t frame : input.film.wanted) {
+  input.playback = plan_playback(body, input.frames.size(), 4e-3);
+  for (const std::size_t frame : input.playback.wanted) {
     const FrameState state = lively_state(body, 0.05 * static_cast<double>(frame), 0.3, 0.2);
-    add_frame(input.film, frame, body, state, particle_values(body, state));
+    add_frame(input.playback, frame, body, state, particle_values(body, state));
   }
   expect_golden("metrics/golden/long_report.html", own_part(report_html(input)));
 }
@@ -231,7 +231,7 @@ TEST(Golden, TheComparisonIsWhatItWas) {
   const Measured one = measured(1, 2e-3), other = measured(0.8, 2e-3);
   const RunComparison both = compare(compared("one", one), compared("other", other));
   const ComparisonInput input{
-      "1.2.3", both, side_by_side(one.film, other.film, {"one: ", "other: "}), {}, "a", "b"};
+      "1.2.3", both, side_by_side(one.playback, other.playback, {"one: ", "other: "}), {}, "a", "b"};
   expect_golden("metrics/golden/comparison.csv", rounded_columns(comparison_csv(both)));
   expect_golden("metrics/golden/comparison.html", own_part(comparison_html(input)));
 }

@@ -36,7 +36,7 @@ TEST(Measure, BodyAtRestHasNoErrors) {
   EXPECT_NEAR(m.J_mean, 1, exact);
   for (const double zero : {m.bone_angle, m.bone_shift, m.volume_error, m.displacement_max,
                             m.displacement_rms, m.speed_max, m.adherence_max, m.pose_error_max,
-                            m.broken_neighbours, m.new_neighbours, m.inverted, m.energy_residual})
+                            m.broken_neighbors, m.new_neighbors, m.inverted, m.energy_residual})
     EXPECT_NEAR(zero, 0, exact);
   EXPECT_NEAR(m.tip_angle, 0, 1e-6);
   EXPECT_NEAR(m.twist_jump_max, 0, 1e-6);
@@ -51,7 +51,7 @@ TEST(Measure, RigidMotionOfBodyAndBonesStrainsNothing) {
   EXPECT_NEAR(m.J_min, 1, exact);
   EXPECT_NEAR(m.J_mean, 1, exact);
   for (const double zero : {m.adherence_max, m.pose_error_max, m.pose_error_far_rms,
-                            m.broken_neighbours, m.new_neighbours, m.inverted})
+                            m.broken_neighbors, m.new_neighbors, m.inverted})
     EXPECT_NEAR(zero, 0, exact);
   EXPECT_NEAR(m.tip_angle, 73, 1e-9);
   EXPECT_NEAR(m.twist_jump_max, 0, 1e-6);
@@ -158,17 +158,17 @@ TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {
   const RestBody body = rest_body(input);
   FrameState state = at_rest(body);
   const Vec3 drift(1, -2, 3), spin(0.5, 0.25, -1);
-  Vec3 centre = Vec3::Zero(), turning = Vec3::Zero();
-  for (const Vec3& p : state.positions) centre += p / static_cast<double>(body.particles());
+  Vec3 center = Vec3::Zero(), turning = Vec3::Zero();
+  for (const Vec3& p : state.positions) center += p / static_cast<double>(body.particles());
   for (std::size_t i = 0; i < body.particles(); ++i) {
-    const Vec3 arm = state.positions[i] - centre;
+    const Vec3 arm = state.positions[i] - center;
     state.velocities[i] = drift + spin.cross(arm);
     turning += 0.25 * arm.cross(spin.cross(arm));
   }
   const double mass = 0.25 * static_cast<double>(body.particles());
-  const Vec3 angular = turning + mass * centre.cross(drift);
+  const Vec3 angular = turning + mass * center.cross(drift);
   const FrameMetrics m = measure(body, state);
-  EXPECT_NEAR((Vec3(m.centre_x, m.centre_y, m.centre_z) - centre).norm(), 0, exact);
+  EXPECT_NEAR((Vec3(m.center_x, m.center_y, m.center_z) - center).norm(), 0, exact);
   EXPECT_NEAR((Vec3(m.momentum_x, m.momentum_y, m.momentum_z) - mass * drift).norm(), 0, 1e-10);
   EXPECT_NEAR(
       (Vec3(m.angular_momentum_x, m.angular_momentum_y, m.angular_momentum_z) - angular).norm(), 0,
@@ -182,8 +182,8 @@ TEST(Measure, PullingTheHalvesApartBreaksTheCrossingPairs) {
                                  }));
   // Between two half-planes every edge of the square grid of sites joins two particles.
   const double crossing = 2 * across * (across - 1);
-  EXPECT_EQ(m.broken_neighbours, crossing / body.rest_pairs());
-  EXPECT_EQ(m.new_neighbours, 0);
+  EXPECT_EQ(m.broken_neighbors, crossing / body.rest_pairs());
+  EXPECT_EQ(m.new_neighbors, 0);
 }
 
 TEST(Measure, PairsAreBrokenFromTheInteractionRangeOn) {
@@ -195,7 +195,7 @@ TEST(Measure, PairsAreBrokenFromTheInteractionRangeOn) {
     FrameState state = at_rest(body);
     state.positions[0].x() = 0;
     state.positions[1].x() = distance;
-    return measure(body, state).broken_neighbours;
+    return measure(body, state).broken_neighbors;
   };
   EXPECT_EQ(broken_at(std::nextafter(b, 0.0)), 0);
   EXPECT_EQ(broken_at(b), 1);
@@ -217,7 +217,7 @@ TEST(Measure, BrokenBondsAreAShareOfThoseAtRest) {
   }
 }
 
-TEST(Measure, NewNeighboursAreThoseThatWereNoneAtRest) {
+TEST(Measure, NewNeighborsAreThoseThatWereNoneAtRest) {
   RestInput input = box_input();
   input.positions = {{0, 0, h}, {2 * r, 0, h}, {6 * r, 0, h}, {8 * r, 0, h}};
   input.bone = {0, 0, 0, 0};
@@ -225,8 +225,8 @@ TEST(Measure, NewNeighboursAreThoseThatWereNoneAtRest) {
   FrameState state = at_rest(body);
   for (const int i : {2, 3}) state.positions[i].x() -= 2 * r;  // 1 and 2 touch: one new pair
   const FrameMetrics m = measure(body, state);
-  EXPECT_EQ(m.new_neighbours, 0.5);
-  EXPECT_EQ(m.broken_neighbours, 0);
+  EXPECT_EQ(m.new_neighbors, 0.5);
+  EXPECT_EQ(m.broken_neighbors, 0);
 }
 
 TEST(Measure, FoldInvertsTheParticlesBeyondIt) {
@@ -244,14 +244,14 @@ TEST(Measure, FoldInvertsTheParticlesBeyondIt) {
 
 TEST(Measure, WhatCannotBeMeasuredIsNotANumber) {
   RestInput input = box_input();
-  input.positions = {{0, 0, h}};  // no neighbours
+  input.positions = {{0, 0, h}};  // no neighbors
   input.bone = {-1};
   input.bones.clear();
   const RestBody body = rest_body(input);
   const FrameMetrics m = measure(body, at_rest(body));
   for (const double value :
        {m.bone_angle, m.adherence_rms, m.pose_error_rms, m.pose_error_far_rms, m.J_min, m.inverted,
-        m.broken_neighbours, m.new_neighbours, m.tip_angle, m.twist_jump_max})
+        m.broken_neighbors, m.new_neighbors, m.tip_angle, m.twist_jump_max})
     EXPECT_TRUE(std::isnan(value));
   EXPECT_EQ(m.displacement_rms, 0);
 }

@@ -97,7 +97,7 @@ TEST(ParticleArrays, StressOfASmallStrainIsHookes) {
   const auto found = values_of(body, moved(body, affine(Mat3::Identity() + strain)), "stress");
   const auto expected = in_order(stress);
   for (std::size_t i = 0; i < body.particles(); ++i)
-    if (body.shape.neighbours.of(i).size() == 12) {
+    if (body.shape.neighbors.of(i).size() == 12) {
       for (std::size_t k = 0; k < 6; ++k)
         EXPECT_NEAR(found[6 * i + k], expected[k], 1e-4 * e * unit) << k;
     }
@@ -113,7 +113,7 @@ TEST(ParticleArrays, BondsPullWhereNoOtherForceReaches) {
   // Twelve bonds of force 0.5 d0 at 1.5 d0: sum f r / (2 V0) = 12 0.5 1.5 d0^2 / 3 / (2 V0) each.
   const double d0 = 2 * r, pressure = 12 * 0.5 * 1.5 * d0 * d0 / 3 / (2 * volume_per_particle(r));
   for (std::size_t i = 0; i < body.particles(); ++i)
-    if (body.shape.neighbours.of(i).size() == 12) {
+    if (body.shape.neighbors.of(i).size() == 12) {
       for (std::size_t k = 0; k < 6; ++k)
         EXPECT_NEAR(found[6 * i + k], k < 3 ? pressure : 0, 1e-9 * pressure);
     }
@@ -127,7 +127,7 @@ TEST(ParticleArrays, VolumesThatAreKeptPressBack) {
   const double J = std::pow(0.9, 3);
   const auto found = values_of(body, moved(body, affine(0.9 * Mat3::Identity())), "stress");
   for (std::size_t i = 0; i < body.particles(); ++i)
-    if (body.shape.neighbours.of(i).size() == 12) {  // w = 1 within
+    if (body.shape.neighbors.of(i).size() == 12) {  // w = 1 within
       for (std::size_t k = 0; k < 6; ++k)
         EXPECT_NEAR(found[6 * i + k], k < 3 ? 1000 * (J - 1) * J : 0, 1e-9);
     }
@@ -154,7 +154,7 @@ TEST(ParticleValues, APairThatPartsIsLostAndOneThatMeetsIsGained) {
   input.bone = {0, 0, 0, 0};
   const RestBody body = rest_body(input);
   FrameState state = at_rest(body);
-  state.positions[0].x() -= 2 * r;  // leaves its only neighbour
+  state.positions[0].x() -= 2 * r;  // leaves its only neighbor
   state.positions[2].x() -= 2 * r;  // leaves one, and meets particle 1
   const ParticleValues values = particle_values(body, state);
   EXPECT_EQ(values.lost, (std::vector<double>{1, 1, 1, 1}));
@@ -175,7 +175,7 @@ TEST(ParticleValues, PullingHalvesApartTurnsOverAThirdOfAnInnerPlane) {
     if (!at_cut) {
       EXPECT_EQ(turnover[i], 0);
     }
-    if (!at_cut || body.shape.neighbours.of(i).size() < 12) continue;
+    if (!at_cut || body.shape.neighbors.of(i).size() < 12) continue;
     EXPECT_NEAR(turnover[i], 4.0 / 12, exact);  // of twelve, four lie across
     ++inner;
   }

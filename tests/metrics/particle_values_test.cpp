@@ -51,7 +51,7 @@ TEST(ParticleValues, AParticleThatLeavesItsCageIsNotAffine) {
   const RestBody body = rest_body(box_input());
   FrameState state = at_rest(body);
   std::size_t inner = 0;
-  while (body.shape.neighbours.of(inner).size() < 12) ++inner;
+  while (body.shape.neighbors.of(inner).size() < 12) ++inner;
   // All twelve seem to shift alike; as they lie in opposite pairs, no F explains any of it.
   state.positions[inner] += Vec3(0, 0, 0.1 * r);
   EXPECT_NEAR(particle_values(body, state).D2min[inner], 0.01 * r * r, 1e-16);
@@ -70,7 +70,7 @@ TEST(ParticleValues, PressureHasNoVonMisesStressAndShearHas) {
   const RestBody body = rest_body(input);
   const auto inner = [&](const ParticleValues& values, auto test) {
     for (std::size_t i = 0; i < body.particles(); ++i)
-      if (body.shape.neighbours.of(i).size() == 12) test(values.von_mises[i]);
+      if (body.shape.neighbors.of(i).size() == 12) test(values.von_mises[i]);
   };
   const double unit = 1 / (2 * r);  // k / d0
   inner(values_of(affine(0.99 * Mat3::Identity()), input),
@@ -82,11 +82,11 @@ TEST(ParticleValues, PressureHasNoVonMisesStressAndShearHas) {
         [&](double value) { EXPECT_NEAR(value, stress, 1e-4 * stress); });
 }
 
-TEST(ParticleValues, AtRestEachHasItsNeighboursAndNoTurnover) {
+TEST(ParticleValues, AtRestEachHasItsNeighborsAndNoTurnover) {
   const RestBody body = rest_body(box_input());
   const ParticleValues values = particle_values(body, at_rest(body));
   for (std::size_t i = 0; i < body.particles(); ++i) {
-    EXPECT_EQ(values.neighbours[i], double(body.shape.neighbours.of(i).size()));
+    EXPECT_EQ(values.neighbors[i], double(body.shape.neighbors.of(i).size()));
     EXPECT_EQ(values.lost[i] + values.gained[i] + values.turnover[i], 0);
   }
 }

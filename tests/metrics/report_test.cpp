@@ -35,11 +35,11 @@ ReportInput some_report(int frames = 5) {
   return input;
 }
 
-Film some_film() {
+Playback some_playback() {
   const RestBody body = rest_body(box_input());
-  Film film = plan_film(body, 1);
-  add_frame(film, 0, body, at_rest(body), particle_values(body, at_rest(body)));
-  return film;
+  Playback playback = plan_playback(body, 1);
+  add_frame(playback, 0, body, at_rest(body), particle_values(body, at_rest(body)));
+  return playback;
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -74,7 +74,7 @@ TEST(Report, NeedsNothingFromTheNetwork) {
   EXPECT_TRUE(contains(page, "default-src 'none'"));
 }
 
-TEST(Report, CarriesItsLibrariesWithTheirLicences) {
+TEST(Report, CarriesItsLibrariesWithTheirLicenses) {
   const std::string page = report_html(some_report());
   for (const char* part : {"Chart.js v3", "OrbitControls", "Chart.js contributors",
                            "three.js authors", "Permission is hereby granted"})
@@ -89,8 +89,8 @@ TEST(Report, EscapesWhateverItIsGiven) {
   input.pictures = {{evil, evil}};
   input.checks = {{evil, evil, 1, 2, {}, false}};
   input.curves = {{evil, evil, evil, evil, {{evil, {0, 1}, {0, 1}}}}};
-  input.film = some_film();
-  input.film.bone_names = {evil};
+  input.playback = some_playback();
+  input.playback.bone_names = {evil};
   const std::string page = own_part(report_html(input));
   EXPECT_FALSE(contains(page, "<script>alert"));
   EXPECT_TRUE(contains(page, "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot;&amp;"));
@@ -131,7 +131,7 @@ TEST(Report, ChartsShowRadiiSharesAndChangesAsTheySay) {
   frames[0].pair_energy = -7;
   frames[1].pair_energy = -5;
   frames[1].pose_error_rms = 3 * r;
-  frames[1].broken_neighbours = 0.25;
+  frames[1].broken_neighbors = 0.25;
   const auto last = [&](const std::string& metric) {
     for (const ChartPlan& plan : chart_plans())
       for (const Line& line : planned_chart(plan, frames, r).lines)
@@ -140,7 +140,7 @@ TEST(Report, ChartsShowRadiiSharesAndChangesAsTheySay) {
   };
   EXPECT_EQ(last("pair_energy"), 2);
   EXPECT_EQ(last("pose_error_rms"), 3);
-  EXPECT_EQ(last("broken_neighbours"), 25);
+  EXPECT_EQ(last("broken_neighbors"), 25);
 }
 
 TEST(Report, StandsWithOneFrameAndNothingMeasured) {
@@ -163,11 +163,11 @@ TEST(Report, StaysSmallHoweverLongTheRun) {
 TEST(Report, OffersTheWorstFramesOfWhatWentWrong) {
   ReportInput input = some_report(3);
   input.frames = std::vector<FrameMetrics>(3);
-  input.frames[1].broken_neighbours = 0;
+  input.frames[1].broken_neighbors = 0;
   input.frames[2].volume_error = 0.1;
   input.summary = summarize(input.frames, r);
   const auto worst = nlohmann::json::parse(page_data(input, {}))["worst"];
-  ASSERT_EQ(worst.size(), 1u);  // no neighbours are broken, and the rest was not measured
+  ASSERT_EQ(worst.size(), 1u);  // no neighbors are broken, and the rest was not measured
   EXPECT_EQ(worst[0]["metric"], "volume_error");
   EXPECT_EQ(worst[0]["frame"], 2);
 }
@@ -178,8 +178,8 @@ TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
   frames[2].volume_error = 0;
   frames[1].pose_error_far_rms = 3 * r;
   frames[1].inverted = 100;
-  frames[1].broken_neighbours = 0.02;
-  frames[2].broken_neighbours = 0;
+  frames[1].broken_neighbors = 0.02;
+  frames[2].broken_neighbors = 0;
   Summary summary = summarize(frames, r);
   summary.residual_rms = 0.1 * r;
   const auto items = verdict(frames, summary, r);
@@ -197,8 +197,8 @@ TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
 
 TEST(Verdict, CountsBondsWhereThereAreSome) {
   std::vector<FrameMetrics> frames(1);
-  frames[0].broken_neighbours = 1;
-  EXPECT_EQ(verdict(frames, summarize(frames, r), r)[2].label, "broken neighbours");
+  frames[0].broken_neighbors = 1;
+  EXPECT_EQ(verdict(frames, summarize(frames, r), r)[2].label, "broken neighbors");
   frames[0].broken_bonds = 0.005;
   const VerdictItem item = verdict(frames, summarize(frames, r), r)[2];
   EXPECT_EQ(item.label, "broken bonds");
@@ -233,7 +233,7 @@ TEST(Verdict, EachScaleChangesAtItsTwoValues) {
   for (const Judged& judged :
        {Judged{&FrameMetrics::volume_error, 0, 0.02, 0.1},
         Judged{&FrameMetrics::pose_error_far_rms, 1, 2, 5},
-        Judged{&FrameMetrics::broken_neighbours, 2, 0.01, 0.05},
+        Judged{&FrameMetrics::broken_neighbors, 2, 0.01, 0.05},
         Judged{&FrameMetrics::inverted, 3, 0, 3}, Judged{&FrameMetrics::tip_angle, 4, 1, 5}}) {
     EXPECT_EQ(level(judged, judged.good), Level::good) << judged.item;
     EXPECT_EQ(level(judged, judged.good * above + 1e-9), Level::fair) << judged.item;

@@ -13,7 +13,7 @@ constexpr double exact = 1e-9;  // degrees
 TEST(Slices, AreTheHalfPlanesOfALatticeAlongTheBones) {
   const RestBody body = rest_body(box_input());
   ASSERT_EQ(body.slices.all.size(), static_cast<std::size_t>(along));
-  EXPECT_EQ(body.slices.neighbours.size(), static_cast<std::size_t>(along - 1));
+  EXPECT_EQ(body.slices.neighbors.size(), static_cast<std::size_t>(along - 1));
   for (int k = 0; k < along; ++k)
     for (const auto i : body.slices.all[k].particles) EXPECT_EQ(plane_of(body.shape.points[i]), k);
 }
@@ -22,7 +22,7 @@ TEST(Slices, RunOnFromBoneToBoneWithinAThousandthOfALine) {
   for (const double aside : {0.9e-3, 1.1e-3}) {
     RestInput input = box_input();
     input.bones[1].rest.origin.x() += aside * input.bones[1].length;
-    const std::size_t joined = rest_body(input).slices.neighbours.size();
+    const std::size_t joined = rest_body(input).slices.neighbors.size();
     EXPECT_EQ(joined, static_cast<std::size_t>(aside < 1e-3 ? along - 1 : along - 2));
   }
 }

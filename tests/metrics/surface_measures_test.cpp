@@ -35,7 +35,7 @@ TEST(SurfaceDistortion, AScaledSheetKeepsItsAngles) {
 TEST(SurfaceDistortion, CountsTheFacesThatAPointTurnsOver) {
   const Triangles flat = sheet(6);
   Points now = flat.points;
-  now[7 * 3 + 3] += Vec3(1.4, 0.2, 0);  // past its neighbour in the plane
+  now[7 * 3 + 3] += Vec3(1.4, 0.2, 0);  // past its neighbor in the plane
   int turned_over = 0;
   for (const auto& face : flat.faces) {
     const Vec3 a = now[face[0]], b_ = now[face[1]], c = now[face[2]];

@@ -18,7 +18,7 @@ inline constexpr double b = 2.6 * r;
 
 using Map = std::function<Vec3(const Vec3&)>;
 
-/// Plane k of the lattice lies at z = (k + 1/2) h; x and y are centred on the bones.
+/// Plane k of the lattice lies at z = (k + 1/2) h; x and y are centered on the bones.
 inline Points fcc_box(int width = across, int planes = along) {
   Points points;
   const double middle = (width - 1) / 2.0;

@@ -17,7 +17,7 @@ Settings bent_scene(BoneForce form = BoneForce::paper) {
   Settings settings = test::box_scene(25);
   settings.binding.joint_zone = 2;
   settings.binding.force = form;
-  KeySettings end = test::bend_key(1, 80);
+  KeyDefinition end = test::bend_key(1, 80);
   end.twist = 60;
   end.translation = {0.01, 0.02, 0};
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), test::bend_key(1, -30)}),
@@ -107,9 +107,9 @@ TEST(Reactions, BalanceForceMomentAndPowerOfTheBody) {
     EXPECT_LT(force.norm(), 1e-13 * scale);
     EXPECT_LT(moment.norm(), 1e-13 * scale);
     EXPECT_NEAR(power, 0, 1e-13 * scale);
-    const double booked =  // what the energy book adds up
+    const double entered =  // what the energy ledger adds up
         std::accumulate(forces.bone_power.begin(), forces.bone_power.end(), 0.0);
-    EXPECT_NEAR(of_bones, booked, 1e-13 * scale);
+    EXPECT_NEAR(of_bones, entered, 1e-13 * scale);
   }
 }
 

@@ -15,7 +15,7 @@ constexpr double r = 0.01;
 Settings moving_scene(double joint_zone = 2) {
   Settings settings = test::box_scene(25);
   settings.binding.joint_zone = joint_zone;
-  KeySettings begin = test::bend_key(-0.4, 10), end = test::bend_key(0.5, 80);
+  KeyDefinition begin = test::bend_key(-0.4, 10), end = test::bend_key(0.5, 80);
   end.twist = 200;
   end.translation = {0.1, 0.2, 0.3};
   settings.tracks = {test::track("lower", {test::bend_key(-0.4, -20), test::bend_key(0.5, 60)}),
@@ -159,7 +159,7 @@ TEST(BoneSlots, NonFiniteForcesDoNotComeFromParticlesExactlyOnTheirAxis) {
 template <class Real>
 void expect_slots_of_binding(const Scene& scene, const std::vector<std::int32_t>& id) {
   constexpr std::size_t block = kernel::Traits<Real>::block;
-  const BoneSlots<Real> slots = bone_slots<Real>(scene.body, id, Measure());
+  const BoneSlots<Real> slots = bone_slots<Real>(scene.body, id, Units());
   ASSERT_EQ(slots.first.size(), (id.size() + block - 1) / block + 1);
   for (std::size_t k = 0; k < id.size(); ++k) {
     const auto influences = scene.body.binding.of(id[k]);

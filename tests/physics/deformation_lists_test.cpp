@@ -27,8 +27,8 @@ constexpr double r = 0.01;
 
 double height(int half_planes) { return half_planes * half_plane_spacing(r); }
 
-KeySettings key(double time, const Vec3& translation, double angle = 0) {
-  KeySettings key = test::bend_key(time, angle);
+KeyDefinition key(double time, const Vec3& translation, double angle = 0) {
+  KeyDefinition key = test::bend_key(time, angle);
   key.translation = translation;
   return key;
 }
@@ -147,7 +147,7 @@ Story part() {
 Story spin() {
   Story story{"Spin", test::box_scene(25), test::fcc_box(7, 7, 25, r)};
   story.settings.material.young_modulus = 1e6;
-  std::vector<KeySettings> keys;
+  std::vector<KeyDefinition> keys;
   for (int k = 0; k <= 8; ++k) keys.push_back(key(k / 16.0, {0, 0, 0}, 90 * k));
   story.settings.tracks = {test::track("lower", keys),
                            test::track("upper", {test::twist_key(0, 0), test::twist_key(0.5, 60)})};
@@ -158,7 +158,7 @@ Story spin() {
 /// Both bones jump.
 Story jump() {
   Story story{"Jump", test::box_scene(25), test::fcc_box(7, 7, 25, r)};
-  std::vector<KeySettings> lower, upper;
+  std::vector<KeyDefinition> lower, upper;
   for (int k = 0; k < 10; ++k) {
     lower.push_back(key(0.05 * k, {0.1 * r * k, 0, 0}, k));
     upper.push_back(test::bend_key(0.04 * k, 3 * k));
@@ -172,7 +172,7 @@ Story jump() {
 Story tumble() {
   Story story{"Tumble", test::box_scene(9), test::fcc_ball(3, r)};
   story.settings.bones = {{"core", "", Vec3(0, 0, -r), Vec3(0, 0, r)}};
-  std::vector<KeySettings> keys;
+  std::vector<KeyDefinition> keys;
   for (int k = 0; k < 100; ++k) keys.push_back(test::bend_key(0.003 * k, 2 * k));
   story.settings.tracks = {test::track("core", keys)};
   story.settings.tracks[0].interpolation = Interpolation::step;
@@ -184,7 +184,7 @@ Story tumble() {
 Story moved(Story story, const Vec3& by, const std::string& name) {
   story.name = name;
   for (Vec3& point : story.rest) point += by;
-  for (BoneSettings& bone : story.settings.bones) {
+  for (BoneDefinition& bone : story.settings.bones) {
     if (bone.head) *bone.head += by;
     *bone.tail += by;
   }
@@ -196,12 +196,12 @@ Story scaled(Story story, double scale, const std::string& name) {
   story.name = name;
   *story.settings.body.radius *= scale;
   for (Vec3& point : story.rest) point *= scale;
-  for (BoneSettings& bone : story.settings.bones) {
+  for (BoneDefinition& bone : story.settings.bones) {
     if (bone.head) *bone.head *= scale;
     *bone.tail *= scale;
   }
-  for (TrackSettings& track : story.settings.tracks)
-    for (KeySettings& key : track.keys) *key.time *= scale, key.translation *= scale;
+  for (TrackDefinition& track : story.settings.tracks)
+    for (KeyDefinition& key : track.keys) *key.time *= scale, key.translation *= scale;
   story.duration *= scale;
   return story;
 }
@@ -288,14 +288,14 @@ TEST(ListsThrough, ABendOfABodyThatBonesHoldInPart) {
 
 /// A bar on one bone, and twelve particles around it that fly towards it, past it and at each
 /// other: led by the bar's bone, by another one that turns, or by none, but not held.
-struct Shots {
+struct Snapshots {
   Settings settings;
   Points rest = test::fcc_box(9, 9, 33, r);
   Body body;
   Particles particles;
   static constexpr std::size_t count = 12;
 
-  Shots(Precision precision, bool moving) : settings(test::in(precision, bend().settings)) {
+  Snapshots(Precision precision, bool moving) : settings(test::in(precision, bend().settings)) {
     settings.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, height(33))},
                       {"upper", "", Vec3(0.5, 0, 0), Vec3(0.5, 0, height(33))}};
     settings.tracks.clear();
@@ -325,28 +325,28 @@ struct Shots {
   }
 };
 
-Simulation begin(const Shots& shots) {
-  return {shots.body, make_motion(shots.settings, shots.body.skeleton), shots.particles,
-          stepping_of(shots.settings.solver, test::step_of(shots.settings, shots.body, 0.2))};
+Simulation begin(const Snapshots& snapshots) {
+  return {snapshots.body, make_motion(snapshots.settings, snapshots.body.skeleton), snapshots.particles,
+          stepping_of(snapshots.settings.solver, test::step_of(snapshots.settings, snapshots.body, 0.2))};
 }
 
-void expect_pairs_through_shots(Precision precision, bool moving) {
-  Simulation simulation = begin(Shots(precision, moving));
+void expect_pairs_through_snapshots(Precision precision, bool moving) {
+  Simulation simulation = begin(Snapshots(precision, moving));
   for (int moment = 0; moment < 150; ++moment) {
     while (simulation.time() < moment * 0.4 / 150) simulation.step();
     test::expect_pairs_of_cells(simulation, precision);
     if (testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GT(simulation.list_counts().strays, 50);
+  EXPECT_GT(simulation.list_counts().escaped, 50);
 }
 
 TEST(ListsThrough, AFewParticlesThatFlyThroughAMovingScene) {
-  for (const Precision precision : test::precisions) expect_pairs_through_shots(precision, true);
+  for (const Precision precision : test::precisions) expect_pairs_through_snapshots(precision, true);
 }
 
 // No list is made anew for the bones' sake: what meets was paired while it flew.
 TEST(ListsThrough, AFewParticlesThatFlyThroughAStillScene) {
-  for (const Precision precision : test::precisions) expect_pairs_through_shots(precision, false);
+  for (const Precision precision : test::precisions) expect_pairs_through_snapshots(precision, false);
 }
 
 TEST(ListsThrough, LongWaysKeepTheirPlaceInBothPrecisions) {
@@ -364,7 +364,7 @@ std::string counts_after_250_steps(const std::string& name, Simulation simulatio
   const ListCounts counts = simulation.list_counts();
   std::string row = name;
   for (const auto count :
-       {counts.rebuilds, counts.sifts, counts.looks, counts.strays, counts.sorts})
+       {counts.rebuilds, counts.prunings, counts.looks, counts.escaped, counts.sorts})
     row += ',' + std::to_string(count);
   return row + ',' + test::rounded(counts.wide) + ',' + test::rounded(counts.narrow) + '\n';
 }
@@ -372,13 +372,13 @@ std::string counts_after_250_steps(const std::string& name, Simulation simulatio
 /// A change of these numbers changes how long a run takes, not where its body goes: look whether
 /// it was meant.
 TEST(ListsThrough, StoriesAreMadeAsOftenAndAsLongAsTheyWere) {
-  std::string text = "story,rebuilds,sifts,looks,strays,sorts,wide,narrow\n";
+  std::string text = "story,rebuilds,prunings,looks,escaped,sorts,wide,narrow\n";
   for (const Precision precision : test::precisions) {
     const std::string in = precision == Precision::binary64 ? " in double" : " in single";
     for (const Story& story : {bend(), twist(), crush(), collide(), melt(), shake(), travel(),
                                part(), spin(), jump(), tumble()})
       text += counts_after_250_steps(story.name + in, begin(story, precision));
-    text += counts_after_250_steps("Shots" + in, begin(Shots(precision, true)));
+    text += counts_after_250_steps("Snapshots" + in, begin(Snapshots(precision, true)));
   }
   test::expect_golden("physics/golden/lists.csv", text);
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double r = 0.01;
 
 Material material_of(MaterialModel model, double poisson_ratio = 0.45) {
-  MaterialSettings settings;
+  MaterialOptions settings;
   settings.model = model;
   settings.poisson_ratio = poisson_ratio;
   return make_material(settings, r, 1000 * volume_per_particle(r));
@@ -56,7 +56,7 @@ TEST(Material, HasTheModulusAskedFor) {
     EXPECT_NEAR(material_of(model).young_modulus(), 10e3, 30) << static_cast<int>(model);
     EXPECT_NEAR(material_of(model).constants().hill_young_modulus(), 10e3, 30);
   }
-  MaterialSettings settings;
+  MaterialOptions settings;
   settings.modulus_direction = Vec3(1, 1, 0);
   BodyShape shape{r, 1, 1, 0.1, test::turned(Vec3::UnitZ(), 45)};
   const Material along = make_material(settings, shape);  // the cube axis lies along the direction
@@ -139,7 +139,7 @@ TEST_P(Moduli, LetWavesTravelAsTheyShould) {
 
 TEST(BondedVolume, HasThePoissonRatioAskedForByMeasure) {
   for (const double nu : {0.26, 0.3, 0.35, 0.4, 0.45}) {
-    MaterialSettings settings;
+    MaterialOptions settings;
     settings.model = MaterialModel::bonded_volume;
     settings.poisson_ratio = nu;
     const CubicConstants C = measured_constants(make_material(settings, r, 1));
@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Moduli,
                          name_of);
 
 TEST(DampingRatio, IsWhatItWasAskedToBe) {
-  MaterialSettings settings;
+  MaterialOptions settings;
   settings.damping_ratio = 0.15;
   const BodyShape shape = shape_of(test::fcc_box(7, 7, 51, r), r, 1000 * volume_per_particle(r));
   EXPECT_NEAR(shape.length, 51 * half_plane_spacing(r), 0.02 * shape.length);

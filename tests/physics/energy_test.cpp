@@ -83,7 +83,7 @@ TEST(Energy, OfAFreeUndampedBodyIsKept) {
   EXPECT_EQ(end.dissipation, 0);
 }
 
-TEST(Energy, OfAFreeDampedBodyIsInTheBooksAtEveryMoment) {
+TEST(Energy, OfAFreeDampedBodyIsInTheLedgerAtEveryMoment) {
   const Settings settings = test::unbound(test::box_scene(25));
   const Points rest = test::fcc_box(7, 7, 15, r);
   const Material material = test::material_of(settings);
@@ -104,7 +104,7 @@ TEST(Energy, AtRestIsTheCohesionOfAllBonds) {
   Simulation simulation = test::make_simulation(test::box_scene(25), test::fcc_box(5, 5, 9, r));
   const PairForce pair = simulation.body().material.pair;
   int partners = 0;
-  for (const int count : simulation.forces().neighbours) partners += count;
+  for (const int count : simulation.forces().neighbors) partners += count;
   const double cohesion = pair.k2 * std::pow(pair.b - pair.a, 3) / 6;
   const Energies energies = simulation.energies();
   EXPECT_NEAR(energies.pair, -cohesion * partners / 2, 1e-10 * cohesion * partners);

@@ -36,7 +36,7 @@ struct Story {
   double shake = 0.05 * r, speed = 0.02;  ///< at the start, m and m/s
 
   Story(std::string name_) : name(std::move(name_)) {
-    settings.solver.neighbour_search = NeighbourSearch::cells;
+    settings.solver.neighbor_search = NeighborSearch::cells;
     settings.solver.gravity = {1, 0.5, -4};
     settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.05, 12)})};
   }
@@ -99,7 +99,7 @@ TEST(Golden, IntegratorsAndDampingsEndWhereTheyDid) {
       text += story.end();
       if (form != DampingForm::paper) continue;
       story.name += " by lists";
-      story.settings.solver.neighbour_search = NeighbourSearch::lists;
+      story.settings.solver.neighbor_search = NeighborSearch::lists;
       text += story.end();
     }
   test::expect_golden("physics/golden/integrators.csv", text);
@@ -120,9 +120,9 @@ TEST(Golden, MaterialsEndWhereTheyDid) {
   given.settings.material.k1 = 3e5;
   given.settings.material.k2 = 2e5;
   text += given.end();
-  Story neighbours("initial neighbours");
-  neighbours.settings.material.cohesion = Cohesion::initial_neighbours;
-  text += neighbours.end();
+  Story neighbors("initial neighbors");
+  neighbors.settings.material.cohesion = Cohesion::initial_neighbors;
+  text += neighbors.end();
   for (const auto& [model, name] : {std::pair{MaterialModel::bonded, "bonded"},
                                     {MaterialModel::bonded_volume, "bonded volume"}}) {
     Story bonded(name);
@@ -152,9 +152,9 @@ TEST(Golden, BonesPullAsTheyDid) {
   anchor.settings.binding.force = BoneForce::anchor;
   text += anchor.end();
   for (const auto& [search, way] :
-       {std::pair{NeighbourSearch::cells, "cells"}, {NeighbourSearch::lists, "lists"}}) {
+       {std::pair{NeighborSearch::cells, "cells"}, {NeighborSearch::lists, "lists"}}) {
     Story strong(std::string("strengths of each bone by ") + way);
-    strong.settings.solver.neighbour_search = search;
+    strong.settings.solver.neighbor_search = search;
     strong.settings.tracks[0].keys[1].twist = 20;
     strong.settings.bones[1].stiffness = 2;
     strong.settings.bones[0].twist_stiffness = 0.5;

@@ -326,8 +326,8 @@ TEST(Obstacles, OneThatRidesMovesWithItsBone) {
   const Skeleton skeleton = make_skeleton(scene);
   const Motion motion = make_motion(scene, skeleton);
   const RigidFrame frame = {{0.1, 0.05, 0.6}, test::turned({1, 2, 0}, 20)};
-  const ObstacleMotion ride = riding(1, skeleton.bones[1], frame);
-  const auto at = [&](double time) { return ride(time, pose_at(skeleton, motion, time)); };
+  const ObstacleMotion drift = riding(1, skeleton.bones[1], frame);
+  const auto at = [&](double time) { return drift(time, pose_at(skeleton, motion, time)); };
   EXPECT_NEAR((at(0).frame.origin - frame.origin).norm(), 0, 1e-15);
   const Vec3 head = skeleton.bones[1].head();
   const Vec3 turned = head + test::turned(Vec3::UnitY(), 90) * (frame.origin - head);

@@ -18,16 +18,16 @@ PairForce pair_of_material() { return test::material_of(test::box_scene()).pair;
 /// Points in the kernel's form.
 template <class Real>
 struct World {
-  Measure measure;
+  Units units;
   BlockState<Real> state;
   double range;  ///< in lengths of the kernel
 
-  World(const Points& points, double metres) : state(points.size()) {
+  World(const Points& points, double meters) : state(points.size()) {
     Box box;
     for (const Vec3& point : points) box.extend(point);
-    measure = measure_for<Real>(box, pair_of_material(), 1e-3);
-    for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], measure);
-    range = metres / measure.length;
+    units = units_for<Real>(box, pair_of_material(), 1e-3);
+    for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], units);
+    range = meters / units.length;
   }
 
   /// The squared distance as the kernel rounds it.
@@ -54,10 +54,10 @@ std::vector<std::set<std::int32_t>> by_all_pairs(World<Real>& world, double rang
   return differences;
 }
 
-/// The same for many points, in metres.
-std::vector<std::set<std::int32_t>> by_neighbours(const Points& points, double range,
+/// The same for many points, in meters.
+std::vector<std::set<std::int32_t>> by_neighbors(const Points& points, double range,
                                                   std::size_t block) {
-  const NeighbourLists near = neighbours_within(points, range);
+  const NeighborLists near = neighbors_within(points, range);
   std::vector<std::set<std::int32_t>> differences((points.size() + block - 1) / block);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (const std::uint32_t j : near.of(i))
@@ -99,14 +99,14 @@ std::vector<Points> bodies() {
   const Points lattice = test::fcc_box(9, 9, 13, r);
   Points shuffled = lattice;
   std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(3));
-  Points stray = lattice;
-  stray[100] += Vec3(50, 0, 0);
-  stray.back() += Vec3(0, -700, 30);
+  Points escaped = lattice;
+  escaped[100] += Vec3(50, 0, 0);
+  escaped.back() += Vec3(0, -700, 30);
   Points far = lattice;
   for (Vec3& point : far) point += Vec3(3e4, -2e4, 1e4);
   return {lattice,
           shuffled,
-          stray,
+          escaped,
           far,
           test::affine(lattice, 0.4 * Mat3::Identity()),
           test::affine(lattice, Vec3(1, 1, 0).asDiagonal()),
@@ -137,7 +137,7 @@ TYPED_TEST(OffsetListsOf, NameTheDifferencesOfAllPairsInRangeAndNoOthers) {
   }
 }
 
-TYPED_TEST(OffsetListsOf, SiftedToAShorterRangeAreTheListsOfThatRange) {
+TYPED_TEST(OffsetListsOf, PrunedToAShorterRangeAreTheListsOfThatRange) {
   for (const Points& body : bodies()) {
     World<TypeParam> world(body, 3.6 * r);
     const BlockCells cells(world.state, world.range);
@@ -146,7 +146,7 @@ TYPED_TEST(OffsetListsOf, SiftedToAShorterRangeAreTheListsOfThatRange) {
     for (const auto set : test::instruction_sets()) {
       const auto kernel = kernel::functions_of<TypeParam>(set);
       const OffsetLists wide = find_offsets(kernel, world.state, cells, world.range);
-      expect_lists(sift_offsets(kernel, world.state, wide, shorter), expected);
+      expect_lists(prune_offsets(kernel, world.state, wide, shorter), expected);
     }
   }
 }
@@ -162,11 +162,11 @@ TYPED_TEST(OffsetListsOf, LargeBodiesAreRightAndTheSameForEveryThreadCount) {
     with_threads(threads, [&] {
       const BlockCells cells(world.state, world.range);
       wide.push_back(find_offsets(kernel, world.state, cells, world.range));
-      narrow.push_back(sift_offsets(kernel, world.state, wide.back(), 0.75 * world.range));
+      narrow.push_back(prune_offsets(kernel, world.state, wide.back(), 0.75 * world.range));
     });
   if (std::is_same_v<TypeParam, double>)
     expect_lists(wide[0],
-                 by_neighbours(positions_of(shaken), 3.6 * r, BlockState<TypeParam>::block));
+                 by_neighbors(positions_of(shaken), 3.6 * r, BlockState<TypeParam>::block));
   for (const OffsetLists& other : wide) {
     EXPECT_EQ(other.first, wide[0].first);
     EXPECT_EQ(other.value, wide[0].value);
@@ -212,7 +212,7 @@ TYPED_TEST_SUITE(OrderOf, Reals);
 TYPED_TEST(OrderOf, ColumnsNamesEveryParticleOnceForEveryThreadCount) {
   for (const Points& body : bodies()) {
     World<TypeParam> world(body, 3.6 * r);
-    const double edge = 2 * r / world.measure.length;
+    const double edge = 2 * r / world.units.length;
     const auto order = order_by_columns(world.state, edge);
     auto sorted = order;
     std::sort(sorted.begin(), sorted.end());
@@ -231,10 +231,10 @@ TYPED_TEST(OrderOf, ColumnsShortensTheListsOfAShuffledBody) {
     return find_offsets(kernel, state, BlockCells(state, world.range), world.range).mean();
   };
   BlockState<TypeParam> sorted(points.size());
-  const auto order = order_by_columns(world.state, 2.4 * r / world.measure.length);
+  const auto order = order_by_columns(world.state, 2.4 * r / world.units.length);
   reorder(world.state, order, sorted);
   for (std::size_t k = 0; k < points.size(); ++k)
-    ASSERT_EQ(sorted.position(k, world.measure), world.state.position(order[k], world.measure));
+    ASSERT_EQ(sorted.position(k, world.units), world.state.position(order[k], world.units));
   EXPECT_LT(mean(sorted), 0.6 * mean(world.state));
 }
 
@@ -333,13 +333,13 @@ TYPED_TEST_SUITE(BlockStateOf, Reals);
 TYPED_TEST(BlockStateOf, GivesBackPositionsAndVelocities) {
   for (const Points& body : bodies()) {
     World<TypeParam> world(body, 3.6 * r);
-    const double position = sizeof(TypeParam) == 8 ? 0 : 0.87 * world.measure.length + 1e-11;
+    const double position = sizeof(TypeParam) == 8 ? 0 : 0.87 * world.units.length + 1e-11;
     const double velocity = sizeof(TypeParam) == 8 ? 0 : 1e-7;
     for (std::size_t k = 0; k < body.size(); ++k) {
       const Vec3 v(1, -2, 0.1 * static_cast<double>(k % 10));
-      world.state.set_velocity(k, v, world.measure);
-      ASSERT_LE((world.state.position(k, world.measure) - body[k]).norm(), position);
-      ASSERT_LE((world.state.velocity(k, world.measure) - v).norm(), velocity * v.norm());
+      world.state.set_velocity(k, v, world.units);
+      ASSERT_LE((world.state.position(k, world.units) - body[k]).norm(), position);
+      ASSERT_LE((world.state.velocity(k, world.units) - v).norm(), velocity * v.norm());
     }
   }
 }
@@ -351,7 +351,7 @@ TYPED_TEST(BlockStateOf, PadsAreFarFromAllAndFromEachOther) {
     const auto arrays = world.state.arrays();
     const auto n = static_cast<std::ptrdiff_t>(body.size());
     const auto end = (static_cast<std::ptrdiff_t>(world.state.blocks()) + 1) * size;
-    const double reach = std::pow(4 * pair_of_material().b / world.measure.length, 2);
+    const double reach = std::pow(4 * pair_of_material().b / world.units.length, 2);
     const auto apart = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
       double squared = 0;
       for (int axis = 0; axis < 3; ++axis) {

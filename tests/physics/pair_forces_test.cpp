@@ -67,7 +67,7 @@ void expect_reference(const Particles& particles, const Material& material) {
   for (std::size_t i = 0; i < particles.size(); ++i) {
     ASSERT_LT((forces.pair[i] - expected.pair[i]).norm(), 1e-12 * scale) << i;
     ASSERT_LT((forces.damping[i] - expected.damping[i]).norm(), 1e-12 * damping_scale) << i;
-    ASSERT_EQ(forces.neighbours[i], expected.count[i]) << i;
+    ASSERT_EQ(forces.neighbors[i], expected.count[i]) << i;
   }
   EXPECT_NEAR(pair_energy(particles, material.pair), expected.energy,
               1e-12 * particles.size() * scale * r);
@@ -118,7 +118,7 @@ TEST(PairForces, ActOnNobodyBeyondTheRange) {
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(forces.pair[i], Vec3::Zero());
       EXPECT_EQ(forces.damping[i], Vec3::Zero());
-      EXPECT_EQ(forces.neighbours[i], 0);
+      EXPECT_EQ(forces.neighbors[i], 0);
     }
   }
 }
@@ -140,7 +140,7 @@ TEST(PairForces, PushCoincidentParticlesApart) {
     EXPECT_DOUBLE_EQ(forces.pair[0].norm(), 4 * material.pair.k1 * r * r);
     EXPECT_EQ(forces.pair[0], -forces.pair[1]);
     EXPECT_TRUE(forces.damping[0].allFinite());
-    EXPECT_EQ(forces.neighbours, (std::vector<int>{1, 1}));
+    EXPECT_EQ(forces.neighbors, (std::vector<int>{1, 1}));
   }
 }
 

@@ -21,12 +21,12 @@ Material material_with(double a, double b, MaterialModel model = MaterialModel::
 class Packings : public testing::TestWithParam<Packing> {};
 INSTANTIATE_TEST_SUITE_P(Both, Packings, testing::Values(Packing::fcc, Packing::hcp));
 
-TEST_P(Packings, RestBelowTheSecondNeighbours) {
+TEST_P(Packings, RestBelowTheSecondNeighbors) {
   for (const double b : {2.2, 2.6, 2.75})
     EXPECT_GT(least_rise(material_with(2, b), GetParam()), 0.1) << b;
 }
 
-TEST_P(Packings, CollapseWhereSecondNeighboursPull) {
+TEST_P(Packings, CollapseWhereSecondNeighborsPull) {
   for (const double b : {2.8284, 2 * std::sqrt(2.0), 2.84, 3.0})
     EXPECT_LT(least_rise(material_with(2, b), GetParam()), -0.1) << b;
 }

@@ -73,8 +73,8 @@ World with(World world, Integrator integrator) {
   return world;
 }
 
-World with(World world, NeighbourSearch search) {
-  world.settings.solver.neighbour_search = search;
+World with(World world, NeighborSearch search) {
+  world.settings.solver.neighbor_search = search;
   return world;
 }
 
@@ -132,8 +132,8 @@ std::vector<World> worlds() {
           melt("MeltInDouble", binary64),
           melt("MeltInSingle", binary32),
           flight("Flight"),
-          with(bend("Cells", binary64, 17), NeighbourSearch::cells),
-          with(with(bend("VerletWithCells", binary64, 17), NeighbourSearch::cells),
+          with(bend("Cells", binary64, 17), NeighborSearch::cells),
+          with(with(bend("VerletWithCells", binary64, 17), NeighborSearch::cells),
                Integrator::velocity_verlet),
           tearing("Bonded", MaterialModel::bonded),
           tearing("BondedVolume", MaterialModel::bonded_volume),
@@ -146,7 +146,7 @@ struct Told {
   std::uint64_t state = 0;
   std::vector<double> energies;
   Points forces;
-  std::vector<int> neighbours;
+  std::vector<int> neighbors;
   std::vector<std::int32_t> broken;
 
   bool operator==(const Told&) const = default;
@@ -159,7 +159,7 @@ Told tell(Simulation& simulation) {
             {of.kinetic, of.gravity, of.pair, of.bone, of.work_of_bones, of.dissipation, of.contact,
              of.work_of_world},
             {},
-            forces.neighbours,
+            forces.neighbors,
             {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
   for (std::size_t i = 0; i < simulation.particles().size(); ++i)
     for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
@@ -285,7 +285,7 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   refuse(bend("", binary64, 17), good, "particles, not");
   refuse(bend("", binary32), good, "precision");
   refuse(tearing("", MaterialModel::bonded), good, "particles, not");
-  refuse(with(bend("", binary64, 17), NeighbourSearch::cells),
+  refuse(with(bend("", binary64, 17), NeighborSearch::cells),
          bend("", binary32, 17).begin().save(), "single precision");
   SimulationState bad = good;
   bad.order[3] = bad.order[4];
@@ -300,7 +300,7 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   bad.steps = -1;
   refuse(bend("", binary64), bad, "steps");
   bad = good;
-  bad.world_book.work = NAN;
+  bad.world_ledger.work = NAN;
   refuse(bend("", binary64), bad, "energies");
   bad = bend("", binary32).begin().save();
   bad.whole_numbers.length = 0;

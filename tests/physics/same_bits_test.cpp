@@ -14,7 +14,7 @@ Settings bend_and_twist(int half_planes, Precision precision) {
   Settings settings = test::in(precision, test::box_scene(half_planes));
   settings.binding.joint_zone = 2;
   settings.solver.gravity = {0, 1, -2};
-  KeySettings end = test::bend_key(0.2, 50);
+  KeyDefinition end = test::bend_key(0.2, 50);
   end.twist = 70;
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), test::bend_key(0.2, -10)}),
                      test::track("upper", {test::bend_key(0, 0), end})};
@@ -26,8 +26,8 @@ struct Told {
   std::uint64_t state;
   std::vector<double> energies;
   Points pair, damping, bone;
-  std::vector<int> neighbours;
-  std::int64_t rebuilds, sifts, looks, strays, sorts;
+  std::vector<int> neighbors;
+  std::int64_t rebuilds, prunings, looks, escaped, sorts;
   double wide, narrow;
 
   bool operator==(const Told&) const = default;
@@ -43,11 +43,11 @@ Told tell(Simulation& simulation) {
           forces.pair,
           forces.damping,
           forces.bone,
-          forces.neighbours,
+          forces.neighbors,
           lists.rebuilds,
-          lists.sifts,
+          lists.prunings,
           lists.looks,
-          lists.strays,
+          lists.escaped,
           lists.sorts,
           lists.wide,
           lists.narrow};
@@ -123,7 +123,7 @@ void expect_same_for_threads(Precision precision) {
           run(kernel::best_instruction_set(), settings, rest, 16, 0.05 * r, 0.5, 0.25);
       if (!first) first = told;
       EXPECT_GT(told.rebuilds, 1);
-      EXPECT_GT(told.sifts, told.rebuilds);
+      EXPECT_GT(told.prunings, told.rebuilds);
       EXPECT_TRUE(told == *first) << threads << " threads";
     });
 }

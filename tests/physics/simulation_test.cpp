@@ -27,7 +27,7 @@ Settings bend_scene() {
 
 TEST(Simulation, StretchingBonesGoByCellsAndTakeTheBodyAlong) {
   Settings settings = test::box_scene(25);
-  KeySettings rest, longer;
+  KeyDefinition rest, longer;
   rest.time = 0;
   longer.time = 0.2;
   longer.stretch = 1.1;
@@ -89,17 +89,17 @@ TEST(ThreadCounts, GiveTheSameBitsAfterABend) {
     settings.solver.integrator = integrator;
     settings.material.damping_form = form;
     std::vector<std::uint64_t> hashes;
-    std::vector<double> books;
+    std::vector<double> ledger;
     for (const int threads : {1, 2, 3, 8})
       with_threads(threads, [&] {
         Simulation simulation = test::make_simulation(settings, bar());
         while (simulation.time() < 0.2) simulation.step();
         hashes.push_back(state_hash(simulation.particles()));
         const Energies energies = simulation.energies();
-        books.push_back(energies.stored() + energies.work_of_bones + energies.dissipation);
+        ledger.push_back(energies.stored() + energies.work_of_bones + energies.dissipation);
       });
     EXPECT_EQ(hashes, std::vector<std::uint64_t>(4, hashes[0]));
-    EXPECT_EQ(books, std::vector<double>(4, books[0]));
+    EXPECT_EQ(ledger, std::vector<double>(4, ledger[0]));
   }
 }
 
@@ -148,7 +148,7 @@ TEST(Unstable, NamesTheParticleByItsId) {
   test::expect_error(Exit::unstable, [&] { fast.step(); },
                      {"step 0 at 0 s: particle " + id + " on bone 'lower'", "0.25 r"});
   particles.set_velocity(3, {std::nan(""), 0, 0});
-  Settings undamped = settings;  // so that no neighbour is drawn into it in the same step
+  Settings undamped = settings;  // so that no neighbor is drawn into it in the same step
   undamped.material.damping = 0;
   Simulation broken = test::simulation_from(undamped, rest, particles, 1e-3);
   test::expect_error(Exit::unstable, [&] { broken.step(); }, {"particle " + id, "not finite"});
@@ -156,10 +156,10 @@ TEST(Unstable, NamesTheParticleByItsId) {
 
 TEST(Unstable, StaysWhereItWasAndTellsWhoFailed) {
   const Points rest = bar();
-  for (const auto search : {NeighbourSearch::lists, NeighbourSearch::cells})
+  for (const auto search : {NeighborSearch::lists, NeighborSearch::cells})
     for (const auto precision : {Precision::binary64, Precision::binary32}) {
       Settings settings = test::box_scene(25);
-      settings.solver.neighbour_search = search;
+      settings.solver.neighbor_search = search;
       settings.solver.precision = precision;
       settings.material.damping = 0;
       Particles particles = particles_at(rest, r, 1);
@@ -195,7 +195,7 @@ TEST(Unstable, NamesTheFirstOfManyForEveryThreadCount) {
 
 TEST(Unstable, DoesNotMindTheWholeBodyMovingFastWithItsBone) {
   Settings settings = test::box_scene(25);
-  KeySettings end = test::bend_key(1, 0);
+  KeyDefinition end = test::bend_key(1, 0);
   end.translation = {30, 0, 0};  // 3 r in each step
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
   settings.tracks[0].interpolation = Interpolation::linear;
@@ -223,7 +223,7 @@ Body half_bound(const Settings& settings, const Points& rest) {
 
 TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
   Settings settings = test::box_scene(25);
-  KeySettings end = test::bend_key(1, 0);
+  KeyDefinition end = test::bend_key(1, 0);
   end.translation = {30, 0, 0};  // 3 r in each step
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
   settings.tracks[0].interpolation = Interpolation::linear;
@@ -231,8 +231,8 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
   const Body body = half_bound(settings, rest);
   Particles particles = particles_at(rest, r, body.material.mass);
   for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, {30, 0, 0});
-  for (const NeighbourSearch way : {NeighbourSearch::lists, NeighbourSearch::cells}) {
-    settings.solver.neighbour_search = way;
+  for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
+    settings.solver.neighbor_search = way;
     Simulation simulation(body, make_motion(settings, body.skeleton), particles,
                           stepping_of(settings.solver, 1e-3));
     EXPECT_NO_THROW({
@@ -243,10 +243,10 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
 
 TEST(Unstable, StopsWhereNoBoneHoldsTheFlesh) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet})
-    for (const NeighbourSearch way : {NeighbourSearch::lists, NeighbourSearch::cells}) {
+    for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
       Settings settings = test::box_scene(25);
       settings.solver.integrator = integrator;
-      settings.solver.neighbour_search = way;
+      settings.solver.neighbor_search = way;
       const Points rest = test::fcc_box(9, 9, 25, r);
       Body body = half_bound(settings, rest);
       body.springs.assign(body.springs.size(), {});

@@ -14,7 +14,7 @@ struct LongBar {
 
   explicit LongBar(const Vec3& place) {
     for (Vec3& point : rest) point += place;
-    for (BoneSettings& bone : settings.bones) {
+    for (BoneDefinition& bone : settings.bones) {
       if (bone.head) *bone.head += place;
       *bone.tail += place;
     }

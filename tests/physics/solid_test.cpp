@@ -13,15 +13,15 @@ namespace {
 constexpr double r = 0.01;
 
 Material material_of(MaterialModel model, double breaking_strain = 0) {
-  MaterialSettings settings;
+  MaterialOptions settings;
   settings.model = model;
   if (breaking_strain > 0) settings.breaking_strain = breaking_strain;
   return make_material(settings, r, 1000 * volume_per_particle(r));
 }
 
 Material without_cohesion() {
-  MaterialSettings settings;
-  settings.cohesion = Cohesion::initial_neighbours;
+  MaterialOptions settings;
+  settings.cohesion = Cohesion::initial_neighbors;
   return make_material(settings, r, 1000 * volume_per_particle(r));
 }
 
@@ -116,7 +116,7 @@ TEST(Solid, KeepsMomentumAndAngularMomentum) {
   }
 }
 
-TEST(Solid, OnlyNeighboursAtRestAttractWithoutCohesion) {
+TEST(Solid, OnlyNeighborsAtRestAttractWithoutCohesion) {
   // Two blocks that come to touch: gap of 2.3 r between the nearest, within the paper's attraction.
   const Points block = test::fcc_box(3, 3, 3, r);
   Points rest = block, touching = block;
@@ -167,7 +167,7 @@ TEST(Bonds, BreakBeyondTheirStrainAndTheEnergyIsTold) {
       int lacking = 0;
       for (std::size_t j = 0; j < rest.size(); ++j) {
         const auto other = static_cast<std::uint32_t>(j);
-        lacking += solid.bonds().were_neighbours(i, other) && !solid.bonds().bonded(i, other);
+        lacking += solid.bonds().were_neighbors(i, other) && !solid.bonds().bonded(i, other);
         EXPECT_EQ(solid.bonds().bonded(i, other),
                   solid.bonds().bonded(j, static_cast<std::uint32_t>(i)));
       }
@@ -179,7 +179,7 @@ TEST(Bonds, BreakBeyondTheirStrainAndTheEnergyIsTold) {
 }
 
 TEST(Bonds, CreepAfterWhatExceedsTheYieldStrain) {
-  MaterialSettings settings;
+  MaterialOptions settings;
   settings.model = MaterialModel::bonded;
   settings.yield_strain = 0.02;
   settings.creep_rate = 3;

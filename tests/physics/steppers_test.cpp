@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whole steps with lists and with cells: the same positions, velocities, forces and books to
+// Whole steps with lists and with cells: the same positions, velocities, forces and ledger to
 // rounding, and the same words when a run fails.
 #include <sinew/core/error.h>
 #include "expect_error.h"
@@ -29,12 +29,12 @@ struct Both {
 
 /// Energies to a part of the largest of them.
 void expect_same_energies(Energies a, Energies b, double part) {
-  const double books[2][6] = {
+  const double ledger[2][6] = {
       {a.kinetic, a.gravity, a.pair, a.bone, a.work_of_bones, a.dissipation},
       {b.kinetic, b.gravity, b.pair, b.bone, b.work_of_bones, b.dissipation}};
   double scale = 0;
-  for (const double energy : books[1]) scale = std::max(scale, std::abs(energy));
-  for (int k = 0; k < 6; ++k) EXPECT_NEAR(books[0][k], books[1][k], part * scale) << k;
+  for (const double energy : ledger[1]) scale = std::max(scale, std::abs(energy));
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(ledger[0][k], ledger[1][k], part * scale) << k;
 }
 
 double largest_force_difference(const Points& a, const Points& b) {
@@ -56,7 +56,7 @@ void expect_same(Both& both, double part) {
   EXPECT_LE(largest_force_difference(f.pair, g.pair), 4 * part * force);
   EXPECT_LE(largest_force_difference(f.damping, g.damping), 4 * part * material.damping * speed);
   EXPECT_LE(largest_force_difference(f.bone, g.bone), 4 * part * force);
-  EXPECT_EQ(f.neighbours, g.neighbours);
+  EXPECT_EQ(f.neighbors, g.neighbors);
   expect_same_energies(both.lists.energies(), both.cells.energies(), part);
 }
 
@@ -64,7 +64,7 @@ void expect_same(Both& both, double part) {
 Settings moving_scene() {
   Settings settings = test::box_scene(25);
   settings.binding.joint_zone = 2;
-  KeySettings end = test::bend_key(0.3, 50);
+  KeyDefinition end = test::bend_key(0.3, 50);
   end.twist = 40;
   end.translation = {0.3 * r, 0, 0.5 * r};
   settings.tracks = {test::track("lower", {test::bend_key(-0.1, 0), test::bend_key(0.3, -10)}),
@@ -102,7 +102,7 @@ TEST(Steppers, TakeTheSameStepsForEveryShapeOfThePairForce) {
       Settings settings = moving_scene();
       settings.material.a = a;
       settings.material.b = b;
-      // Beyond 2 sqrt(2) r second neighbours attract, and the body implodes.
+      // Beyond 2 sqrt(2) r second neighbors attract, and the body implodes.
       expect_same_steps(settings, 0.02 * r, 0.05, 0.2, b > 2.9 ? 25 : 100);
     }
 }
@@ -172,7 +172,7 @@ TEST(Steppers, TakeTheSameStepsOfAFewParticles) {
   }
 }
 
-TEST(Steppers, KeepTheirBooksAlikeOverAWholeBend) {
+TEST(Steppers, KeepTheirLedgersAlikeOverAWholeBend) {
   Settings settings = moving_scene();
   settings.solver.gravity = {0, 0, -1};
   const Points rest = test::fcc_box(7, 7, 25, r);
@@ -289,7 +289,7 @@ TEST(Failures, NameTheSameParticleThatIsNotFinite) {
 TEST(Failures, NameAParticleWhereSinglePrecisionHardlyTellsTheSpeed) {
   const Points rest = test::fcc_box(5, 5, 25, r);
   Settings settings = test::unbound(test::in(Precision::binary32, test::box_scene(25)));
-  KeySettings end = test::bend_key(1, 0);
+  KeyDefinition end = test::bend_key(1, 0);
   end.translation = {2000, 0, 0};  // 200 r in each step
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
   settings.tracks[0].interpolation = Interpolation::linear;

@@ -29,7 +29,7 @@ inline Settings in(Precision precision, Settings settings) {
 }
 
 inline Settings with_cells(Settings settings) {
-  settings.solver.neighbour_search = NeighbourSearch::cells;
+  settings.solver.neighbor_search = NeighborSearch::cells;
   return settings;
 }
 
@@ -76,7 +76,7 @@ inline void expect_pairs_of_cells(Simulation& simulation) {
   const Forces found = simulation.forces(), expected = by_cells(simulation);
   const double scale = pair.k1 * pair.r * pair.r;
   for (std::size_t i = 0; i < expected.pair.size(); ++i) {
-    ASSERT_EQ(found.neighbours[i], expected.neighbours[i])
+    ASSERT_EQ(found.neighbors[i], expected.neighbors[i])
         << "particle " << i << " at " << simulation.time() << " s";
     ASSERT_LT((found.pair[i] - expected.pair[i]).norm(), 1e-12 * scale) << "particle " << i;
   }
@@ -91,12 +91,12 @@ inline void expect_pairs_of_cells_to_floats(Simulation& simulation) {
   const Forces fewest = by_cells(simulation, -3e-7), most = by_cells(simulation, 3e-7);
   const double of_a_partner = 2e-6 * pair.k1 * pair.r * pair.r * std::max(1.0, pair.lambda());
   for (std::size_t i = 0; i < expected.pair.size(); ++i) {
-    ASSERT_GE(found.neighbours[i], fewest.neighbours[i])
+    ASSERT_GE(found.neighbors[i], fewest.neighbors[i])
         << "particle " << i << " at " << simulation.time() << " s";
-    ASSERT_LE(found.neighbours[i], most.neighbours[i])
+    ASSERT_LE(found.neighbors[i], most.neighbors[i])
         << "particle " << i << " at " << simulation.time() << " s";
     ASSERT_LT((found.pair[i] - expected.pair[i]).norm(),
-              of_a_partner * std::max(1, most.neighbours[i]))
+              of_a_partner * std::max(1, most.neighbors[i]))
         << "particle " << i;
   }
 }

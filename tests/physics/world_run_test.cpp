@@ -17,7 +17,7 @@ class Box {
   explicit Box(bool bound = false, int height = 9) : rest(test::fcc_box(5, 5, height, r)) {
     settings = test::box_scene(height);
     settings.material.damping_form = DampingForm::symmetric;
-    settings.solver.neighbour_search = NeighbourSearch::cells;
+    settings.solver.neighbor_search = NeighborSearch::cells;
     if (!bound) settings = test::unbound(settings);
     const Material material = test::material_of(settings);
     stiffness = material.pair.contact_stiffness();

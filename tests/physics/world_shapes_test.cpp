@@ -20,7 +20,7 @@ const PlaneShape plane = {{0, 0.1, 0}, {1, 2, -2}};
 MeshShape meshed(const SphereShape& solid) {
   const Vec3 reach = Vec3::Constant(solid.radius);
   return {[solid](const Vec3& p) { return signed_distance(solid, p); },
-          Box(solid.centre - reach, solid.centre + reach)};
+          Box(solid.center - reach, solid.center + reach)};
 }
 
 std::vector<Shape> all_shapes() { return {plane, sphere, capsule, tilted_box(), meshed(sphere)}; }
@@ -36,7 +36,7 @@ Points sampled(const BoxShape& box, int n) {
           local[axis] = side;
           local[(axis + 1) % 3] = 2.0 * i / n - 1;
           local[(axis + 2) % 3] = 2.0 * j / n - 1;
-          points.push_back(box.centre + box.rotation * local.cwiseProduct(box.half));
+          points.push_back(box.center + box.rotation * local.cwiseProduct(box.half));
         }
   return points;
 }
@@ -77,7 +77,7 @@ void expect_sampled(const Shape& shape, const Points& surface, double spacing, b
 
 TEST(WorldShapes, DistancesAgreeWithSampledSurfaces) {
   expect_sampled(tilted_box(), sampled(tilted_box(), 40), 0.03, false);
-  expect_sampled(sphere, sampled(CapsuleShape{sphere.centre, sphere.centre, sphere.radius}, 30),
+  expect_sampled(sphere, sampled(CapsuleShape{sphere.center, sphere.center, sphere.radius}, 30),
                  0.06, false);
   expect_sampled(capsule, sampled(capsule, 24), 0.06, true);
 }
@@ -87,9 +87,9 @@ TEST(WorldShapes, InsideIsWhereTheDefinitionSaysSo) {
   for (int trial = 0; trial < 500; ++trial) {
     const Vec3 p = 2 * test::random_vector(random);
     const BoxShape box = tilted_box();
-    const Vec3 local = box.rotation.transpose() * (p - box.centre);
+    const Vec3 local = box.rotation.transpose() * (p - box.center);
     EXPECT_EQ(signed_distance(box, p).distance < 0, (local.array().abs() < box.half.array()).all());
-    EXPECT_EQ(signed_distance(sphere, p).distance < 0, (p - sphere.centre).norm() < sphere.radius);
+    EXPECT_EQ(signed_distance(sphere, p).distance < 0, (p - sphere.center).norm() < sphere.radius);
     EXPECT_EQ(signed_distance(plane, p).distance < 0, (p - plane.point).dot(plane.normal) < 0);
   }
 }
@@ -134,7 +134,7 @@ TEST(WorldShapes, PlacesWithoutOneNearestPointHaveANormalAllTheSame) {
   const CapsuleShape point = {{1, 2, 3}, {1, 2, 3}, 0.5};
   const Vec3 middle = (capsule.a + capsule.b) / 2;
   const std::vector<std::pair<Shape, Vec3>> places = {
-      {sphere, sphere.centre}, {tilted_box(), tilted_box().centre},
+      {sphere, sphere.center}, {tilted_box(), tilted_box().center},
       {capsule, middle},       {capsule, capsule.a},
       {point, point.a},        {CapsuleShape{{0, 0, 0}, {0, 0, 1}, 0.5}, {0, 0, 0.25}}};
   for (const auto& [shape, p] : places) {
@@ -147,7 +147,7 @@ TEST(WorldShapes, PlacesWithoutOneNearestPointHaveANormalAllTheSame) {
 }
 
 TEST(WorldShapes, ACapsuleWithoutLengthIsASphere) {
-  const CapsuleShape point = {sphere.centre, sphere.centre, sphere.radius};
+  const CapsuleShape point = {sphere.center, sphere.center, sphere.radius};
   std::mt19937 random(4);
   for (int trial = 0; trial < 100; ++trial) {
     const Vec3 p = 3 * test::random_vector(random);
@@ -158,10 +158,10 @@ TEST(WorldShapes, ACapsuleWithoutLengthIsASphere) {
 
 TEST(WorldShapes, AMeshIsNotAskedAboutPlacesFarFromIt) {
   const Shape mesh = meshed(sphere);
-  const Vec3 beside = sphere.centre + Vec3(sphere.radius + 0.1, 0, 0);
+  const Vec3 beside = sphere.center + Vec3(sphere.radius + 0.1, 0, 0);
   EXPECT_TRUE(may_be_within(mesh, beside, 0.11));
   EXPECT_FALSE(may_be_within(mesh, beside, 0.09));
-  EXPECT_TRUE(may_be_within(mesh, sphere.centre, 1e-9));
+  EXPECT_TRUE(may_be_within(mesh, sphere.center, 1e-9));
   EXPECT_TRUE(may_be_within(sphere, beside, 1e-9));  // cheap enough to ask
 }
 

@@ -150,13 +150,13 @@ TEST(World, AnEmptyOneDoesNothing) {
 }
 
 /// Work, loss and energies of a run, by the trapezoid rule.
-struct Book {
+struct Ledger {
   double work = 0, lost = 0, kinetic = 0, contact = 0;
 };
 
 /// Follows a loose swarm through the busy world for `duration` (s). Each step is half drift, kick,
 /// half drift; forces and powers are those of its middle.
-Book followed(double duration, int steps) {
+Ledger followed(double duration, int steps) {
   const Points rest = test::fcc_ball(5, r);
   const World world = busy_world(rest);
   Particles swarm = test::shaken(rest, test::material_of(test::box_scene()), 0.1 * r, 0.3);
@@ -173,7 +173,7 @@ Book followed(double duration, int steps) {
   };
   WorldForces forces;
   world_forces(swarm, world, world_at(world, 0, {}), forces);
-  Book book;
+  Ledger ledger;
   const double at_start = kinetic() + forces.contact_energy;
   for (int step = 0; step < steps; ++step) {
     drift();
@@ -185,21 +185,21 @@ Book followed(double duration, int steps) {
       swarm.set_velocity(i, swarm.velocity(i) + 2 * half);
     }
     const WorldPowers powers = world_powers(forces, middle);
-    book.work += dt * (powers.obstacles + powers.fields + powers.muscles);
-    book.lost += dt * powers.lost;
+    ledger.work += dt * (powers.obstacles + powers.fields + powers.muscles);
+    ledger.lost += dt * powers.lost;
     drift();
   }
   world_forces(swarm, world, world_at(world, duration, {}), forces);
-  book.kinetic = kinetic() - at_start;
-  book.contact = forces.contact_energy;
-  return book;
+  ledger.kinetic = kinetic() - at_start;
+  ledger.contact = forces.contact_energy;
+  return ledger;
 }
 
 TEST(World, WorkIsKineticEnergyContactEnergyAndLoss) {
-  const Book book = followed(0.1, 4000);
-  EXPECT_GT(book.lost, 0.01);
-  EXPECT_GT(book.contact, 1e-4);
-  EXPECT_NEAR(book.kinetic + book.contact + book.lost, book.work, 2e-4 * book.lost);
+  const Ledger ledger = followed(0.1, 4000);
+  EXPECT_GT(ledger.lost, 0.01);
+  EXPECT_GT(ledger.contact, 1e-4);
+  EXPECT_NEAR(ledger.kinetic + ledger.contact + ledger.lost, ledger.work, 2e-4 * ledger.lost);
 }
 
 /// Whether a particle that balances at `corner` stays there with steps of `dt` (s).

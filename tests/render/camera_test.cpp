@@ -19,24 +19,24 @@ TEST(Camera, view_is_a_rotation_with_z_upwards) {
 }
 
 TEST(Camera, sees_spheres_in_full) {
-  Shot shot;
-  shot.particles = {{1, 2, 3}};
-  shot.radius = 0.5;
-  const Box box = seen(view_from({0, -1, 0}), shot);
+  Snapshot snapshot;
+  snapshot.particles = {{1, 2, 3}};
+  snapshot.radius = 0.5;
+  const Box box = seen(view_from({0, -1, 0}), snapshot);
   EXPECT_NEAR((box.min() - Vec3(0.5, 2.5, -2.5)).norm(), 0, 1e-12);
   EXPECT_NEAR((box.max() - Vec3(1.5, 3.5, -1.5)).norm(), 0, 1e-12);
 }
 
 TEST(Camera, refuses_positions_that_are_not_finite) {
-  Shot shot;
-  shot.surface.points = {{0, std::numeric_limits<double>::quiet_NaN(), 0}};
-  EXPECT_EQ(error_of([&] { seen(three_quarter_view(), shot); }).exit(), Exit::bad_input);
+  Snapshot snapshot;
+  snapshot.surface.points = {{0, std::numeric_limits<double>::quiet_NaN(), 0}};
+  EXPECT_EQ(error_of([&] { seen(three_quarter_view(), snapshot); }).exit(), Exit::bad_input);
 }
 
 TEST(Camera, the_tighter_side_decides_the_scale) {
   const Box frame(Vec3(0, 0, 0), Vec3(2, 1, 5));
-  EXPECT_DOUBLE_EQ(metres_per_pixel(frame, 100, 100), 0.02);
-  EXPECT_DOUBLE_EQ(metres_per_pixel(frame, 400, 100), 0.01);
+  EXPECT_DOUBLE_EQ(meters_per_pixel(frame, 100, 100), 0.02);
+  EXPECT_DOUBLE_EQ(meters_per_pixel(frame, 400, 100), 0.01);
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace sinew {
 namespace {
 
-std::vector<Shot> bending() {
-  std::vector<Shot> shots{synthetic_shot(0, 0), synthetic_shot(0.8, 0), synthetic_shot(1.6, 0)};
-  for (Shot& shot : shots) shot.caption = "bent\n1.00 s";
-  return shots;
+std::vector<Snapshot> bending() {
+  std::vector<Snapshot> snapshots{synthetic_snapshot(0, 0), synthetic_snapshot(0.8, 0), synthetic_snapshot(1.6, 0)};
+  for (Snapshot& snapshot : snapshots) snapshot.caption = "bent\n1.00 s";
+  return snapshots;
 }
 
 /// Runs of painted columns of pixels between rows y and y + height.
@@ -23,12 +23,12 @@ int groups(const Image& image, int y, int height) {
   return count;
 }
 
-TEST(ContactSheet, has_a_surface_above_particles_for_each_shot) {
-  const std::vector<Shot> shots = bending();
-  Painter painter(shots[0].surface, synthetic_scale());
+TEST(ContactSheet, has_a_surface_above_particles_for_each_snapshot) {
+  const std::vector<Snapshot> snapshots = bending();
+  Painter painter(snapshots[0].surface, synthetic_scale());
   SheetOptions options;
   options.width = 800, options.row_height = 200;
-  const Image sheet = contact_sheet(painter, shots, options);
+  const Image sheet = contact_sheet(painter, snapshots, options);
   const int margin = 800 / 32;
   EXPECT_LE(sheet.width, 800);
   EXPECT_EQ(groups(sheet, margin, 200), 3);
@@ -38,15 +38,15 @@ TEST(ContactSheet, has_a_surface_above_particles_for_each_shot) {
   EXPECT_EQ(painted(sheet, 0, margin + 200, sheet.width, margin), 0);  // between the rows
 }
 
-TEST(ContactSheet, captions_and_colour_scale_stand_below) {
-  std::vector<Shot> shots = bending();
-  Painter painter(shots[0].surface, synthetic_scale());
-  const Image with = contact_sheet(painter, shots, {});
-  for (Shot& shot : shots) shot.caption.clear();
-  const Image without = contact_sheet(painter, shots, {});
+TEST(ContactSheet, captions_and_color_scale_stand_below) {
+  std::vector<Snapshot> snapshots = bending();
+  Painter painter(snapshots[0].surface, synthetic_scale());
+  const Image with = contact_sheet(painter, snapshots, {});
+  for (Snapshot& snapshot : snapshots) snapshot.caption.clear();
+  const Image without = contact_sheet(painter, snapshots, {});
   EXPECT_EQ(with.width, without.width);
   EXPECT_GT(with.height, without.height + 40);
-  const Colour high = mapped_colour(1);
+  const Color high = mapped_color(1);
   int found = 0;
   for (int y = without.height - 120; y < without.height; ++y)
     for (int x = 0; x < without.width; ++x)
@@ -54,17 +54,17 @@ TEST(ContactSheet, captions_and_colour_scale_stand_below) {
   EXPECT_GT(found, 10);
 }
 
-TEST(ContactSheet, without_shots_is_an_error) {
+TEST(ContactSheet, without_snapshots_is_an_error) {
   Painter painter({}, {});
   EXPECT_EQ(error_of([&] { contact_sheet(painter, {}, {}); }).exit(), Exit::bad_input);
 }
 
 TEST(ContactSheet, has_a_row_for_each_way_of_looking) {
-  const std::vector<Shot> shots = bending();
-  Painter painter(shots[0].surface, synthetic_scale());
+  const std::vector<Snapshot> snapshots = bending();
+  Painter painter(snapshots[0].surface, synthetic_scale());
   SheetOptions options;
   options.width = 600, options.row_height = 120;
-  const SheetRow row{&painter, &shots, View::both, ""};
+  const SheetRow row{&painter, &snapshots, View::both, ""};
   const int one = contact_sheet({row}, options).height;
   const Image three = contact_sheet({row, row, row}, options);
   EXPECT_GT(three.height, one + 2 * 100);
@@ -72,7 +72,7 @@ TEST(ContactSheet, has_a_row_for_each_way_of_looking) {
 }
 
 TEST(ContactSheet, refuses_rows_that_differ_in_length) {
-  const std::vector<Shot> three = bending(), two(three.begin(), three.begin() + 2);
+  const std::vector<Snapshot> three = bending(), two(three.begin(), three.begin() + 2);
   Painter painter(three[0].surface, synthetic_scale());
   const std::vector<SheetRow> rows{{&painter, &three, View::both, ""},
                                    {&painter, &two, View::both, ""}};

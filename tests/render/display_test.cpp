@@ -12,10 +12,10 @@ namespace {
 
 std::string self() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
-/// Runs this program's test of an empty shot in another environment.
+/// Runs this program's test of an empty snapshot in another environment.
 int draw_with(const std::string& environment, std::string* output) {
   return run(
-      "env " + environment + " " + self() + " --gtest_filter=Picture.an_empty_shot_is_white 2>&1",
+      "env " + environment + " " + self() + " --gtest_filter=Picture.an_empty_snapshot_is_white 2>&1",
       output);
 }
 

@@ -26,7 +26,7 @@ TEST(Image, what_lies_outside_is_cut_off) {
   EXPECT_NEAR(painted(image), 0.11, 1e-12);
 }
 
-TEST(Image, png_holds_its_size_and_colours) {
+TEST(Image, png_holds_its_size_and_colors) {
   const Folder folder;
   Image image(30, 20, {200, 10, 60});
   fill(image, 0, 0, 30, 10, {1, 2, 3});
@@ -62,16 +62,16 @@ TEST(Text, stands_where_it_is_aligned) {
   EXPECT_GT(painted(image, 151, 0, 60, 60), 0.03);
 }
 
-TEST(Text, colour_bar_runs_from_low_to_high) {
+TEST(Text, color_bar_runs_from_low_to_high) {
   Image image(200, 80);
   const TextStyle style{16, palette::ink, Align::left};
-  draw_colour_bar(image, {"speed", "m/s", 0, 2}, 10, 5, 180, style);
+  draw_color_bar(image, {"speed", "m/s", 0, 2}, 10, 5, 180, style);
   const int y = 5 + line_height(style) + 4;
-  const auto colour = [&](int x) {
-    return Colour{image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
+  const auto color = [&](int x) {
+    return Color{image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
   };
-  EXPECT_EQ(colour(10), mapped_colour(0));
-  EXPECT_EQ(colour(189), mapped_colour(1));
+  EXPECT_EQ(color(10), mapped_color(0));
+  EXPECT_EQ(color(189), mapped_color(1));
 }
 
 }  // namespace

@@ -7,33 +7,33 @@
 namespace sinew {
 namespace {
 
-PictureOptions options_for(const Shot& shot, View view, Finish finish = Finish::fine) {
+PictureOptions options_for(const Snapshot& snapshot, View view, Finish finish = Finish::fine) {
   PictureOptions options{view, {}, 320, 240, 10, finish};
-  options.camera.frame = seen(options.camera.view, shot);
+  options.camera.frame = seen(options.camera.view, snapshot);
   return options;
 }
 
 double scale_of(const PictureOptions& options) {
-  return metres_per_pixel(options.camera.frame, options.width - 2 * options.margin,
+  return meters_per_pixel(options.camera.frame, options.width - 2 * options.margin,
                           options.height - 2 * options.margin);
 }
 
 /// Two spheres of 1 m, 10 m apart along the picture, of lowest and highest value.
-Shot two_spheres(const Mat3& view) {
-  Shot shot;
-  shot.particles = {Vec3::Zero(), 10 * view.row(0).transpose()};
-  shot.radius = 1;
-  shot.values = {0, 1};
-  return shot;
+Snapshot two_spheres(const Mat3& view) {
+  Snapshot snapshot;
+  snapshot.particles = {Vec3::Zero(), 10 * view.row(0).transpose()};
+  snapshot.radius = 1;
+  snapshot.values = {0, 1};
+  return snapshot;
 }
 
 constexpr Finish finishes[] = {Finish::quick, Finish::fine};
 
 TEST(Picture, has_the_size_asked_for_and_white_corners) {
-  const Shot shot = synthetic_shot(0.8, 0);
-  Painter painter(shot.surface, synthetic_scale());
+  const Snapshot snapshot = synthetic_snapshot(0.8, 0);
+  Painter painter(snapshot.surface, synthetic_scale());
   const auto check = [&](View view, Finish finish) {
-    const Image image = painter.draw(shot, options_for(shot, view, finish));
+    const Image image = painter.draw(snapshot, options_for(snapshot, view, finish));
     EXPECT_EQ(image.width, 320);
     EXPECT_EQ(image.height, 240);
     EXPECT_EQ(image.rgb.size(), 320U * 240 * 3);
@@ -45,34 +45,34 @@ TEST(Picture, has_the_size_asked_for_and_white_corners) {
 }
 
 TEST(Picture, body_covers_its_projected_area) {
-  Shot shot = synthetic_shot(0, 0);
-  shot.bones.clear();
-  Painter painter(shot.surface, synthetic_scale());
-  PictureOptions options = options_for(shot, View::surface);
-  const Vec3 size = bounds(shot.surface.points).sizes(), back = options.camera.view.row(2);
+  Snapshot snapshot = synthetic_snapshot(0, 0);
+  snapshot.bones.clear();
+  Painter painter(snapshot.surface, synthetic_scale());
+  PictureOptions options = options_for(snapshot, View::surface);
+  const Vec3 size = bounds(snapshot.surface.points).sizes(), back = options.camera.view.row(2);
   const Vec3 sides(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
   const double pixels = sides.dot(back.cwiseAbs()) / std::pow(scale_of(options), 2);
   for (const Finish finish : finishes) {
     options.finish = finish;
-    EXPECT_NEAR(painted(painter.draw(shot, options)) / (pixels / (320 * 240)), 1, 0.09);
+    EXPECT_NEAR(painted(painter.draw(snapshot, options)) / (pixels / (320 * 240)), 1, 0.09);
   }
 }
 
 TEST(Picture, particles_are_spheres_of_their_true_radius) {
-  const Shot shot = two_spheres(three_quarter_view());
+  const Snapshot snapshot = two_spheres(three_quarter_view());
   Painter painter({}, {"value", "", 0, 1});
-  PictureOptions options = options_for(shot, View::particles);
+  PictureOptions options = options_for(snapshot, View::particles);
   const double pixels = 2 * pi / std::pow(scale_of(options), 2);
   for (const Finish finish : finishes) {
     options.finish = finish;
-    EXPECT_NEAR(painted(painter.draw(shot, options)) / (pixels / (320 * 240)), 1, 0.12);
+    EXPECT_NEAR(painted(painter.draw(snapshot, options)) / (pixels / (320 * 240)), 1, 0.12);
   }
 }
 
-TEST(Picture, particles_show_their_values_in_the_colours_of_the_map) {
-  const Shot shot = two_spheres(three_quarter_view());
+TEST(Picture, particles_show_their_values_in_the_colors_of_the_map) {
+  const Snapshot snapshot = two_spheres(three_quarter_view());
   Painter painter({}, {"value", "", 0, 1});
-  const Image image = painter.draw(shot, options_for(shot, View::particles));
+  const Image image = painter.draw(snapshot, options_for(snapshot, View::particles));
   const int from_edge = 10 + 300 / 12;  // a radius of the 12 m wide frame
   const std::uint8_t* low = image.at(from_edge, 120);
   const std::uint8_t* high = image.at(320 - from_edge, 120);
@@ -81,19 +81,19 @@ TEST(Picture, particles_show_their_values_in_the_colours_of_the_map) {
 }
 
 TEST(Picture, bones_shine_through_the_skin) {
-  Shot shot = synthetic_shot(0, 0);
-  Painter painter(shot.surface, synthetic_scale());
-  const PictureOptions options = options_for(shot, View::surface);
-  const Image with = painter.draw(shot, options);
-  shot.bones.clear();
-  const Image without = painter.draw(shot, options);
+  Snapshot snapshot = synthetic_snapshot(0, 0);
+  Painter painter(snapshot.surface, synthetic_scale());
+  const PictureOptions options = options_for(snapshot, View::surface);
+  const Image with = painter.draw(snapshot, options);
+  snapshot.bones.clear();
+  const Image without = painter.draw(snapshot, options);
   int darker = 0;
   for (std::size_t i = 0; i < with.rgb.size(); i += 3) darker += with.rgb[i] + 40 < without.rgb[i];
   EXPECT_GT(darker, 200);
 }
 
 TEST(Picture, one_painter_draws_the_same_again) {
-  const Shot rest = synthetic_shot(0, 0), bent = synthetic_shot(1, 0);
+  const Snapshot rest = synthetic_snapshot(0, 0), bent = synthetic_snapshot(1, 0);
   Painter painter(rest.surface, synthetic_scale());
   const PictureOptions options = options_for(rest, View::both);
   const Image first = painter.draw(rest, options);
@@ -101,25 +101,25 @@ TEST(Picture, one_painter_draws_the_same_again) {
   EXPECT_EQ(painter.draw(rest, options).rgb, first.rgb);
 }
 
-TEST(Picture, an_empty_shot_is_white) {
+TEST(Picture, an_empty_snapshot_is_white) {
   Painter painter({}, {});
   EXPECT_EQ(painted(painter.draw({}, {})), 0);
 }
 
 TEST(Picture, refuses_what_cannot_be_drawn) {
-  Shot shot = synthetic_shot(0, 0);
-  Painter painter(shot.surface, synthetic_scale());
-  PictureOptions options = options_for(shot, View::both);
+  Snapshot snapshot = synthetic_snapshot(0, 0);
+  Painter painter(snapshot.surface, synthetic_scale());
+  PictureOptions options = options_for(snapshot, View::both);
   const auto refused = [&] {
-    return error_of([&] { painter.draw(shot, options); }).exit() == Exit::bad_input;
+    return error_of([&] { painter.draw(snapshot, options); }).exit() == Exit::bad_input;
   };
   options.width = 8;
   EXPECT_TRUE(refused());
   options.width = 320;
-  shot.values.pop_back();
+  snapshot.values.pop_back();
   EXPECT_TRUE(refused());
-  shot.values.clear();
-  shot.surface.points.pop_back();
+  snapshot.values.clear();
+  snapshot.surface.points.pop_back();
   EXPECT_TRUE(refused());
 }
 

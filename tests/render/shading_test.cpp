@@ -9,14 +9,14 @@ namespace sinew {
 namespace {
 
 TEST(Shading, box_of_quadrangles_shows_its_cells_and_its_twelve_edges) {
-  const Shading skin = make_shading(synthetic_shot(0, 0).surface);
+  const Shading skin = make_shading(synthetic_snapshot(0, 0).surface);
   EXPECT_EQ(skin.creases.size(), 4U * (8 + 10 + 25));
   const std::size_t quadrangles = 2 * (8 * 10 + 10 * 25 + 25 * 8);
   EXPECT_EQ(skin.lines.size(), 2 * quadrangles - skin.creases.size());
 }
 
 TEST(Shading, is_split_along_creases_so_that_sides_stay_flat) {
-  const Triangles box = synthetic_shot(0, 0).surface;
+  const Triangles box = synthetic_snapshot(0, 0).surface;
   const Shading skin = make_shading(box);
   EXPECT_EQ(skin.source.size(), 2U * (9 * 11 + 11 * 26 + 26 * 9));
   for (const Vec3& normal : point_normals(skin.at(box.points)))

@@ -83,9 +83,9 @@ class BoxMesh {
   std::map<Site, int> known_;
 };
 
-ShotBone bone(double from, double length, double bend, double twist) {
+SnapshotBone bone(double from, double length, double bend, double twist) {
   const RigidFrame start = section(from, bend, twist);
-  ShotBone bone;
+  SnapshotBone bone;
   bone.head = start.origin;
   bone.axes << start.rotation.col(2), start.rotation.col(0), start.rotation.col(1);
   bone.tail = bone.head + length * bone.axes.col(0);
@@ -94,20 +94,20 @@ ShotBone bone(double from, double length, double bend, double twist) {
 
 }  // namespace
 
-Shot synthetic_shot(double bend, double twist) {
-  Shot shot;
-  shot.radius = radius;
+Snapshot synthetic_snapshot(double bend, double twist) {
+  Snapshot snapshot;
+  snapshot.radius = radius;
   for (const Vec3& p : lattice()) {
-    shot.particles.push_back(deformed(p, bend, twist));
-    shot.values.push_back((shot.particles.back() - p).norm());
+    snapshot.particles.push_back(deformed(p, bend, twist));
+    snapshot.values.push_back((snapshot.particles.back() - p).norm());
   }
-  shot.surface = BoxMesh().surface;
-  for (Vec3& p : shot.surface.points) p = deformed(p, bend, twist);
-  shot.bones = {bone(0.02, size.z() / 2 - 0.02, 0, 0),
+  snapshot.surface = BoxMesh().surface;
+  for (Vec3& p : snapshot.surface.points) p = deformed(p, bend, twist);
+  snapshot.bones = {bone(0.02, size.z() / 2 - 0.02, 0, 0),
                 bone(size.z() * 0.7, size.z() * 0.28, bend, twist)};
-  return shot;
+  return snapshot;
 }
 
-ColourScale synthetic_scale() { return {"displacement", "m", 0, 0.5}; }
+ColorScale synthetic_scale() { return {"displacement", "m", 0, 0.5}; }
 
 }  // namespace sinew

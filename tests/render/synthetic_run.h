@@ -7,11 +7,11 @@
 
 namespace sinew {
 
-/// 2,965 particles of 0.01 m coloured by displacement, an 8 x 10 x 25 cell surface and two bones;
+/// 2,965 particles of 0.01 m colored by displacement, an 8 x 10 x 25 cell surface and two bones;
 /// the far half bent by `bend` towards +x and turned by `twist` about the bone, rad.
-Shot synthetic_shot(double bend, double twist);
+Snapshot synthetic_snapshot(double bend, double twist);
 
 /// Displacement, 0 .. 0.5 m.
-ColourScale synthetic_scale();
+ColorScale synthetic_scale();
 
 }  // namespace sinew

@@ -183,7 +183,7 @@ TEST(Binding, OfRegionsGoesBeforeAllElseAndTheLastCounts) {
   by_number.ids = {0, 5};
   in_box.bone = 0;
   in_box.box = Box(Vec3(-1, -1, 0.5), Vec3(1, 1, 1));
-  in_ball.centre = rest[5];
+  in_ball.center = rest[5];
   in_ball.radius = r;
   options.regions = {by_number, in_box, in_ball};
   const Binding binding = bind_to_bones(rest, two_bones(), options);

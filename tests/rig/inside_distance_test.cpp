@@ -11,7 +11,7 @@ namespace {
 
 constexpr double r = 0.01;
 const double half_width = 2 * half_plane_spacing(r);  // of a finger of five half-planes
-const double gap = 1.2 * 2 * r;                       // between the fingers' nearest centres
+const double gap = 1.2 * 2 * r;                       // between the fingers' nearest centers
 const double from_middle = half_width + gap / 2;
 constexpr double palm_top = 0.11;
 
@@ -64,7 +64,7 @@ int strangers(const Hand& hand, const Binding& binding, double height) {
   return count;
 }
 
-TEST(InsideBinding, NeverBindsAFingerToItsNeighbourAcrossAGap) {
+TEST(InsideBinding, NeverBindsAFingerToItsNeighborAcrossAGap) {
   const Hand hand;
   EXPECT_GT(strangers(hand, bound(hand.rest, false), 0), 50);  // through the air it does
   const Binding binding = bound(hand.rest, true);

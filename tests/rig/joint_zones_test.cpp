@@ -14,7 +14,7 @@ namespace {
 constexpr double zone = 0.2;  // m
 constexpr double step = 1e-5;
 
-Skeleton skeleton_of(std::vector<BoneSettings> bones) {
+Skeleton skeleton_of(std::vector<BoneDefinition> bones) {
   Settings settings;
   settings.bones = std::move(bones);
   return make_skeleton(settings);
@@ -31,15 +31,15 @@ std::vector<double> weights_at(const Skeleton& skeleton, const JointZones& zones
   return weights;
 }
 
-/// The largest change of any weight over one step along lines through a ball around `centre`.
-double largest_change(const Skeleton& skeleton, const Vec3& centre, double radius) {
+/// The largest change of any weight over one step along lines through a ball around `center`.
+double largest_change(const Skeleton& skeleton, const Vec3& center, double radius) {
   const JointZones zones =
       joint_zones(skeleton, std::vector<double>(skeleton.size(), zone * zone), 1);
   std::mt19937 random(3);
   double most = 0;
   for (int line = 0; line < 30; ++line) {
     const Vec3 way = test::random_vector(random).normalized();
-    const Vec3 middle = centre + radius * test::random_vector(random);
+    const Vec3 middle = center + radius * test::random_vector(random);
     std::vector<double> before;
     for (double s = -radius / 2; s < radius / 2; s += step) {
       const auto weights = weights_at(skeleton, zones, middle + s * way);

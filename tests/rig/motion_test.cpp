@@ -34,8 +34,8 @@ Pose pose_of(const Settings& settings, double time) {
   return pose_at(skeleton, make_motion(settings, skeleton), time);
 }
 
-KeySettings shift_key(double time, const Vec3& shift) {
-  KeySettings key;
+KeyDefinition shift_key(double time, const Vec3& shift) {
+  KeyDefinition key;
   key.time = time;
   key.translation = shift;
   return key;
@@ -86,7 +86,7 @@ TEST(Pose, ComposesTwoTurningBonesOfAChain) {
   Settings settings = chain(2);
   settings.tracks = {track("b0", {bend_key(0, 0), bend_key(1, 30)}),
                      track("b1", {bend_key(0, 0), bend_key(1, 45)})};
-  KeySettings& key = settings.tracks[1].keys[1];
+  KeyDefinition& key = settings.tracks[1].keys[1];
   key.axis = Vec3(2, 0, 0);
   key.twist = 200;
   const Pose pose = pose_of(settings, 2);
@@ -146,9 +146,9 @@ Settings busy_chain(Interpolation kind) {
   Settings settings = chain(3);
   std::mt19937 random(3);
   for (const char* bone : {"b0", "b1", "b2"}) {
-    std::vector<KeySettings> keys;
+    std::vector<KeyDefinition> keys;
     for (const double time : {0.0, 0.7, 1.5, 2.0}) {
-      KeySettings key = bend_key(time, 170 * test::random_vector(random).x());
+      KeyDefinition key = bend_key(time, 170 * test::random_vector(random).x());
       key.axis = test::random_vector(random);
       key.twist = 700 * test::random_vector(random).x();
       key.translation = test::random_vector(random);
@@ -206,7 +206,7 @@ TEST(PoseCursor, GivesTheSameBitsInAnyOrderOfTimes) {
 
 TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
   Settings settings = chain(1);
-  KeySettings start;  // no rotation counts as no angle
+  KeyDefinition start;  // no rotation counts as no angle
   start.time = 0;
   settings.tracks = {track("b0", {start, bend_key(1, 270), bend_key(2, -90)})};
   settings.tracks[0].interpolation = Interpolation::linear;
@@ -217,7 +217,7 @@ TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
 
 TEST(Pose, EulerAnglesBetweenKeysTakeTheShortWay) {
   Settings settings = chain(1);
-  KeySettings quarter, three_quarters;
+  KeyDefinition quarter, three_quarters;
   quarter.time = 0;
   quarter.euler = Vec3(0, 0, 0);
   three_quarters.time = 1;
@@ -235,7 +235,7 @@ TEST(Motion, EulerAnglesTurnAboutFixedAxesInTheOrderNamed) {
                                                  {"zxy", y * x * z}, {"zyx", x * y * z}};
   for (const auto& [order, expected] : orders) {
     Settings settings = chain(1);
-    KeySettings key;
+    KeyDefinition key;
     key.time = 0;
     key.euler = Vec3(20, 35, -50);
     settings.tracks = {track("b0", {key})};

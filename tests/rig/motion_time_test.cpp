@@ -102,7 +102,7 @@ TEST(Preroll, GoesSmoothlyFromRestToTheFirstPose) {
 
 TEST(Preroll, RampsTwistTranslationAndStretchAndNeverJumps) {
   Settings settings = bending();
-  KeySettings& key = settings.tracks[0].keys[0];
+  KeyDefinition& key = settings.tracks[0].keys[0];
   key.twist = 400;
   key.translation = Vec3(1, 0, 2);
   key.stretch = 3;
@@ -124,7 +124,7 @@ TEST(Preroll, RampsTwistTranslationAndStretchAndNeverJumps) {
 TEST(Stretch, MovesTheTailAndWhatHangsOnTheBone) {
   Settings settings = bending();
   settings.bones.push_back({"branch", "lower", Vec3(0.3, 0, 0.5), Vec3(1, 0, 0.5)});
-  KeySettings key = bend_key(0, 90);
+  KeyDefinition key = bend_key(0, 90);
   key.stretch = 3;
   settings.tracks = {track("lower", {key})};
   settings.motion.start = 0;
@@ -158,14 +158,14 @@ TEST(Stretch, VelocityOfAPointIsItsDerivative) {
 TEST(Keys, InFramesAreTheSameAsInSeconds) {
   Settings settings = bending();
   settings.motion.frame_rate = 24;
-  for (KeySettings& key : settings.tracks[0].keys) key.frame = *key.time * 24, key.time.reset();
+  for (KeyDefinition& key : settings.tracks[0].keys) key.frame = *key.time * 24, key.time.reset();
   expect_bend(settings, 0.5, 35, 30);
 }
 
-TEST(Keys, QuaternionsAreNormalisedWithinRoundingElseRefused) {
+TEST(Keys, QuaternionsAreNormalizedWithinRoundingElseRefused) {
   Settings settings = bending();
   settings.places["motion.tracks[0].keys[0]"] = {"s.yaml", 9, 1};
-  KeySettings key;
+  KeyDefinition key;
   key.time = 1;
   const double c = std::cos(radians(25)), s = std::sin(radians(25));
   key.quaternion = {1.0009 * c, 0, 1.0009 * s, 0};
@@ -208,7 +208,7 @@ TEST(Placed, BonesHaveTheSidesOfBonesThatStandSoFromTheStart) {
   standing.bones[1].roll = turned.bones[1].roll = 25;
   turned.skeleton.up = Axis::y;
   const Mat3 back = to_scene(turned.skeleton).transpose();
-  for (BoneSettings& bone : turned.bones) bone.head.reset();
+  for (BoneDefinition& bone : turned.bones) bone.head.reset();
   turned.bones[0].head = Vec3::Zero();
   for (std::size_t b = 0; b < 2; ++b) turned.bones[b].tail = back * *standing.bones[b].tail;
   const Skeleton one = make_skeleton(standing), two = make_skeleton(turned);

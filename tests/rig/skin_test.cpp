@@ -123,7 +123,7 @@ TEST(Skin, KeepsOnlyTheRotationWhereTheGradientIsUnreliable) {
 
 TEST(Skin, KeepsOnlyTheParticlesNearItAndFollowsAsWithAll) {
   const Points points = test::fcc_box(25, 25, 25, r);
-  const RestShape body = rest_shape(points, rest_neighbour_range(r));
+  const RestShape body = rest_shape(points, rest_neighbor_range(r));
   const Points vertices = vertices_around(test::fcc_box(5, 5, 5, r), r);
   const Skin skin = make_skin(vertices, points, r);
   EXPECT_LT(skin.near.size(), points.size() / 2);

@@ -9,7 +9,7 @@
 #include "command/progress.h"
 #include "command/results.h"
 #include "command/settings_list.h"
-#include "config/small_scene.h"
+#include "settings/small_scene.h"
 #include "tools/run_program.h"
 
 namespace sinew {

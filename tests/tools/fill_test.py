@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""sinew fill and sinew info on meshes as people have them: open, turned, doubled, in millimetres.
+"""sinew fill and sinew info on meshes as people have them: open, turned, doubled, in millimeters.
 
 usage: fill_test.py BIN SOURCE      folder of the programs, folder of the project
 """
@@ -107,7 +107,7 @@ class Meshes(unittest.TestCase):
         body = meshio.read(self.folder / "body.vtu")
         meta = json.loads(bytes(body.field_data["sinew_meta"]).decode())
         self.assertEqual(meta["fill"]["particles"], found["particles"])
-        self.assertEqual(meta["fill"]["neighbours"], found["neighbours"])
+        self.assertEqual(meta["fill"]["neighbors"], found["neighbors"])
         self.assertEqual(len(body.points), found["particles"])
 
     def test_turned_and_doubled_meshes_are_filled_the_same(self):
@@ -158,13 +158,13 @@ class Meshes(unittest.TestCase):
 
     def test_units_scale_lengths(self):
         ball = sphere(3)
-        metres = self.fill(ball, "--radius", 0.1)
+        meters = self.fill(ball, "--radius", 0.1)
         large = ([tuple(1000 * x for x in p) for p in ball[0]], ball[1])
         found = self.fill(large, "--radius", 0.1, "--unit", "mm")
-        self.assertEqual(found["particles"], metres["particles"])
+        self.assertEqual(found["particles"], meters["particles"])
         self.assertAlmostEqual(found["box_size"][0], 2, 12)
         found = self.fill(large, "--radius", 0.1, "--scale", 0.001)
-        self.assertEqual(found["particles"], metres["particles"])
+        self.assertEqual(found["particles"], meters["particles"])
         self.assertIn("unit", " ".join(self.fill(large, "--radius", 100)["warnings"]))
 
     def test_a_count_is_met(self):

@@ -61,7 +61,7 @@ def hashes_of(binaries, scene):
     """By precision; scenes that go by cells know only one."""
     double = run(binaries, scene, "double")
     hashes = {"double": double["state_hash"]}
-    if double["neighbour_search"] == "lists":
+    if double["neighbor_search"] == "lists":
         hashes["single"] = run(binaries, scene, "single")["state_hash"]
     return hashes
 

@@ -20,7 +20,7 @@ constexpr int rows = 200000;
 /// Nearest that a pair comes to a kink of eq. 1, where no table is exact.
 double distance_to_kinks(const Points& points, const PairForce& pair) {
   double least = pair.b;
-  const NeighbourLists lists = neighbours_within(points, 1.01 * pair.b);
+  const NeighborLists lists = neighbors_within(points, 1.01 * pair.b);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (const auto j : lists.of(i))
       for (const double kink : {2 * pair.r, pair.a, pair.b})

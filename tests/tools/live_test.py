@@ -24,10 +24,10 @@ def pixels_of(path):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
         body = data[at + 8:at + 8 + size]
         if kind == b"IHDR":
-            width, height, _, colour = struct.unpack(">IIBB", body[:10])
+            width, height, _, color = struct.unpack(">IIBB", body[:10])
         packed += body if kind == b"IDAT" else b""
         at += size + 12
-    return width, height, {2: 3, 6: 4}[colour], zlib.decompress(packed)
+    return width, height, {2: 3, 6: 4}[color], zlib.decompress(packed)
 
 
 class Live(unittest.TestCase):

@@ -37,7 +37,7 @@ def without(*names, **changed):
     return {**left, **changed}
 
 
-class Look(unittest.TestCase):
+class ViewPreset(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory()
@@ -89,9 +89,9 @@ class Look(unittest.TestCase):
         self.assertEqual(len(set(pixels.values())), len(expected))  # each shows something else
         self.assertEqual(size_of(self.pictures / "strain_000004.png"), (320, 200))
 
-    def test_camera_colours_range_and_array_change_the_picture(self):
+    def test_camera_colors_range_and_array_change_the_picture(self):
         ways = [[], ["--camera", "front"], ["--camera", "1,0,0.5"], ["--camera", "top"],
-                ["--colours", "cividis"], ["--range", "0,0.01"], ["--array", "velocity"]]
+                ["--colors", "cividis"], ["--range", "0,0.01"], ["--array", "velocity"]]
         drawn = set()
         for way in ways:
             done = self.render("--times", "0.2", "--no-movie", *way)
@@ -107,7 +107,7 @@ class Look(unittest.TestCase):
 
     def test_mistakes_are_told_with_their_cure(self):
         for words, part in [(["--view", "secton"], "did you mean section?"),
-                            (["--colours", "jet"], "viridis"),
+                            (["--colors", "jet"], "viridis"),
                             (["--array", "displacment"], "did you mean displacement?"),
                             (["--range", "1,0"], "--range 0,0.5"),
                             (["--camera", "0,0,0"], "--camera 1,-2,0.5"),

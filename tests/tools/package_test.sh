@@ -24,13 +24,13 @@ cat > "$work/outside.cpp" <<'END'
 #include "io/arrays.h"
 #include "metrics/table.h"
 #include "physics/pair_force.h"
-#include "render/colour.h"
+#include "render/color.h"
 
 int main() {
   const sinew::PairForce pair{0.01, 1, 1, 0.02, 0.026};
   const bool works = pair.force(0.02) == 0 && sinew::radius_for_count(1, 1000) > 0 &&
                      !sinew::written_arrays().empty() && !sinew::metrics_table().empty() &&
-                     sinew::mapped_colour(0.5)[0] > 0;
+                     sinew::mapped_color(0.5)[0] > 0;
   return works ? 0 : 1;
 }
 END

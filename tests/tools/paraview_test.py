@@ -24,7 +24,7 @@ SERIES = {
         "displacement": ("point", "m", X), "velocity": ("point", "m/s", X),
         "force": ("point", "N", X), "force_pair": ("point", "N", X),
         "force_damping": ("point", "N", X), "force_bone": ("point", "N", X),
-        "neighbours": ("point", "1", ""),
+        "neighbors": ("point", "1", ""),
         "kinetic_energy": ("field", "J", ""), "pair_energy": ("field", "J", ""),
         "bone_energy": ("field", "J", ""), "gravity_energy": ("field", "J", ""),
         "work_of_bones": ("field", "J", ""), "dissipation": ("field", "J", ""),
@@ -216,12 +216,12 @@ class View(unittest.TestCase):
         left, right = slice(0, width // 2), slice(width // 2, width)
         for half in (left, right):
             self.assertGreater(drawn_share(rows, half.start, half.stop), 0.04)
-        colours = {pixel for row in rows for pixel in row[left]}
-        self.assertGreater(len(colours), 1000)
+        colors = {pixel for row in rows for pixel in row[left]}
+        self.assertGreater(len(colors), 1000)
         with self.subTest("axes of the bones"):
-            for colour in (red, green, blue):
-                self.assertGreater(count(rows, right, colour), 3, colour.__name__)
-        with self.subTest("time, and name and ends of the colours"):
+            for color in (red, green, blue):
+                self.assertGreater(count(rows, right, color), 3, color.__name__)
+        with self.subTest("time, and name and ends of the colors"):
             self.assertGreater(count(rows[-height // 10:], slice(0, width // 5), dark), 20)
             self.assertGreater(count(rows[:height // 5], left, dark), 25)
         with self.subTest("nothing is cut off"):

@@ -46,7 +46,7 @@ setTimeout(() => {
     if (states.start.webgl) {
       const last = document.getElementById("time").max;
       set("time", Math.floor(last / 2), "input"); keep("middle");
-      set("field", "0", "change"); keep("coloured");
+      set("field", "0", "change"); keep("colored");
       set("cut", true, "change"); keep("cut"); set("cut", false, "change");
       document.querySelector("#worst button").click(); keep("worst");
     }
@@ -117,13 +117,13 @@ class Report(unittest.TestCase):
         start, middle = self.states["start"], self.states["middle"]
         self.assertTrue(start["webgl"])
         self.assertGreater(start["points"], 0)
-        self.assertNotEqual(start["shot"], middle["shot"])
+        self.assertNotEqual(start["snapshot"], middle["snapshot"])
         self.assertNotEqual(start["places"], middle["places"])
 
-    def test_the_colour_changes_and_the_places_do_not(self):
-        middle, coloured = self.states["middle"], self.states["coloured"]
-        self.assertNotEqual(middle["tints"], coloured["tints"])
-        self.assertEqual(middle["places"], coloured["places"])
+    def test_the_color_changes_and_the_places_do_not(self):
+        middle, colored = self.states["middle"], self.states["colored"]
+        self.assertNotEqual(middle["tints"], colored["tints"])
+        self.assertEqual(middle["places"], colored["places"])
 
     def test_cutting_takes_about_half_away(self):
         xs = self.states["cut"]["places"][::3]
@@ -131,7 +131,7 @@ class Report(unittest.TestCase):
         self.assertTrue(0.3 < gone < 0.7, gone)
 
     def test_the_worst_frame_is_a_click_away(self):
-        self.assertNotEqual(self.states["worst"]["shot"], self.states["cut"]["shot"])
+        self.assertNotEqual(self.states["worst"]["snapshot"], self.states["cut"]["snapshot"])
 
     def test_dragging_shows_a_part_of_the_time(self):
         low, high = self.states["whole"]["timeRange"]

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "config/temp_folder.h"
+#include "settings/temp_folder.h"
 
 namespace sinew {
 

@@ -29,7 +29,7 @@ class Commands(SmallRun):
         for key in ["version", "command", "host", "particles", "steps", "frames", "time_step",
                     "particle_steps_per_second", "seconds", "state_hash", "arrays", "instruction_set"]:
             self.assertIn(key, record)
-        self.assertEqual((record["precision"], record["neighbour_search"]), ("double", "lists"))
+        self.assertEqual((record["precision"], record["neighbor_search"]), ("double", "lists"))
         self.assertGreaterEqual(record["lists"]["sifts"], record["lists"]["rebuilds"])
         self.assertGreater(record["lists"]["rebuilds"], 0)
         self.assertEqual(record["status"], "finished")
@@ -78,7 +78,7 @@ class Commands(SmallRun):
         hashes = set()
         for binding in ["{}", "{method: inside}", "{core_radius: 0.06}", "{joint_zone: 1, method: inside}",
                         "{explicit: [{bone: upper, low: [-1, -1, 0.3], high: [1, 1, 1]}]}",
-                        "{explicit: [{bone: lower, ids: [0, 1]}, {centre: [0, 0, 0.6], radius: 0.1}]}"]:
+                        "{explicit: [{bone: lower, ids: [0, 1]}, {center: [0, 0, 0.6], radius: 0.1}]}"]:
             self.scene.write_text(text + "binding: " + binding + "\n")
             # Flesh without a bone may move a quarter of a radius per step in the scene, bone or no bone.
             self.simulate("--force", "--set", "solver.time_step_factor=0.1")
@@ -97,7 +97,7 @@ class Commands(SmallRun):
                                 ("explicit: [{bone: upper, ids: [0.5]}]", "no particle 0.5"),
                                 ("explicit: [{bone: upper, ids: []}]", "without values"),
                                 ("explicit: [{bone: upper, low: [0, 0, 0]}]", "one corner"),
-                                ("explicit: [{bone: upper, radius: 1}]", "centre"),
+                                ("explicit: [{bone: upper, radius: 1}]", "center"),
                                 ("explicit: [{bone: upper}]", "names no particles"),
                                 ("explicit: {bone: upper}", "must be a list"),
                                 ("method: file", "no glTF file"), ("method: near", "nearest")]:
@@ -134,20 +134,20 @@ class Commands(SmallRun):
     def test_record_tells_how_the_steps_were_done(self):
         for words, used in [
                 (["solver.precision=single"], ("single", "lists")),
-                (["solver.neighbour_search=cells"], ("double", "cells")),
-                (["solver.precision=single", "solver.neighbour_search=cells"], ("double", "cells")),
+                (["solver.neighbor_search=cells"], ("double", "cells")),
+                (["solver.precision=single", "solver.neighbor_search=cells"], ("double", "cells")),
                 (["material.damping_form=central"], ("double", "cells")),
                 (["binding.force=anchor"], ("double", "cells"))]:
             sets = [part for word in ["solver.duration=0.1", *words] for part in ["--set", word]]
             self.simulate("--force", *sets)
             record = self.record()
-            self.assertEqual((record["precision"], record["neighbour_search"]), used, words)
+            self.assertEqual((record["precision"], record["neighbor_search"]), used, words)
             self.assertEqual(record["lists"]["rebuilds"] > 0, used[1] == "lists", words)
             self.assertEqual(record["instruction_set"] == "plain", used[1] == "cells", words)
 
     def test_precision_and_search_change_no_result_much(self):
         reference = None
-        for word in ["neighbour_search=cells", "neighbour_search=lists", "precision=single"]:
+        for word in ["neighbor_search=cells", "neighbor_search=lists", "precision=single"]:
             self.simulate("--force", "--set", "solver." + word)
             sinew("measure", self.out, check=0)
             rows = list(csv.DictReader((self.out / "metrics.csv").open()))
@@ -270,15 +270,15 @@ class Commands(SmallRun):
     def test_check_tells_how_steps_are_done_and_warns_of_cells(self):
         found = json.loads(sinew("check", self.scene, "--set", "solver.precision=single", "--json",
                                  check=0).stdout)
-        self.assertEqual((found["precision"], found["neighbour_search"]), ("single", "lists"))
+        self.assertEqual((found["precision"], found["neighbor_search"]), ("single", "lists"))
         for key, value in [("material.damping_form", "symmetric"), ("binding.force", "anchor"),
                            ("binding.twist_form", "open_loop")]:
             done = sinew("check", self.scene, "--set", f"{key}={value}", "--json", check=0)
-            self.assertEqual(json.loads(done.stdout)["neighbour_search"], "cells")
+            self.assertEqual(json.loads(done.stdout)["neighbor_search"], "cells")
             warning = next(line for line in done.stderr.splitlines() if "cells" in line)
             for part in [f"{key} is {value}", "times slower", f"use {key}"]:
                 self.assertIn(part, warning)
-        asked = sinew("check", self.scene, "--set", "solver.neighbour_search=cells", check=0)
+        asked = sinew("check", self.scene, "--set", "solver.neighbor_search=cells", check=0)
         self.assertNotIn("times slower", asked.stderr)
 
     def test_explicit_euler_without_damping_has_no_step(self):

@@ -47,8 +47,8 @@ class Bend(unittest.TestCase):
         self.assertLessEqual(settled, 0.5)
 
     def test_the_papers_body_flows_a_little(self):
-        self.assertLess(at(1.5)["broken_neighbours"], 0.04)
-        self.assertGreater(at(1.5)["broken_neighbours"], 0.02)
+        self.assertLess(at(1.5)["broken_neighbors"], 0.04)
+        self.assertGreater(at(1.5)["broken_neighbors"], 0.02)
         self.assertLess(ROWS[-1]["displacement_rms"], 0.7 * RADIUS)
 
     def test_volume_is_nearly_kept(self):
@@ -61,7 +61,7 @@ class Twist(unittest.TestCase):
         end = ROWS[-1]
         self.assertLess(abs(end["tip_angle"] - 90), 1)
         self.assertLess(max(row["twist_jump_max"] for row in ROWS), 5)
-        self.assertLess(max(row["broken_neighbours"] for row in ROWS), 0.01)
+        self.assertLess(max(row["broken_neighbors"] for row in ROWS), 0.01)
 
 
 if __name__ == "__main__":

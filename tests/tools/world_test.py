@@ -39,7 +39,7 @@ world:
         - {{time: 0.1, translation: [0.13, 0, 0], axis: [0, 0, 1], angle: 5}}
     - {{name: ring, shape: capsule, from: [-0.3, 0, 0.9], to: [0.3, 0, 0.9], radius: 0.02, bone: upper}}
   pins:
-    - {{centre: [0, 0, 0.66], radius: 0.06, bone: upper}}
+    - {{center: [0, 0, 0.66], radius: 0.06, bone: upper}}
   fields:
     - name: wind
       acceleration: [0, 3, 0]
@@ -89,7 +89,7 @@ class World(unittest.TestCase):
         record = json.loads((self.out / "run.json").read_text())
         self.assertIn("force_world", record["arrays"]["particles"])
         self.assertIn("obstacle", record["arrays"]["obstacles"])
-        self.assertEqual(record["neighbour_search"], "cells")
+        self.assertEqual(record["neighbor_search"], "cells")
         work = max(map(abs, self.column("work_of_world")))
         self.assertGreater(work, 0)
         self.assertGreater(max(self.column("contact_energy")), 0)
@@ -111,14 +111,14 @@ class World(unittest.TestCase):
             sinew("simulate", self.scene(text), "-o", self.folder / name)
             record = json.loads((self.folder / name / "run.json").read_text())
             hashes.append(record["state_hash"])
-            self.assertEqual(record["neighbour_search"], "lists")
+            self.assertEqual(record["neighbor_search"], "lists")
             self.assertFalse((self.folder / name / "obstacles.pvd").exists())
         self.assertEqual(*hashes)
 
     def test_check_tells_that_lists_do_not_know_it(self):
         done = sinew("check", self.scene())
         self.assertIn("rest: stable", done.stdout)
-        self.assertIn("neighbour_search: cells", done.stdout)
+        self.assertIn("neighbor_search: cells", done.stdout)
         self.assertRegex(done.stderr, "the section world is not empty, .* times slower")
 
     def test_check_counts_particles_that_begin_within_an_obstacle(self):
@@ -128,7 +128,7 @@ class World(unittest.TestCase):
     def test_mistakes_name_their_line(self):
         for old, new, said in [
                 ("bone: upper}}\n  fields", "bone: uper}}\n  fields", "there is no bone 'uper'"),
-                ("centre: [0, 0, 0.66]", "centre: [0, 0, 6]", "holds 0 particles"),
+                ("center: [0, 0, 0.66]", "center: [0, 0, 6]", "holds 0 particles"),
                 ("meshes/box.obj\n      keys", "meshes/bix.obj\n      keys", "bix.obj")]:
             done = sinew("check", self.scene(SCENE.replace(old, new)), check=2)
             self.assertRegex(done.stderr, r"world.yaml:\d+:\d+: .*" + re.escape(said))
@@ -136,17 +136,17 @@ class World(unittest.TestCase):
     def test_the_literal_paper_is_unstable_at_rest(self):
         done = sinew("check", SOURCE / "configs/paper_literal.yaml", "--set", "body.radius=0.02")
         self.assertIn("rest: unstable", done.stdout)
-        self.assertIn("second neighbours", done.stderr)
+        self.assertIn("second neighbors", done.stderr)
 
     def strangers(self, cohesion):
-        """Pairs of neighbours that were none at rest, frame by frame, while two fingers part."""
+        """Pairs of neighbors that were none at rest, frame by frame, while two fingers part."""
         sinew("simulate", SOURCE / "configs/two_fingers.yaml", "-o", self.out, "--force",
               "--set", f"material.cohesion={cohesion}")
         sinew("measure", self.out)
-        return self.column("new_neighbours")
+        return self.column("new_neighbors")
 
     def test_fingers_part_where_strangers_do_not_attract_each_other(self):
-        free, sticky = self.strangers("initial_neighbours"), self.strangers("all")
+        free, sticky = self.strangers("initial_neighbors"), self.strangers("all")
         self.assertGreater(max(free), 0)
         self.assertEqual(free[-1], 0)
         touching = [sum(1 for count in counts if count > 0) for counts in (free, sticky)]

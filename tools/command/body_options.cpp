@@ -12,17 +12,17 @@ namespace {
 
 using Row = Field<Settings>;
 
-bool is_wanted(const Row& row, BodyOptions::Kind kind) {
+bool is_wanted(const Row& row, BodyFlags::Kind kind) {
   static constexpr std::array<std::string_view, 8> of_mesh = {
       "unit", "scale", "up", "forward", "weld", "rule", "close_holes", "wrap"};
-  if (row.section == "body" && kind == BodyOptions::Kind::mesh)
+  if (row.section == "body" && kind == BodyFlags::Kind::mesh)
     return std::find(of_mesh.begin(), of_mesh.end(), row.name) != of_mesh.end();
-  if (kind == BodyOptions::Kind::mesh) return false;
+  if (kind == BodyFlags::Kind::mesh) return false;
   return (row.section == "body" && row.name != "mesh") ||
          (row.section == "material" && row.name == "density");
 }
 
-std::vector<const Row*> rows(BodyOptions::Kind kind) {
+std::vector<const Row*> rows(BodyFlags::Kind kind) {
   std::vector<const Row*> wanted;
   for (const Row& row : settings_table())
     if (is_wanted(row, kind)) wanted.push_back(&row);
@@ -54,7 +54,7 @@ std::string help_of(const Row& row) {
 
 }  // namespace
 
-void BodyOptions::declare(CLI::App& app, Kind kind) {
+void BodyFlags::declare(CLI::App& app, Kind kind) {
   const auto wanted = rows(kind);
   given_.resize(wanted.size());  // options keep the places of their values
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -73,7 +73,7 @@ void BodyOptions::declare(CLI::App& app, Kind kind) {
   }
 }
 
-std::vector<Override> BodyOptions::overrides() const {
+std::vector<Override> BodyFlags::overrides() const {
   std::vector<Override> all;
   for (const Given& one : given_) {
     if (one.parsed->count() == 0) continue;

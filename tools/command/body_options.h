@@ -12,7 +12,7 @@
 
 namespace sinew {
 
-class BodyOptions {
+class BodyFlags {
  public:
   enum class Kind {
     all,   ///< each setting of the section body but its mesh, and the density

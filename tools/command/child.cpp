@@ -47,8 +47,8 @@ volatile pid_t child_of_signals = 0;  // whom a signal handler passes signals on
 void pass_on(int signal, siginfo_t* origin, void*) {
   // Of Ctrl-C the terminal tells all programs in the foreground itself, and a second time would end
   // the child; that it is closed it may tell this one alone.
-  const bool told_already = signal != SIGHUP && origin->si_code == SI_KERNEL;
-  if (child_of_signals > 0 && !told_already) ::kill(child_of_signals, signal);
+  const bool received_already = signal != SIGHUP && origin->si_code == SI_KERNEL;
+  if (child_of_signals > 0 && !received_already) ::kill(child_of_signals, signal);
 }
 
 void pass_signals_on() {

@@ -108,7 +108,7 @@ int tell(Exit exit, std::string message) {
 
 }  // namespace
 
-int run_told(const std::function<Exit()>& job) {
+int run_reporting_errors(const std::function<Exit()>& job) {
   // A file that may not grow any more is an error of its write, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
@@ -126,13 +126,11 @@ int run_told(const std::function<Exit()>& job) {
 int run_command(int argc, char** argv, const About& about,
                 const std::function<void(CLI::App&)>& declare,
                 const std::function<Exit(const Common&)>& job) {
-  return run_told([&] { return parse_and_run(argc, argv, about, declare, job); });
+  return run_reporting_errors([&] { return parse_and_run(argc, argv, about, declare, job); });
 }
 
 void say(const Common& common, const std::string& line) {
   if (!common.quiet) std::fprintf(stderr, "%s\n", line.c_str());
 }
-
-std::string version() { return SINEW_VERSION; }
 
 }  // namespace sinew

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sinew/core/error.h>
+#include <sinew/core/system.h>
 #include <sinew/settings/read_scene.h>
 
 namespace sinew {
@@ -36,13 +37,10 @@ int run_command(int argc, char** argv, const About& about,
                 const std::function<Exit(const Common&)>& job);
 
 /// Runs `job` and returns its exit code, or that of what it throws, told as above.
-int run_told(const std::function<Exit()>& job);
+int run_reporting_errors(const std::function<Exit()>& job);
 
 /// A line of talk on standard error, unless --quiet.
 void say(const Common& common, const std::string& line);
-
-/// "0.1.0"
-std::string version();
 
 // What `run` and `simulate` are asked alike.
 

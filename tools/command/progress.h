@@ -12,7 +12,7 @@ namespace sinew {
 enum class ProgressStyle { none, lines, rewritten };
 
 /// One line rewritten on a terminal, otherwise one line every tenth of the way; nothing when quiet.
-/// No colours and no escape sequences anywhere, so NO_COLOR and plain terminals get what they ask.
+/// No colors and no escape sequences anywhere, so NO_COLOR and plain terminals get what they ask.
 ProgressStyle progress_style(bool quiet);
 
 /// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts

@@ -82,7 +82,7 @@ std::vector<std::string> warnings_of(const Surface& surface, double ambiguous, d
 
 }  // namespace
 
-std::vector<std::string> add_mesh_info(const BodySettings& body, const std::string& drawing,
+std::vector<std::string> add_mesh_info(const BodyOptions& body, const std::string& drawing,
                                        Results& results) {
   const Surface surface = read_body_mesh(body);
   const Diagnosis diagnosis = diagnose(surface);

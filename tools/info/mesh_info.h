@@ -11,7 +11,7 @@ namespace sinew {
 
 /// Adds the diagnosis of a body's mesh to `results`, and returns what deserves a look. Where
 /// `drawing` is not empty the defects are written there, for ParaView.
-std::vector<std::string> add_mesh_info(const BodySettings& body, const std::string& drawing,
+std::vector<std::string> add_mesh_info(const BodyOptions& body, const std::string& drawing,
                                        Results& results);
 
 }  // namespace sinew

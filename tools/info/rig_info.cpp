@@ -34,7 +34,7 @@ double largest_speed(const Skeleton& skeleton, const Clip& clip) {
 
 /// The step that a body of the default material takes by itself, s.
 double usual_step(double radius) {
-  const MaterialSettings settings;
+  const MaterialOptions settings;
   const Material material =
       make_material(settings, radius, settings.density * volume_per_particle(radius));
   const SolverSettings solver;
@@ -107,7 +107,7 @@ void add_rig_alone_info(const Settings& settings, const std::string& name,
   if (!settings.bones.empty()) return add_rig_info({make_skeleton(settings), {}}, radius, results);
   Skeleton named;  // whose bones a clip moves
   Json moves = Json::array();
-  for (const TrackSettings& track : settings.tracks) {
+  for (const TrackDefinition& track : settings.tracks) {
     if (std::find(moves.begin(), moves.end(), track.bone) != moves.end()) continue;
     named.bones.push_back({track.bone, no_bone, 1, {}});
     moves.push_back(track.bone);

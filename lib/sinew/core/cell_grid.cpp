@@ -113,9 +113,9 @@ void add_row(const CellGrid& grid, const Points& points, std::size_t i, double r
 
 }  // namespace
 
-NeighbourLists neighbours_within(const Points& points, double range) {
+NeighborLists neighbors_within(const Points& points, double range) {
   const CellGrid grid(points, range);
-  NeighbourLists lists;
+  NeighborLists lists;
   lists.first.assign(points.size() + 1, 0);
   std::vector<std::vector<std::uint32_t>> pieces((points.size() + points_per_piece - 1) /
                                                  points_per_piece);
@@ -129,7 +129,7 @@ NeighbourLists neighbours_within(const Points& points, double range) {
   std::uint64_t all = 0;
   for (const auto& piece : pieces) all += piece.size();
   if (all > UINT32_MAX)
-    throw bad_input("lists of neighbours need over 2^32 entries", "make body.radius larger");
+    throw bad_input("lists of neighbors need over 2^32 entries", "make body.radius larger");
   for (std::size_t begin = points_per_piece; begin < points.size(); begin += points_per_piece)
     for (std::size_t i = begin; i < std::min(begin + points_per_piece, points.size()); ++i)
       lists.first[i + 1] += lists.first[begin];

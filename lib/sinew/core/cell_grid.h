@@ -51,7 +51,7 @@ class CellGrid {
 // Lists of the points within a distance of each point, all in one array, of any length.
 
 /// Row i of a list of lists: the partners of point i, ascending.
-struct NeighbourLists {
+struct NeighborLists {
   std::vector<std::uint32_t> first;    ///< n + 1 long; row i is [first[i], first[i + 1])
   std::vector<std::uint32_t> partner;  ///< indices of points
 
@@ -63,6 +63,6 @@ struct NeighbourLists {
 
 /// Every pair closer than `range` (m), from both sides. Same answer as brute force. Throws bad
 /// input for more than 2^32 of them. In parallel.
-NeighbourLists neighbours_within(const Points& points, double range);
+NeighborLists neighbors_within(const Points& points, double range);
 
 }  // namespace sinew

@@ -10,7 +10,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t points_per_piece = 1024;
-// Neighbours of a closest packing give eigenvalues of 4 d0^2; a flat set gives 0 up to rounding.
+// Neighbors of a closest packing give eigenvalues of 4 d0^2; a flat set gives 0 up to rounding.
 constexpr double flat = 1e-6;
 
 Mat3 inverse_or_zero(const Mat3& spread) {
@@ -21,7 +21,7 @@ Mat3 inverse_or_zero(const Mat3& spread) {
 
 Mat3 spread_of(const RestShape& rest, std::size_t i) {
   Mat3 spread = Mat3::Zero();
-  for (const auto j : rest.neighbours.of(i)) {
+  for (const auto j : rest.neighbors.of(i)) {
     const Vec3 offset = rest.points[j] - rest.points[i];
     spread += offset * offset.transpose();
   }
@@ -32,7 +32,7 @@ Mat3 spread_of(const RestShape& rest, std::size_t i) {
 
 RestShape rest_shape(Points points, double range) {
   RestShape rest;
-  rest.neighbours = neighbours_within(points, range);
+  rest.neighbors = neighbors_within(points, range);
   rest.points = std::move(points);
   rest.inverse.resize(rest.points.size());
   parallel_for(rest.points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
@@ -43,7 +43,7 @@ RestShape rest_shape(Points points, double range) {
 
 Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i) {
   Mat3 moved = Mat3::Zero();
-  for (const auto j : rest.neighbours.of(i))
+  for (const auto j : rest.neighbors.of(i))
     moved += (now[j] - now[i]) * (rest.points[j] - rest.points[i]).transpose();
   return moved;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least-squares deformation gradient of a cloud of points over its neighbours at rest:
+// The least-squares deformation gradient of a cloud of points over its neighbors at rest:
 // F = (sum dx dX^T) (sum dX dX^T)^-1. Exact for affine motion.
 #pragma once
 
@@ -8,20 +8,20 @@
 
 namespace sinew {
 
-/// What the rest state fixes once: neighbours and the inverse of sum dX dX^T for each point.
+/// What the rest state fixes once: neighbors and the inverse of sum dX dX^T for each point.
 struct RestShape {
   Points points;              ///< n x 3, m
-  NeighbourLists neighbours;  ///< pairs at rest closer than the range given
-  std::vector<Mat3> inverse;  ///< (sum dX dX^T)^-1, 1/m^2; zero where the neighbours lie in a plane
+  NeighborLists neighbors;  ///< pairs at rest closer than the range given
+  std::vector<Mat3> inverse;  ///< (sum dX dX^T)^-1, 1/m^2; zero where the neighbors lie in a plane
 
-  /// Whether point i has enough neighbours (not all in one plane) to define a gradient.
+  /// Whether point i has enough neighbors (not all in one plane) to define a gradient.
   bool defined(std::size_t i) const { return !inverse[i].isZero(0); }
 };
 
-/// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbours. In parallel.
+/// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbors. In parallel.
 RestShape rest_shape(Points points, double range);
 
-/// sum dx dX^T over the neighbours of point i (m^2): all that is known where F is undefined.
+/// sum dx dX^T over the neighbors of point i (m^2): all that is known where F is undefined.
 Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i);
 
 /// F of point i when the points have moved to `now` (n x 3, m); identity where it is undefined.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/core/error.h>
 
+#include <utility>
+
 namespace sinew {
 
 std::string Place::text() const {
@@ -10,17 +12,27 @@ std::string Place::text() const {
   return text;
 }
 
-Error Error::within(const Place& place) const {
+Error Error::with_context(const Place& place) const {
   const std::string where = place.text();
   return where.empty() ? *this : Error(exit_, where + ": " + what());
 }
 
+Error Error::about(std::string key) const {
+  Error error = *this;
+  error.key_ = std::move(key);
+  return error;
+}
+
 Error bad_input(const Place& place, const std::string& what, const std::string& cure) {
-  return bad_input(what, cure).within(place);
+  return bad_input(what, cure).with_context(place);
 }
 
 Error bad_input(const std::string& what, const std::string& cure) {
   return Error(Exit::bad_input, what + "; " + cure);
+}
+
+Error bad_value(const std::string& key, const std::string& what, const std::string& cure) {
+  return bad_input(what, cure).about(key);
 }
 
 Error not_written(const std::string& path, const std::string& what, const std::string& cure) {

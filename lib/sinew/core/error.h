@@ -34,16 +34,24 @@ class Error : public std::runtime_error {
 
   Exit exit() const { return exit_; }
 
-  /// The same error, told as reached through `place` (a scene's line that names a bad mesh).
-  Error within(const Place& place) const;
+  /// The same error, reached through `place` (a scene's line that names a bad mesh).
+  Error with_context(const Place& place) const;
+
+  /// Which value of a description is wrong, such as "bones[1].tail"; "" where it is none.
+  const std::string& key() const { return key_; }
+  Error about(std::string key) const;
 
  private:
   Exit exit_;
+  std::string key_;
 };
 
 /// "PLACE: what; cure", exit code 2.
 Error bad_input(const Place& place, const std::string& what, const std::string& cure);
 Error bad_input(const std::string& what, const std::string& cure);
+
+/// Of a value that a description gives, named by its key: "what; cure", exit code 2.
+Error bad_value(const std::string& key, const std::string& what, const std::string& cure);
 
 /// "PATH: what; cure", exit code 4.
 Error not_written(const std::string& path, const std::string& what, const std::string& cure);

@@ -14,10 +14,10 @@ namespace sinew {
 
 // Closest packing of equal spheres (FCC and HCP): what holds for both, for spheres of radius r.
 
-/// Distance of nearest neighbours, d0 = 2r. Each inner particle has 12 of them.
+/// Distance of nearest neighbors, d0 = 2r. Each inner particle has 12 of them.
 constexpr double nearest_distance(double r) { return 2 * r; }
 
-/// Distance of the 6 second neighbours, 2 sqrt(2) r.
+/// Distance of the 6 second neighbors, 2 sqrt(2) r.
 constexpr double second_distance(double r) { return 2 * std::numbers::sqrt2 * r; }
 
 /// Distance between the half-planes of FCC along a cube axis, sqrt(2) r.
@@ -30,8 +30,8 @@ constexpr double volume_per_particle(double r) { return 4 * std::numbers::sqrt2 
 /// nearest site.
 constexpr double surely_filled_thickness(double r) { return 2 * std::numbers::sqrt2 * r; }
 
-/// Pairs closer than this at rest are neighbours: between first (2r) and second (2.83r) shell.
-constexpr double rest_neighbour_range(double r) { return 2.2 * r; }
+/// Pairs closer than this at rest are neighbors: between first (2r) and second (2.83r) shell.
+constexpr double rest_neighbor_range(double r) { return 2.2 * r; }
 
 struct Particles {
   double radius = 0;  ///< of each particle, m

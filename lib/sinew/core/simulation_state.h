@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All of a simulation that steps change, to the last bit: what a simulation of the same body needs
-// to go on as if it had never stopped. Partners, carriers and bounds of what has moved are found
+// to go on as if it had never stopped. Partners, co-moving frames and bounds of what has moved are found
 // anew: no bit of positions or velocities depends on them.
 #pragma once
 
@@ -30,7 +30,7 @@ struct Energies {
 };
 
 /// Work put in and losses so far, J.
-struct BookEntries {
+struct LedgerEntries {
   double work = 0, dissipation = 0;
   double power = 0;    ///< put in at the beginning of the last step, W
   bool begun = false;  ///< whether there was one
@@ -50,13 +50,13 @@ struct WholeNumbers {
   double length = 1;           ///< m
   Vec3 origin = Vec3::Zero();  ///< m
   Box box;                     ///< around all particles when that was looked at, m
-  double travelled = 0;        ///< at most, since then, m
+  double traveled = 0;        ///< at most, since then, m
 };
 
 struct SimulationState {
   std::int64_t steps = 0;
-  BookEntries book;
-  BookEntries world_book;    ///< of obstacles, fields, muscles and pins
+  LedgerEntries book;
+  LedgerEntries world_ledger;    ///< of obstacles, fields, muscles and pins
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
   bool kicked = false;       ///< velocities are half a step ahead (velocity Verlet)
   std::variant<MovingInDouble, MovingInSingle> moving;

@@ -7,6 +7,8 @@
 
 namespace sinew {
 
+std::string version() { return SINEW_VERSION; }
+
 double available_memory() {
   std::ifstream info("/proc/meminfo");
   std::string key;

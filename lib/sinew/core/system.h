@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much memory can be taken without swapping.
+// The program and the machine it runs on: its version, the memory that is free, the time that passes.
 #pragma once
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 namespace sinew {
 
-/// Bytes: the kernel's estimate (free pages and what caches give back), else the free pages alone.
+/// "0.2.0"
+std::string version();
+
+/// How much memory can be taken without swapping, bytes: the kernel's estimate (free pages and what caches give back), else the free pages alone.
 double available_memory();
 
-// Seconds per stage, for reports.
-
+/// Seconds per stage, for reports.
 class Stopwatch {
  public:
   /// Seconds since the last lap, or the start, without a new lap.

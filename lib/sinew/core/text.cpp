@@ -20,7 +20,7 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-/// Letters to insert, leave out, replace or swap with their neighbour to turn `a` into `b`.
+/// Letters to insert, leave out, replace or swap with their neighbor to turn `a` into `b`.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;

@@ -13,11 +13,11 @@ Vec3 doubled_area_vector(const Triangles& surface, const std::array<int, 3>& fac
 
 double volume(const Triangles& surface) {
   if (surface.faces.empty()) return 0;
-  const Vec3 centre = bounds(surface.points).center();  // keeps digits far from the origin
+  const Vec3 center = bounds(surface.points).center();  // keeps digits far from the origin
   double sum = 0;
   for (const auto& [a, b, c] : surface.faces) {
-    const Vec3 from_b = surface.points[b] - centre;
-    sum += (surface.points[a] - centre).dot(from_b.cross(surface.points[c] - centre));
+    const Vec3 from_b = surface.points[b] - center;
+    sum += (surface.points[a] - center).dot(from_b.cross(surface.points[c] - center));
   }
   return sum / 6;
 }

@@ -14,7 +14,7 @@ struct Triangles {
   std::vector<std::array<int, 3>> faces;  ///< m x 3, indices into points
 };
 
-/// Enclosed volume, sum of a.(b x c)/6 about the box's centre, m^3. Negative when inside out.
+/// Enclosed volume, sum of a.(b x c)/6 about the box's center, m^3. Negative when inside out.
 double volume(const Triangles& surface);
 
 /// Total area of the faces, m^2.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The vectors and matrices every room speaks in. Metres, seconds, kilograms unless said otherwise.
+// The vectors and matrices every room speaks in. Meters, seconds, kilograms unless said otherwise.
 #pragma once
 
 #include <array>

@@ -164,7 +164,7 @@ void refuse_empty(const BodySpace& space, const PackOptions& options, const Fill
                     "give a smaller clearance or radius");
   const double fits = radius_that_fits(space, options, radius);
   throw bad_input(
-      "no particle of radius " + three_digits(radius) + " m has its centre inside",
+      "no particle of radius " + three_digits(radius) + " m has its center inside",
       fits > 0 ? "a radius of " + three_digits(fits) + " m fits" : std::string(thicken));
 }
 

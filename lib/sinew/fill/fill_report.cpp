@@ -93,16 +93,16 @@ void add_shape(std::vector<ReportRow>& rows, const FillReport& report) {
   const double mass = report.mass * static_cast<double>(report.particles);
   rows.push_back({"box_size", text(report.box_size), "m"});
   const double size = report.box_size.maxCoeff();
-  const auto add_centre = [&](const char* key, const Vec3& centre) {
-    rows.push_back({key, text(without_rounding(centre, size)), "m"});
+  const auto add_center = [&](const char* key, const Vec3& center) {
+    rows.push_back({key, text(without_rounding(center, size)), "m"});
   };
-  add_centre("centre_of_mass", report.packed.centre);
+  add_center("center_of_mass", report.packed.center);
   rows.push_back({"inertia", inertia(report.packed, mass), "kg m^2"});
   if (!report.closed) return;
-  add_centre("mesh_centre_of_mass", report.mesh.centre);
+  add_center("mesh_center_of_mass", report.mesh.center);
   rows.push_back({"mesh_inertia", inertia(report.mesh, mass), "kg m^2"});
-  const double offset = (report.packed.centre - report.mesh.centre).norm();
-  rows.push_back({"centre_offset", json_number(without_rounding(offset, size)), "m"});
+  const double offset = (report.packed.center - report.mesh.center).norm();
+  rows.push_back({"center_offset", json_number(without_rounding(offset, size)), "m"});
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::vector<ReportRow> rows_of(const FillReport& report) {
   rows.push_back(
       {"total_mass", json_number(report.mass * static_cast<double>(report.particles)), "kg"});
   add_shape(rows, report);
-  rows.push_back({"neighbours", text(report.neighbours), "particles with 0, 1, .. 12"});
+  rows.push_back({"neighbors", text(report.neighbors), "particles with 0, 1, .. 12"});
   rows.push_back({"smallest_distance", json_number(report.smallest_distance), "diameters"});
   rows.push_back({"mean_distance", json_number(report.mean_distance), "diameters"});
   rows.push_back({"sites_tested", count(report.sites), ""});

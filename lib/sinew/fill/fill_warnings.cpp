@@ -70,7 +70,7 @@ void warn_of_gained_volume(const FillReport& report, const Surface& surface, War
 std::string why_missed(const FillReport& report) {
   if (report.kept_out > 0)
     return counted(report.kept_out, "place inside lies", "places inside lie") +
-           " too close to the surface; give a smaller clearance (or keep: centre), or a radius";
+           " too close to the surface; give a smaller clearance (or keep: center), or a radius";
   if (report.layer)
     return "the layer's volume is not its thickness times the area of the faces; give a radius";
   return "whole layers of the packing enter the body at once; turn the packing "

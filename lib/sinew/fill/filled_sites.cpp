@@ -111,7 +111,7 @@ class Counter {
   std::size_t sites() const { return site_.back(); }
 
   /// Adds to the counts of a run's sites, and notes the earlier runs that it touches.
-  void count(std::size_t index, std::int32_t* neighbours, std::vector<Pair>& pairs) const {
+  void count(std::size_t index, std::int32_t* neighbors, std::vector<Pair>& pairs) const {
     const Run& run = runs_[index];
     const LatticeRow& row = lattice_.rows[run.row];
     const int k = row.first[2];
@@ -120,7 +120,7 @@ class Counter {
       if (other < 0) continue;
       const int shift =
           (row.first[0] + step[0] - lattice_.rows[other].first[0]) / lattice_.along[0];
-      meet(index, other, shift, neighbours + site_[index], pairs);
+      meet(index, other, shift, neighbors + site_[index], pairs);
     }
   }
 
@@ -130,8 +130,8 @@ class Counter {
     return lattice_.packing == Packing::fcc ? i - j : j;
   }
 
-  /// Site n of the run has site n + shift of the other row as a neighbour.
-  void meet(std::size_t index, std::int64_t row, int shift, std::int32_t* neighbours,
+  /// Site n of the run has site n + shift of the other row as a neighbor.
+  void meet(std::size_t index, std::int64_t row, int shift, std::int32_t* neighbors,
             std::vector<Pair>& pairs) const {
     const Run& run = runs_[index];
     const auto end = runs_.begin() + static_cast<std::ptrdiff_t>(first_run_[row + 1]);
@@ -141,7 +141,7 @@ class Counter {
     for (; other != end && other->first - shift < run.last; ++other) {
       const int first = std::max(run.first, other->first - shift);
       const int last = std::min(run.last, other->last - shift);
-      for (int n = first; n < last; ++n) ++neighbours[n - run.first];
+      for (int n = first; n < last; ++n) ++neighbors[n - run.first];
       if (const auto place = static_cast<std::size_t>(other - runs_.begin()); place < index)
         pairs.push_back({static_cast<std::int32_t>(place), static_cast<std::int32_t>(index)});
     }
@@ -170,11 +170,11 @@ void join(const std::vector<std::vector<Pair>>& pairs, std::size_t runs, Touchin
 Touching touching_sites(const Lattice& lattice, const std::vector<Run>& runs) {
   const Counter counter(lattice, runs);
   Touching result;
-  result.neighbours.resize(counter.sites());
+  result.neighbors.resize(counter.sites());
   std::vector<std::vector<Pair>> pairs((runs.size() + runs_at_a_time - 1) / runs_at_a_time);
   parallel_for(runs.size(), runs_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      counter.count(i, result.neighbours.data(), pairs[begin / runs_at_a_time]);
+      counter.count(i, result.neighbors.data(), pairs[begin / runs_at_a_time]);
   });
   join(pairs, runs.size(), result);
   return result;

@@ -50,17 +50,17 @@ void for_each_site(const std::vector<Run>& runs, const Visit& visit) {
 /// Positions of the runs' sites in the lattice's space (n x 3, m), in their order.
 Points positions_of(const Lattice& lattice, const std::vector<Run>& runs);
 
-/// How far within the body a centre has to lie, m.
+/// How far within the body a center has to lie, m.
 double clearance_of(const PackOptions& options, double radius);
 
 /// A lattice over a box, just fine enough to judge a surface by.
 Lattice coarse_lattice(const Box& box);
 
-// Which of the filled sites are nearest neighbours of each other: they touch at 2r. Counted on the
+// Which of the filled sites are nearest neighbors of each other: they touch at 2r. Counted on the
 // lattice, run against run, without looking at positions.
 
 struct Touching {
-  std::vector<std::int32_t> neighbours;  ///< per site of the runs, in their order: 0 to 12
+  std::vector<std::int32_t> neighbors;  ///< per site of the runs, in their order: 0 to 12
   std::vector<std::int32_t> group;       ///< per run: sites that hang together, by their first run
   std::int32_t groups = 0;
 };

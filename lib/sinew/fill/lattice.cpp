@@ -118,16 +118,16 @@ std::uint64_t Lattice::sites() const {
 Lattice lattice_in(const Box& box, Packing packing, double radius,
                    const std::optional<Vec3>& origin) {
   const bool fcc = packing == Packing::fcc;
-  const Vec3 centre = origin.value_or(box.center());
+  const Vec3 center = origin.value_or(box.center());
   const Vec3 unit = fcc ? Vec3(Vec3::Constant(half_plane_spacing(radius)))
                         : Vec3(radius, radius / std::sqrt(3.0), radius * std::sqrt(8.0 / 3));
-  const double step = quantum(box, centre, unit);
+  const double step = quantum(box, center, unit);
   Lattice lattice;
   lattice.packing = packing;
   lattice.radius = radius;
   lattice.unit = (unit / step).array().ceil().matrix() * step;  // up: spacing is at least 2r, and
                                                                 // a face n planes off stays out
-  lattice.origin = rounded(centre, step);
+  lattice.origin = rounded(center, step);
   lattice.along = fcc ? LatticePlace{1, 1, 0} : LatticePlace{2, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double at = lattice.origin[axis], size = lattice.unit[axis];

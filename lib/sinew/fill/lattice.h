@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sites of closest packings (FCC, HCP) in a box, as rows along a close-packed direction, in
-// which sites follow each other at 2r. A site lies at the box's centre unless told otherwise, so
+// which sites follow each other at 2r. A site lies at the box's center unless told otherwise, so
 // that a symmetric body is filled symmetrically and no layer lies on the faces of a box.
 //
 // Every coordinate of every site is a whole multiple of one power of two that is as small as
@@ -18,7 +18,7 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -65,7 +65,7 @@ struct Lattice {
 };
 
 /// All sites within the box (not empty; a size below 1e9 r) and on its surface, for radius r > 0
-/// (m). A site lies at `origin`, by default the box's centre (rounded as above).
+/// (m). A site lies at `origin`, by default the box's center (rounded as above).
 Lattice lattice_in(const Box& box, Packing packing, double radius,
                    const std::optional<Vec3>& origin = std::nullopt);
 

@@ -34,7 +34,7 @@ Moments moments_of(const Triangles& surface) {
   }
   if (sum.volume == 0) return {0, middle, Mat3::Zero()};
   const Vec3 offset = first / sum.volume;
-  sum.centre = middle + offset;
+  sum.center = middle + offset;
   sum.inertia = inertia_of(second - sum.volume * offset * offset.transpose());
   return sum;
 }
@@ -43,11 +43,11 @@ Moments moments_of(const Particles& particles, double volume) {
   Moments sum;
   const auto count = static_cast<double>(particles.size());
   sum.volume = count * volume;
-  for (std::size_t i = 0; i < particles.size(); ++i) sum.centre += particles.position(i);
-  sum.centre /= count;
+  for (std::size_t i = 0; i < particles.size(); ++i) sum.center += particles.position(i);
+  sum.center /= count;
   Mat3 second = Mat3::Zero();
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec3 from = particles.position(i) - sum.centre;
+    const Vec3 from = particles.position(i) - sum.center;
     second += from * from.transpose();
   }
   const double ball = std::cbrt(volume * 3 / (4 * pi));

@@ -134,9 +134,9 @@ void DilatedTriangle::add_cylinder(const Side& side, const Vec3& from, double al
     const double h = from.y() * side.up - from.z() * side.across;
     const double left = squared_distance_ - h * h;
     if (left < 0) return;
-    const double centre = side.slope * (from.y() * side.across + from.z() * side.up);
+    const double center = side.slope * (from.y() * side.across + from.z() * side.up);
     const double half = side.stretch * std::sqrt(left);
-    part = {centre - half, centre + half};
+    part = {center - half, center + half};
   } else if (from.y() * from.y() + from.z() * from.z() > squared_distance_) {
     return;
   }
@@ -180,9 +180,9 @@ constexpr std::size_t faces_at_a_time = 1024, points_at_a_time = 8192;
 
 /// Parts the rows into tiles, so that what is kept at a time stays small and each row has one
 /// thread. All faces that a tile's rows may meet are put down to it first.
-class Rasteriser {
+class Rasterizer {
  public:
-  Rasteriser(const Lattice& lattice, const Triangles& surface, double distance)
+  Rasterizer(const Lattice& lattice, const Triangles& surface, double distance)
       : lattice_(lattice),
         surface_(surface),
         rows_(lattice),
@@ -263,7 +263,7 @@ class Rasteriser {
               row = static_cast<int>(tile) % tiles_across_ * tile_edge;
     std::vector<SiteRanges> found(tile_edge * tile_edge);
     for (std::size_t i = first_[tile]; i < first_[tile + 1]; ++i)
-      rasterise(corners(faces_[i]), layer, row, found);
+      rasterize(corners(faces_[i]), layer, row, found);
     for (int i = 0; i < tile_edge * tile_edge; ++i) {
       const int l = layer + i / tile_edge;
       if (l < static_cast<int>(lattice_.layers.size()))
@@ -272,7 +272,7 @@ class Rasteriser {
     return runs;
   }
 
-  void rasterise(const Corners& at, int first_layer, int first_row,
+  void rasterize(const Corners& at, int first_layer, int first_row,
                  std::vector<SiteRanges>& found) const {
     const DilatedTriangle body(at, distance_);
     const IndexRange layers = rows_.layers(up_reach(at, distance_));
@@ -320,7 +320,7 @@ class Rasteriser {
 }  // namespace
 
 std::vector<Run> runs_near(const Lattice& lattice, const Triangles& surface, double distance) {
-  return Rasteriser(lattice, surface, distance).all_runs();
+  return Rasterizer(lattice, surface, distance).all_runs();
 }
 
 }  // namespace sinew

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sites of a lattice near a surface: to keep particles clear of it, or to fill a layer on it.
-// Triangles dilated by the distance are rasterised onto the rows; no site is asked for its nearest
+// Triangles dilated by the distance are rasterized onto the rows; no site is asked for its nearest
 // triangle. The cost grows with the rows that each dilated triangle meets.
 #pragma once
 
@@ -19,13 +19,6 @@ namespace sinew {
 // across, up) of which the first runs along the rows. The body is convex: a slab over the face,
 // a cylinder around each side, a ball around each corner. So a line meets it in one interval, which
 // is the hull of its intervals with the parts, each in closed form.
-
-struct Interval {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  bool empty() const { return !(low <= high); }
-};
 
 using Corners = std::array<Vec3, 3>;  // also on one line, or at one point
 

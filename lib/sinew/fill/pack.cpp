@@ -32,7 +32,7 @@ void check(const Surface& surface, const PackOptions& options) {
   positive("density", options.density);
   if (options.verify && !options.thickness) refuse_unverifiable(surface);
   if (!options.thickness) return;
-  if (options.keep != Keep::centre || options.clearance > 0)
+  if (options.keep != Keep::center || options.clearance > 0)
     throw bad_input("a layer along the surface has no clearance from it",
                     "give either a thickness, or keep and clearance");
   if (options.verify)
@@ -53,7 +53,7 @@ Particles particles_in(const FilledSites& filled, const Placement& placement) {
 /// The body of each particle: the mesh's where it is closed, else what hangs together.
 std::vector<std::int32_t> components_of(const FilledSites& filled, const Touching& touching) {
   std::vector<std::int32_t> component;
-  component.reserve(touching.neighbours.size());
+  component.reserve(touching.neighbors.size());
   for (std::size_t i = 0; i < filled.runs.size(); ++i)
     component.insert(component.end(), filled.runs[i].sites(),
                      filled.inside.bodies > 0 ? filled.runs[i].body : touching.group[i]);
@@ -92,10 +92,10 @@ void report_sites(const FilledSites& filled, const BodySpace& space, FillReport&
     if (!report.bodies.empty()) report.bodies[run.body].particles += run.sites();
 }
 
-void report_neighbours(const Touching& touching, const Lattice& lattice, FillReport& report) {
-  for (const std::int32_t count : touching.neighbours) ++report.neighbours[count];
+void report_neighbors(const Touching& touching, const Lattice& lattice, FillReport& report) {
+  for (const std::int32_t count : touching.neighbors) ++report.neighbors[count];
   report.groups = touching.groups;
-  if (report.neighbours[0] == report.particles) return;
+  if (report.neighbors[0] == report.particles) return;
   double least = HUGE_VAL, sum = 0;
   for (const LatticePlace& step : lattice.nearest(0)) {
     const double length = lattice.unit.cwiseProduct(Vec3(step[0], step[1], step[2])).norm();
@@ -137,9 +137,9 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   filling.component = components_of(filled, touching);
   report_surface(surface, report);
   report_sites(filled, space, report);
-  report_neighbours(touching, filled.lattice, report);
+  report_neighbors(touching, filled.lattice, report);
   report_mass(filling.particles, options, report);
-  filling.neighbours = std::move(touching.neighbours);
+  filling.neighbors = std::move(touching.neighbors);
   report.seconds_particles = watch.lap();
 
   if (options.verify) report.verification = verify(filled.lattice, space.surface, filled.inside);

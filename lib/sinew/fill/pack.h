@@ -12,7 +12,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/fill/fill_report.h>
 #include <sinew/mesh/surface.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -25,7 +25,7 @@ struct PackOptions {
   double density = 1000;                 ///< kg/m^3
   std::optional<Vec3> lattice_origin;    ///< where a site lies, m; by default in the box's middle
   Mat3 lattice_axes = Mat3::Identity();  ///< as columns: a rotation
-  Keep keep = Keep::centre;
+  Keep keep = Keep::center;
   double clearance = 0;             ///< how far within, m
   std::optional<double> thickness;  ///< fill a layer along the surface instead of its inside, m
   bool verify = false;              ///< ask CGAL about every site
@@ -34,7 +34,7 @@ struct PackOptions {
 struct Filling {
   Particles particles;                  ///< at rest, by lattice rows; mass = density volume / count
   std::vector<std::int32_t> component;  ///< the body each particle lies in, from 0
-  std::vector<std::int32_t> neighbours;  ///< how many others touch it; 12 within the body
+  std::vector<std::int32_t> neighbors;  ///< how many others touch it; 12 within the body
   FillReport report;
 };
 

@@ -2,6 +2,7 @@
 // Sets of lattice sites as runs of sites that follow each other in a row, and their difference.
 #pragma once
 
+#include <limits>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,9 +12,29 @@
 
 #include <sinew/fill/inside/row_crossings.h>
 #include <sinew/fill/lattice.h>
-#include <sinew/fill/near_surface.h>
 
 namespace sinew {
+
+/// Lengths along an axis; none where low is above high.
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  bool empty() const { return !(low <= high); }
+};
+
+struct Run {
+  std::int32_t row, first, last;  ///< sites first .. last - 1
+  std::int32_t body;
+
+  int sites() const { return last - first; }
+  bool operator==(const Run&) const = default;
+};
+
+/// The sites of `runs` that are not in `others`, with the body they have in `runs`. Both are sorted
+/// by row and then site, no two runs of one with a site in common; so is what is given, in which
+/// none touch with the same body.
+std::vector<Run> runs_without(const std::vector<Run>& runs, const std::vector<Run>& others);
 
 // Which layers, rows and sites of a lattice lie within an interval of lengths.
 
@@ -37,9 +58,9 @@ class RowRanges {
         along_unit_(lattice.unit.x() * (diagonal_ ? half_root : 1)),
         across_unit_(diagonal_ ? along_unit_ : lattice.unit.y()),
         across_step_(diagonal_ ? 2 : 3),
-        layers_per_metre_(1 / lattice.unit.z()),
-        rows_per_metre_(1 / (across_unit_ * across_step_)),
-        sites_per_metre_(1 / (2 * along_unit_)) {}
+        layers_per_meter_(1 / lattice.unit.z()),
+        rows_per_meter_(1 / (across_unit_ * across_step_)),
+        sites_per_meter_(1 / (2 * along_unit_)) {}
 
   Vec3 turned(const Vec3& p) const {
     const Vec3 from = p - lattice_.origin;
@@ -53,17 +74,17 @@ class RowRanges {
   double up(int layer) const { return lattice_.unit.z() * (lattice_.low[2] + layer); }
 
   IndexRange layers(const Interval& up) const {
-    const auto at = [&](double z) { return z * layers_per_metre_ - lattice_.low[2]; };
+    const auto at = [&](double z) { return z * layers_per_meter_ - lattice_.low[2]; };
     return whole_numbers({at(up.low), at(up.high)}, static_cast<int>(lattice_.layers.size()));
   }
   IndexRange rows(const LatticeLayer& layer, const Interval& across) const {
     const double first = double(layer.across) / across_step_;
-    const auto at = [&](double y) { return y * rows_per_metre_ - first; };
+    const auto at = [&](double y) { return y * rows_per_meter_ - first; };
     return whole_numbers({at(across.low), at(across.high)}, layer.rows);
   }
   IndexRange sites(const LatticeRow& row, const Interval& along) const {
     const double first = 0.5 * (diagonal_ ? row.first[0] + row.first[1] : row.first[0]);
-    const auto at = [&](double x) { return x * sites_per_metre_ - first; };
+    const auto at = [&](double x) { return x * sites_per_meter_ - first; };
     const double low = std::clamp(at(along.low), 0.0, row.sites + 0.0),
                  high = std::clamp(at(along.high), -1.0, row.sites - 1.0);
     return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
@@ -76,7 +97,7 @@ class RowRanges {
   bool diagonal_;
   double along_unit_, across_unit_;
   int across_step_;
-  double layers_per_metre_, rows_per_metre_, sites_per_metre_;
+  double layers_per_meter_, rows_per_meter_, sites_per_meter_;
 };
 
 // The sites of one row, put together from ranges that come in any order.
@@ -116,19 +137,6 @@ class SiteRanges {
 
   std::vector<IndexRange> ranges_;
 };
-
-struct Run {
-  std::int32_t row, first, last;  ///< sites first .. last - 1
-  std::int32_t body;
-
-  int sites() const { return last - first; }
-  bool operator==(const Run&) const = default;
-};
-
-/// The sites of `runs` that are not in `others`, with the body they have in `runs`. Both are sorted
-/// by row and then site, no two runs of one with a site in common; so is what is given, in which
-/// none touch with the same body.
-std::vector<Run> runs_without(const std::vector<Run>& runs, const std::vector<Run>& others);
 
 // The runs inside a surface as a sweep along the rows of a lattice collects them.
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 1;
 constexpr std::size_t name_size = 8;
-// Bonds have 12 neighbours at rest, from both sides; the rest is for positions, velocities, order.
+// Bonds have 12 neighbors at rest, from both sides; the rest is for positions, velocities, order.
 constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
 
 Error refused(const std::string& what) {
@@ -50,7 +50,7 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("origin", state.whole_numbers.origin);
   transfer("boxlow", state.whole_numbers.box.min());
   transfer("boxhigh", state.whole_numbers.box.max());
-  transfer("travel", state.whole_numbers.travelled);
+  transfer("travel", state.whole_numbers.traveled);
   transfer("meansort", state.mean_when_sorted);
   transfer("order", state.order);
   std::visit(
@@ -284,7 +284,7 @@ Checkpoint read_checkpoint(const fs::path& path, std::uint64_t particles) {
     return parsed(text, particles);
   } catch (const Error& error) {
     throw std::string_view(error.what()).starts_with(path.string()) ? error
-                                                                    : error.within({path.string()});
+                                                                    : error.with_context({path.string()});
   }
 }
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 

@@ -138,7 +138,7 @@ Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
       forces("force_pair", frame.force_pair),
       forces("force_damping", frame.force_damping),
       forces("force_bone", frame.force_bone),
-      column("neighbours", in_written_order(frame.neighbours, now.id)),
+      column("neighbors", in_written_order(frame.neighbors, now.id)),
   };
   if (!frame.force_world.empty())
     data.point_columns.push_back(forces("force_world", frame.force_world));

@@ -27,7 +27,7 @@ struct ParticleFrame {
   std::span<const Vec3> force_pair;          ///< N; these in the order of `now`
   std::span<const Vec3> force_damping;       ///< N
   std::span<const Vec3> force_bone;          ///< N
-  std::span<const std::int32_t> neighbours;  ///< partners within b
+  std::span<const std::int32_t> neighbors;  ///< partners within b
   Energies energies;
   std::span<const double> weight;          ///< of the bone in each particle, in the written order
   std::span<const Vec3> force_world = {};  ///< N, as the others; empty where there is no world

@@ -18,7 +18,7 @@
 #include <sinew/core/text.h>
 #include <sinew/io/vtk_messages.h>
 #include <sinew/io/xml_bounds.h>
-#include <sinew/settings/table.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 
@@ -80,7 +80,7 @@ std::string pvd_text(const std::vector<PvdRow>& rows) {
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path, largest_pvd);
   if (!is_within_bounds(text))
-    throw refused("it is not a PVD file, or one of over 200000 frames").within({path.string()});
+    throw refused("it is not a PVD file, or one of over 200000 frames").with_context({path.string()});
   const VtkMessages messages;
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
       vtkXMLUtilities::ReadElementFromString(text.c_str()));
@@ -88,7 +88,7 @@ std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
     if (!root || messages.failed()) throw refused("it is not a PVD file");
     return rows_of(*root);
   } catch (const Error& error) {
-    throw error.within({path.string()});
+    throw error.with_context({path.string()});
   }
 }
 

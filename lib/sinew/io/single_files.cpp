@@ -97,7 +97,7 @@ BodyFile body_of(const Dataset& data) {
   BodyFile body;
   body.particles = particles_at(data.points, shared(data.point_columns, "radius"),
                                 shared(data.point_columns, "mass"));
-  body.neighbours = integers(data.point_columns, "neighbours");
+  body.neighbors = integers(data.point_columns, "neighbors");
   body.component = integers(data.point_columns, "component");
   if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
   if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
@@ -119,7 +119,7 @@ Dataset body_dataset(BodyFile body) {
   data.point_columns.push_back(std::move(id));
   data.point_columns.push_back(column("radius", std::vector<double>(count, radius)));
   data.point_columns.push_back(column("mass", std::vector<double>(count, mass)));
-  data.point_columns.push_back(column("neighbours", std::move(body.neighbours)));
+  data.point_columns.push_back(column("neighbors", std::move(body.neighbors)));
   data.point_columns.push_back(column("component", std::move(body.component)));
   if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
   if (body.weight) data.point_columns.push_back(column("weight", std::move(*body.weight)));
@@ -140,7 +140,7 @@ BodyFile read_body(const std::filesystem::path& path) {
   try {
     return body_of(data);
   } catch (const Error& error) {
-    throw error.within({path.string()});
+    throw error.with_context({path.string()});
   }
 }
 

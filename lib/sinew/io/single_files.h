@@ -13,7 +13,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/frames.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -52,7 +52,7 @@ void write_defects(const std::filesystem::path& path, const DefectsFile& defects
 
 struct BodyFile {
   Particles particles;                            ///< at rest, in the written order
-  std::vector<std::int32_t> neighbours;           ///< touching particles of each
+  std::vector<std::int32_t> neighbors;           ///< touching particles of each
   std::vector<std::int32_t> component;            ///< connected piece of each, from 0
   std::optional<std::vector<std::int32_t>> bone;  ///< of each, once bound
   std::optional<std::vector<double>> weight;      ///< that bone's share in it, once bound

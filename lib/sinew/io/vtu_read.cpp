@@ -187,26 +187,26 @@ void check_points(const Points& points) {
     if (!points[i].allFinite()) throw refused("point " + std::to_string(i) + " is not finite");
 }
 
-Dataset read_told(const std::filesystem::path& path, const std::optional<Names>& names) {
+Dataset read_with_context(const std::filesystem::path& path, const std::optional<Names>& names) {
   try {
     Dataset data = read_checked(path, names);
     check_points(data.points);
     return data;
   } catch (const Error& error) {
-    throw error.within({path.string()});
+    throw error.with_context({path.string()});
   } catch (const std::exception&) {
     // What VTK throws when it believes a wrong count: out of memory, a vector too long.
-    throw refused("its counts do not fit its size").within({path.string()});
+    throw refused("its counts do not fit its size").with_context({path.string()});
   }
 }
 
 }  // namespace
 
-Dataset read_vtu(const std::filesystem::path& path) { return read_told(path, std::nullopt); }
+Dataset read_vtu(const std::filesystem::path& path) { return read_with_context(path, std::nullopt); }
 
 Dataset read_vtu(const std::filesystem::path& path,
                  std::initializer_list<const char*> point_arrays) {
-  return read_told(path, point_arrays);
+  return read_with_context(path, point_arrays);
 }
 
 }  // namespace sinew

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <sinew/core/dataset.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 

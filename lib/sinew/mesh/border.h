@@ -7,20 +7,8 @@
 #include <vector>
 
 #include <sinew/core/triangles.h>
-#include <sinew/mesh/surface.h>
 
 namespace sinew {
-
-/// Forward minus backward uses of one edge.
-int net_count(std::span<const EdgeUse> use);
-
-/// The holes' edges, in the direction of the faces at them: loops of group 0. The cap of loop i is
-/// the i-th one in Surface::caps.
-std::vector<Loop> border_loops(std::span<const EdgeUse> uses);
-
-/// Counts and lengths of the border with these loops.
-Border border_of(const Triangles& surface, std::span<const EdgeUse> uses,
-                 std::span<const Loop> loops);
 
 // Which faces meet at which edges.
 
@@ -62,5 +50,25 @@ struct Loop {
 /// it meets itself. In every group as many edges must leave each point as come to it: so it is for
 /// the border of any set of triangles.
 std::vector<Loop> simple_loops(std::vector<BorderEdge> edges);
+
+/// Where the surface ends. Each edge counts the directions its faces go along it, forward minus
+/// backward; where that is not 0 the surface is open. Such edges form closed loops: the holes.
+struct Border {
+  std::size_t holes = 0;          ///< loops
+  std::size_t edges = 0;          ///< open edges
+  std::size_t crowded_edges = 0;  ///< edges of three or more faces, open or not
+  double length = 0;              ///< of the open edges, m
+};
+
+/// Forward minus backward uses of one edge.
+int net_count(std::span<const EdgeUse> use);
+
+/// The holes' edges, in the direction of the faces at them: loops of group 0. The cap of loop i is
+/// the i-th one in Surface::caps.
+std::vector<Loop> border_loops(std::span<const EdgeUse> uses);
+
+/// Counts and lengths of the border with these loops.
+Border border_of(const Triangles& surface, std::span<const EdgeUse> uses,
+                 std::span<const Loop> loops);
 
 }  // namespace sinew

@@ -15,7 +15,7 @@ namespace sinew {
 
 PolygonSoup read_polygons(const std::string& path) { return read_mesh(open_mesh(path)); }
 
-Surface read_surface(const BodySettings& body, const MeshReader& reader) {
+Surface read_surface(const BodyOptions& body, const MeshReader& reader) {
   Stopwatch watch;
   PolygonSoup soup = reader(body.mesh);
   const double reading = watch.lap();
@@ -25,14 +25,14 @@ Surface read_surface(const BodySettings& body, const MeshReader& reader) {
     surface.seconds_cleaning = watch.lap();
     return surface;
   } catch (const Error& error) {
-    throw error.within({body.mesh});
+    throw error.with_context({body.mesh});
   }
 }
 
 namespace {
 
-void place(PolygonSoup& soup, const BodySettings& body) {
-  const double by = metres(body.unit) * body.scale;
+void place(PolygonSoup& soup, const BodyOptions& body) {
+  const double by = meters(body.unit) * body.scale;
   if (!(by > 0) || !std::isfinite(by))
     throw bad_input("the scale is " + number_text(body.scale), "give a number above 0");
   const Mat3 turn = to_scene(body);
@@ -92,7 +92,7 @@ Surface wrapped(const Surface& surface, double alpha, FillRule rule) {
 
 }  // namespace
 
-Surface prepare(PolygonSoup soup, const BodySettings& body) {
+Surface prepare(PolygonSoup soup, const BodyOptions& body) {
   check_soup(soup);
   place(soup, body);
   Surface surface = clean(std::move(soup), {body.weld, body.rule});

@@ -8,7 +8,7 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/mesh/surface.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -20,15 +20,15 @@ using MeshReader = std::function<PolygonSoup(const std::string& path)>;
 
 /// What the reader finds at `body.mesh`, prepared as the settings ask (mesh/prepare.h), with the
 /// time that took. Throws Error (bad input), naming the file.
-Surface read_surface(const BodySettings& body, const MeshReader& reader = read_polygons);
+Surface read_surface(const BodyOptions& body, const MeshReader& reader = read_polygons);
 
 // From what a file holds to the surface that a body's settings ask for.
 
-/// In metres, by unit and scale, and in the scene's directions, by up and forward; welded and cleaned; its holes closed, and replaced by a skin
+/// In meters, by unit and scale, and in the scene's directions, by up and forward; welded and cleaned; its holes closed, and replaced by a skin
 /// around it, where the settings ask for that. Throws Error (bad input) where the soup has no
 /// faces, faces of fewer than 3 corners, corners that are no points or coordinates that are not
 /// finite, where the scale is not above 0, where closing holes leaves no face, and as clean() and
 /// repair.h do.
-Surface prepare(PolygonSoup soup, const BodySettings& body);
+Surface prepare(PolygonSoup soup, const BodyOptions& body);
 
 }  // namespace sinew

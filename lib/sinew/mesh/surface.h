@@ -5,11 +5,11 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <sinew/core/triangles.h>
 #include <sinew/mesh/border.h>
-#include <sinew/mesh/clean.h>
 
 namespace sinew {
 
@@ -22,14 +22,35 @@ void add_cap(const Loop& loop, const Points& points, Triangles& caps);
 /// All of them, in the order of the loops.
 Triangles caps_of(std::span<const Loop> loops, const Points& points);
 
-/// Where the surface ends. Each edge counts the directions its faces go along it, forward minus
-/// backward; where that is not 0 the surface is open. Such edges form closed loops: the holes.
-struct Border {
-  std::size_t holes = 0;          ///< loops
-  std::size_t edges = 0;          ///< open edges
-  std::size_t crowded_edges = 0;  ///< edges of three or more faces, open or not
-  double length = 0;              ///< of the open edges, m
+// What cleaning and repairing a mesh came to, and what each count is called wherever it is told.
+
+struct CleaningCounts {
+  std::size_t points_read = 0;
+  std::size_t polygons_read = 0;
+  std::size_t polygons_cut = 0;     ///< polygons of four or more corners, cut into triangles
+  std::size_t points_merged = 0;    ///< points equal to, or within the weld distance of, another
+  std::size_t points_unused = 0;    ///< points of no face, left out
+  std::size_t faces_collapsed = 0;  ///< faces left out because two of their corners are one point
+  std::size_t faces_doubled = 0;    ///< faces left out because an earlier one has the same corners
+  std::size_t faces_flat = 0;       ///< faces without area, kept: they may close the surface
+  std::size_t faces_turned = 0;     ///< faces whose direction was reversed
+  std::size_t holes_closed = 0;     ///< by faces_added new faces, where that was asked for
+  std::size_t faces_added = 0;
+  std::size_t faces_wrapped = 0;  ///< of the skin that replaced the mesh, where asked for
+  std::size_t edges_twisted = 0;  ///< edges whose two faces cannot agree (as on a Moebius strip)
 };
+
+/// A count as reports name it.
+struct NamedCount {
+  enum class Of { file, cleaning, repair };  ///< repairs are done only when asked for
+
+  std::string_view name;
+  std::size_t CleaningCounts::*count;
+  Of of;
+};
+
+/// All counts, in the order in which they are told.
+std::span<const NamedCount> cleaning_counts();
 
 /// The faces of a body point outward (counter-clockwise seen from outside), those of a cavity into
 /// the cavity. They may cut each other, and overlap.

@@ -64,7 +64,7 @@ namespace {
 constexpr std::size_t piece = 256;
 
 // Exact for quadratics over a triangle.
-constexpr double corner_weight = 1.0 / 12, centre_weight = 3.0 / 4;
+constexpr double corner_weight = 1.0 / 12, center_weight = 3.0 / 4;
 
 /// place(i) for all i < count, and how far each is from a surface.
 template <class Place>
@@ -85,17 +85,17 @@ struct OneWay {
 
 OneWay one_way(const Triangles& from, const NearestFace& to) {
   const auto corner = [&](std::size_t i) -> Vec3 { return from.points[i]; };
-  const auto centre = [&](std::size_t f) -> Vec3 {
+  const auto center = [&](std::size_t f) -> Vec3 {
     const auto& [a, b, c] = from.faces[f];
     return (from.points[a] + from.points[b] + from.points[c]) / 3;
   };
   const auto at_corners = distances(from.points.size(), to, corner);
-  const auto at_centres = distances(from.faces.size(), to, centre);
+  const auto at_centers = distances(from.faces.size(), to, center);
   OneWay all;
   for (std::size_t f = 0; f < from.faces.size(); ++f) {  // in order, for the same bits every time
     const double area = face_area(from, from.faces[f]);
-    double sum = centre_weight * at_centres[f];
-    all.farthest = std::max(all.farthest, at_centres[f]);
+    double sum = center_weight * at_centers[f];
+    all.farthest = std::max(all.farthest, at_centers[f]);
     for (const int i : from.faces[f]) {
       sum += corner_weight * at_corners[i];
       all.farthest = std::max(all.farthest, at_corners[i]);

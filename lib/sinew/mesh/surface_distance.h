@@ -39,7 +39,7 @@ struct SurfaceGap {
   double mean = 0;       ///< over the area of both, m
 };
 
-/// Both are looked at in the corners and the centres of all faces, so that the Hausdorff distance
+/// Both are looked at in the corners and the centers of all faces, so that the Hausdorff distance
 /// may be short by what happens between them (of two flat pieces nothing, of a face across a fold
 /// of the other at most half its longest edge); the mean is Simpson's over each face. In parallel,
 /// the same bits for any number of threads. Throws bad input for a surface without an area.

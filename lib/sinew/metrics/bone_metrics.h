@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/rest_body.h>
 

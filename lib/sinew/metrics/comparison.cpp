@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <sinew/metrics/table.h>
-#include <sinew/settings/table.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

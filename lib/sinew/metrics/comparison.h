@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/limits.h>
 #include <sinew/metrics/summary.h>
 

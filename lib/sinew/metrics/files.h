@@ -8,10 +8,10 @@
 #include <string>
 
 #include <sinew/metrics/comparison.h>
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/limits.h>
 #include <sinew/metrics/summary.h>
-#include <sinew/settings/table.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 

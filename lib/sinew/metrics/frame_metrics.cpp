@@ -8,7 +8,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/metrics/surface_distortion.h>
 #include <sinew/metrics/table.h>
-#include <sinew/settings/table.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
@@ -34,9 +34,9 @@ void check(const RestBody& rest, const FrameState& state) {
               " particles and the body has " + std::to_string(n));
   for (std::size_t i = 0; i < state.broken_bonds.size(); ++i)
     require(0 <= state.broken_bonds[i] &&
-                std::size_t(state.broken_bonds[i]) <= rest.shape.neighbours.of(i).size(),
+                std::size_t(state.broken_bonds[i]) <= rest.shape.neighbors.of(i).size(),
             "has " + std::to_string(state.broken_bonds[i]) + " broken bonds at particle " +
-                std::to_string(i) + " of " + std::to_string(rest.shape.neighbours.of(i).size()));
+                std::to_string(i) + " of " + std::to_string(rest.shape.neighbors.of(i).size()));
   bool finite = std::isfinite(state.time) && all_finite(state.positions) &&
                 all_finite(state.velocities) && all_finite(state.surface_points);
   for (const RigidFrame& bone : state.bones)
@@ -82,12 +82,12 @@ Vec3 vector_sum(std::size_t count, const Value& value) {
 
 void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   const std::size_t n = rest.particles();
-  const Vec3 centre = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
+  const Vec3 center = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
   const Vec3 linear = rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
   const Vec3 angular = rest.mass * vector_sum(n, [&](std::size_t i) -> Vec3 {
                          return state.positions[i].cross(state.velocities[i]);
                        });
-  out.centre_x = centre.x(), out.centre_y = centre.y(), out.centre_z = centre.z();
+  out.center_x = center.x(), out.center_y = center.y(), out.center_z = center.z();
   out.momentum_x = linear.x(), out.momentum_y = linear.y(), out.momentum_z = linear.z();
   out.angular_momentum_x = angular.x();
   out.angular_momentum_y = angular.y();
@@ -152,11 +152,11 @@ void add_pose_error(FrameMetrics& out, const RestBody& rest, const ParticleValue
   out.pose_error_far_rms = far.rms();
 }
 
-void add_neighbours(FrameMetrics& out, const RestBody& rest, const ParticleValues& particles) {
+void add_neighbors(FrameMetrics& out, const RestBody& rest, const ParticleValues& particles) {
   const double from_both_sides = 2 * rest.rest_pairs();
   if (from_both_sides == 0) return;
-  out.broken_neighbours = statistics_of(particles.lost).sum / from_both_sides;
-  out.new_neighbours = statistics_of(particles.gained).sum / from_both_sides;
+  out.broken_neighbors = statistics_of(particles.lost).sum / from_both_sides;
+  out.new_neighbors = statistics_of(particles.gained).sum / from_both_sides;
 }
 
 void add_bonds(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
@@ -223,7 +223,7 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_energies(out, rest.start, state.energies);
   add_adherence(out, rest, state);
   add_pose_error(out, rest, frame.particles);
-  add_neighbours(out, rest, frame.particles);
+  add_neighbors(out, rest, frame.particles);
   add_bonds(out, rest, state);
   add_gradients(out, frame.particles, rest.radius);
   add_strain(out, frame.particles);

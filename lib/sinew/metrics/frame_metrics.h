@@ -1,82 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One frame of a run: what is measured, and what comes out.
+// Measures one frame against the body at rest. What each number means stands in table.cpp.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
-#include <sinew/core/simulation_state.h>
-#include <sinew/core/vector.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/rest_body.h>
-#include <sinew/metrics/statistics.h>
 
 namespace sinew {
-
-/// A bone of the skeleton at rest.
-struct MeasuredBone {
-  std::string name;
-  int parent = -1;    ///< index of an earlier bone, -1 for a root
-  double length = 0;  ///< m, > 0
-  RigidFrame rest;    ///< origin: the head, m; first column: the axis towards the tail
-
-  Vec3 axis() const { return rest.rotation.col(0); }
-};
-
-/// The state of a run at one time. Particles are in the written order.
-struct FrameState {
-  double time = 0;                ///< s
-  Points positions, velocities;   ///< n x 3, m and m/s
-  Points surface_points;          ///< in the order of the surface at rest, m
-  std::vector<RigidFrame> bones;  ///< where each bone is
-  Energies energies;
-  std::vector<double> bone_lengths;  ///< head to tail, m; empty: as at rest
-  std::vector<std::int32_t> broken_bonds = {};  ///< of each particle; empty: it has no bonds
-};
-
-/// What is measured of one frame: units, meaning and formula of each stand in table.cpp.
-struct FrameMetrics {
-  double time = not_measured;
-  double bone_angle = not_measured, bone_shift = not_measured;
-  double volume = not_measured, volume_ratio = not_measured, volume_error = not_measured;
-  double area = not_measured, area_ratio = not_measured, particle_volume = not_measured;
-  double centre_x = not_measured, centre_y = not_measured, centre_z = not_measured;
-  double momentum_x = not_measured, momentum_y = not_measured, momentum_z = not_measured;
-  double angular_momentum_x = not_measured, angular_momentum_y = not_measured,
-         angular_momentum_z = not_measured;
-  double displacement_max = not_measured, displacement_rms = not_measured;
-  double speed_max = not_measured;
-  double kinetic_energy = not_measured, pair_energy = not_measured, bone_energy = not_measured;
-  double gravity_energy = not_measured, work_of_bones = not_measured, dissipation = not_measured;
-  double contact_energy = not_measured, work_of_world = not_measured;
-  double energy_residual = not_measured;
-  double adherence_rms = not_measured, adherence_max = not_measured;
-  double pose_error_rms = not_measured, pose_error_max = not_measured;
-  double pose_error_far_rms = not_measured;
-  double broken_neighbours = not_measured, new_neighbours = not_measured;
-  double broken_bonds = not_measured;
-  double inverted = not_measured, J_min = not_measured, J_mean = not_measured;
-  double stretch_max = not_measured;
-  double strain_50 = not_measured, strain_95 = not_measured, strain_99 = not_measured;
-  double D2min_95 = not_measured, von_mises_95 = not_measured;
-  double edge_stretch_max = not_measured, area_stretch_max = not_measured;
-  double conformal_max = not_measured, symmetric_dirichlet = not_measured;
-  double flipped_faces = not_measured;
-  double tip_angle = not_measured, twist_jump_max = not_measured;
-  double candy_wrapper = not_measured, bulge = not_measured;
-  // What needs other surfaces or exact geometry: filled by whoever has them at hand.
-  double self_intersections = not_measured;
-  double pose_hausdorff = not_measured, pose_distance_mean = not_measured;
-  double lbs_hausdorff = not_measured, lbs_distance_mean = not_measured;
-  double dqs_hausdorff = not_measured, dqs_distance_mean = not_measured;
-  double reference_hausdorff = not_measured, reference_distance_mean = not_measured;
-  double reference_surface_rms = not_measured, reference_surface_max = not_measured;
-  double reference_particles_rms = not_measured, reference_particles_max = not_measured;
-};
-
-// Measures one frame against the body at rest. What each number means stands in table.cpp.
 
 /// All metrics of a frame, in parallel, the same bits for any number of threads. Frames are
 /// measured each by itself, in any order. What has nothing to be measured on (a bone's metrics

@@ -11,7 +11,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/metrics/table.h>
-#include <sinew/settings/table.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

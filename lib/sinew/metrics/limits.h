@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/summary.h>
 
 namespace sinew {

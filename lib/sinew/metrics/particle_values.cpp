@@ -30,7 +30,7 @@ double equivalent(const Vec3& principal, double factor) {
 
 double non_affine(const RestShape& shape, const Points& now, const Mat3& F, std::size_t i) {
   double sum = 0;
-  const auto partners = shape.neighbours.of(i);
+  const auto partners = shape.neighbors.of(i);
   for (const auto j : partners)
     sum += ((now[j] - now[i]) - F * (shape.points[j] - shape.points[i])).squaredNorm();
   return sum / static_cast<double>(partners.size());
@@ -85,17 +85,17 @@ Within count_within(std::size_t count, double near, double far, const Squared& s
   return found;
 }
 
-void count_neighbours(ParticleValues& out, const RestBody& rest, const Points& now,
+void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& now,
                       std::span<const Partner> partners, std::size_t i) {
-  const double near = rest_neighbour_range(rest.radius), far = rest.interaction_range;
-  const auto before = rest.shape.neighbours.of(i);
+  const double near = rest_neighbor_range(rest.radius), far = rest.interaction_range;
+  const auto before = rest.shape.neighbors.of(i);
   const Within all =
       count_within(partners.size(), near, far, [&](std::size_t k) { return partners[k].squared; });
   const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
     return (now[i] - now[before[k]]).squaredNorm();
   });
   const auto all_before = static_cast<double>(before.size());
-  out.neighbours[i] = all.far;
+  out.neighbors[i] = all.far;
   out.lost[i] = all_before - kept.far;
   out.gained[i] = all.near - kept.near;
   out.turnover[i] = all_before > 0 ? (out.lost[i] + out.gained[i]) / all_before : not_measured;
@@ -115,7 +115,7 @@ Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
 
 Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
   Mat3 sum = Mat3::Zero();
-  for (const auto j : rest.shape.neighbours.of(i)) {
+  for (const auto j : rest.shape.neighbors.of(i)) {
     const Vec3 apart = now[i] - now[j];
     const double d = apart.norm(), before = (rest.shape.points[i] - rest.shape.points[j]).norm();
     if (d > 0) sum += virial(rest.law.bond(d, before), apart, d);
@@ -124,13 +124,13 @@ Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
 }
 
 void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now) {
-  const double range = std::max(rest_neighbour_range(rest.radius), rest.interaction_range);
+  const double range = std::max(rest_neighbor_range(rest.radius), rest.interaction_range);
   const CellGrid grid(now, range);
   parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
     std::vector<Partner> partners;
     for (std::size_t i = begin; i < end; ++i) {
       find_partners(now, grid, range, i, partners);
-      count_neighbours(out, rest, now, partners, i);
+      count_neighbors(out, rest, now, partners, i);
       if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, partners, i));
     }
   });
@@ -156,7 +156,7 @@ void find_partners(const Points& now, const CellGrid& grid, double range, std::s
 Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
                    std::size_t i) {
   const double range = rest.interaction_range;
-  const auto bonded = rest.shape.neighbours.of(i);
+  const auto bonded = rest.shape.neighbors.of(i);
   Mat3 sum = rest.law.bond ? bonds_virial(rest, now, i) : Mat3(Mat3::Zero());
   for (const Partner& other : partners) {
     if (other.squared >= range * range || other.squared == 0) continue;
@@ -171,7 +171,7 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
   ParticleValues out;
   const std::size_t n = rest.particles();
   for (auto* values : {&out.displacement, &out.speed, &out.J, &out.strain, &out.stretch, &out.D2min,
-                       &out.neighbours, &out.lost, &out.gained, &out.turnover, &out.pose_error})
+                       &out.neighbors, &out.lost, &out.gained, &out.turnover, &out.pose_error})
     values->resize(n);
   if (rest.law.force) out.von_mises.resize(n);
   add_motion(out, rest, state);

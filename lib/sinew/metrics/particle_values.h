@@ -9,7 +9,7 @@
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/dataset.h>
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/rest_body.h>
 
 namespace sinew {
@@ -18,18 +18,18 @@ namespace sinew {
 inline constexpr double flattest = 1e-24;
 
 /// n values each, in the written order. From F, the least-squares deformation gradient over the
-/// neighbours at rest: not-a-number where those lie in a plane.
+/// neighbors at rest: not-a-number where those lie in a plane.
 struct ParticleValues {
   std::vector<double> displacement;  ///< |x - x0|, m
   std::vector<double> speed;         ///< m/s
   std::vector<double> J;             ///< det F
   std::vector<double> strain;        ///< sqrt(2/3 dev H : dev H), H = ln(F^T F) / 2 (Hencky)
   std::vector<double> stretch;       ///< the largest of U = sqrt(F^T F)
-  std::vector<double> D2min;         ///< mean |dx - F dX|^2 over the rest neighbours, m^2
-  std::vector<double> neighbours;    ///< closer than b
-  std::vector<double> lost;          ///< neighbours at rest that are at b or farther
+  std::vector<double> D2min;         ///< mean |dx - F dX|^2 over the rest neighbors, m^2
+  std::vector<double> neighbors;    ///< closer than b
+  std::vector<double> lost;          ///< neighbors at rest that are at b or farther
   std::vector<double> gained;        ///< particles closer than 2.2 r that were not at rest
-  std::vector<double> turnover;      ///< (lost + gained) / neighbours at rest
+  std::vector<double> turnover;      ///< (lost + gained) / neighbors at rest
   std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
   std::vector<double> weight;        ///< the share its bone has in it; empty where not known
   /// sqrt(3/2 dev s : dev s) of the virial stress s = -(1/2V0) sum f (x) r, Pa; empty where the
@@ -63,7 +63,7 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 // of components, XX YY ZZ XY YZ XZ for symmetric ones and row by row for F.
 
 /// Those of requestable_arrays() that are named, in the written order of the particles;
-/// not-a-number where a particle's neighbours define none, and stresses where the body's forces are
+/// not-a-number where a particle's neighbors define none, and stresses where the body's forces are
 /// not known. Of the state, positions and bones count. In parallel.
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
                                     std::span<const std::string_view> names);

@@ -73,7 +73,7 @@ std::vector<double> half_widths(const RestInput& input) {
 }
 
 struct JointZone {
-  Vec3 centre;
+  Vec3 center;
   double reach;  ///< m
 };
 
@@ -88,7 +88,7 @@ std::vector<JointZone> joint_zones(const RestInput& input) {
 
 bool near_joint(const std::vector<JointZone>& zones, const Vec3& place) {
   return std::any_of(zones.begin(), zones.end(), [&](const JointZone& zone) {
-    return (place - zone.centre).norm() <= zone.reach;
+    return (place - zone.center).norm() <= zone.reach;
   });
 }
 
@@ -107,7 +107,7 @@ std::vector<Bound> bound_particles(const RestInput& input, const std::vector<Joi
 }
 
 /// How much a particle's own volume resists: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
-/// A = sum dX dX^T over its neighbours; less at the surface, where neighbours are few.
+/// A = sum dX dX^T over its neighbors; less at the surface, where neighbors are few.
 std::vector<double> volume_weights(const RestShape& shape, double radius) {
   const double full = 4 * nearest_distance(radius) * nearest_distance(radius);
   std::vector<double> weights(shape.points.size(), 0);
@@ -139,7 +139,7 @@ RestBody rest_body(RestInput input) {
   body.sections = make_sections(input.surface, input.bones,
                                 [&](const Vec3& place) { return near_joint(zones, place); });
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
-  body.shape = rest_shape(std::move(input.positions), rest_neighbour_range(input.radius));
+  body.shape = rest_shape(std::move(input.positions), rest_neighbor_range(input.radius));
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);

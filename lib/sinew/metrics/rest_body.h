@@ -11,7 +11,7 @@
 #include <sinew/core/deformation.h>
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/sections.h>
 #include <sinew/metrics/slices.h>
 
@@ -22,7 +22,7 @@ namespace sinew {
 struct PairLaw {
   /// Force between two particles at a distance (m), N, positive repels; empty: not known.
   std::function<double(double)> force;
-  /// The same between neighbours at rest, of the distance and the one at rest; empty: as any other.
+  /// The same between neighbors at rest, of the distance and the one at rest; empty: as any other.
   std::function<double(double, double)> bond;
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
 };
@@ -51,7 +51,7 @@ struct Bound {
 };
 
 struct RestBody {
-  RestShape shape;  ///< neighbours: pairs closer than 2.2 r
+  RestShape shape;  ///< neighbors: pairs closer than 2.2 r
   Triangles surface;
   double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
   double area = 0;    ///< of the surface, m^2
@@ -68,7 +68,7 @@ struct RestBody {
   double mass = not_measured;  ///< of a particle, kg
 
   std::size_t particles() const { return shape.points.size(); }
-  double rest_pairs() const { return static_cast<double>(shape.neighbours.partner.size()) / 2; }
+  double rest_pairs() const { return static_cast<double>(shape.neighbors.partner.size()) / 2; }
 };
 
 /// Checks the input and works out the rest. Throws bad input for sizes that do not fit, indices out

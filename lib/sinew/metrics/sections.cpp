@@ -96,12 +96,12 @@ Vec3 area_vector(const Ring& ring, const Points& points) {
   return sum / 2;
 }
 
-/// Whether a ray across the axis from `centre` crosses the ring an odd number of times.
-bool surrounds(const Ring& ring, const Points& points, const Vec3& centre, const Mat3& axes) {
+/// Whether a ray across the axis from `center` crosses the ring an odd number of times.
+bool surrounds(const Ring& ring, const Points& points, const Vec3& center, const Mat3& axes) {
   bool inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec3 p = axes.transpose() * (place_of(ring[i], points) - centre);
-    const Vec3 q = axes.transpose() * (place_of(ring[(i + 1) % ring.size()], points) - centre);
+    const Vec3 p = axes.transpose() * (place_of(ring[i], points) - center);
+    const Vec3 q = axes.transpose() * (place_of(ring[(i + 1) % ring.size()], points) - center);
     if ((p.z() >= 0) == (q.z() >= 0)) continue;
     inside ^= p.y() + p.z() / (p.z() - q.z()) * (q.y() - p.y()) > 0;
   }
@@ -109,15 +109,15 @@ bool surrounds(const Ring& ring, const Points& points, const Vec3& centre, const
 }
 
 std::optional<Section> section_at(const Triangles& surface, const MeasuredBone& bone,
-                                  const Vec3& centre) {
+                                  const Vec3& center) {
   std::vector<double> height(surface.points.size());
   for (std::size_t i = 0; i < height.size(); ++i)
-    height[i] = bone.axis().dot(surface.points[i] - centre);
+    height[i] = bone.axis().dot(surface.points[i] - center);
   std::optional<Section> least;
   for (Ring& ring : Cut(surface, height).rings()) {
     const double area = area_vector(ring, surface.points).dot(bone.axis());
     if (!(area > 0) || (least && area >= least->area)) continue;
-    if (!surrounds(ring, surface.points, centre, bone.rest.rotation)) continue;
+    if (!surrounds(ring, surface.points, center, bone.rest.rotation)) continue;
     least = Section{0, 0, false, area, std::move(ring)};
   }
   return least;
@@ -132,12 +132,12 @@ std::vector<Section> make_sections(const Triangles& surface, std::span<const Mea
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t b = i / (sections_per_bone + 1);
       const double along = static_cast<double>(i % (sections_per_bone + 1)) / sections_per_bone;
-      const Vec3 centre = bones[b].rest.origin + along * bones[b].length * bones[b].axis();
-      found[i] = section_at(surface, bones[b], centre);
+      const Vec3 center = bones[b].rest.origin + along * bones[b].length * bones[b].axis();
+      found[i] = section_at(surface, bones[b], center);
       if (!found[i]) continue;
       found[i]->bone = static_cast<int>(b);
       found[i]->along = along;
-      found[i]->joint = near_joint(centre);
+      found[i]->joint = near_joint(center);
     }
   });
   std::vector<Section> sections;

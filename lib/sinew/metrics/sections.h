@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <sinew/core/triangles.h>
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 
 namespace sinew {
 

@@ -40,7 +40,7 @@ double along(const MeasuredBone& bone, const Vec3& point) {
   return bone.axis().dot(point - bone.rest.origin);
 }
 
-Vec3 centre_of(const Members& members, const Points& points) {
+Vec3 center_of(const Members& members, const Points& points) {
   Vec3 sum = Vec3::Zero();
   for (const auto i : members) sum += points[i];
   return sum / static_cast<double>(members.size());
@@ -48,9 +48,9 @@ Vec3 centre_of(const Members& members, const Points& points) {
 
 bool has_turn(const Members& members, const Points& rest) {
   if (members.size() < fewest) return false;
-  const Vec3 centre = centre_of(members, rest);
+  const Vec3 center = center_of(members, rest);
   Mat3 spread = Mat3::Zero();
-  for (const auto i : members) spread += (rest[i] - centre) * (rest[i] - centre).transpose();
+  for (const auto i : members) spread += (rest[i] - center) * (rest[i] - center).transpose();
   const Vec3 extents = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
   return extents[1] > in_a_line * extents[2];
 }
@@ -72,7 +72,7 @@ void add_chain(Slices& slices, const Members& members, const Points& rest,
   for (auto& [number, particles] : cut(members, rest, first, thickness)) {
     if (!has_turn(particles, rest)) continue;
     const int index = static_cast<int>(slices.all.size());
-    if (number == last + 1) slices.neighbours.push_back({index - 1, index});
+    if (number == last + 1) slices.neighbors.push_back({index - 1, index});
     last = number;
     slices.all.push_back({std::move(particles), first.axis()});
   }
@@ -118,7 +118,7 @@ Slices make_slices(const Points& rest, std::span<const int> bone,
 }
 
 Mat3 turn_of(const Slice& slice, const Points& rest, const Points& now) {
-  const Vec3 from = centre_of(slice.particles, rest), to = centre_of(slice.particles, now);
+  const Vec3 from = center_of(slice.particles, rest), to = center_of(slice.particles, now);
   Mat3 moved = Mat3::Zero();
   for (const auto i : slice.particles) moved += (now[i] - to) * (rest[i] - from).transpose();
   return rotation_part(moved);
@@ -135,7 +135,7 @@ double largest_twist_jump(const Slices& slices, const Points& rest, const Points
     for (std::size_t i = begin; i < end; ++i) turns[i] = turn_of(slices.all[i], rest, now);
   });
   Statistics jumps;
-  for (const auto& [one, next] : slices.neighbours) {
+  for (const auto& [one, next] : slices.neighbors) {
     const Vec3 axis = (turns[one] + turns[next]) * slices.all[one].axis;
     const Quat relative(Mat3(turns[next] * turns[one].transpose()));
     const double about = axis.norm() > 0 ? relative.vec().dot(axis.normalized()) : 0;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <sinew/core/vector.h>
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 
 namespace sinew {
 
@@ -21,17 +21,17 @@ struct Slice {
 
 struct Slices {
   std::vector<Slice> all;  ///< those whose turn is defined: four particles or more, not in one line
-  std::vector<std::array<int, 2>> neighbours;  ///< pairs in `all` that follow each other
+  std::vector<std::array<int, 2>> neighbors;  ///< pairs in `all` that follow each other
   Slice tip;  ///< the last two half-planes of the last bone; empty where their turn is not defined
 };
 
 /// Cuts the particles (at rest, m) that follow bones (bone: index or -1 each) into slices of
-/// thickness sqrt(2) r, the first one centred on the outermost particle of its chain.
+/// thickness sqrt(2) r, the first one centered on the outermost particle of its chain.
 Slices make_slices(const Points& rest, std::span<const int> bone,
                    std::span<const MeasuredBone> bones, double radius);
 
 /// The rotation that carries the particles' rest positions to their present ones best, in the sense
-/// of least squares about their centres (Kabsch).
+/// of least squares about their centers (Kabsch).
 Mat3 turn_of(const Slice& slice, const Points& rest, const Points& now);
 
 /// Angle of the tip's turn, 0 to pi rad; not measured without a tip.

@@ -196,11 +196,11 @@ std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const S
   const double volume = worst("volume_error"), pose = worst("pose_error_far_rms") / radius;
   const double inverted = worst("inverted"), bonds = worst("broken_bonds");
   const bool bonded = !std::isnan(bonds);
-  const double broken = bonded ? bonds : worst("broken_neighbours");
+  const double broken = bonded ? bonds : worst("broken_neighbors");
   return {
       judged("volume error", volume, with_unit(100 * volume, 2, " %"), volume_scale),
       judged("from the rigid pose, away from joints", pose, with_unit(pose, 2, " r"), pose_scale),
-      judged(bonded ? "broken bonds" : "broken neighbours", broken,
+      judged(bonded ? "broken bonds" : "broken neighbors", broken,
              with_unit(100 * broken, 2, " %"), broken_scale),
       judged("inverted particles", inverted, with_unit(inverted, 0, ""), inverted_scale),
       last_item(frames, summary, radius)};

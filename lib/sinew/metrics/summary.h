@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <sinew/core/vector.h>
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 
 namespace sinew {
 
@@ -71,7 +71,7 @@ struct VerdictItem {
   Level level = Level::unknown;
 };
 
-/// Volume error, distance from the rigid pose far from joints, broken neighbours, inverted
+/// Volume error, distance from the rigid pose far from joints, broken neighbors, inverted
 /// particles, and the residual after the return or else the turn of the tip. Worst frame each, the
 /// last two at the end. radius in m.
 std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const Summary& summary,

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/frame.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/summary.h>
 

@@ -73,7 +73,7 @@ Spring axial(double k, const Vec3& axis, const Vec3& offset) {
   return {-k * slide * axis, k * slide * slide / 2};
 }
 
-BoneSprings springs_of(const BindingSettings& settings, const Material& material, double section,
+BoneSprings springs_of(const BindingOptions& settings, const Material& material, double section,
                        const BoneStrength& strength) {
   const double unit =
       section > 0 ? material.young_modulus() * volume_per_particle(material.pair.r) / section : 0;
@@ -93,7 +93,7 @@ double BoneSprings::stiffest() const {
   return form == BoneForce::anchor ? radial : std::max({radial, twist, axial});
 }
 
-std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding) {
   std::vector<BoneSprings> springs;
   for (const double section : binding.cross_section)
@@ -101,7 +101,7 @@ std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Mat
   return springs;
 }
 
-std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton) {
   std::vector<BoneSprings> springs;
   for (std::size_t b = 0; b < skeleton.size(); ++b)

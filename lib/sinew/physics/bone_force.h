@@ -9,7 +9,7 @@
 #include <sinew/physics/material.h>
 #include <sinew/rig/binding.h>
 #include <sinew/rig/pose.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -27,11 +27,11 @@ struct BoneSprings {
 
 /// The springs of every bone: stiffness E V0 / A of a bone's cross-section A, so that strengths
 /// keep their meaning when radius, size or modulus change. Damping is 2 zeta sqrt(radial mass).
-std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding);
 
 /// The same, times each bone's own strength.
-std::vector<BoneSprings> bone_springs(const BindingSettings& settings, const Material& material,
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton);
 
 /// What one bone does to one particle.

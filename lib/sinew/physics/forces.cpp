@@ -83,7 +83,7 @@ void pairwise_damping(const Particles& particles, const CellGrid& cells, const M
     Vec3 sum = Vec3::Zero();
     for_each_partner(
         particles, cells, material.pair.b, i, [&](std::uint32_t j, const Vec3& offset, double d) {
-          const double share = (1.0 / forces.neighbours[i] + 1.0 / forces.neighbours[j]) / 2;
+          const double share = (1.0 / forces.neighbors[i] + 1.0 / forces.neighbors[j]) / 2;
           const Vec3 approach = particles.velocity(i) - particles.velocity(j);
           const Vec3 along = direction_from(particles, offset, d, i, j);
           sum += share * (central ? Vec3(approach.dot(along) * along) : approach);

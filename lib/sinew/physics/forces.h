@@ -21,7 +21,7 @@ struct World;
 struct Forces {
   Points pair, damping, bone;
   Points world;                 ///< obstacles, drag, fields, muscles; empty where there is no world
-  std::vector<int> neighbours;  ///< partners nearer than b
+  std::vector<int> neighbors;  ///< partners nearer than b
 
   // Of bone_forces only: a simulation's own forces leave them out.
   Points bone_damping;                     ///< the part of bone that damps
@@ -44,7 +44,7 @@ struct Body {
   std::shared_ptr<const World> world = {};  ///< none: nothing is around it
 };
 
-/// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbours.
+/// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbors.
 void pair_forces(const Particles& particles, const Material& material, Forces& forces);
 
 /// Bone forces at `pose`. Fills bone, bone_damping and the powers.

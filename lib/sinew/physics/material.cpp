@@ -17,7 +17,7 @@ constexpr double free_bar_frequency = 22.373, free_bar_slope = 49.48;
 constexpr double shear_coefficient = 5.0 / 6;
 
 /// k1 (Pa) for a Young's modulus (Pa).
-double k1_of(const MaterialSettings& settings, double volume_stiffness, const Mat3& lattice) {
+double k1_of(const MaterialOptions& settings, double volume_stiffness, const Mat3& lattice) {
   const CubicConstants of_k = fcc_constants(volume_stiffness);
   double per_k = settings.model == MaterialModel::bonded_volume
                      ? 2 * hill_shear * (1 + settings.poisson_ratio)
@@ -27,7 +27,7 @@ double k1_of(const MaterialSettings& settings, double volume_stiffness, const Ma
   return settings.young_modulus / (2 * per_k);  // E = per_k k / d0, k = 4 k1 r = 2 k1 d0
 }
 
-void bond(const MaterialSettings& settings, double volume_stiffness, Material& material) {
+void bond(const MaterialOptions& settings, double volume_stiffness, Material& material) {
   const double k = material.pair.contact_stiffness();
   material.bond = {k, settings.breaking_strain.value_or(0), settings.yield_strain.value_or(0),
                    settings.creep_rate};
@@ -57,11 +57,11 @@ CubicConstants Material::constants() const {
 }
 
 BodyShape shape_of(const Points& rest, double radius, double mass) {
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& point : rest) centre += point / static_cast<double>(rest.size());
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& point : rest) center += point / static_cast<double>(rest.size());
   Mat3 spread = Mat3::Zero();
   for (const Vec3& point : rest)
-    spread += (point - centre) * (point - centre).transpose() / static_cast<double>(rest.size());
+    spread += (point - center) * (point - center).transpose() / static_cast<double>(rest.size());
   const Vec3 moments =
       Eigen::SelfAdjointEigenSolver<Mat3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
   BodyShape shape{radius, mass, 0, 0, Mat3::Identity()};
@@ -71,7 +71,7 @@ BodyShape shape_of(const Points& rest, double radius, double mass) {
   return shape;
 }
 
-Material make_material(const MaterialSettings& settings, const BodyShape& shape) {
+Material make_material(const MaterialOptions& settings, const BodyShape& shape) {
   const double volume_stiffness = settings.model == MaterialModel::bonded_volume
                                       ? volume_stiffness_for(settings.poisson_ratio)
                                       : 0;
@@ -93,7 +93,7 @@ Material make_material(const MaterialSettings& settings, const BodyShape& shape)
   return material;
 }
 
-Material make_material(const MaterialSettings& settings, double radius, double mass) {
+Material make_material(const MaterialOptions& settings, double radius, double mass) {
   return make_material(settings, BodyShape{radius, mass, 2 * radius, radius, Mat3::Identity()});
 }
 

@@ -5,7 +5,7 @@
 
 #include <sinew/physics/elasticity.h>
 #include <sinew/physics/pair_force.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -46,8 +46,8 @@ struct BodyShape {
 BodyShape shape_of(const Points& rest, double radius, double mass);
 
 /// The constants for particles of `radius` (m) and `mass` (kg).
-Material make_material(const MaterialSettings& settings, const BodyShape& shape);
-Material make_material(const MaterialSettings& settings, double radius, double mass);
+Material make_material(const MaterialOptions& settings, const BodyShape& shape);
+Material make_material(const MaterialOptions& settings, double radius, double mass);
 
 /// The lowest frequency at which a free bar of that shape bends (Timoshenko's estimate), rad/s.
 double first_bending_frequency(const Material& material, const BodyShape& shape);

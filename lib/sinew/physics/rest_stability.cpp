@@ -67,7 +67,7 @@ Points shaken(const Points& rest, double distance, std::mt19937_64& random) {
 /// The energy that particles of the material have at any places, J.
 std::function<double(const Points&)> energy_of(const Material& material, const Points& rest) {
   const double r = material.pair.r;
-  if (!remembers_neighbours(material))
+  if (!remembers_neighbors(material))
     return [=](const Points& at) {
       return pair_energy(particles_at(at, r, material.mass), material.pair);
     };

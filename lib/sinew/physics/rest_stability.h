@@ -3,13 +3,13 @@
 // energy of a free cluster.
 //
 // A ball of 5 r is strained at random, as a whole and each particle by itself, by 1e-3 to 1e-2. A
-// law fails where partners come within reach that pull with a falling force, as second neighbours
+// law fails where partners come within reach that pull with a falling force, as second neighbors
 // at 2 sqrt(2) r do from that b on, or where stretched pairs do not pull at all (a above 2 r).
 // Strains, not the stiffness at rest, because eq. 1 changes its slope where its range ends.
 #pragma once
 
 #include <sinew/physics/material.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 

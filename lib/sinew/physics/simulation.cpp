@@ -24,18 +24,14 @@ const Particles& checked(const Particles& particles) {
   return particles;
 }
 
-bool is_finite(const BookEntries& book) {
-  return std::isfinite(book.work) && std::isfinite(book.dissipation) && std::isfinite(book.power);
+bool is_finite(const LedgerEntries& ledger) {
+  return std::isfinite(ledger.work) && std::isfinite(ledger.dissipation) && std::isfinite(ledger.power);
 }
 
 }  // namespace
 
-Stepping stepping_of(const SolverSettings& solver, double step) {
-  return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbour_search};
-}
-
-bool lists_serve(const Body& body, const Motion& motion) {
-  return !body.world && !stretches(motion) && !remembers_neighbours(body.material) &&
+bool lists_support(const Body& body, const Motion& motion) {
+  return !body.world && !stretches(motion) && !remembers_neighbors(body.material) &&
          body.material.damping_form == DampingForm::paper &&
          std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
            return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
@@ -46,7 +42,7 @@ Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& 
                                              const Motion& motion, const Stepping& stepping,
                                              const Particles& particles,
                                              kernel::InstructionSet instructions) {
-  if (stepping.neighbour_search == NeighbourSearch::cells || !lists_serve(*body, motion))
+  if (stepping.neighbor_search == NeighborSearch::cells || !lists_support(*body, motion))
     return CellStepper(body, stepping, particles);
   if (stepping.precision == Precision::binary32)
     return ListStepper<float>(body, stepping, particles, instructions);
@@ -60,22 +56,22 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
       cursor_(body_->skeleton, *motion_),
       stepping_(stepping),
       stepper_(make_stepper(body_, *motion_, stepping, checked(particles), instructions)),
-      book_(stepping.step),
-      world_book_(stepping.step),
+      ledger_(stepping.step),
+      world_ledger_(stepping.step),
       particles_(std::move(particles)) {
   forget_read();
 }
 
 void Simulation::step() {
   const Pose& now = pose();
-  tell_time();
+  print_time();
   StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
   if (sums.failure) {
     offenders_ = std::move(sums.failure->all);
     fail(sums.failure->first);
   }
-  book_.add_step(sums.power, sums.lost);
-  world_book_.add_step(sums.world_power, 0);
+  ledger_.add_step(sums.power, sums.lost);
+  world_ledger_.add_step(sums.world_power, 0);
   if (steps_ == 0) held_at_start_ = sums.held_kinetic;
   ++steps_;
   evaluated_ = false;
@@ -83,7 +79,7 @@ void Simulation::step() {
 }
 
 /// Only cells know of surroundings that change with time.
-void Simulation::tell_time() const {
+void Simulation::print_time() const {
   if (auto* cells = std::get_if<CellStepper>(&stepper_)) cells->set_time(time());
 }
 
@@ -113,7 +109,7 @@ void Simulation::fail(const Offender& first) const {
 const Particles& Simulation::particles() const {
   if (!read_) {
     const Pose& now = pose();
-    tell_time();
+    print_time();
     std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
     read_ = true;
   }
@@ -123,7 +119,7 @@ const Particles& Simulation::particles() const {
 void Simulation::evaluate() {
   if (evaluated_) return;
   const Pose& now = pose();
-  tell_time();
+  print_time();
   balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
   evaluated_ = true;
 }
@@ -159,11 +155,11 @@ Energies Simulation::energies() {
       });
   energies.pair = balance_.pair_energy;
   energies.bone = balance_.bone_energy;
-  energies.work_of_bones = book_.work_until(balance_.power);
-  energies.dissipation = book_.dissipation_until(balance_.lost);
+  energies.work_of_bones = ledger_.work_until(balance_.power);
+  energies.dissipation = ledger_.dissipation_until(balance_.lost);
   energies.contact = balance_.contact_energy;
   // What pins hold moves as it is told: they give it its kinetic energy.
-  energies.work_of_world = world_book_.work_until(balance_.world_power) + balance_.held_kinetic -
+  energies.work_of_world = world_ledger_.work_until(balance_.world_power) + balance_.held_kinetic -
                            (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
   return energies;
 }
@@ -183,20 +179,20 @@ SimulationState Simulation::save() const {
   SimulationState state;
   std::visit([&](const auto& stepper) { stepper.save(state); }, stepper_);
   state.steps = steps_;
-  state.book = book_.entries();
-  state.world_book = world_book_.entries();
+  state.ledger = ledger_.entries();
+  state.world_ledger = world_ledger_.entries();
   state.held_at_start = held_at_start_;
   return state;
 }
 
 void Simulation::restore(const SimulationState& state) {
   if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
-  if (!is_finite(state.book) || !is_finite(state.world_book) || !std::isfinite(state.held_at_start))
+  if (!is_finite(state.ledger) || !is_finite(state.world_ledger) || !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
   std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
   steps_ = state.steps;
-  book_.restore(state.book);
-  world_book_.restore(state.world_book);
+  ledger_.restore(state.ledger);
+  world_ledger_.restore(state.world_ledger);
   held_at_start_ = state.held_at_start;
   evaluated_ = false;
   forget_read();

@@ -20,16 +20,13 @@
 #include <sinew/physics/reference/cell_stepper.h>
 #include <sinew/physics/stepper.h>
 #include <sinew/rig/pose.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
-/// What a scene's solver section says of stepping, with the step chosen for it, s.
-Stepping stepping_of(const SolverSettings& solver, double step);
-
 /// Whether steps with lists of partners know all that the body is subject to; those with the
 /// paper's cells always do.
-bool lists_serve(const Body& body, const Motion& motion);
+bool lists_support(const Body& body, const Motion& motion);
 
 class Simulation {
  public:
@@ -83,7 +80,7 @@ class Simulation {
                               kernel::InstructionSet instructions);
   void evaluate();
   void forget_read();
-  void tell_time() const;
+  void print_time() const;
   [[noreturn]] void fail(const Offender& first) const;
 
   std::shared_ptr<const Body> body_;
@@ -92,7 +89,7 @@ class Simulation {
   Stepping stepping_;
   std::int64_t steps_ = 0;
   mutable Stepper stepper_;
-  EnergyBook book_, world_book_;
+  EnergyLedger ledger_, world_ledger_;
   double held_at_start_ = 0;  ///< kinetic energy of what pins hold, J
 
   std::vector<Offender> offenders_;

@@ -41,7 +41,7 @@ double energy(const BondStrength& strength, const PairForce& contact, double len
 
 }  // namespace
 
-bool Bonds::were_neighbours(std::size_t i, std::uint32_t j) const {
+bool Bonds::were_neighbors(std::size_t i, std::uint32_t j) const {
   return entry_of(*this, i, j) != none;
 }
 
@@ -52,7 +52,7 @@ bool Bonds::bonded(std::size_t i, std::uint32_t j) const {
 
 Bonds make_bonds(const Points& rest, double r) {
   Bonds bonds;
-  bonds.partners = neighbours_within(rest, rest_neighbour_range(r));
+  bonds.partners = neighbors_within(rest, rest_neighbor_range(r));
   bonds.rest_length.resize(bonds.partners.partner.size());
   bonds.broken.assign(rest.size(), 0);
   for_each_particle(rest.size(), [&](std::size_t i) {
@@ -92,7 +92,7 @@ Mat3 cofactors(const Mat3& F) {
   return cof;
 }
 
-Mat3 spread_at_rest(const Points& rest, const NeighbourLists& partners, std::size_t i) {
+Mat3 spread_at_rest(const Points& rest, const NeighborLists& partners, std::size_t i) {
   Mat3 A = Mat3::Zero();
   for (const std::uint32_t j : partners.of(i)) {
     const Vec3 X = rest[j] - rest[i];
@@ -110,9 +110,9 @@ double weight_of(const Mat3& A, double d0) {
 
 }  // namespace
 
-bool remembers_neighbours(const Material& material) {
+bool remembers_neighbors(const Material& material) {
   return material.model != MaterialModel::paper ||
-         material.cohesion == Cohesion::initial_neighbours;
+         material.cohesion == Cohesion::initial_neighbors;
 }
 
 Solid::Solid(const Material& material, Points rest)
@@ -134,7 +134,7 @@ Solid::Solid(const Material& material, Points rest)
 double Solid::between(std::size_t i, std::uint32_t j, double d) const {
   const PairForce& pair = material_.pair;
   if (material_.model == MaterialModel::paper)
-    return d < 2 * pair.r || bonds_.were_neighbours(i, j) ? pair.force(d) : 0;
+    return d < 2 * pair.r || bonds_.were_neighbors(i, j) ? pair.force(d) : 0;
   return d < 2 * pair.r && !bonds_.bonded(i, j) ? pair.force(d) : 0;
 }
 
@@ -142,7 +142,7 @@ double Solid::potential(std::size_t i, std::uint32_t j, double d) const {
   const PairForce& pair = material_.pair;
   const double repulsion = d < 2 * pair.r ? pair.potential(d) - pair.potential(2 * pair.r) : 0;
   if (material_.model == MaterialModel::paper)
-    return bonds_.were_neighbours(i, j) ? pair.potential(d) : repulsion;
+    return bonds_.were_neighbors(i, j) ? pair.potential(d) : repulsion;
   return bonds_.bonded(i, j) ? 0 : repulsion;
 }
 

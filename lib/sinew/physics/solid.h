@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What keeps its shape, beside the paper's body, which flows.
 //
-// bonded: neighbours at rest are bonds, f = -k (d - l) e; all other pairs repel by eq. 1.
+// bonded: neighbors at rest are bonds, f = -k (d - l) e; all other pairs repel by eq. 1.
 // bonded_volume: and each particle keeps its volume, U_i = (K_v / 2) V0 w_i (J_i - 1)^2 with J_i of
-// the least-squares deformation gradient F_i over its neighbours at rest,
+// the least-squares deformation gradient F_i over its neighbors at rest,
 // F_i = sum dx dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The
-// weight w_i = min(1, lambda_min(A_i) / (4 d0^2))^2 fades out where neighbours are few: without it
+// weight w_i = min(1, lambda_min(A_i) / (4 d0^2))^2 fades out where neighbors are few: without it
 // the particles of a surface would halve the step.
-// paper with cohesion of initial neighbours: eq. 1, but only neighbours at rest attract each other.
+// paper with cohesion of initial neighbors: eq. 1, but only neighbors at rest attract each other.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +21,24 @@
 
 namespace sinew {
 
-// The bonds of a solid: what were neighbours at rest stay partners wherever they go. A bond is a
+// The bonds of a solid: what were neighbors at rest stay partners wherever they go. A bond is a
 // spring from its rest length; beyond a strain it breaks, and beyond another one its rest length
 // creeps after it (plastic flow).
 
 struct Bonds {
-  NeighbourLists partners;           ///< from both sides, in the order of the particles
+  NeighborLists partners;           ///< from both sides, in the order of the particles
   std::vector<double> rest_length;   ///< by entry of partners, m; 0 once broken
   std::vector<std::int32_t> broken;  ///< by particle
 
   std::size_t size() const { return partners.partner.size() / 2; }
   bool whole(std::size_t entry) const { return rest_length[entry] > 0; }
-  /// Whether i and j were neighbours at rest.
-  bool were_neighbours(std::size_t i, std::uint32_t j) const;
+  /// Whether i and j were neighbors at rest.
+  bool were_neighbors(std::size_t i, std::uint32_t j) const;
   /// Whether a bond holds them together.
   bool bonded(std::size_t i, std::uint32_t j) const;
 };
 
-/// Between all particles of radius `r` (m) that are neighbours at `rest` (m).
+/// Between all particles of radius `r` (m) that are neighbors at `rest` (m).
 Bonds make_bonds(const Points& rest, double r);
 
 /// Calls visit(j, offset, d, rest length) for the whole bonds of particle i: x_i - x_j, its length.
@@ -57,15 +57,15 @@ void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i
 double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
               const Particles& particles, double time);
 
-/// Whether a material's forces know who was whose neighbour at rest.
-bool remembers_neighbours(const Material& material);
+/// Whether a material's forces know who was whose neighbor at rest.
+bool remembers_neighbors(const Material& material);
 
 class Solid {
  public:
   /// `rest` in the order of the particles, m.
   Solid(const Material& material, Points rest);
 
-  /// Pair forces, and eq. 2 between partners nearer than b. Fills pair, damping and neighbours.
+  /// Pair forces, and eq. 2 between partners nearer than b. Fills pair, damping and neighbors.
   void forces(const Particles& particles, Forces& forces);
   /// Stored in bonds, contacts and volumes, J.
   double energy(const Particles& particles);

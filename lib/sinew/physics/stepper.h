@@ -13,15 +13,15 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/physics/forces.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
 // What the bones have put in and what was lost since the start, step by step.
 
-class EnergyBook {
+class EnergyLedger {
  public:
-  explicit EnergyBook(double step) : step_(step) {}
+  explicit EnergyLedger(double step) : step_(step) {}
 
   /// A step that began with this power of the bones and loss (W): trapezoid of the power.
   void add_step(double power, double lost) {
@@ -38,12 +38,12 @@ class EnergyBook {
   /// Half of the step that begins with that loss included, for the moment of the positions, J.
   double dissipation_until(double lost) const { return now_.dissipation + step_ * lost / 2; }
 
-  const BookEntries& entries() const { return now_; }
-  void restore(const BookEntries& entries) { now_ = entries; }
+  const LedgerEntries& entries() const { return now_; }
+  void restore(const LedgerEntries& entries) { now_ = entries; }
 
  private:
   double step_;
-  BookEntries now_;
+  LedgerEntries now_;
 };
 
 struct Stepping {
@@ -51,7 +51,7 @@ struct Stepping {
   double step = 0;              ///< s
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   Precision precision = Precision::binary64;
-  NeighbourSearch neighbour_search = NeighbourSearch::lists;
+  NeighborSearch neighbor_search = NeighborSearch::lists;
 };
 
 // A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
@@ -71,7 +71,7 @@ struct Failure {
   std::vector<Offender> all;
 };
 
-/// What a step adds to the book, at the moment of the positions it began with.
+/// What a step adds to the ledger, at the moment of the positions it began with.
 struct StepSums {
   double power = 0;  ///< of the bones, W
   double lost = 0;   ///< to damping, drag and friction, W
@@ -80,7 +80,7 @@ struct StepSums {
   double held_kinetic = 0;  ///< of particles that pins hold, J
 };
 
-/// The book at one moment.
+/// The ledger at one moment.
 struct Balance {
   double power = 0, lost = 0;               ///< W
   double pair_energy = 0, bone_energy = 0;  ///< J
@@ -111,11 +111,11 @@ void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particle
 
 /// How often lists were made, and how long they are.
 struct ListCounts {
-  std::int64_t rebuilds = 0, sifts = 0, looks = 0, sorts = 0;
-  std::int64_t strays = 0;      ///< particles that got new partners by themselves
+  std::int64_t rebuilds = 0, prunings = 0, looks = 0, sorts = 0;
+  std::int64_t escaped = 0;      ///< particles that got new partners by themselves
   double wide = 0, narrow = 0;  ///< differences per block
   /// Wall time spent on them, s.
-  double rebuilding = 0, sifting = 0, looking = 0, sorting = 0;
+  double rebuilding = 0, pruning = 0, looking = 0, sorting = 0;
 };
 
 }  // namespace sinew

@@ -94,12 +94,12 @@ double step_limit(Integrator integrator, const Material& material,
                                                   : semi_implicit_limit(material, springs, world);
 }
 
-StepChoice choose_step(const SolverSettings& settings, double limit, double interval) {
-  if (!settings.time_step && !(limit > 0))
+StepChoice choose_step(std::optional<double> step, double factor, double limit, double interval) {
+  if (!step && !(limit > 0))
     throw bad_input(
         "explicit_euler has no stable time step without damping",
         "set material.damping and binding.bone_damping above 0, or use symplectic_euler");
-  const double wanted = settings.time_step.value_or(settings.time_step_factor * limit);
+  const double wanted = step.value_or(factor * limit);
   // The tolerance keeps a step that divides the interval from becoming one shorter by rounding.
   const double steps = std::ceil(interval / wanted * (1 - 1e-12));
   if (!(steps < 1e9))
@@ -114,7 +114,7 @@ StepChoice choose_step(const SolverSettings& settings, double limit, double inte
 
 namespace {
 
-constexpr std::size_t neighbours_inside = 12;
+constexpr std::size_t neighbors_inside = 12;
 constexpr int rounds = 3, iterations = 120;      // the step is made better after each round
 constexpr double margin = 0.99;                  // the iteration comes from below
 constexpr double small = 1e-6;                   // of displacements, in radii
@@ -131,7 +131,7 @@ class NearRest {
         world_(world),
         particles_(particles_at(body.rest, body.material.pair.r, body.material.mass)),
         at_rest_(rest_pose(body.skeleton)) {
-    if (remembers_neighbours(body.material)) solid_.emplace(body.material, body.rest);
+    if (remembers_neighbors(body.material)) solid_.emplace(body.material, body.rest);
     bias_ = forces(Vector::Zero(3, particles_.size()), 0);
   }
 
@@ -179,8 +179,8 @@ Vector random_motion(Eigen::Index particles) {
 }  // namespace
 
 bool is_thin(const Points& rest, double radius) {
-  const NeighbourLists near = neighbours_within(rest, rest_neighbour_range(radius));
-  const auto covered = [&](std::size_t i) { return near.of(i).size() >= neighbours_inside; };
+  const NeighborLists near = neighbors_within(rest, rest_neighbor_range(radius));
+  const auto covered = [&](std::size_t i) { return near.of(i).size() >= neighbors_inside; };
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const auto around = near.of(i);
     if (covered(i) && std::all_of(around.begin(), around.end(), covered)) return false;

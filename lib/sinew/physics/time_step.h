@@ -3,6 +3,7 @@
 // bisection; a strongly bent joint rattles above 0.9 of them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <sinew/physics/bone_force.h>
@@ -36,9 +37,9 @@ struct StepChoice {
   double factor() const { return step / limit; }
 };
 
-/// The step asked for (or time_step_factor times the limit), made shorter so that whole steps make
-/// a frame interval (s). Throws bad input when time_step is auto and no step is stable.
-StepChoice choose_step(const SolverSettings& settings, double limit, double interval);
+/// The step asked for, s, or where none is `factor` times the limit, made shorter so that whole
+/// steps make a frame interval (s). Throws bad input when none is asked for and no step is stable.
+StepChoice choose_step(std::optional<double> step, double factor, double limit, double interval);
 
 // The step limit of bodies that have no inside. The closed forms of time_step.h are those of the
 // packing without end; a body below some five planes of particles is softer than that, and bears a

@@ -23,10 +23,10 @@ namespace sinew {
 
 namespace {
 
-constexpr Colour skin_colour{250, 218, 196};
-constexpr Colour edge_colour{104, 62, 42};
-constexpr Colour plain_colour{206, 164, 138};
-constexpr std::array<Colour, 3> axis_colours{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
+constexpr Color skin_color{250, 218, 196};
+constexpr Color edge_color{104, 62, 42};
+constexpr Color plain_color{206, 164, 138};
+constexpr std::array<Color, 3> axis_colors{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
 
 vtkNew<vtkPoints> vtk_points(const Points& points) {
   vtkNew<vtkPoints> out;
@@ -46,12 +46,12 @@ vtkNew<vtkCellArray> vtk_cells(const std::vector<std::array<int, N>>& cells) {
   return out;
 }
 
-vtkProperty& add_actor(vtkRenderer& renderer, vtkMapper& mapper, const Colour& colour) {
+vtkProperty& add_actor(vtkRenderer& renderer, vtkMapper& mapper, const Color& color) {
   vtkNew<vtkActor> actor;
   actor->SetMapper(&mapper);
   renderer.AddActor(actor);
   vtkProperty& look = *actor->GetProperty();
-  look.SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
+  look.SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
   look.SetAmbient(0.14);
   look.SetDiffuse(0.9);
   look.SetSpecular(0.12);
@@ -70,7 +70,7 @@ void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Sh
                double opacity, double width) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(net(points, edges));
-  vtkProperty& look = add_actor(renderer, *mapper, edge_colour);
+  vtkProperty& look = add_actor(renderer, *mapper, edge_color);
   look.LightingOff();
   look.SetOpacity(opacity);  // below 1 it leaves the depths alone: lines cast no shadows
   look.SetLineWidth(static_cast<float>(width));
@@ -90,7 +90,7 @@ Points lifted(const Triangles& surface, double by) {
   return points;
 }
 
-void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const Colour& colour) {
+void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const Color& color) {
   std::vector<Shading::Edge> pairs;
   for (int i = 0; i + 1 < static_cast<int>(ends.size()); i += 2) pairs.push_back({i, i + 1});
   vtkNew<vtkTubeFilter> tubes;
@@ -100,14 +100,14 @@ void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const C
   tubes->CappingOn();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(tubes->GetOutputPort());
-  add_actor(renderer, *mapper, colour);
+  add_actor(renderer, *mapper, color);
 }
 
-void add_balls(vtkRenderer& renderer, const Points& centres, double radius, const Colour& colour) {
+void add_balls(vtkRenderer& renderer, const Points& centers, double radius, const Color& color) {
   vtkNew<vtkAppendPolyData> balls;
-  for (const Vec3& centre : centres) {
+  for (const Vec3& center : centers) {
     vtkNew<vtkSphereSource> ball;
-    ball->SetCenter(centre.x(), centre.y(), centre.z());
+    ball->SetCenter(center.x(), center.y(), center.z());
     ball->SetRadius(radius);
     ball->SetThetaResolution(24);
     ball->SetPhiResolution(16);
@@ -115,42 +115,42 @@ void add_balls(vtkRenderer& renderer, const Points& centres, double radius, cons
   }
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(balls->GetOutputPort());
-  add_actor(renderer, *mapper, colour);
+  add_actor(renderer, *mapper, color);
 }
 
-vtkNew<vtkUnsignedCharArray> colours_of(const Shot& shot, const ColourScale& scale) {
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
-  colours->SetNumberOfTuples(static_cast<vtkIdType>(shot.particles.size()));
-  for (std::size_t i = 0; i < shot.particles.size(); ++i) {
-    const Colour colour = shot.values.empty() ? plain_colour : scale.colour(shot.values[i]);
-    colours->SetTypedTuple(static_cast<vtkIdType>(i), colour.data());
+vtkNew<vtkUnsignedCharArray> colors_of(const Snapshot& snapshot, const ColorScale& scale) {
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(static_cast<vtkIdType>(snapshot.particles.size()));
+  for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
+    const Color color = snapshot.values.empty() ? plain_color : scale.color(snapshot.values[i]);
+    colors->SetTypedTuple(static_cast<vtkIdType>(i), color.data());
   }
-  return colours;
+  return colors;
 }
 
 }  // namespace
 
-void add_particles(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale) {
-  if (shot.particles.empty()) return;
+void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale) {
+  if (snapshot.particles.empty()) return;
   vtkNew<vtkCellArray> vertices;
-  for (std::size_t i = 0; i < shot.particles.size(); ++i) {
+  for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
     const auto point = static_cast<vtkIdType>(i);
     vertices->InsertNextCell(1, &point);
   }
   vtkNew<vtkPolyData> data;
-  data->SetPoints(vtk_points(shot.particles));
+  data->SetPoints(vtk_points(snapshot.particles));
   data->SetVerts(vertices);
-  data->GetPointData()->SetScalars(colours_of(shot, scale));
+  data->GetPointData()->SetScalars(colors_of(snapshot, scale));
   vtkNew<vtkOpenGLSphereMapper> mapper;  // one quadrangle each, round by its shader
   mapper->SetInputData(data);
-  mapper->SetRadius(static_cast<float>(shot.radius));
+  mapper->SetRadius(static_cast<float>(snapshot.radius));
   add_actor(renderer, *mapper, palette::paper);
 }
 
-void add_skin(vtkRenderer& renderer, const Shot& shot, const Shading& skin) {
+void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin) {
   if (skin.faces.empty()) return;
-  const Triangles shaded = skin.at(shot.surface.points);
+  const Triangles shaded = skin.at(snapshot.surface.points);
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
   for (const Vec3& normal : point_normals(shaded)) normals->InsertNextTuple(normal.data());
@@ -160,71 +160,71 @@ void add_skin(vtkRenderer& renderer, const Shot& shot, const Shading& skin) {
   data->GetPointData()->SetNormals(normals);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  vtkProperty& look = add_actor(renderer, *mapper, skin_colour);
+  vtkProperty& look = add_actor(renderer, *mapper, skin_color);
   look.SetAmbient(0.34);
   look.SetDiffuse(0.62);
   look.SetSpecular(0.02);
 }
 
-void add_net(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style) {
-  constexpr double wide_enough = 7;  // pixels between lines, below which they grey the skin
-  if (mean_length(shot.surface.points, skin.lines) < wide_enough * style.pixel) return;
-  add_lines(renderer, lifted(shot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
+void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin, const LineStyle& style) {
+  constexpr double wide_enough = 7;  // pixels between lines, below which they gray the skin
+  if (mean_length(snapshot.surface.points, skin.lines) < wide_enough * style.pixel) return;
+  add_lines(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
 }
 
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin,
+void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
                  const LineStyle& style) {
-  add_lines(renderer, lifted(shot.surface, style.lift), skin.creases, 0.8, style.width);
+  add_lines(renderer, lifted(snapshot.surface, style.lift), skin.creases, 0.8, style.width);
 }
 
-void add_bones(vtkRenderer& renderer, const Shot& shot, double thickness, const Colour& colour) {
-  if (shot.bones.empty()) return;
+void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness, const Color& color) {
+  if (snapshot.bones.empty()) return;
   Points tubes, joints;
   std::array<Points, 3> axes;
-  for (const ShotBone& bone : shot.bones) {
+  for (const SnapshotBone& bone : snapshot.bones) {
     tubes.insert(tubes.end(), {bone.head, bone.tail});
     joints.insert(joints.end(), {bone.head, bone.tail});
     for (int k = 0; k < 3; ++k)
       axes[k].insert(axes[k].end(), {bone.head, bone.head + 3.2 * thickness * bone.axes.col(k)});
   }
-  add_tubes(renderer, tubes, 0.3 * thickness, colour);
-  add_balls(renderer, joints, 0.55 * thickness, colour);
+  add_tubes(renderer, tubes, 0.3 * thickness, color);
+  add_balls(renderer, joints, 0.55 * thickness, color);
   for (int k = 0; k < 3; ++k)  // the one along the bone sheathes it
-    add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, axis_colours[k]);
+    add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, axis_colors[k]);
 }
 
 namespace {
 
-vtkNew<vtkPolyData> data_of(const std::vector<ShotArrow>& arrows, const ColourScale& scale) {
+vtkNew<vtkPolyData> data_of(const std::vector<SnapshotArrow>& arrows, const ColorScale& scale) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkDoubleArray> along;
   along->SetName("along");
   along->SetNumberOfComponents(3);
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
-  for (const ShotArrow& arrow : arrows) {
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  for (const SnapshotArrow& arrow : arrows) {
     points->InsertNextPoint(arrow.from.data());
     along->InsertNextTuple(arrow.along.data());
-    colours->InsertNextTypedTuple(scale.colour(arrow.value).data());
+    colors->InsertNextTypedTuple(scale.color(arrow.value).data());
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->GetPointData()->AddArray(along);
-  data->GetPointData()->SetScalars(colours);
+  data->GetPointData()->SetScalars(colors);
   return data;
 }
 
 }  // namespace
 
-void add_arrows(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale) {
-  if (shot.arrows.empty()) return;
+void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale) {
+  if (snapshot.arrows.empty()) return;
   vtkNew<vtkArrowSource> shape;
   shape->SetTipRadius(0.11);
   shape->SetShaftRadius(0.04);
   shape->SetTipResolution(16);
   shape->SetShaftResolution(12);
   vtkNew<vtkGlyph3DMapper> mapper;
-  mapper->SetInputData(data_of(shot.arrows, scale));
+  mapper->SetInputData(data_of(snapshot.arrows, scale));
   mapper->SetSourceConnection(shape->GetOutputPort());
   mapper->SetOrientationArray("along");
   mapper->SetScaleArray("along");

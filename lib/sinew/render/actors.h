@@ -10,10 +10,10 @@ class vtkRenderer;
 
 namespace sinew {
 
-/// Spheres of the shot's radius in the colours of their values.
-void add_particles(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale);
+/// Spheres of the snapshot's radius in the colors of their values.
+void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
 
-void add_skin(vtkRenderer& renderer, const Shot& shot, const Shading& skin);
+void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin);
 
 struct LineStyle {
   double width = 1;  ///< of the sharp edges, in the drawn pixels; the others are thinner
@@ -22,14 +22,14 @@ struct LineStyle {
 };
 
 /// The skin's sharp edges.
-void add_creases(vtkRenderer& renderer, const Shot& shot, const Shading& skin,
+void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
                  const LineStyle& style);
 
 /// Its other edges, fainter.
-void add_net(vtkRenderer& renderer, const Shot& shot, const Shading& skin, const LineStyle& style);
+void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin, const LineStyle& style);
 
 /// Tubes with joints and their axes in red, green and blue, about `thickness` (m) thick.
-void add_bones(vtkRenderer& renderer, const Shot& shot, double thickness, const Colour& colour);
+void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness, const Color& color);
 
 }  // namespace sinew
 
@@ -39,7 +39,7 @@ class vtkRenderer;
 
 namespace sinew {
 
-/// Each arrow from its place as far as it reaches, in the colour of its value.
-void add_arrows(vtkRenderer& renderer, const Shot& shot, const ColourScale& scale);
+/// Each arrow from its place as far as it reaches, in the color of its value.
+void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
 
 }  // namespace sinew

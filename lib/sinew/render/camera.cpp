@@ -19,7 +19,7 @@ Mat3 three_quarter_view() { return view_from({0.42, -1, 0.36}); }
 
 Mat3 view_from_above() { return Mat3::Identity(); }
 
-Box seen(const Mat3& view, const Shot& shot) {
+Box seen(const Mat3& view, const Snapshot& snapshot) {
   Box box;
   const auto add = [&](const Vec3& point, double around) {
     if (!point.allFinite())
@@ -27,14 +27,14 @@ Box seen(const Mat3& view, const Shot& shot) {
     const Vec3 p = view * point, reach = Vec3::Constant(around);
     box.extend(Box(p - reach, p + reach));
   };
-  for (const Vec3& point : shot.particles) add(point, shot.radius);
-  for (const Vec3& point : shot.surface.points) add(point, 0);
-  for (const ShotArrow& arrow : shot.arrows) add(arrow.from + arrow.along, 0);
-  for (const ShotBone& bone : shot.bones) add(bone.head, shot.radius), add(bone.tail, shot.radius);
+  for (const Vec3& point : snapshot.particles) add(point, snapshot.radius);
+  for (const Vec3& point : snapshot.surface.points) add(point, 0);
+  for (const SnapshotArrow& arrow : snapshot.arrows) add(arrow.from + arrow.along, 0);
+  for (const SnapshotBone& bone : snapshot.bones) add(bone.head, snapshot.radius), add(bone.tail, snapshot.radius);
   return box;
 }
 
-double metres_per_pixel(const Box& frame, int width, int height) {
+double meters_per_pixel(const Box& frame, int width, int height) {
   if (frame.isEmpty()) return 1;
   const Vec3 size = frame.sizes();
   const double scale = std::max(size.x() / width, size.y() / height);

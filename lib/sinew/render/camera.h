@@ -22,11 +22,11 @@ struct Camera {
   Box frame;  ///< in the view's directions, m; all of it is in the picture
 };
 
-/// The box around everything in `shot` in the directions of `view`, m; empty for an empty shot.
+/// The box around everything in `snapshot` in the directions of `view`, m; empty for an empty snapshot.
 /// Throws bad input for positions that are not finite.
-Box seen(const Mat3& view, const Shot& shot);
+Box seen(const Mat3& view, const Snapshot& snapshot);
 
-/// Metres per pixel at which `frame` just fits into a picture.
-double metres_per_pixel(const Box& frame, int width, int height);
+/// Meters per pixel at which `frame` just fits into a picture.
+double meters_per_pixel(const Box& frame, int width, int height);
 
 }  // namespace sinew

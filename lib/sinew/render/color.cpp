@@ -11,7 +11,7 @@ namespace sinew {
 namespace {
 
 constexpr int steps = 256;
-using ColourTable = std::array<Colour, steps>;
+using ColorTable = std::array<Color, steps>;
 
 double to_linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 double from_linear(double l) {
@@ -32,51 +32,51 @@ Mat3 lab_from_cones() {
       .finished();
 }
 
-Colour from_oklab(const Vec3& lab) {
+Color from_oklab(const Vec3& lab) {
   const Vec3 cones = lab_from_cones().inverse() * lab;
   const Vec3 rgb = cones_from_rgb().inverse() * cones.cwiseProduct(cones).cwiseProduct(cones);
-  Colour colour;
+  Color color;
   for (int c = 0; c < 3; ++c)
-    colour[c] =
+    color[c] =
         static_cast<std::uint8_t>(std::lround(255 * from_linear(std::clamp(rgb[c], 0.0, 1.0))));
-  return colour;
+  return color;
 }
 
 /// The hues a map goes through: those by S. van der Walt and N. Smith (2015), cividis by
 /// J. Nunez, C. Anderton and R. Renslow (2018), at even steps.
-std::vector<Colour> stops_of(ColourMap map) {
+std::vector<Color> stops_of(ColorMap map) {
   switch (map) {
-    case ColourMap::indigo:
+    case ColorMap::indigo:
       return {{78, 74, 168},  {58, 112, 190},  {32, 150, 176},
               {78, 190, 146}, {172, 220, 108}, {255, 236, 124}};
-    case ColourMap::viridis:
+    case ColorMap::viridis:
       return {{68, 1, 84},    {72, 40, 120},  {62, 73, 137},  {49, 104, 142}, {38, 130, 142},
               {31, 158, 137}, {53, 183, 121}, {110, 206, 88}, {181, 222, 43}, {253, 231, 37}};
-    case ColourMap::cividis:
+    case ColorMap::cividis:
       return {{0, 34, 78},     {18, 53, 112},   {59, 73, 108},   {87, 93, 109},  {112, 113, 115},
               {138, 134, 120}, {165, 156, 116}, {195, 179, 105}, {225, 204, 85}, {254, 232, 56}};
-    case ColourMap::plasma:
+    case ColorMap::plasma:
       return {{13, 8, 135},   {70, 3, 159},   {114, 1, 168},  {156, 23, 158}, {189, 55, 134},
               {216, 87, 107}, {237, 121, 83}, {251, 159, 58}, {253, 202, 38}, {240, 249, 33}};
-    case ColourMap::inferno:
+    case ColorMap::inferno:
       return {{0, 0, 4},     {27, 12, 65},   {74, 12, 107}, {120, 28, 109}, {165, 44, 96},
               {207, 68, 70}, {237, 105, 37}, {251, 155, 6}, {247, 209, 61}, {252, 255, 164}};
-    case ColourMap::magma:
+    case ColorMap::magma:
       return {{0, 0, 4},      {24, 15, 61},  {68, 15, 118},   {114, 31, 129},  {158, 47, 127},
               {205, 64, 113}, {241, 96, 93}, {253, 150, 104}, {254, 202, 141}, {252, 253, 191}};
-    case ColourMap::grey:
+    case ColorMap::gray:
       return {{40, 40, 40}, {245, 245, 245}};
   }
   return {};
 }
 
 /// Along the line through the map's hues, by the length walked in Oklab.
-ColourTable make_table(ColourMap map) {
-  const std::vector<Colour> stops = stops_of(map);
+ColorTable make_table(ColorMap map) {
+  const std::vector<Color> stops = stops_of(map);
   std::vector<double> length(stops.size(), 0);
   for (std::size_t i = 1; i < stops.size(); ++i)
     length[i] = length[i - 1] + (oklab(stops[i]) - oklab(stops[i - 1])).norm();
-  ColourTable table;
+  ColorTable table;
   for (int k = 0; k < steps; ++k) {
     const double walked = length.back() * k / (steps - 1);
     std::size_t i = 1;
@@ -87,18 +87,18 @@ ColourTable make_table(ColourMap map) {
   return table;
 }
 
-constexpr std::array<NamedColourMap, 7> names = {{{"indigo", ColourMap::indigo},
-                                                  {"viridis", ColourMap::viridis},
-                                                  {"cividis", ColourMap::cividis},
-                                                  {"plasma", ColourMap::plasma},
-                                                  {"inferno", ColourMap::inferno},
-                                                  {"magma", ColourMap::magma},
-                                                  {"grey", ColourMap::grey}}};
+constexpr std::array<NamedColorMap, 7> names = {{{"indigo", ColorMap::indigo},
+                                                  {"viridis", ColorMap::viridis},
+                                                  {"cividis", ColorMap::cividis},
+                                                  {"plasma", ColorMap::plasma},
+                                                  {"inferno", ColorMap::inferno},
+                                                  {"magma", ColorMap::magma},
+                                                  {"gray", ColorMap::gray}}};
 
-const ColourTable& table_of(ColourMap map) {
-  static const std::vector<ColourTable> tables = [] {
-    std::vector<ColourTable> made;
-    for (const NamedColourMap& named : names) made.push_back(make_table(named.map));
+const ColorTable& table_of(ColorMap map) {
+  static const std::vector<ColorTable> tables = [] {
+    std::vector<ColorTable> made;
+    for (const NamedColorMap& named : names) made.push_back(make_table(named.map));
     return made;
   }();
   return tables[static_cast<std::size_t>(map)];
@@ -106,22 +106,22 @@ const ColourTable& table_of(ColourMap map) {
 
 }  // namespace
 
-Vec3 oklab(const Colour& colour) {
+Vec3 oklab(const Color& color) {
   Vec3 rgb;
-  for (int c = 0; c < 3; ++c) rgb[c] = to_linear(colour[c] / 255.0);
+  for (int c = 0; c < 3; ++c) rgb[c] = to_linear(color[c] / 255.0);
   return lab_from_cones() *
          (cones_from_rgb() * rgb).unaryExpr([](double c) { return std::cbrt(c); });
 }
 
-std::span<const NamedColourMap> colour_maps() { return names; }
+std::span<const NamedColorMap> color_maps() { return names; }
 
-Colour mapped_colour(double position, ColourMap map) {
-  const ColourTable& table = table_of(map);
+Color mapped_color(double position, ColorMap map) {
+  const ColorTable& table = table_of(map);
   if (!(position > 0)) return table.front();
   return table[static_cast<int>(std::lround(std::min(position, 1.0) * (steps - 1)))];
 }
 
-double ColourScale::position(double value) const {
+double ColorScale::position(double value) const {
   if (!(high > low) || !(value > low)) return 0;
   return std::min(1.0, (value - low) / (high - low));
 }

@@ -16,10 +16,10 @@ struct Layout {
   int margin = 0;
   int top = 0;             ///< of the panels
   int wide = 0, high = 0;  ///< each panel
-  int foot = 0;            ///< where caption and colours begin
+  int foot = 0;            ///< where caption and colors begin
 };
 
-Layout layout_of(const std::vector<Panel>& panels, const PlateOptions& options) {
+Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options) {
   Layout layout;
   const int count = static_cast<int>(panels.size());
   layout.words.size = std::max(11, options.height / 32);
@@ -27,7 +27,7 @@ Layout layout_of(const std::vector<Panel>& panels, const PlateOptions& options) 
   const bool titled = std::any_of(panels.begin(), panels.end(),
                                   [](const Panel& panel) { return !panel.title.empty(); });
   layout.top = layout.margin + (titled ? line_height(layout.words) : 0);
-  layout.foot = options.height - colour_bar_height(layout.words) - layout.margin;
+  layout.foot = options.height - color_bar_height(layout.words) - layout.margin;
   layout.wide = (options.width - (count + 1) * layout.margin) / count;
   layout.high = layout.foot - layout.margin - layout.top;
   return layout;
@@ -35,26 +35,26 @@ Layout layout_of(const std::vector<Panel>& panels, const PlateOptions& options) 
 
 }  // namespace
 
-Image plate(const std::vector<Panel>& panels, const PlateOptions& options) {
-  if (panels.empty()) throw bad_input("a plate needs panels", "give at least one");
+Image figure(const std::vector<Panel>& panels, const FigureOptions& options) {
+  if (panels.empty()) throw bad_input("a figure needs panels", "give at least one");
   const Layout layout = layout_of(panels, options);
   Image image(options.width, options.height);
   int x = layout.margin;
   for (const Panel& panel : panels) {
     const PictureOptions picture{panel.view, options.camera, layout.wide, layout.high,
                                  4,          options.finish};
-    paste(image, panel.painter->draw(*panel.shot, picture), x, layout.top);
+    paste(image, panel.painter->draw(*panel.snapshot, picture), x, layout.top);
     TextStyle title = layout.words;
-    title.align = Align::centre;
+    title.align = Align::center;
     write_text(image, panel.title, x + layout.wide / 2, layout.margin / 2, title);
     x += layout.wide + layout.margin;
   }
-  write_text(image, panels.front().shot->caption, 2 * layout.margin, layout.foot, layout.words);
+  write_text(image, panels.front().snapshot->caption, 2 * layout.margin, layout.foot, layout.words);
   if (std::none_of(panels.begin(), panels.end(),
                    [](const Panel& panel) { return shows_values(panel.view); }))
     return image;
   const int bar = std::min(options.width / 3, 3 * options.height / 5);
-  draw_colour_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
+  draw_color_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
                   layout.foot, bar, layout.words);
   return image;
 }
@@ -62,7 +62,7 @@ Image plate(const std::vector<Panel>& panels, const PlateOptions& options) {
 namespace {
 
 struct Column {
-  Box frame;  ///< as wide as its shots, as high as all of them
+  Box frame;  ///< as wide as its snapshots, as high as all of them
   int x = 0, width = 0;
 };
 
@@ -75,11 +75,11 @@ struct Layout {
 };
 
 std::vector<Column> columns_of(const std::vector<SheetRow>& rows, const Mat3& view) {
-  std::vector<Column> columns(rows.front().shots->size());
+  std::vector<Column> columns(rows.front().snapshots->size());
   Box all;
   for (const SheetRow& row : rows)
     for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i].frame.extend(seen(view, (*row.shots)[i]));
+      columns[i].frame.extend(seen(view, (*row.snapshots)[i]));
   for (const Column& column : columns) all.extend(column.frame);
   for (Column& column : columns)
     for (int axis : {1, 2}) {
@@ -95,11 +95,11 @@ double summed_width(const std::vector<Column>& columns) {
   return sum;
 }
 
-int caption_lines(const std::vector<Shot>& shots) {
+int caption_lines(const std::vector<Snapshot>& snapshots) {
   std::ptrdiff_t most = 0;
-  for (const Shot& shot : shots)
-    if (!shot.caption.empty())
-      most = std::max(most, 1 + std::count(shot.caption.begin(), shot.caption.end(), '\n'));
+  for (const Snapshot& snapshot : snapshots)
+    if (!snapshot.caption.empty())
+      most = std::max(most, 1 + std::count(snapshot.caption.begin(), snapshot.caption.end(), '\n'));
   return static_cast<int>(most);
 }
 
@@ -137,10 +137,10 @@ Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options)
     y += layout.row_height;
   }
   layout.captions = y + layout.margin / 2;
-  layout.bar = layout.captions + caption_lines(*rows.front().shots) * line_height(layout.text) +
+  layout.bar = layout.captions + caption_lines(*rows.front().snapshots) * line_height(layout.text) +
                layout.margin / 2;
   layout.height =
-      layout.bar + (show_values(rows) ? colour_bar_height(layout.text) + layout.margin / 2 : 0);
+      layout.bar + (show_values(rows) ? color_bar_height(layout.text) + layout.margin / 2 : 0);
   return layout;
 }
 
@@ -151,23 +151,23 @@ void draw_row(Image& sheet, const SheetRow& row, int y, const Layout& layout,
     const Column& column = layout.columns[i];
     const PictureOptions panel{
         row.view, {options.view, column.frame}, column.width, layout.row_height, 1, options.finish};
-    paste(sheet, row.painter->draw((*row.shots)[i], panel), column.x, y);
+    paste(sheet, row.painter->draw((*row.snapshots)[i], panel), column.x, y);
   }
 }
 
-void write_captions(Image& sheet, const std::vector<Shot>& shots, const Layout& layout) {
+void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots, const Layout& layout) {
   TextStyle words = layout.text;
-  words.align = Align::centre;
-  for (std::size_t i = 0; i < shots.size(); ++i)
-    write_text(sheet, shots[i].caption, layout.columns[i].x + layout.columns[i].width / 2,
+  words.align = Align::center;
+  for (std::size_t i = 0; i < snapshots.size(); ++i)
+    write_text(sheet, snapshots[i].caption, layout.columns[i].x + layout.columns[i].width / 2,
                layout.captions, words);
 }
 
 void check(const std::vector<SheetRow>& rows) {
-  if (rows.empty() || rows.front().shots->empty())
-    throw bad_input("a contact sheet needs shots", "give at least one");
+  if (rows.empty() || rows.front().snapshots->empty())
+    throw bad_input("a contact sheet needs snapshots", "give at least one");
   for (const SheetRow& row : rows)
-    if (row.shots->size() != rows.front().shots->size())
+    if (row.snapshots->size() != rows.front().snapshots->size())
       throw bad_input("rows of a contact sheet differ in length", "give the same moments to each");
 }
 
@@ -179,19 +179,19 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& optio
   Image sheet(layout.width, layout.height);
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);
-  write_captions(sheet, *rows.front().shots, layout);
+  write_captions(sheet, *rows.front().snapshots, layout);
   if (!show_values(rows)) return sheet;
   TextStyle words = layout.text;
   words.size = std::max(10, words.size * 4 / 5);
   const int bar = layout.width / 3;
-  draw_colour_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
+  draw_color_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
                   words);
   return sheet;
 }
 
-Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options) {
+Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots, const SheetOptions& options) {
   return contact_sheet(
-      {{&painter, &shots, View::surface, ""}, {&painter, &shots, View::particles, ""}}, options);
+      {{&painter, &snapshots, View::surface, ""}, {&painter, &snapshots, View::particles, ""}}, options);
 }
 
 }  // namespace sinew

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A picture with words: one or more panels side by side, below them the caption and the meaning of
-// the colours.
+// the colors.
 #pragma once
 
 #include <sinew/render/picture.h>
 
 namespace sinew {
 
-/// One view of one shot.
+/// One view of one snapshot.
 struct Panel {
   Painter* painter = nullptr;
-  const Shot* shot = nullptr;
+  const Snapshot* snapshot = nullptr;
   View view = View::both;
   std::string title;  ///< above it, or empty
 };
 
-struct PlateOptions {
+struct FigureOptions {
   Camera camera;  ///< the same for all panels, and for all frames of a movie
   int width = 1280, height = 720;
   Finish finish = Finish::fine;
 };
 
-/// The caption is that of the first panel's shot, the colour scale that of its painter: all panels
+/// The caption is that of the first panel's snapshot, the color scale that of its painter: all panels
 /// share it. Throws bad input without panels, and as Painter::draw does.
-Image plate(const std::vector<Panel>& panels, const PlateOptions& options);
+Image figure(const std::vector<Panel>& panels, const FigureOptions& options);
 
 // A run in one picture: moments from left to right, ways of looking at them below each other.
 
 /// One row: the same moments as in the other rows, seen in one way.
 struct SheetRow {
   Painter* painter = nullptr;
-  const std::vector<Shot>* shots = nullptr;
+  const std::vector<Snapshot>* snapshots = nullptr;
   View view = View::both;
   std::string title;  ///< above it, or empty
 };
@@ -42,12 +42,12 @@ struct SheetOptions {
   Finish finish = Finish::fine;
 };
 
-/// All panels to one scale; below them the captions of the first row's shots and the colour scale
-/// of its painter. Throws bad input without rows or shots or with rows of different lengths, and as
+/// All panels to one scale; below them the captions of the first row's snapshots and the color scale
+/// of its painter. Throws bad input without rows or snapshots or with rows of different lengths, and as
 /// Painter::draw does.
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
 /// As in the paper's figure 4: the surface above, the particles below, over time.
-Image contact_sheet(Painter& painter, const std::vector<Shot>& shots, const SheetOptions& options);
+Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots, const SheetOptions& options);
 
 }  // namespace sinew

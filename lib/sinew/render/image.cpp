@@ -12,9 +12,9 @@
 
 namespace sinew {
 
-Image::Image(int columns, int rows, const Colour& colour)
+Image::Image(int columns, int rows, const Color& color)
     : width(columns), height(rows), rgb(3 * static_cast<std::size_t>(columns) * rows) {
-  fill(*this, 0, 0, columns, rows, colour);
+  fill(*this, 0, 0, columns, rows, color);
 }
 
 Image halved(const Image& image) {
@@ -37,10 +37,10 @@ void paste(Image& image, const Image& part, int x, int y) {
     std::copy_n(part.at(left, row), 3 * (right - left), image.at(x + left, y + row));
 }
 
-void fill(Image& image, int x, int y, int width, int height, const Colour& colour) {
+void fill(Image& image, int x, int y, int width, int height, const Color& color) {
   for (int row = std::max(0, y); row < std::min(y + height, image.height); ++row)
     for (int column = std::max(0, x); column < std::min(x + width, image.width); ++column)
-      std::copy(colour.begin(), colour.end(), image.at(column, row));
+      std::copy(color.begin(), color.end(), image.at(column, row));
 }
 
 namespace {

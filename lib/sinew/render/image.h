@@ -13,7 +13,7 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel, rows from the top, each from the left
 
   Image() = default;
-  Image(int columns, int rows, const Colour& colour = palette::paper);
+  Image(int columns, int rows, const Color& color = palette::paper);
 
   std::uint8_t* at(int x, int y) { return &rgb[3 * (static_cast<std::size_t>(y) * width + x)]; }
   const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
@@ -26,7 +26,7 @@ Image halved(const Image& image);
 void paste(Image& image, const Image& part, int x, int y);
 
 /// Paints the pixels of a rectangle, cut off at the borders.
-void fill(Image& image, int x, int y, int width, int height, const Colour& colour);
+void fill(Image& image, int x, int y, int width, int height, const Color& color);
 
 /// Writes `image` to `path`, which appears complete or not at all. Throws not written.
 void write_png(const Image& image, const std::string& path);

@@ -11,17 +11,17 @@
 namespace sinew {
 namespace {
 
-constexpr Colour slate{44, 58, 92}, ivory{250, 244, 230};
+constexpr Color slate{44, 58, 92}, ivory{250, 244, 230};
 
-void check(const Shot& shot, const Shading& skin, const PictureOptions& options) {
+void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& options) {
   const auto [small, large] = std::minmax(options.width, options.height);
   if (small < 16 || large > 8192)
     throw bad_input("a picture cannot have that size", "choose 16 to 8192 pixels each way");
-  if (!shot.values.empty() && shot.values.size() != shot.particles.size())
-    throw bad_input("a shot has not one value per particle", "give one each, or none");
+  if (!snapshot.values.empty() && snapshot.values.size() != snapshot.particles.size())
+    throw bad_input("a snapshot has not one value per particle", "give one each, or none");
   for (const int point : skin.source)
-    if (point >= static_cast<int>(shot.surface.points.size()))
-      throw bad_input("a shot's surface has fewer points than at rest", "draw one run at a time");
+    if (point >= static_cast<int>(snapshot.surface.points.size()))
+      throw bad_input("a snapshot's surface has fewer points than at rest", "draw one run at a time");
 }
 
 /// The exposure with its hollows darkened; not to black: some light always gets in.
@@ -64,57 +64,57 @@ struct Painter::Sizes {
   double line;   ///< of the skin's edges, in drawn pixels
 };
 
-Painter::Painter(const Triangles& rest, ColourScale scale)
+Painter::Painter(const Triangles& rest, ColorScale scale)
     : skin_(make_shading(rest)), scale_(std::move(scale)) {}
 
-Image Painter::particles(const Shot& shot, const Sizes& sizes, bool skin_and_bones) {
-  add_particles(stage_.renderer(), shot, scale_);
+Image Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones) {
+  add_particles(stage_.renderer(), snapshot, scale_);
   if (skin_and_bones) {
-    add_creases(stage_.renderer(), shot, skin_, {sizes.line, 0.35 * shot.radius, sizes.pixel});
-    add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, ivory);
+    add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
+    add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
   Image image = with_shadows(stage_.shoot(), 2 * sizes.grain);
-  if (!skin_and_bones || shot.bones.empty()) return image;
-  add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, ivory);
+  if (!skin_and_bones || snapshot.bones.empty()) return image;
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   shine_through(image, stage_.shoot(), 0.6F);
   return image;
 }
 
-Image Painter::surface(const Shot& shot, const Sizes& sizes) {
-  add_skin(stage_.renderer(), shot, skin_);
-  add_net(stage_.renderer(), shot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  add_creases(stage_.renderer(), shot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, slate);
+Image Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
+  add_skin(stage_.renderer(), snapshot, skin_);
+  add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
+  add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, slate);
   Image image = with_shadows(stage_.shoot(), 5 * sizes.grain);
-  if (shot.bones.empty()) return image;
-  add_bones(stage_.renderer(), shot, 1.6 * sizes.grain, slate);
+  if (snapshot.bones.empty()) return image;
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, slate);
   shine_through(image, stage_.shoot(), 0.6F);
   return image;
 }
 
-Image Painter::pale_skin(const Shot& shot, const Sizes& sizes) {
-  add_skin(stage_.renderer(), shot, skin_);
-  add_creases(stage_.renderer(), shot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
+Image Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
+  add_skin(stage_.renderer(), snapshot, skin_);
+  add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   Image image = with_shadows(stage_.shoot(), 5 * sizes.grain);
   pale(image);
   return image;
 }
 
-Image Painter::draw(const Shot& shot, const PictureOptions& options) {
-  check(shot, skin_, options);
+Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
+  check(snapshot, skin_, options);
   const double pixel =
-      metres_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
+      meters_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim(options.camera, options.width, options.height, pixel, options.finish);
-  const Sizes sizes{pixel, shot.radius > 0 ? shot.radius : 8 * pixel,
+  const Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel,
                     options.finish == Finish::fine ? 2.4 : 1.4};
-  if (options.view == View::surface) return surface(shot, sizes);
+  if (options.view == View::surface) return surface(snapshot, sizes);
   if (options.view == View::particles || options.view == View::both)
-    return particles(shot, sizes, options.view == View::both);
+    return particles(snapshot, sizes, options.view == View::both);
 
-  Image image = pale_skin(shot, sizes);
-  if (options.view == View::arrows) add_arrows(stage_.renderer(), shot, scale_);
-  if (options.view == View::bones) add_bones(stage_.renderer(), shot, 2.2 * sizes.grain, slate);
+  Image image = pale_skin(snapshot, sizes);
+  if (options.view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
+  if (options.view == View::bones) add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, slate);
   Exposure over = stage_.shoot();
   over.image = with_shadows(over, 2 * sizes.grain);
   shine_through(image, over, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws a shot. Needs an X display (display.h).
+// Draws a snapshot. Needs an X display (display.h).
 #pragma once
 
 #include <sinew/render/shading.h>
@@ -9,13 +9,13 @@ namespace sinew {
 
 enum class View {
   surface,    ///< the skin, the bones shining through
-  particles,  ///< spheres of their true size in the colours of their values
+  particles,  ///< spheres of their true size in the colors of their values
   both,       ///< the particles within the net of the skin, the bones shining through
-  arrows,     ///< the shot's arrows within a pale skin
+  arrows,     ///< the snapshot's arrows within a pale skin
   bones,      ///< the bones and their axes within a pale skin
 };
 
-/// Whether its colours mean values.
+/// Whether its colors mean values.
 constexpr bool shows_values(View view) { return view != View::surface && view != View::bones; }
 
 struct PictureOptions {
@@ -26,26 +26,26 @@ struct PictureOptions {
   Finish finish = Finish::fine;
 };
 
-/// Keeps what all pictures of a run share: the stage, the skin's edges, the meaning of the colours.
+/// Keeps what all pictures of a run share: the stage, the skin's edges, the meaning of the colors.
 class Painter {
  public:
-  /// `rest` is the surface at rest; the shots have its faces. Throws as Stage does.
-  Painter(const Triangles& rest, ColourScale scale);
+  /// `rest` is the surface at rest; the snapshots have its faces. Throws as Stage does.
+  Painter(const Triangles& rest, ColorScale scale);
 
-  const ColourScale& scale() const { return scale_; }
+  const ColorScale& scale() const { return scale_; }
 
-  /// Throws bad input for a shot that does not fit the rest surface or has not one value per
+  /// Throws bad input for a snapshot that does not fit the rest surface or has not one value per
   /// particle (or none), and for a size outside 16 .. 8192.
-  Image draw(const Shot& shot, const PictureOptions& options);
+  Image draw(const Snapshot& snapshot, const PictureOptions& options);
 
  private:
   struct Sizes;
-  Image particles(const Shot& shot, const Sizes& sizes, bool skin_and_bones);
-  Image surface(const Shot& shot, const Sizes& sizes);
-  Image pale_skin(const Shot& shot, const Sizes& sizes);
+  Image particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
+  Image surface(const Snapshot& snapshot, const Sizes& sizes);
+  Image pale_skin(const Snapshot& snapshot, const Sizes& sizes);
 
   Shading skin_;
-  ColourScale scale_;
+  ColorScale scale_;
   Stage stage_;
 };
 

@@ -27,7 +27,7 @@ struct Shading {
 Shading make_shading(const Triangles& rest);
 
 // Soft shadows in hollows and between touching things, from the depths of a picture: how much of
-// the sky over each pixel its neighbourhood hides (screen-space ambient occlusion, Mittring 2007,
+// the sky over each pixel its neighborhood hides (screen-space ambient occlusion, Mittring 2007,
 // with the elevation over the tangent plane as measure).
 
 /// Distance from the viewer behind each pixel of a parallel projection, rows from the top.

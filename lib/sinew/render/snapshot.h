@@ -11,38 +11,38 @@
 
 namespace sinew {
 
-struct ShotBone {
+struct SnapshotBone {
   Vec3 head = Vec3::Zero(), tail = Vec3::Zero();  ///< m
   Mat3 axes = Mat3::Identity();                   ///< columns: along the bone, and two sides
 };
 
 /// A vector to be seen: a force at a particle, say.
-struct ShotArrow {
+struct SnapshotArrow {
   Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; as long as it is drawn
-  double value = 0;                                ///< shown in colour
+  double value = 0;                                ///< shown in color
 };
 
 /// One moment. Any part may be empty and is then not drawn.
-struct Shot {
+struct Snapshot {
   std::string caption;         ///< written under the picture, may have several lines
   Points particles;            ///< n x 3, m
   double radius = 0;           ///< of each particle, m
-  std::vector<double> values;  ///< one per particle, shown in colour; empty: all alike
-  Triangles surface;           ///< the same faces in all shots of a run
-  std::vector<ShotBone> bones;
-  std::vector<ShotArrow> arrows;
+  std::vector<double> values;  ///< one per particle, shown in color; empty: all alike
+  Triangles surface;           ///< the same faces in all snapshots of a run
+  std::vector<SnapshotBone> bones;
+  std::vector<SnapshotArrow> arrows;
 };
 
-/// What the colours of the particles mean, the same for all pictures of a run.
-struct ColourScale {
+/// What the colors of the particles mean, the same for all pictures of a run.
+struct ColorScale {
   std::string name;  ///< of the quantity, "displacement"
   std::string unit;  ///< "m", or empty for a plain number
   double low = 0, high = 1;
-  ColourMap map = ColourMap::indigo;
+  ColorMap map = ColorMap::indigo;
 
   /// Where `value` lies between low and high: 0 .. 1, values outside at the ends.
   double position(double value) const;
-  Colour colour(double value) const { return mapped_colour(position(value), map); }
+  Color color(double value) const { return mapped_color(position(value), map); }
 };
 
 }  // namespace sinew

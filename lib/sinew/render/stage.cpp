@@ -19,13 +19,13 @@ namespace sinew {
 namespace {
 
 /// A light that moves with the viewer, who looks from (0, 0, 1) at the origin.
-void add_light(vtkRenderer& renderer, const Vec3& from, double strength, const Vec3& colour) {
+void add_light(vtkRenderer& renderer, const Vec3& from, double strength, const Vec3& color) {
   vtkNew<vtkLight> light;
   light->SetLightTypeToCameraLight();
   light->SetPosition(from.x(), from.y(), from.z());
   light->SetFocalPoint(0, 0, 0);
   light->SetIntensity(strength);
-  light->SetColor(colour.x(), colour.y(), colour.z());
+  light->SetColor(color.x(), color.y(), color.z());
   renderer.AddLight(light);
 }
 
@@ -38,10 +38,10 @@ void add_lights(vtkRenderer& renderer) {
 
 /// The box in the view's directions that fills the picture.
 Box filled(const Box& frame, int width, int height, double scale) {
-  const Vec3 centre = frame.isEmpty() ? Vec3::Zero() : Vec3(frame.center());
+  const Vec3 center = frame.isEmpty() ? Vec3::Zero() : Vec3(frame.center());
   const double deep = frame.isEmpty() ? 1 : frame.sizes().z() / 2;
   const Vec3 half(scale * width / 2, scale * height / 2, 1.05 * deep + scale);
-  return Box(centre - half, centre + half);
+  return Box(center - half, center + half);
 }
 
 void aim_at(vtkCamera& out, const Mat3& view, const Box& box) {

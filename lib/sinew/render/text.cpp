@@ -20,7 +20,7 @@ vtkNew<vtkTextProperty> property(const TextStyle& style) {
   vtkNew<vtkTextProperty> look;
   look->SetFontFamilyToArial();
   look->SetFontSize(style.size);
-  look->SetColor(style.colour[0] / 255.0, style.colour[1] / 255.0, style.colour[2] / 255.0);
+  look->SetColor(style.color[0] / 255.0, style.color[1] / 255.0, style.color[2] / 255.0);
   return look;
 }
 
@@ -42,7 +42,7 @@ void write_line(Image& image, const std::string& line, int x, int baseline,
       !writer.RenderString(look.Get(), vtkStdString(line), letters.Get(), size, dots_per_inch))
     return;
   const int width = box[1] - box[0] + 1, height = box[3] - box[2] + 1;
-  if (style.align == Align::centre) x -= width / 2;
+  if (style.align == Align::center) x -= width / 2;
   if (style.align == Align::right) x -= width;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
@@ -63,20 +63,20 @@ void write_text(Image& image, const std::string& text, int x, int y, const TextS
     write_line(image, line, x, y + style.size, style);
 }
 
-int colour_bar_height(const TextStyle& style) { return 3 * line_height(style); }
+int color_bar_height(const TextStyle& style) { return 3 * line_height(style); }
 
-void draw_colour_bar(Image& image, const ColourScale& scale, int x, int y, int width,
+void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
                      const TextStyle& style) {
   const int line = line_height(style), thick = 3 * line / 4;
   TextStyle words = style;
-  words.align = Align::centre;
+  words.align = Align::center;
   const std::string unit = scale.unit.empty() ? "" : " (" + scale.unit + ")";
   write_text(image, scale.name + unit, x + width / 2, y, words);
   for (int i = 0; i < width; ++i)
-    fill(image, x + i, y + line, 1, thick, mapped_colour(i / (width - 1.0), scale.map));
+    fill(image, x + i, y + line, 1, thick, mapped_color(i / (width - 1.0), scale.map));
   for (const double part : {0.0, 0.5, 1.0}) {
     const double value = scale.low + part * (scale.high - scale.low);
-    words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::centre;
+    words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::center;
     write_text(image, three_digits(value), x + static_cast<int>(part * width), y + line + thick + 2,
                words);
   }

@@ -9,11 +9,11 @@
 
 namespace sinew {
 
-enum class Align { left, centre, right };
+enum class Align { left, center, right };
 
 struct TextStyle {
   int size = 20;  ///< of the font, pixels
-  Colour colour = palette::ink;
+  Color color = palette::ink;
   Align align = Align::left;
 };
 
@@ -23,10 +23,10 @@ int line_height(const TextStyle& style);
 /// Writes the lines of `text` (UTF-8) downwards from y; x is their left end, middle or right end.
 void write_text(Image& image, const std::string& text, int x, int y, const TextStyle& style);
 
-/// The colours of `scale` from left to right with its ends below and its name above, in a width of
-/// `width` and a height of colour_bar_height pixels.
-void draw_colour_bar(Image& image, const ColourScale& scale, int x, int y, int width,
+/// The colors of `scale` from left to right with its ends below and its name above, in a width of
+/// `width` and a height of color_bar_height pixels.
+void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
                      const TextStyle& style);
-int colour_bar_height(const TextStyle& style);
+int color_bar_height(const TextStyle& style);
 
 }  // namespace sinew

@@ -186,7 +186,7 @@ Binding bound_by(const Points& rest, const Skeleton& skeleton, const BindOptions
 
 bool BoundRegion::holds(std::size_t particle, const Vec3& rest) const {
   return std::binary_search(ids.begin(), ids.end(), particle) || (box && box->contains(rest)) ||
-         (rest - centre).norm() <= radius;
+         (rest - center).norm() <= radius;
 }
 
 double distance_to(const Bone& bone, const Vec3& point) {

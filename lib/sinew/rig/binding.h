@@ -54,7 +54,7 @@ struct BoundRegion {
   int bone = no_bone;
   std::vector<std::uint32_t> ids;  ///< ascending
   std::optional<Box> box;          ///< m, its border included
-  Vec3 centre = Vec3::Zero();      ///< of the ball, m
+  Vec3 center = Vec3::Zero();      ///< of the ball, m
   double radius = -1;              ///< of the ball, m; below 0: no ball
 
   bool holds(std::size_t particle, const Vec3& rest) const;

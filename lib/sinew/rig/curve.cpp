@@ -67,7 +67,7 @@ std::array<Value, 4> hermite(const Value& from, const Value& leave, const Value&
   return {from, leave, 3 * way - 2 * leave - arrive, leave + arrive - 2 * way};
 }
 
-/// The slope at a key of the parabola through it and its neighbours, from the slopes of the ways to
+/// The slope at a key of the parabola through it and its neighbors, from the slopes of the ways to
 /// it and from it, which last `before` and `after`.
 template <class Value>
 Value slope_between(const Value& to_it, double before, const Value& from_it, double after) {

@@ -55,8 +55,8 @@ std::vector<BoneDistance> walk(const InsideWays& ways, Queue queue, double limit
 }
 
 /// Particles that touch each one, and those that touch these.
-NeighbourLists links_of(const Points& rest, double radius) {
-  const NeighbourLists touching = neighbours_within(rest, rest_neighbour_range(radius));
+NeighborLists links_of(const Points& rest, double radius) {
+  const NeighborLists touching = neighbors_within(rest, rest_neighbor_range(radius));
   std::vector<std::vector<std::uint32_t>> rows(rest.size());
   parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -70,7 +70,7 @@ NeighbourLists links_of(const Points& rest, double radius) {
       row.erase(std::unique(row.begin(), row.end()), row.end());
     }
   });
-  NeighbourLists links;
+  NeighborLists links;
   links.first.push_back(0);
   for (const auto& row : rows) {
     links.partner.insert(links.partner.end(), row.begin(), row.end());

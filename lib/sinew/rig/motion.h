@@ -13,6 +13,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,7 @@
 #include <sinew/rig/curve.h>
 #include <sinew/rig/pose.h>
 #include <sinew/rig/skeleton.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -76,18 +77,18 @@ double clip_length(const Motion& motion);
 /// Whether any bone changes its length.
 bool stretches(const Motion& motion);
 
-/// A clip's motion with what a scene's section motion says of it: start, end, extrapolation and
-/// preroll. Throws bad input for a clip that would end
-/// before it starts.
-Motion played(Motion clip, const Settings& settings);
+/// A clip's motion, ready for poses: with start, end, extrapolation and preroll as asked. Throws
+/// bad_value, with the key "start", for a clip that would end before it starts.
+Motion played(Motion clip, const MotionOptions& options);
 
 /// The motion in a scene's directions and lengths, as the skeleton by its `placed`.
 Motion placed(Motion motion, double scale, const Mat3& turn);
 
-/// Builds the motion a scene describes. Throws bad input, naming the scene's line, for an unknown
-/// bone, two tracks of one bone, keys out of order, with no or two times, in frames of no known
+/// Builds the motion of these tracks; keys in frames count at `frame_rate` (1/s). played() prepares
+/// it. Throws bad_value, with a key such as "tracks[0].keys[2].time", for an unknown bone, two tracks of one bone, keys out of order, with no or two times, in frames of no known
 /// rate, or with a rotation given in two ways, by half, or by a quaternion that is no rotation.
-Motion make_motion(const Settings& settings, const Skeleton& skeleton);
+Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skeleton,
+                   std::optional<double> frame_rate = {});
 
 /// What a time of the scene is for a clip.
 struct ClipMoment {
@@ -126,5 +127,39 @@ struct Rig {
 
 /// Throws bad input (without the path) for a name that is not there, with the nearest one that is.
 const Clip& find_clip(const std::vector<Clip>& clips, std::string_view name);
+
+// Poses of one motion at many times, as a run asks for them: step by step. What stays the same from
+// one to the next is found once: the piece of each curve between two keys, and how bones hang on
+// each other. Any order of times gives the same bits.
+
+class PoseCursor {
+ public:
+  /// Both must stay, as they are.
+  PoseCursor(const Skeleton& skeleton, const Motion& motion);
+
+  /// The pose at `time`, s of the scene; there until the next call.
+  const Pose& at(double time);
+
+ private:
+  /// A bone on its parent; the scene holds roots.
+  struct Link {
+    int parent = no_bone, track = -1;  ///< -1: nothing moves it
+    bool limited = false;
+    Vec3 offset = Vec3::Zero();    ///< of its head from the parent's, at rest
+    Vec3 along = Vec3::Zero();     ///< the part of it along the parent, which stretches
+    Vec3 axis = Vec3::Zero();      ///< its own, at rest
+    Mat3 rest = Mat3::Identity();  ///< its axes at rest
+  };
+
+  static void carry(const Link& link, const BonePose& parent, BonePose& pose);
+  static void move(const Link& link, const LocalMotion& local, const BonePose& parent,
+                   BonePose& pose);
+
+  const Skeleton* skeleton_;
+  const Motion* motion_;
+  std::vector<Link> links_;           ///< of each bone
+  std::vector<TrackCursor> cursors_;  ///< of each track
+  Pose pose_;
+};
 
 }  // namespace sinew

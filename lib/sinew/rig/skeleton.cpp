@@ -13,8 +13,10 @@ namespace sinew {
 
 namespace {
 
+using Bones = std::span<const BoneDefinition>;
+
 std::string path_of(std::size_t bone, const std::string& key = "") {
-  const std::string path = "skeleton.bones[" + std::to_string(bone) + "]";
+  const std::string path = "bones[" + std::to_string(bone) + "]";
   return key.empty() ? path : path + '.' + key;
 }
 
@@ -24,82 +26,82 @@ int index_of(const Skeleton& skeleton, const std::string& name) {
   return no_bone;
 }
 
-int parent_of(const Settings& settings, std::size_t bone, const Skeleton& earlier) {
-  const std::string& name = settings.bones[bone].parent;
+int parent_of(Bones bones, std::size_t bone, const Skeleton& earlier) {
+  const std::string& name = bones[bone].parent;
   if (name.empty()) return no_bone;
   const int parent = index_of(earlier, name);
   if (parent == no_bone)
-    throw bad_input(settings.place(path_of(bone, "parent")),
+    throw bad_value(path_of(bone, "parent"),
                     "no bone before this one is named '" + name + "'",
                     "name the parent first, or correct the name");
   return parent;
 }
 
-void check_connected(const Settings& settings, std::size_t bone, int parent) {
-  const BoneSettings& given = settings.bones[bone];
+void check_connected(Bones bones, std::size_t bone, int parent) {
+  const BoneDefinition& given = bones[bone];
   if (!given.connected.value_or(false)) return;
-  const Place place = settings.place(path_of(bone, "connected"));
+  const std::string key = path_of(bone, "connected");
   if (given.head)
-    throw bad_input(place, "bone '" + given.name + "' is connected and has a head of its own",
+    throw bad_value(key, "bone '" + given.name + "' is connected and has a head of its own",
                     "take out one of them");
   if (parent == no_bone)
-    throw bad_input(place, "bone '" + given.name + "' is connected and has no parent",
+    throw bad_value(key, "bone '" + given.name + "' is connected and has no parent",
                     "name its parent, or give it a head: [x, y, z]");
 }
 
-Vec3 head_of(const Settings& settings, std::size_t bone, const Skeleton& earlier, int parent) {
-  const BoneSettings& given = settings.bones[bone];
-  check_connected(settings, bone, parent);
+Vec3 head_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent) {
+  const BoneDefinition& given = bones[bone];
+  check_connected(bones, bone, parent);
   if (given.head) return *given.head;
   if (parent == no_bone)
-    throw bad_input(settings.place(path_of(bone, "name")),
+    throw bad_value(path_of(bone, "name"),
                     "bone '" + given.name + "' has neither a parent nor a head",
                     "give it a head: [x, y, z]");
   if (!given.connected.value_or(true))
-    throw bad_input(settings.place(path_of(bone, "connected")),
+    throw bad_value(path_of(bone, "connected"),
                     "bone '" + given.name + "' is not connected and has no head",
                     "give it a head: [x, y, z]");
   return earlier.bones[static_cast<std::size_t>(parent)].tail();
 }
 
 /// Of a bone with a length and no tail.
-Vec3 direction_of(const Settings& settings, std::size_t bone, const Skeleton& earlier, int parent) {
-  const BoneSettings& given = settings.bones[bone];
+Vec3 direction_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent) {
+  const BoneDefinition& given = bones[bone];
   if (given.direction && given.direction->norm() > 0) return given.direction->normalized();
   if (given.direction)
-    throw bad_input(settings.place(path_of(bone, "direction")),
+    throw bad_value(path_of(bone, "direction"),
                     "bone '" + given.name + "' has a direction of no length",
                     "give direction: [x, y, z], not all zero");
   if (parent == no_bone)
-    throw bad_input(settings.place(path_of(bone, "length")),
+    throw bad_value(path_of(bone, "length"),
                     "bone '" + given.name + "' has a length and no direction",
                     "give direction: [x, y, z], or a tail");
   return earlier.bones[static_cast<std::size_t>(parent)].axis();
 }
 
-Vec3 tail_of(const Settings& settings, std::size_t bone, const Skeleton& earlier, int parent,
+Vec3 tail_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent,
              const Vec3& head) {
-  const BoneSettings& given = settings.bones[bone];
+  const BoneDefinition& given = bones[bone];
   if (given.tail && (given.length || given.direction))
-    throw bad_input(settings.place(path_of(bone, given.length ? "length" : "direction")),
+    throw bad_value(path_of(bone, given.length ? "length" : "direction"),
                     "bone '" + given.name + "' has a tail already",
                     "keep either tail or length and direction");
   if (given.tail) return *given.tail;
   if (!given.length)
-    throw bad_input(settings.place(path_of(bone)), path_of(bone, "tail") + " is missing",
+    throw bad_value(path_of(bone), path_of(bone, "tail") + " is missing",
                     "add tail: [x, y, z], or length: and direction:");
-  return head + *given.length * direction_of(settings, bone, earlier, parent);
+  return head + *given.length * direction_of(bones, bone, earlier, parent);
 }
 
-JointLimits limits_of(const Settings& settings, std::size_t bone) {
-  const LimitSettings& given = settings.bones[bone].limits;
+JointLimits limits_of(Bones bones, std::size_t bone) {
+  const LimitDefinition& given = bones[bone].limits;
   JointLimits limits;
   if (given.swing) limits.swing = radians(*given.swing);
   if (!given.twist) return limits;
   const auto [least, most] = *given.twist;
   if (!(least <= most))
-    throw bad_input(settings.place(path_of(bone, "limits.twist")),
-                    "the twist of bone '" + settings.bones[bone].name +
+    throw bad_value(path_of(bone, "limits.twist"),
+                    "the twist of bone '" + bones[bone].name +
                         "' could be no number from " + number_text(least) + " to " +
                         number_text(most),
                     "give the smaller limit first");
@@ -114,23 +116,23 @@ Mat3 frame_of(const Vec3& axis, double roll) {
   return Eigen::AngleAxisd(roll, frame.col(0)).toRotationMatrix() * frame;
 }
 
-Bone make_bone(const Settings& settings, std::size_t index, const Skeleton& earlier) {
-  const BoneSettings& given = settings.bones[index];
+Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
+  const BoneDefinition& given = bones[index];
   if (index_of(earlier, given.name) != no_bone)
-    throw bad_input(settings.place(path_of(index, "name")),
+    throw bad_value(path_of(index, "name"),
                     "two bones are named '" + given.name + "'", "give each bone a name of its own");
   Bone bone;
   bone.name = given.name;
-  bone.parent = parent_of(settings, index, earlier);
-  bone.rest.origin = head_of(settings, index, earlier, bone.parent);
+  bone.parent = parent_of(bones, index, earlier);
+  bone.rest.origin = head_of(bones, index, earlier, bone.parent);
   const Vec3 along =
-      tail_of(settings, index, earlier, bone.parent, bone.rest.origin) - bone.rest.origin;
+      tail_of(bones, index, earlier, bone.parent, bone.rest.origin) - bone.rest.origin;
   bone.length = along.norm();
   if (!(bone.length > 0))
-    throw bad_input(settings.place(path_of(index, "tail")),
+    throw bad_value(path_of(index, "tail"),
                     "bone '" + given.name + "' has no length", "move its tail away from its head");
   bone.rest.rotation = frame_of(along, radians(given.roll));
-  bone.limits = limits_of(settings, index);
+  bone.limits = limits_of(bones, index);
   bone.strength = {given.stiffness, given.twist_stiffness, given.axial_stiffness};
   return bone;
 }
@@ -147,14 +149,14 @@ int least_along(const Vec3& unit) {
 
 }  // namespace
 
-Skeleton make_skeleton(const Settings& settings) {
-  if (settings.bones.empty())
-    throw bad_input(settings.place("skeleton.bones"), "the skeleton has no bones",
+Skeleton make_skeleton(std::span<const BoneDefinition> bones) {
+  if (bones.empty())
+    throw bad_value("bones", "the skeleton has no bones",
                     "list at least one below skeleton: bones:");
   Skeleton skeleton;
-  for (std::size_t i = 0; i < settings.bones.size(); ++i)
-    skeleton.bones.push_back(make_bone(settings, i, skeleton));
-  return placed(std::move(skeleton), settings.skeleton.scale, to_scene(settings.skeleton));
+  for (std::size_t i = 0; i < bones.size(); ++i)
+    skeleton.bones.push_back(make_bone(bones, i, skeleton));
+  return skeleton;
 }
 
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn) {

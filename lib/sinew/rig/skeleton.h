@@ -5,11 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <sinew/core/vector.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -49,10 +50,10 @@ struct Skeleton {
   std::size_t size() const { return bones.size(); }
 };
 
-/// Builds the skeleton a scene describes. Throws bad input, naming the scene's line, for no
+/// Builds the skeleton of these bones. Throws bad_value, with a key such as "bones[1].tail", for no
 /// bones, a name used twice, an unknown or later parent, a root without head, a bone without length
 /// or with two, connected to nothing, or with limits that allow nothing.
-Skeleton make_skeleton(const Settings& settings);
+Skeleton make_skeleton(std::span<const BoneDefinition> bones);
 
 /// The rig in a scene's directions and lengths: turned about the origin, then times `scale`. The
 /// sides of its bones are those of a rig that has always stood so: all formats give the same.

@@ -95,7 +95,7 @@ std::vector<std::uint32_t> indices_of(const std::vector<char>& marked) {
 }
 
 /// Marks the points closer than `range` to one that is marked.
-void mark_neighbours(const CellGrid& grid, const Points& points, double range,
+void mark_neighbors(const CellGrid& grid, const Points& points, double range,
                      std::vector<char>& marked) {
   const std::vector<std::uint32_t> from = indices_of(marked);
   std::vector<std::vector<std::uint32_t>> found((from.size() + vertices_per_piece - 1) /
@@ -113,12 +113,12 @@ void mark_neighbours(const CellGrid& grid, const Points& points, double range,
 
 /// Keeps of the body what the skin needs.
 void add_body(Skin& skin, const Points& points, double radius) {
-  const double range = rest_neighbour_range(radius);
+  const double range = rest_neighbor_range(radius);
   std::vector<char> marked(points.size());
   for (const std::uint32_t j : skin.particle) marked[j] = 1;
   const std::vector<char> carriers = marked;
   const CellGrid grid(points, range);
-  for (int ring = 0; ring < 2; ++ring) mark_neighbours(grid, points, range, marked);
+  for (int ring = 0; ring < 2; ++ring) mark_neighbors(grid, points, range, marked);
   skin.near = indices_of(marked);
   std::vector<std::uint32_t> place(points.size());
   Points near;
@@ -131,16 +131,16 @@ void add_body(Skin& skin, const Points& points, double radius) {
   skin.shape = rest_shape(std::move(near), range);
 }
 
-/// How particle j turns, seen with its neighbours' neighbours: alone it may be the end of a line.
+/// How particle j turns, seen with its neighbors' neighbors: alone it may be the end of a line.
 Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
   Mat3 spread = moved_spread(body, now, j);
-  for (const auto k : body.neighbours.of(j)) spread += moved_spread(body, now, k);
+  for (const auto k : body.neighbors.of(j)) spread += moved_spread(body, now, k);
   return rotation_part(spread);
 }
 
 Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
-  constexpr std::size_t least_neighbours = 4;
-  if (!body.defined(j) || body.neighbours.of(j).size() < least_neighbours)
+  constexpr std::size_t least_neighbors = 4;
+  if (!body.defined(j) || body.neighbors.of(j).size() < least_neighbors)
     return rotation_around(body, now, j);
   const Mat3 F = deformation_gradient(body, now, j);
   const double J = F.determinant();
@@ -179,7 +179,7 @@ void drop_strangers(const Points& points, double radius, const Skeleton& skeleto
     return strangers(skeleton, binding, nearest, one.particle);
   };
   if (std::none_of(support.near.begin(), support.near.end(), is_stranger)) return;
-  const auto reached = reached_from_nearest(support, points, rest_neighbour_range(radius));
+  const auto reached = reached_from_nearest(support, points, rest_neighbor_range(radius));
   std::size_t k = 0;
   std::erase_if(support.near, [&](const Near& one) { return !reached[k++] && is_stranger(one); });
 }

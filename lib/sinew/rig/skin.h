@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface follows the particles: each vertex X is carried by the affine motions of the
-// particles near it, x = sum_j w_j (x_j + F_j (X - X_j)), with w_j = (1 - (s / h)^2)^3 normalised,
+// particles near it, x = sum_j w_j (x_j + F_j (X - X_j)), with w_j = (1 - (s / h)^2)^3 normalized,
 // s = |X - X_j|. Exact for affine motion of the body.
 #pragma once
 
@@ -20,10 +20,10 @@ struct Skin {
   std::vector<double> weight;           ///< sums to 1 for each vertex
 
   /// The particles that matter, ascending indices into the body's rest points: those that carry
-  /// vertices, and their neighbours and theirs, which tell how they deform.
+  /// vertices, and their neighbors and theirs, which tell how they deform.
   std::vector<std::uint32_t> near;
   std::vector<char> carries;  ///< whether each of them carries a vertex
-  RestShape shape;            ///< of these alone; whole for those that carry and their neighbours
+  RestShape shape;            ///< of these alone; whole for those that carry and their neighbors
 };
 
 /// Ties vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m) within

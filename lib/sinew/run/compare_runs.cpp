@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "command/command.h"
-#include "command/results.h"
 #include <sinew/core/file.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/surface_distance.h>
 #include <sinew/metrics/files.h>
@@ -33,7 +32,7 @@ struct Side {
   RunFiles run;
   RestBody rest;
   Measured measured;
-  Film film;
+  Playback playback;
 };
 
 std::string name_of(const fs::path& folder) {
@@ -121,21 +120,21 @@ void add_distances(FrameMetrics& out, const FrameState& one, const FrameState& o
   out.reference_distance_mean = gap.mean;
 }
 
-void add_shot(Side& side, std::size_t number, const FrameState& state) {
-  if (side.film.wants(number))
-    add_frame(side.film, number, side.rest, state, particle_values(side.rest, state));
+void add_snapshot(Side& side, std::size_t number, const FrameState& state) {
+  if (side.playback.wants(number))
+    add_frame(side.playback, number, side.rest, state, particle_values(side.rest, state));
 }
 
-/// What takes both runs at once: distances into the second one's metrics, and the films.
+/// What takes both runs at once: distances into the second one's metrics, and the playbacks.
 void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, const Alike& same) {
-  for (Side* side : {&first, &second}) side->film = plan_film(side->rest, pairs.size(), 0.5);
-  second.film.wanted = first.film.wanted;
+  for (Side* side : {&first, &second}) side->playback = plan_playback(side->rest, pairs.size(), 0.5);
+  second.playback.wanted = first.playback.wanted;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FrameState one = measured_frame(read_frame(first.run, pairs[k][0]));
     const FrameState other = measured_frame(read_frame(second.run, pairs[k][1]));
     add_distances(second.measured.frames[pairs[k][1]], one, other, first, second, same);
-    add_shot(first, k, one);
-    add_shot(second, k, other);
+    add_snapshot(first, k, one);
+    add_snapshot(second, k, other);
   }
 }
 
@@ -175,9 +174,9 @@ void write_comparison(const RunComparison& compared, const Side& first, const Si
   create({out});
   write_file(out / "compare.csv", comparison_csv(compared));
   write_file(out / "metrics.json", comparison_json(compared));
-  const Film film = side_by_side(first.film, second.film, {"a: ", "b: "});
+  const Playback playback = side_by_side(first.playback, second.playback, {"a: ", "b: "});
   write_file(out / "report.html",
-             comparison_html({version(), compared, film,
+             comparison_html({version(), compared, playback,
                               differing_settings(first.run.settings, second.run.settings),
                               first.run.scene_text, second.run.scene_text}));
 }
@@ -199,21 +198,6 @@ RunComparison compare_runs(const fs::path& first_folder, const fs::path& second_
     compared.checks.push_back(check_limit(limit, compared.differences, compared.summary));
   write_comparison(compared, first, second, out);
   return compared;
-}
-
-void print_comparison(const RunComparison& compared, bool as_json) {
-  Results results;
-  results.add("frames", compared.differences.size());
-  if (!compared.remarks.empty()) results.add("remarks", compared.remarks);
-  const auto metrics = metrics_table();
-  for (std::size_t i = 1; i < metrics.size(); ++i) {
-    const auto largest = largest_difference(compared, i);
-    if (!largest) continue;
-    const std::string name(metrics[i].name);
-    results.add(is_distance(name) ? name : name + "_difference",
-                compared.differences[*largest].*metrics[i].value, std::string(metrics[i].unit));
-  }
-  results.print(as_json);
 }
 
 }  // namespace sinew

@@ -15,7 +15,4 @@ namespace sinew {
 RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second,
                            const HowToMeasure& how, const std::filesystem::path& out);
 
-/// The largest differences, as key: value lines or one JSON object.
-void print_comparison(const RunComparison& comparison, bool as_json);
-
 }  // namespace sinew

@@ -16,15 +16,15 @@ std::string numbered(std::size_t frame) {
 
 }  // namespace
 
-Album::Album(std::vector<const DrawnRun*> runs, std::size_t look, AlbumOptions options)
-    : runs_(std::move(runs)), look_(look), options_(std::move(options)) {
+FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t look, FigureSetOptions options)
+    : runs_(std::move(runs)), preset_(look), options_(std::move(options)) {
   for (const DrawnRun* run : runs_) painters_.emplace_back(run->files().surface, scale());
 }
 
-ColourScale Album::scale() const {
+ColorScale FigureSet::scale() const {
   const DrawnValues& values = drawn(0).values;
-  ColourScale scale{values.name(), values.unit(), drawn(0).range.low, drawn(0).range.high,
-                    options_.colours};
+  ColorScale scale{values.name(), values.unit(), drawn(0).range.low, drawn(0).range.high,
+                    options_.colors};
   for (std::size_t run = 1; run < runs_.size(); ++run) {
     scale.low = std::min(scale.low, drawn(run).range.low);
     scale.high = std::max(scale.high, drawn(run).range.high);
@@ -35,7 +35,7 @@ ColourScale Album::scale() const {
 }
 
 /// Frames of the first run.
-std::vector<std::size_t> Album::moments() const {
+std::vector<std::size_t> FigureSet::moments() const {
   if (options_.times.empty()) return runs_.front()->telling_frames();
   std::vector<std::size_t> frames;
   for (const double time : options_.times) frames.push_back(runs_.front()->frame_at(time));
@@ -43,62 +43,62 @@ std::vector<std::size_t> Album::moments() const {
 }
 
 /// Of each run, at the time of the first one's frame.
-std::vector<Shot> Album::shots(std::size_t frame) const {
+std::vector<Snapshot> FigureSet::snapshots(std::size_t frame) const {
   const double time = runs_.front()->files().particle_rows[frame].time;
-  std::vector<Shot> shots;
+  std::vector<Snapshot> snapshots;
   for (std::size_t run = 0; run < runs_.size(); ++run)
-    shots.push_back(runs_[run]->shot(runs_[run]->frame_at(time), drawn(run)));
-  return shots;
+    snapshots.push_back(runs_[run]->snapshot(runs_[run]->frame_at(time), drawn(run)));
+  return snapshots;
 }
 
-std::string Album::title(std::size_t run) const {
+std::string FigureSet::title(std::size_t run) const {
   return runs_.size() > 1 ? runs_[run]->name() : "";
 }
 
-std::string Album::name() const {
+std::string FigureSet::name() const {
   return (runs_.size() > 1 ? "compare_" : "") + std::string(drawn(0).look.name);
 }
 
-PlateOptions Album::plate_options(Finish finish) const {
-  PlateOptions plate;
-  plate.camera.view = options_.view;
-  for (const DrawnRun* run : runs_) plate.camera.frame.extend(run->story().frame);
-  plate.width = options_.width;
-  plate.height = options_.height;
-  plate.finish = finish;
-  return plate;
+FigureOptions FigureSet::figure_options(Finish finish) const {
+  FigureOptions figure;
+  figure.camera.view = options_.view;
+  for (const DrawnRun* run : runs_) figure.camera.frame.extend(run->story().frame);
+  figure.width = options_.width;
+  figure.height = options_.height;
+  figure.finish = finish;
+  return figure;
 }
 
-std::vector<Panel> Album::panels(const std::vector<Shot>& shots) {
+std::vector<Panel> FigureSet::panels(const std::vector<Snapshot>& snapshots) {
   std::vector<Panel> panels;
-  for (std::size_t run = 0; run < shots.size(); ++run)
-    panels.push_back({&painters_[run], &shots[run], drawn(run).look.view, title(run)});
+  for (std::size_t run = 0; run < snapshots.size(); ++run)
+    panels.push_back({&painters_[run], &snapshots[run], drawn(run).look.view, title(run)});
   return panels;
 }
 
 /// The box around these moments of all runs.
-Box Album::frame_of(const std::vector<std::size_t>& frames) const {
+Box FigureSet::frame_of(const std::vector<std::size_t>& frames) const {
   Box box;
   for (const std::size_t frame : frames)
-    for (const Shot& shot : shots(frame)) box.extend(seen(options_.view, shot));
+    for (const Snapshot& snapshot : snapshots(frame)) box.extend(seen(options_.view, snapshot));
   return box;
 }
 
-int Album::pictures() {
+int FigureSet::pictures() {
   const std::vector<std::size_t> frames = moments();
-  PlateOptions options = plate_options(Finish::fine);
+  FigureOptions options = figure_options(Finish::fine);
   options.camera.frame = frame_of(frames);
   for (const std::size_t frame : frames) {
-    const std::vector<Shot> moment = shots(frame);
-    write_png(plate(panels(moment), options), place(name() + '_' + numbered(frame) + ".png"));
+    const std::vector<Snapshot> moment = snapshots(frame);
+    write_png(figure(panels(moment), options), place(name() + '_' + numbered(frame) + ".png"));
   }
   return static_cast<int>(frames.size());
 }
 
-void Album::sheet() {
-  std::vector<std::vector<Shot>> over_time(runs_.size());
+void FigureSet::sheet() {
+  std::vector<std::vector<Snapshot>> over_time(runs_.size());
   for (const std::size_t frame : moments()) {
-    std::vector<Shot> moment = shots(frame);
+    std::vector<Snapshot> moment = snapshots(frame);
     for (std::size_t run = 0; run < runs_.size(); ++run)
       over_time[run].push_back(std::move(moment[run]));
   }
@@ -116,25 +116,25 @@ void Album::sheet() {
   write_png(contact_sheet(rows, sheet), place(name() + "_sheet.png"));
 }
 
-void Album::movie() {
+void FigureSet::movie() {
   MovieOptions movie;
   movie.width = options_.width & ~1;  // H.264 wants even sizes
   movie.height = options_.height & ~1;
   const double interval = runs_.front()->files().settings.output.interval;
   movie.frames_per_second = std::clamp(1 / interval, 0.1, 240.0);
-  Movie film(place(of_body() ? "movie.mp4" : name() + ".mp4"), movie);
-  PlateOptions options = plate_options(Finish::quick);
+  Movie playback(place(of_body() ? "movie.mp4" : name() + ".mp4"), movie);
+  FigureOptions options = figure_options(Finish::quick);
   options.width = movie.width;
   options.height = movie.height;
   for (std::size_t frame = 0; frame < runs_.front()->files().frames(); ++frame) {
-    const std::vector<Shot> moment = shots(frame);
+    const std::vector<Snapshot> moment = snapshots(frame);
     std::vector<Panel> side_by_side = panels(moment);
     if (of_body())
       side_by_side = {{&painters_[0], &moment[0], View::surface, ""},
                       {&painters_[0], &moment[0], View::particles, ""}};
-    film.add(plate(side_by_side, options));
+    playback.add(figure(side_by_side, options));
   }
-  film.finish();
+  playback.finish();
 }
 
 }  // namespace sinew

@@ -14,41 +14,41 @@
 
 namespace sinew {
 
-struct AlbumOptions {
+struct FigureSetOptions {
   std::filesystem::path folder;  ///< where the pictures go
   int width = 1280, height = 720;
   Mat3 view = three_quarter_view();
-  ColourMap colours = ColourMap::indigo;
-  std::optional<std::array<double, 2>> range;  ///< of the colours, instead of the run's own
+  ColorMap colors = ColorMap::indigo;
+  std::optional<std::array<double, 2>> range;  ///< of the colors, instead of the run's own
   std::vector<double> times;                   ///< s; empty: the telling moments
 };
 
-/// One look at one run or two, in the same colours and to the same scale.
-class Album {
+/// One look at one run or two, in the same colors and to the same scale.
+class FigureSet {
  public:
-  /// `look`: which of the runs' looks. The runs must outlive the album.
-  Album(std::vector<const DrawnRun*> runs, std::size_t look, AlbumOptions options);
+  /// `look`: which of the runs' looks. The runs must outlive the figure_set.
+  FigureSet(std::vector<const DrawnRun*> runs, std::size_t look, FigureSetOptions options);
 
   int pictures();  ///< one of each moment; returns how many
   void sheet();    ///< all moments in one picture: of the body as in the paper's figure 4
   void movie();    ///< of all frames; of the body its surface beside its particles
 
  private:
-  const DrawnLook& drawn(std::size_t run) const { return runs_[run]->looks()[look_]; }
-  ColourScale scale() const;
+  const DrawnView& drawn(std::size_t run) const { return runs_[run]->view_presets()[preset_]; }
+  ColorScale scale() const;
   std::vector<std::size_t> moments() const;
-  std::vector<Shot> shots(std::size_t frame) const;
+  std::vector<Snapshot> snapshots(std::size_t frame) const;
   Box frame_of(const std::vector<std::size_t>& frames) const;
-  std::vector<Panel> panels(const std::vector<Shot>& shots);
-  PlateOptions plate_options(Finish finish) const;
+  std::vector<Panel> panels(const std::vector<Snapshot>& snapshots);
+  FigureOptions figure_options(Finish finish) const;
   std::string title(std::size_t run) const;
   std::string name() const;
   std::string place(const std::string& file) const { return (options_.folder / file).string(); }
   bool of_body() const { return runs_.size() == 1 && drawn(0).look.name == "body"; }
 
   std::vector<const DrawnRun*> runs_;
-  std::size_t look_;
-  AlbumOptions options_;
+  std::size_t preset_;
+  FigureSetOptions options_;
   std::deque<Painter> painters_;  ///< one for each run
 };
 

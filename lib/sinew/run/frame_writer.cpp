@@ -98,7 +98,7 @@ std::vector<double> weights_of_particles(const Body& body) {
   return weights;
 }
 
-Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& output,
+FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                    const Body& body, const Triangles& surface, std::vector<Triangles> obstacles,
                    std::span<const double> kept)
     : folder_(folder),
@@ -125,7 +125,7 @@ Recorder::Recorder(const std::filesystem::path& folder, const OutputSettings& ou
   begin_arrays(output, body);
 }
 
-void Recorder::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
+void FrameWriter::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
                              const Body& body, std::span<const double> kept) {
   if (output.skin_lbs || output.skin_dqs) vertex_weights_ = weights_of_vertices(body, skin_.rest);
   const auto begin = [&](auto* method, const char* name) {
@@ -136,12 +136,12 @@ void Recorder::begin_skinned(const std::filesystem::path& folder, const OutputSe
   if (output.skin_dqs) begin(dual_quaternion_skinned, "skin_dqs");
 }
 
-void Recorder::begin_export(const std::filesystem::path& folder, std::size_t kept) {
+void FrameWriter::begin_export(const std::filesystem::path& folder, std::size_t kept) {
   write_obj(folder / "surface.obj", surface_);
   export_ = std::make_unique<PointCache>(folder / "surface.pc2", skin_.rest.size(), kept);
 }
 
-void Recorder::begin_arrays(const OutputSettings& output, const Body& body) {
+void FrameWriter::begin_arrays(const OutputSettings& output, const Body& body) {
   arrays_ = requested_arrays(output.arrays);
   if (arrays_.empty()) return;
   RestInput input = measured_body(body.material, body.skeleton);
@@ -151,7 +151,7 @@ void Recorder::begin_arrays(const OutputSettings& output, const Body& body) {
   measured_ = rest_body(std::move(input));
 }
 
-void Recorder::add(Simulation& simulation, double time) {
+void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {
     // There is room, so the frame that was here before is written: one job at most is under way,
     // the last one.
@@ -162,7 +162,7 @@ void Recorder::add(Simulation& simulation, double time) {
   });
 }
 
-void Recorder::take(Simulation& simulation, double time, Moved& frame) {
+void FrameWriter::take(Simulation& simulation, double time, Moved& frame) {
   const Forces& forces = simulation.forces();
   frame.moment = {time, static_cast<std::int32_t>(simulation.steps())};
   copy(simulation.particles(), frame.particles);
@@ -170,7 +170,7 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
   copy(forces.damping, frame.force_damping);
   copy(forces.bone, frame.force_bone);
   copy(forces.world, frame.force_world);
-  copy(forces.neighbours, frame.neighbours);
+  copy(forces.neighbors, frame.neighbors);
   const auto broken = simulation.broken_bonds();
   frame.broken_bonds.assign(broken.begin(), broken.end());
   frame.energies = simulation.energies();
@@ -182,10 +182,10 @@ void Recorder::take(Simulation& simulation, double time, Moved& frame) {
   frame.on_obstacles.assign(on.begin(), on.end());
 }
 
-void Recorder::write(const Moved& frame) {
+void FrameWriter::write(const Moved& frame) {
   Dataset particles =
       particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
-                         frame.force_damping, frame.force_bone, frame.neighbours, frame.energies,
+                         frame.force_damping, frame.force_bone, frame.neighbors, frame.energies,
                          particle_weight_, frame.force_world, frame.broken_bonds},
                         frame.moment);
   add_arrays(frame, particles);
@@ -201,7 +201,7 @@ void Recorder::write(const Moved& frame) {
   ++written_;
 }
 
-void Recorder::add_arrays(const Moved& frame, Dataset& particles) const {
+void FrameWriter::add_arrays(const Moved& frame, Dataset& particles) const {
   if (!measured_) return;
   FrameState state;
   state.positions = particles.points;
@@ -210,7 +210,7 @@ void Recorder::add_arrays(const Moved& frame, Dataset& particles) const {
     particles.point_columns.push_back(std::move(array));
 }
 
-void Recorder::write_surfaces(const Moved& frame, const Points& particles) {
+void FrameWriter::write_surfaces(const Moved& frame, const Points& particles) {
   surface_.points = follow(skin_, particles);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
   if (export_) export_->add(surface_.points);
@@ -221,7 +221,7 @@ void Recorder::write_surfaces(const Moved& frame, const Points& particles) {
   }
 }
 
-void Recorder::close() {
+void FrameWriter::close() {
   writer_.finish();
   for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
   if (obstacle_series_) obstacle_series_->close();

@@ -29,12 +29,12 @@
 
 namespace sinew {
 
-class Recorder {
+class FrameWriter {
  public:
   /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame;
   /// `kept`: times (s) of frames that are there already. Throws not written, and bad input when one
   /// of those is missing.
-  Recorder(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
+  FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
            const Triangles& surface, std::vector<Triangles> obstacles,
            std::span<const double> kept = {});
 
@@ -58,7 +58,7 @@ class Recorder {
     Moment moment;
     Particles particles;
     Points force_pair, force_damping, force_bone, force_world;
-    std::vector<std::int32_t> neighbours, broken_bonds;
+    std::vector<std::int32_t> neighbors, broken_bonds;
     Energies energies;
     Pose pose;
     std::vector<Reaction> reactions;

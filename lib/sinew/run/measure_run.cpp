@@ -112,13 +112,13 @@ void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameStat
 
 namespace {
 
-/// Frames that one goes to look at are in the film even where it leaves others out.
+/// Frames that one goes to look at are in the playback even where it leaves others out.
 void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& run) {
   for (const std::string_view name : telling_metrics()) {
     const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
-    if (!worst || measured.film.has(*worst)) continue;
+    if (!worst || measured.playback.has(*worst)) continue;
     const FrameState state = measured_frame(read_frame(run, *worst));
-    add_frame(measured.film, *worst, rest, state, particle_values(rest, state));
+    add_frame(measured.playback, *worst, rest, state, particle_values(rest, state));
   }
 }
 
@@ -170,7 +170,7 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
   for (const SectionMetrics& row :
        measure_sections(rest.sections, state.surface_points, state.time))
     measured.sections.push_back(row);
-  if (measured.film.wants(i)) add_frame(measured.film, i, rest, state, frame.particles);
+  if (measured.playback.wants(i)) add_frame(measured.playback, i, rest, state, frame.particles);
   course.worst_particles.push_back(std::move(frame.worst_particles));
   course.poses.push_back(state.bones);
   course.times.push_back(state.time);
@@ -201,7 +201,7 @@ RestBody rest_of(const RunFiles& run) {
 Measured measure_run(const RunFiles& run, const HowToMeasure& how) {
   const RestBody rest = rest_of(run);
   Measured measured;
-  if (how.film) measured.film = plan_film(rest, run.frames());
+  if (how.playback) measured.playback = plan_playback(rest, run.frames());
   const Course course = measure_frames(measured, rest, run, how);
   const double radius = run.body.particles.radius;
   std::vector<Hold> stills = holds(course.poses, radius);
@@ -212,7 +212,7 @@ Measured measure_run(const RunFiles& run, const HowToMeasure& how) {
   add_worst_particles(measured.summary, course.worst_particles);
   for (const Limit& limit : how.limits)
     measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
-  if (how.film) add_worst_frames(measured, rest, run);
+  if (how.playback) add_worst_frames(measured, rest, run);
   return measured;
 }
 

@@ -10,7 +10,7 @@
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/limits.h>
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/sections.h>
 #include <sinew/metrics/summary.h>
 #include <sinew/run/run_files.h>
@@ -44,7 +44,7 @@ struct Measured {
   std::vector<FrameMetrics> frames;
   Summary summary;
   std::vector<Check> checks;
-  Film film;
+  Playback playback;
   std::vector<BoneMetrics> bones;        ///< of every frame
   std::vector<SectionMetrics> sections;  ///< of every frame
 };
@@ -54,7 +54,7 @@ struct HowToMeasure {
   std::optional<SurfaceSeries> reference;
   std::vector<std::string_view> arrays;  ///< to be written as the series "values"
   bool ahead = true;                     ///< read the frame that comes while one is measured
-  bool film = true;                      ///< keep one
+  bool playback = true;                      ///< keep one
 };
 
 /// The body of a run at rest.

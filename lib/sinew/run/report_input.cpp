@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "command/command.h"
+#include <sinew/core/system.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/bone_force.h>
@@ -44,7 +44,7 @@ Curve pair_curve(const Material& material) {
                number("k1", pair.k1, "Pa, ") + number("k2", pair.k2, "Pa, ") +
                number("a", pair.a / pair.r, "r, ") + number("b", pair.b / pair.r, "r.");
   if (material.model != MaterialModel::paper)
-    curve.note += " Rest neighbours are held by bonds instead; others feel its repulsion.";
+    curve.note += " Rest neighbors are held by bonds instead; others feel its repulsion.";
   curve.lines.push_back(sampled("force", 1.5, 1.15 * pair.b / pair.r,
                                 [&](double d) { return pair.force(d * pair.r); }));
   if (material.model == MaterialModel::paper) return curve;
@@ -150,7 +150,7 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
             {"time step", number("time_step", "s")},
             {"share of the stability limit", number("time_step_factor", "")},
             {"precision", record.value("precision", "")},
-            {"neighbour search", record.value("neighbour_search", "")},
+            {"neighbor search", record.value("neighbor_search", "")},
             {"instruction set", record.value("instruction_set", "")},
             {"particle-steps per second", number("particle_steps_per_second", "")},
             {"state hash", record.value("state_hash", "")},
@@ -215,7 +215,7 @@ ReportInput report_input(const RunFiles& run, Measured measured) {
   input.frames = std::move(measured.frames);
   input.summary = std::move(measured.summary);
   input.checks = std::move(measured.checks);
-  input.film = std::move(measured.film);
+  input.playback = std::move(measured.playback);
   input.curves = law_curves(run);
   if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";

@@ -4,7 +4,7 @@
 #include <memory>
 #include <sstream>
 
-#include "command/command.h"
+#include <sinew/core/system.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
@@ -87,12 +87,12 @@ RunIdentity identity_of(const std::string& resolved, const Setup& setup, const T
           motion_hash(setup), setup.body.rest.size(), setup.steps.step};
 }
 
-RunKeeper::RunKeeper(const RunFolder& folder, const Settings& settings)
+RunCheckpoints::RunCheckpoints(const RunFolder& folder, const Settings& settings)
     : checkpoints_(folder.checkpoints()),
       interval_(settings.output.checkpoint_interval),
       limit_(settings.solver.wall_time) {}
 
-std::optional<SimulationState> RunKeeper::resume(const RunIdentity& run, std::string& complaint) {
+std::optional<SimulationState> RunCheckpoints::resume(const RunIdentity& run, std::string& complaint) {
   auto found = checkpoints_.newest(run.particles, complaint);
   if (!found) return std::nullopt;
   const RunIdentity& was = found->run;
@@ -107,8 +107,8 @@ std::optional<SimulationState> RunKeeper::resume(const RunIdentity& run, std::st
   return std::move(found->state);
 }
 
-void RunKeeper::save(const Simulation& simulation, Recorder& recorder) {
-  recorder.then([&]() -> Background::Job {
+void RunCheckpoints::save(const Simulation& simulation, FrameWriter& frame_writer) {
+  frame_writer.then([&]() -> Background::Job {
     auto checkpoint = std::make_shared<const Checkpoint>(Checkpoint{run_, simulation.save()});
     return [this, checkpoint] { checkpoints_.write(*checkpoint); };
   });

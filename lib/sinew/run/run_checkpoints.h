@@ -22,9 +22,9 @@ void check_same_scene(const RunFolder& folder, const std::string& resolved);
 /// counts as well: meshes, rigs and clips may have changed under the same name.
 RunIdentity identity_of(const std::string& resolved, const Setup& setup, const Triangles& surface);
 
-class RunKeeper {
+class RunCheckpoints {
  public:
-  RunKeeper(const RunFolder& folder, const Settings& settings);
+  RunCheckpoints(const RunFolder& folder, const Settings& settings);
 
   /// The state to go on with, if there is one. Throws bad input when it is another run's.
   std::optional<SimulationState> resume(const RunIdentity& run, std::string& complaint);
@@ -33,8 +33,8 @@ class RunKeeper {
   bool due() const { return since_.seconds() >= interval_; }
   /// Whether the run has used up its time.
   bool out_of_time() const { return limit_ && begun_.seconds() >= *limit_; }
-  /// Hands a checkpoint to the recorder, to be written after the frames before it.
-  void save(const Simulation& simulation, Recorder& recorder);
+  /// Hands a checkpoint to the frame_writer, to be written after the frames before it.
+  void save(const Simulation& simulation, FrameWriter& frame_writer);
 
  private:
   Checkpoints checkpoints_;

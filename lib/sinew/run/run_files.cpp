@@ -29,7 +29,7 @@ auto told_of(const std::filesystem::path& file, Job&& job) {
   try {
     return job();
   } catch (const Error& error) {
-    throw error.within(Place{file.string()});
+    throw error.with_context(Place{file.string()});
   }
 }
 

@@ -59,7 +59,7 @@ void go_on_from(const Json& before, Json& record) {
 
 }  // namespace
 
-Journal::Journal(const RunFolder& folder, int argc, char** argv, bool resumed)
+RunLog::RunLog(const RunFolder& folder, int argc, char** argv, bool resumed)
     : folder_(folder), record_(begin_record(argc, argv)) {
   record_["seconds"] = Json::object();
   record_["resumed"] = 0;
@@ -79,16 +79,16 @@ Journal::Journal(const RunFolder& folder, int argc, char** argv, bool resumed)
   log("sinew " + record_["version"].get<std::string>() + ": " + command);
 }
 
-Journal::~Journal() = default;
+RunLog::~RunLog() = default;
 
-void Journal::log(const std::string& line) {
+void RunLog::log(const std::string& line) {
   log_->info(line);
   log_->flush();
   if (log_failed_)
     throw not_written(folder_.log().string(), "could not be written", "make space on the disk");
 }
 
-void Journal::describe(const Settings& settings, const Setup& setup) {
+void RunLog::describe(const Settings& settings, const Setup& setup) {
   const StepChoice& steps = setup.steps;
   record_["particles"] = setup.body.rest.size();
   record_["radius"] = setup.body.material.pair.r;
@@ -101,7 +101,7 @@ void Journal::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
-  describe(step_way(settings.solver, setup.body, setup.motion));
+  describe(stepper_choice(settings.solver, setup.body, setup.motion));
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();
@@ -113,33 +113,33 @@ void Journal::describe(const Settings& settings, const Setup& setup) {
       " s, factor " + number_text(steps.factor()));
 }
 
-void Journal::describe(const StepWay& way) {
+void RunLog::describe(const StepperChoice& way) {
   record_["precision"] = name_of(way.precision);
-  record_["neighbour_search"] = name_of(way.search);
+  record_["neighbor_search"] = name_of(way.search);
   record_["instruction_set"] = kernel::name_of(way.instructions);
   log(std::string("steps in ") + name_of(way.precision) + " precision, partners by " +
       name_of(way.search) + ", instructions " + kernel::name_of(way.instructions) +
-      (way.unserved ? ", for " + way.unserved->key + " is " + way.unserved->value : ""));
+      (way.unsupported ? ", for " + way.unsupported->key + " is " + way.unsupported->value : ""));
 }
 
-void Journal::spend(const std::string& stage, double seconds) {
+void RunLog::spend(const std::string& stage, double seconds) {
   record_["seconds"][stage] = record_["seconds"].value(stage, 0.0) + seconds;
 }
 
-void Journal::checkpoint(std::int64_t steps) {
+void RunLog::checkpoint(std::int64_t steps) {
   record_["steps"] = steps;
   write_record(folder_, record_);
   log("checkpoint at step " + std::to_string(steps));
 }
 
-void Journal::frame(int frame, double time) {
+void RunLog::frame(int frame, double time) {
   record_["frames"] = frame + 1;
   log("frame " + std::to_string(frame) + " at " + number_text(time) + " s");
 }
 
-void Journal::frames(int written) { record_["frames"] = written; }
+void RunLog::frames(int written) { record_["frames"] = written; }
 
-void Journal::end(const std::string& status, const Simulation& simulation) {
+void RunLog::end(const std::string& status, const Simulation& simulation) {
   const double stepping = record_["seconds"].value("stepping", 0.0);
   const auto steps = static_cast<double>(simulation.steps());
   record_["status"] = status;
@@ -152,7 +152,7 @@ void Journal::end(const std::string& status, const Simulation& simulation) {
   log(status + " after " + std::to_string(simulation.steps()) + " steps");
 }
 
-void Journal::fail(const std::string& status, const std::string& why) {
+void RunLog::fail(const std::string& status, const std::string& why) {
   record_["status"] = status;
   record_["error"] = why;
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The journal of a run: run.json for programs, log.txt for people.
+// The run_log of a run: run.json for programs, log.txt for people.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,14 @@ class logger;
 
 namespace sinew {
 
-class Journal {
+class RunLog {
  public:
   /// Begins both files, status "running". Throws not written.
   /// A run that is resumed goes on with what they hold.
-  Journal(const RunFolder& folder, int argc, char** argv, bool resumed = false);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+  RunLog(const RunFolder& folder, int argc, char** argv, bool resumed = false);
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
 
   void describe(const Settings& settings, const Setup& setup);
 
@@ -44,7 +44,7 @@ class Journal {
   const nlohmann::ordered_json& record() const { return record_; }
 
  private:
-  void describe(const StepWay& way);
+  void describe(const StepperChoice& way);
   void log(const std::string& line);
 
   RunFolder folder_;

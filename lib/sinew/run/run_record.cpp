@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "command/command.h"
+#include <sinew/core/system.h>
 #include <sinew/core/file.h>
 
 namespace sinew {

@@ -17,20 +17,20 @@
 
 namespace sinew {
 
-Shot shot_of(const RunFiles& run, RunFrame frame, double angle) {
-  Shot shot;
-  shot.caption = three_digits(frame.time) + " s,  " +
+Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle) {
+  Snapshot snapshot;
+  snapshot.caption = three_digits(frame.time) + " s,  " +
                  std::to_string(static_cast<int>(std::lround(degrees(angle)))) + "\u00b0";
-  shot.particles = std::move(frame.positions);
-  shot.radius = run.body.particles.radius;
-  shot.values = std::move(frame.displacement);
-  shot.surface = {std::move(frame.surface_points), run.surface.faces};
+  snapshot.particles = std::move(frame.positions);
+  snapshot.radius = run.body.particles.radius;
+  snapshot.values = std::move(frame.displacement);
+  snapshot.surface = {std::move(frame.surface_points), run.surface.faces};
   for (std::size_t b = 0; b < frame.bones.size(); ++b) {
     const RigidFrame& bone = frame.bones[b];
     const Vec3 tail = bone.origin + frame.bone_lengths[b] * bone.rotation.col(0);
-    shot.bones.push_back({bone.origin, tail, bone.rotation});
+    snapshot.bones.push_back({bone.origin, tail, bone.rotation});
   }
-  return shot;
+  return snapshot;
 }
 
 namespace {
@@ -158,11 +158,11 @@ void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool firs
 
 }  // namespace
 
-DrawnRun::DrawnRun(const std::string& folder, const std::vector<Look>& looks,
+DrawnRun::DrawnRun(const std::string& folder, const std::vector<ViewPreset>& looks,
                    const std::string& array, const Mat3& view, bool ahead)
     : run_(open_run({folder})), view_(view) {
-  for (const Look& look : looks)
-    looks_.push_back(
+  for (const ViewPreset& look : looks)
+    views_.push_back(
         {look, DrawnValues(run_, array.empty() ? std::string(look.array) : array), {}});
   read_story(view, ahead);
 }
@@ -172,9 +172,9 @@ void DrawnRun::read_story(const Mat3& view, bool ahead) {
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
     story_.angle.push_back(largest_turn(run_, frame));
-    for (DrawnLook& drawn : looks_)
+    for (DrawnView& drawn : views_)
       widen(drawn.range, DrawnValues::range_of(drawn.values.at(i, frame)), i == 0);
-    story_.frame.extend(seen(view, shot_of(run_, std::move(frame), 0)));
+    story_.frame.extend(seen(view, snapshot_of(run_, std::move(frame), 0)));
   }
 }
 
@@ -208,7 +208,7 @@ std::vector<std::size_t> DrawnRun::telling_frames() const {
 
 /// The cut stands upright across the viewer's direction at rest and bends with the body, so that
 /// the same particles are seen at all times.
-void DrawnRun::cut_open(Shot& shot) const {
+void DrawnRun::cut_open(Snapshot& snapshot) const {
   const Points rest = positions_of(run_.body.particles);
   const Vec3 back = view_.row(2);
   Vec3 across = Vec3::UnitY();
@@ -219,14 +219,14 @@ void DrawnRun::cut_open(Shot& shot) const {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (across.dot(rest[i]) > middle) continue;
-    shot.particles[kept] = shot.particles[i];
-    shot.values[kept++] = shot.values[i];
+    snapshot.particles[kept] = snapshot.particles[i];
+    snapshot.values[kept++] = snapshot.values[i];
   }
-  shot.particles.resize(kept);
-  shot.values.resize(kept);
+  snapshot.particles.resize(kept);
+  snapshot.values.resize(kept);
 }
 
-void DrawnRun::add_arrows(Shot& shot, std::size_t index, const DrawnLook& drawn) const {
+void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const {
   const Points vectors = drawn_vectors(run_, index, drawn.values.name());
   const double size = bounds(positions_of(run_.body.particles)).sizes().maxCoeff();
   const double strongest = drawn.range.high;
@@ -236,18 +236,18 @@ void DrawnRun::add_arrows(Shot& shot, std::size_t index, const DrawnLook& drawn)
     const double force = vectors[i].norm();
     if (!(force > shortest_arrow * strongest)) continue;
     const double length = longest_arrow * size * std::min(1.0, force / strongest);
-    shot.arrows.push_back({shot.particles[i], length / force * vectors[i], force});
+    snapshot.arrows.push_back({snapshot.particles[i], length / force * vectors[i], force});
   }
 }
 
-Shot DrawnRun::shot(std::size_t index, const DrawnLook& drawn) const {
+Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
   std::vector<double> values = drawn.values.at(index, frame);
-  Shot shot = shot_of(run_, std::move(frame), story_.angle[index]);
-  shot.values = std::move(values);
-  if (drawn.look.cut_open) cut_open(shot);
-  if (drawn.look.view == View::arrows) add_arrows(shot, index, drawn);
-  return shot;
+  Snapshot snapshot = snapshot_of(run_, std::move(frame), story_.angle[index]);
+  snapshot.values = std::move(values);
+  if (drawn.look.cut_open) cut_open(snapshot);
+  if (drawn.look.view == View::arrows) add_arrows(snapshot, index, drawn);
+  return snapshot;
 }
 
 }  // namespace sinew

@@ -15,9 +15,9 @@
 namespace sinew {
 
 /// `angle`: what the caption says of the bones, rad. Bones are as long as they are in the frame.
-Shot shot_of(const RunFiles& run, RunFrame frame, double angle);
+Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle);
 
-// The quantities of particles that pictures show in colour: those a run has written, and those that
+// The quantities of particles that pictures show in color: those a run has written, and those that
 // are measured from its frames.
 
 class DrawnValues {
@@ -33,7 +33,7 @@ class DrawnValues {
   /// that index.
   std::vector<double> at(std::size_t index, const RunFrame& frame) const;
 
-  /// What stands at the ends of the colours for these values: their range without the hundredth
+  /// What stands at the ends of the colors for these values: their range without the hundredth
   /// part at each end, which few stray particles have to themselves; from zero where that is near.
   struct Range {
     double low = 0, high = 0;
@@ -53,12 +53,12 @@ class DrawnValues {
 /// name.
 Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name);
 
-// A run as pictures need it: its moments as shots, and what must be known of all of them before the
+// A run as pictures need it: its moments as snapshots, and what must be known of all of them before the
 // first is drawn.
 
 /// What one look shows of a run.
-struct DrawnLook {
-  Look look;
+struct DrawnView {
+  ViewPreset look;
   DrawnValues values;
   DrawnValues::Range range;  ///< over all frames
 };
@@ -70,16 +70,16 @@ struct Story {
 
 class DrawnRun {
  public:
-  /// Reads all frames once. `array`: in colour instead of what each look shows by itself, or empty.
+  /// Reads all frames once. `array`: in color instead of what each look shows by itself, or empty.
   /// Throws bad input.
-  DrawnRun(const std::string& folder, const std::vector<Look>& looks, const std::string& array,
+  DrawnRun(const std::string& folder, const std::vector<ViewPreset>& looks, const std::string& array,
            const Mat3& view, bool ahead);
   DrawnRun(const DrawnRun&) = delete;
   DrawnRun& operator=(const DrawnRun&) = delete;
 
   const RunFiles& files() const { return run_; }
   const Story& story() const { return story_; }
-  const std::vector<DrawnLook>& looks() const { return looks_; }
+  const std::vector<DrawnView>& view_presets() const { return views_; }
   std::string name() const;  ///< of its folder
 
   /// The frame nearest in time.
@@ -87,16 +87,16 @@ class DrawnRun {
   /// The frames that tell the story: rest, half way, farthest (its last moment), and the end.
   std::vector<std::size_t> telling_frames() const;
 
-  Shot shot(std::size_t index, const DrawnLook& drawn) const;
+  Snapshot snapshot(std::size_t index, const DrawnView& drawn) const;
 
  private:
   void read_story(const Mat3& view, bool ahead);
-  void cut_open(Shot& shot) const;
-  void add_arrows(Shot& shot, std::size_t index, const DrawnLook& drawn) const;
+  void cut_open(Snapshot& snapshot) const;
+  void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
 
   RunFiles run_;
   Mat3 view_;
-  std::vector<DrawnLook> looks_;
+  std::vector<DrawnView> views_;
   Story story_;
 };
 

@@ -12,7 +12,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::array<Look, 7> all_looks = {{
+constexpr std::array<ViewPreset, 7> all_view_presets = {{
     {"body", View::both, false, "displacement", "particles within the skin's edges, and the bones"},
     {"surface", View::surface, false, "displacement", "the skin, the bones shining through"},
     {"particles", View::particles, false, "displacement", "spheres of their true size"},
@@ -53,12 +53,12 @@ Mat3 view_towards(const Vec3& viewer) {
 
 }  // namespace
 
-std::span<const Look> looks() { return all_looks; }
+std::span<const ViewPreset> view_presets() { return all_view_presets; }
 
-const Look& look_named(const std::string& name) { return entry_named(all_looks, name, "view"); }
+const ViewPreset& view_preset_named(const std::string& name) { return entry_named(all_view_presets, name, "view"); }
 
-ColourMap colour_map_named(const std::string& name) {
-  return entry_named(colour_maps(), name, "colour map").map;
+ColorMap color_map_named(const std::string& name) {
+  return entry_named(color_maps(), name, "color map").map;
 }
 
 Mat3 view_named(const std::string& text) {

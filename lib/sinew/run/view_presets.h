@@ -11,19 +11,19 @@
 
 namespace sinew {
 
-struct Look {
+struct ViewPreset {
   std::string_view name;
   View view = View::both;
   bool cut_open = false;   ///< only the half of the particles away from the viewer
-  std::string_view array;  ///< in colour, where the user names none
+  std::string_view array;  ///< in color, where the user names none
   std::string_view help;
 };
 
-std::span<const Look> looks();
+std::span<const ViewPreset> view_presets();
 
 /// Throws bad input, with the nearest, for an unknown name.
-const Look& look_named(const std::string& name);
-ColourMap colour_map_named(const std::string& name);
+const ViewPreset& view_preset_named(const std::string& name);
+ColorMap color_map_named(const std::string& name);
 
 /// "three_quarter", "front", "back", "left", "right", "top", or the direction towards the viewer as
 /// "1,-2,0.5". Throws bad input for anything else.

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "command/command.h"
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
@@ -27,7 +26,7 @@ PolygonSoup read_any(const std::string& path) {
 
 }  // namespace
 
-Surface read_body_mesh(const BodySettings& body) { return read_surface(body, read_any); }
+Surface read_body_mesh(const BodyOptions& body) { return read_surface(body, read_any); }
 
 namespace {
 
@@ -50,7 +49,7 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
 }
 
 /// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
-Mat3 lattice_axes(const BodySettings& body) {
+Mat3 lattice_axes(const BodyOptions& body) {
   const Vec3& angles = body.lattice_rotation;
   if (angles.isZero(0)) return Mat3::Identity();
   const auto about = [&](int axis) {
@@ -60,11 +59,11 @@ Mat3 lattice_axes(const BodySettings& body) {
 }
 
 Surface read_mesh(const Settings& settings) {
-  return told_at(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
+  return with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
 }
 
 Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
-  const BodySettings& body = settings.body;
+  const BodyOptions& body = settings.body;
   PackOptions options;
   options.packing = body.packing;
   options.radius = body.radius;
@@ -76,7 +75,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.clearance = body.clearance;
   options.thickness = body.thickness;
   options.verify = verify;
-  return told_at(settings, body.radius ? "body.radius" : "body.count",
+  return with_context(settings, body.radius ? "body.radius" : "body.count",
                  [&] { return pack(surface, options); });
 }
 
@@ -92,7 +91,7 @@ BodyFile body_file(Filling filling, const std::string& origin) {
   meta["fill"]["warnings"] = filling.report.warnings;
   BodyFile body;
   body.particles = std::move(filling.particles);
-  body.neighbours = std::move(filling.neighbours);
+  body.neighbors = std::move(filling.neighbors);
   body.component = std::move(filling.component);
   body.meta = meta.dump();
   return body;
@@ -101,7 +100,7 @@ BodyFile body_file(Filling filling, const std::string& origin) {
 std::string origin_of(const Settings& settings) {
   Hash hash;
   hash.add(
-      told_at(settings, "body.mesh", [&] { return read_file(settings.body.mesh, largest_mesh); }));
+      with_context(settings, "body.mesh", [&] { return read_file(settings.body.mesh, largest_mesh); }));
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <initializer_list>
 
-#include <sinew/core/error.h>
 #include <sinew/fill/pack.h>
 #include <sinew/io/single_files.h>
 #include <sinew/mesh/surface.h>
+#include <sinew/scene/context.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -19,28 +19,16 @@ namespace sinew {
 inline constexpr const char* mesh_formats = "OBJ, OFF, STL, PLY, glTF, GLB";
 
 /// Reads body.mesh with the options of the section body. Throws Error (bad input) naming the file.
-Surface read_body_mesh(const BodySettings& body);
+Surface read_body_mesh(const BodyOptions& body);
 
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
-
-/// Runs `job`; what it throws is told as reached through a line of the scene.
-template <class Job>
-auto told_at(const Settings& settings, const char* key, Job&& job) {
-  try {
-    return job();
-  } catch (const Error& error) {
-    const Place place = settings.place(key);
-    if (place.file == settings.body.mesh) throw;  // a mesh without a scene: it names itself
-    throw error.within(place);
-  }
-}
 
 /// Throws Error (bad input) where an output is no .vtu, or one of the inputs.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);
 
 /// The directions of the packing, as columns.
-Mat3 lattice_axes(const BodySettings& body);
+Mat3 lattice_axes(const BodyOptions& body);
 
 /// Reads the mesh that a scene names. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);

@@ -39,8 +39,8 @@ constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 113
 constexpr double memory_with_cells = 1500;
 constexpr double memory_per_point = 600, memory_beside = 30e6;
 
-double memory_per_particle(const StepWay& way) {
-  if (way.search == NeighbourSearch::cells) return memory_with_cells;
+double memory_per_particle(const StepperChoice& way) {
+  if (way.search == NeighborSearch::cells) return memory_with_cells;
   return way.precision == Precision::binary64 ? memory_with_lists_double : memory_with_lists_single;
 }
 
@@ -74,13 +74,13 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const double coded =
       raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
   const double exported = output.export_surface ? points * exported_per_point : 0;
-  const bool bonds = remembers_neighbours(setup.body.material);
+  const bool bonds = remembers_neighbors(setup.body.material);
   const double checkpoints =
       particles * (checkpoints_per_particle + (bonds ? bonds_per_particle : 0));
   Needs needs;
   needs.disk = static_cast<std::uint64_t>(
       (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
-  const StepWay way = step_way(settings.solver, setup.body, setup.motion);
+  const StepperChoice way = stepper_choice(settings.solver, setup.body, setup.motion);
   needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
                                             points * memory_per_point + memory_beside);
   return needs;
@@ -119,9 +119,9 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-// Beyond this the second neighbours, at 2.83 r, weaken the packing at rest: noise grows.
+// Beyond this the second neighbors, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
-constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbours are passed, not pushed
+constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbors are passed, not pushed
 constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
 constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
 // In square roots of what a bone holds of the cross-section: 0.6 is the rim of a round limb.
@@ -131,11 +131,11 @@ constexpr double steepest_joint = 5;  // degrees between two planes: more, and b
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
   if (pair.b > largest_stable_b * pair.r)
     warnings.push_back("b is " + three_digits(pair.b / pair.r) +
-                       " radii: second neighbours at 2.83 weaken the packing until it collapses by "
+                       " radii: second neighbors at 2.83 weaken the packing until it collapses by "
                        "itself; set material.b to 2.75 or less");
   if (pair.a > 2 * pair.r * (1 + 1e-9))
     warnings.push_back("a is " + three_digits(pair.a / pair.r) +
-                       " radii: between 2 and a neighbours do not pull and a free body swells; set "
+                       " radii: between 2 and a neighbors do not pull and a free body swells; set "
                        "material.a to 2");
 }
 
@@ -233,14 +233,14 @@ void warn_of_unreached(const Binding& binding, Warnings& warnings) {
 }
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
-  const StepWay way = step_way(solver, setup.body, setup.motion);
-  if (!way.unserved || setup.body.material.model != MaterialModel::paper) return;
-  const auto& [key, value, served] = *way.unserved;
+  const StepperChoice way = stepper_choice(solver, setup.body, setup.motion);
+  if (!way.unsupported || setup.body.material.model != MaterialModel::paper) return;
+  const auto& [key, value, supported] = *way.unsupported;
   std::string warning = key;
   warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
   if (solver.precision == Precision::binary32) warning += ", in double precision";
   warning += ", about " + three_digits(std::round(slowness_of_cells(solver.precision))) +
-             " times slower; use " + key + ' ' + served + " where its difference does not matter";
+             " times slower; use " + key + ' ' + supported + " where its difference does not matter";
   warnings.push_back(warning);
 }
 

@@ -8,7 +8,7 @@
 #include <sinew/io/gltf/read_rig.h>
 #include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/motion.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/context.h>
 
 namespace sinew {
 namespace {
@@ -23,7 +23,7 @@ bool is_gltf(const std::filesystem::path& path) {
 }
 
 /// In the file's own directions and units: placed() turns and scales it afterwards.
-Rig read_bvh_rig(const std::filesystem::path& path, const MotionSettings& motion) {
+Rig read_bvh_rig(const std::filesystem::path& path, const MotionOptions& motion) {
   BvhOptions options;
   options.name = path.stem().string();
   options.up = std::string("z");
@@ -73,10 +73,15 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
   return motion;
 }
 
-Motion motion_of(const Rig& rig, const Skeleton& skeleton, const Settings& settings) {
-  const Mat3 turn = to_scene(settings.skeleton);
-  return placed(renamed(played(clip_of(rig, settings).motion, settings), rig.skeleton, skeleton),
-                settings.skeleton.scale, turn);
+/// As section motion asks, in the scene's directions and lengths.
+Motion in_scene(Motion clip, const Settings& settings) {
+  Motion motion = at_keys(settings, "motion.",
+                          [&] { return played(std::move(clip), settings.motion); });
+  return placed(std::move(motion), settings.skeleton.scale, to_scene(settings.skeleton));
+}
+
+Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& settings) {
+  return in_scene(renamed(clip_of(rig, settings).motion, rig.skeleton, skeleton), settings);
 }
 
 }  // namespace
@@ -87,11 +92,26 @@ bool holds_rig(const std::filesystem::path& path) {
 
 bool holds_mesh(const std::filesystem::path& path) { return !is_bvh(path); }
 
-Rig read_rig(const std::filesystem::path& path, const MotionSettings& motion) {
+Rig read_rig(const std::filesystem::path& path, const MotionOptions& motion) {
   if (is_bvh(path)) return read_bvh_rig(path, motion);
   if (is_gltf(path)) return read_gltf_rig(path).rig;
   throw bad_input(Place{path.string()}, "is no rig that can be read",
                   std::string("give a file of YAML, ") + rig_formats);
+}
+
+Skeleton skeleton_of(const Settings& settings) {
+  Skeleton skeleton =
+      at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
+  return placed(std::move(skeleton), settings.skeleton.scale, to_scene(settings.skeleton));
+}
+
+Motion motion_of(const Settings& settings, const Skeleton& skeleton) {
+  return in_scene(at_keys(settings, "motion.",
+                          [&] {
+                            return make_motion(settings.tracks, skeleton,
+                                               settings.motion.frame_rate);
+                          }),
+                  settings);
 }
 
 SceneRig rig_of(const Settings& settings) {
@@ -99,20 +119,20 @@ SceneRig rig_of(const Settings& settings) {
   const std::string &skeleton = settings.skeleton.file, &motion = settings.motion.file;
   Rig rig;
   if (skeleton.empty()) {
-    scene.skeleton = make_skeleton(settings);
+    scene.skeleton = skeleton_of(settings);
   } else {
-    rig = told_at(settings, "skeleton.file", [&] { return read_rig(skeleton, settings.motion); });
+    rig = with_context(settings, "skeleton.file", [&] { return read_rig(skeleton, settings.motion); });
     scene.skeleton = placed(rig.skeleton, settings.skeleton.scale, to_scene(settings.skeleton));
   }
   if (!motion.empty()) {
-    scene.motion = told_at(settings, "motion.file", [&] {
-      return motion_of(read_rig(motion, settings.motion), scene.skeleton, settings);
+    scene.motion = with_context(settings, "motion.file", [&] {
+      return clip_motion(read_rig(motion, settings.motion), scene.skeleton, settings);
     });
   } else if (settings.tracks.empty() && !rig.clips.empty()) {
-    scene.motion = told_at(settings, "skeleton.file",
-                           [&] { return motion_of(rig, scene.skeleton, settings); });
+    scene.motion = with_context(settings, "skeleton.file",
+                           [&] { return clip_motion(rig, scene.skeleton, settings); });
   } else {
-    scene.motion = make_motion(settings, scene.skeleton);
+    scene.motion = motion_of(settings, scene.skeleton);
   }
   return scene;
 }

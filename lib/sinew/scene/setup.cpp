@@ -25,7 +25,7 @@ BoneWeights weights_of_file(const Settings& settings, const Points& rest) {
   if (type != ".gltf" && type != ".glb")
     throw bad_input(place, "there is no glTF file to take weights from",
                     "name a .gltf or .glb with a skinned mesh in skeleton.file, or choose inside");
-  GltfRig rig = told_at(settings, "skeleton.file", [&] { return read_gltf_rig(file); });
+  GltfRig rig = with_context(settings, "skeleton.file", [&] { return read_gltf_rig(file); });
   if (rig.weights.weights.empty())
     throw bad_input(place, file.filename().string() + " holds no skinned mesh, so no weights",
                     "choose nearest or inside");
@@ -63,20 +63,20 @@ BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleto
                       std::size_t particles) {
   const BoundSettings& given = settings.bound[index];
   const std::string path = "binding.explicit[" + std::to_string(index) + "]";
-  const bool box = given.low && given.high, ball = given.centre && given.radius;
+  const bool box = given.low && given.high, ball = given.center && given.radius;
   if (given.low.has_value() != given.high.has_value())
     throw bad_input(settings.place(path), "the box has one corner", "give both low and high");
-  if (given.centre.has_value() != given.radius.has_value())
-    throw bad_input(settings.place(path), "the ball lacks its centre or its radius",
-                    "give both centre and radius");
+  if (given.center.has_value() != given.radius.has_value())
+    throw bad_input(settings.place(path), "the ball lacks its center or its radius",
+                    "give both center and radius");
   if (!box && !ball && !given.ids)
     throw bad_input(settings.place(path), "the entry names no particles",
-                    "give ids, low and high of a box, or centre and radius of a ball");
+                    "give ids, low and high of a box, or center and radius of a ball");
   BoundRegion region;
   region.bone = bone_named(settings, path + ".bone", skeleton, given.bone);
   if (given.ids) region.ids = ids_of(settings, path + ".ids", *given.ids, particles);
   if (box) region.box = Box(*given.low, *given.high);
-  if (ball) region.centre = *given.centre, region.radius = *given.radius;
+  if (ball) region.center = *given.center, region.radius = *given.radius;
   return region;
 }
 
@@ -84,7 +84,7 @@ BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleto
 
 Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Points& rest,
                    double radius) {
-  const BindingSettings& given = settings.binding;
+  const BindingOptions& given = settings.binding;
   BindOptions options;
   options.radius = radius;
   options.inside = given.method == BindMethod::inside;
@@ -129,11 +129,19 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
   try {
     return choose_step(settings.solver, limit, settings.output.interval);
   } catch (const Error& error) {
-    throw error.within(settings.place("solver.integrator"));
+    throw error.with_context(settings.place("solver.integrator"));
   }
 }
 
 }  // namespace
+
+Stepping stepping_of(const SolverSettings& solver, double step) {
+  return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbor_search};
+}
+
+StepChoice choose_step(const SolverSettings& solver, double limit, double interval) {
+  return choose_step(solver.time_step, solver.time_step_factor, limit, interval);
+}
 
 Setup set_up(const Settings& settings, const Particles& particles) {
   Setup setup;

@@ -29,6 +29,10 @@ struct Setup {
   int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
 
+/// What the section solver says of stepping, with the step chosen for it, s.
+Stepping stepping_of(const SolverSettings& solver, double step);
+StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
+
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.
 Setup set_up(const Settings& settings, const Particles& particles);
 

@@ -22,12 +22,12 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
 // Whatever the instruction set: cells are sorted anew, and pairs worked through one by one.
 constexpr double speed_with_cells = 2e6;
 
-Unserved unserved_by_lists(const Body& body, const Motion& motion) {
+Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
   if (body.material.model != MaterialModel::paper)
     return {"material.model",
             body.material.model == MaterialModel::bonded ? "bonded" : "bonded_volume", "paper"};
   if (body.material.cohesion != Cohesion::all)
-    return {"material.cohesion", "initial_neighbours", "all"};
+    return {"material.cohesion", "initial_neighbors", "all"};
   if (body.world) return {"the section world", "not empty", "without entries"};
   if (stretches(motion)) return {"a key's stretch", "not 1", "1"};
   if (body.material.damping_form != DampingForm::paper)
@@ -40,29 +40,29 @@ Unserved unserved_by_lists(const Body& body, const Motion& motion) {
 
 }  // namespace
 
-StepWay step_way(const SolverSettings& solver, const Body& body, const Motion& motion) {
-  StepWay way{solver.neighbour_search, solver.precision};
-  if (way.search == NeighbourSearch::lists && !lists_serve(body, motion)) {
-    way.search = NeighbourSearch::cells;
-    way.unserved = unserved_by_lists(body, motion);
+StepperChoice stepper_choice(const SolverSettings& solver, const Body& body, const Motion& motion) {
+  StepperChoice way{solver.neighbor_search, solver.precision};
+  if (way.search == NeighborSearch::lists && !lists_support(body, motion)) {
+    way.search = NeighborSearch::cells;
+    way.unsupported = unsupported_by_lists(body, motion);
   }
-  if (way.search == NeighbourSearch::cells) {
+  if (way.search == NeighborSearch::cells) {
     way.precision = Precision::binary64;
     way.instructions = InstructionSet::plain;
   }
   return way;
 }
 
-const char* name_of(NeighbourSearch search) {
-  return search == NeighbourSearch::lists ? "lists" : "cells";
+const char* name_of(NeighborSearch search) {
+  return search == NeighborSearch::lists ? "lists" : "cells";
 }
 
 const char* name_of(Precision precision) {
   return precision == Precision::binary64 ? "double" : "single";
 }
 
-double usual_speed(const StepWay& way) {
-  if (way.search == NeighbourSearch::cells) return speed_with_cells;
+double usual_speed(const StepperChoice& way) {
+  if (way.search == NeighborSearch::cells) return speed_with_cells;
   for (const Speed& speed : speeds_with_lists)
     if (speed.set == way.instructions)
       return way.precision == Precision::binary64 ? speed.in_double : speed.in_single;
@@ -70,7 +70,7 @@ double usual_speed(const StepWay& way) {
 }
 
 double slowness_of_cells(Precision precision) {
-  return usual_speed({NeighbourSearch::lists, precision}) / speed_with_cells;
+  return usual_speed({NeighborSearch::lists, precision}) / speed_with_cells;
 }
 
 }  // namespace sinew

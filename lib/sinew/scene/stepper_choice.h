@@ -13,26 +13,26 @@
 namespace sinew {
 
 /// A setting that the lists know nothing of, and the choice of it that they know.
-struct Unserved {
-  std::string key, value, served;
+struct Unsupported {
+  std::string key, value, supported;
 };
 
-struct StepWay {
-  NeighbourSearch search = NeighbourSearch::lists;
+struct StepperChoice {
+  NeighborSearch search = NeighborSearch::lists;
   Precision precision = Precision::binary64;
   kernel::InstructionSet instructions = kernel::best_instruction_set();
-  std::optional<Unserved> unserved{};  ///< why cells take the place of the lists asked for
+  std::optional<Unsupported> unsupported{};  ///< why cells take the place of the lists asked for
 };
 
 /// Cells know one precision, double, and no instruction set but the plain one.
-StepWay step_way(const SolverSettings& solver, const Body& body, const Motion& motion);
+StepperChoice stepper_choice(const SolverSettings& solver, const Body& body, const Motion& motion);
 
 /// As the scene's keys spell them.
-const char* name_of(NeighbourSearch search);
+const char* name_of(NeighborSearch search);
 const char* name_of(Precision precision);
 
 /// Particle-steps per second that one core is usually seen to make.
-double usual_speed(const StepWay& way);
+double usual_speed(const StepperChoice& way);
 
 /// How many times slower than lists in the scene's precision cells usually are.
 double slowness_of_cells(Precision precision);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <sinew/mesh/surface_distance.h>
 #include <sinew/physics/world/shapes.h>
@@ -34,8 +35,8 @@ Region region_of(const RegionSettings& given) {
   region.falloff = given.falloff;
   if (given.low)
     region.shape = BoxShape{(*given.low + *given.high) / 2, (*given.high - *given.low) / 2};
-  else if (given.centre)
-    region.shape = SphereShape{*given.centre, *given.radius};
+  else if (given.center)
+    region.shape = SphereShape{*given.center, *given.radius};
   return region;
 }
 
@@ -69,8 +70,8 @@ struct Placed {
   Triangles surface;
 };
 
-Placed placed_mesh(const ObstacleSettings& given, const BodySettings& body) {
-  BodySettings file;
+Placed placed_mesh(const ObstacleSettings& given, const BodyOptions& body) {
+  BodyOptions file;
   file.mesh = given.mesh;
   file.unit = body.unit;
   file.scale = body.scale;
@@ -99,7 +100,7 @@ Mat3 rotation_about_axes(const Vec3& angles) {
 }
 
 /// `size`: of the body, m.
-Placed placed_shape(const ObstacleSettings& given, const BodySettings& body, double size) {
+Placed placed_shape(const ObstacleSettings& given, const BodyOptions& body, double size) {
   const Vec3 zero = Vec3::Zero();
   Placed placed;
   switch (given.shape) {
@@ -109,7 +110,7 @@ Placed placed_shape(const ObstacleSettings& given, const BodySettings& body, dou
       placed = {PlaneShape{zero, given.normal}, given.point, {}};
       break;
     case ObstacleShape::sphere:
-      placed = {SphereShape{zero, *given.radius}, *given.centre, {}};
+      placed = {SphereShape{zero, *given.radius}, *given.center, {}};
       break;
     case ObstacleShape::capsule: {
       const Vec3 middle = (*given.from + *given.to) / 2;
@@ -118,7 +119,7 @@ Placed placed_shape(const ObstacleSettings& given, const BodySettings& body, dou
     }
     case ObstacleShape::box:
       placed = {
-          BoxShape{zero, *given.size / 2, rotation_about_axes(given.rotation)}, *given.centre, {}};
+          BoxShape{zero, *given.size / 2, rotation_about_axes(given.rotation)}, *given.center, {}};
       break;
   }
   placed.surface = surface_of(placed.shape, size);
@@ -127,21 +128,21 @@ Placed placed_shape(const ObstacleSettings& given, const BodySettings& body, dou
 
 /// The motion that the keys of an obstacle give: that of a bone with its head in the middle.
 ObstacleMotion keyed(const ObstacleSettings& given, const Vec3& middle) {
-  Settings scene;
-  scene.bones = {{given.name, "", middle, Vec3(middle + Vec3::UnitX())}};
-  TrackSettings track;
+  const std::vector<BoneDefinition> bones = {
+      {given.name, "", middle, Vec3(middle + Vec3::UnitX())}};
+  TrackDefinition track;
   track.bone = given.name;
   track.interpolation = given.interpolation;
   for (const PlaceKeySettings& key : given.keys) {
-    KeySettings& made = track.keys.emplace_back();
+    KeyDefinition& made = track.keys.emplace_back();
     made.time = key.time;
     made.translation = key.translation;
     made.axis = key.axis;
     made.angle = key.angle;
   }
-  scene.tracks = {track};
-  const Skeleton skeleton = make_skeleton(scene);
-  return [skeleton, motion = make_motion(scene, skeleton)](double time, const Pose&) {
+  const Skeleton skeleton = make_skeleton(bones);
+  Motion motion = played(make_motion(std::span(&track, 1), skeleton), {});
+  return [skeleton, motion = std::move(motion)](double time, const Pose&) {
     const BonePose bone = pose_at(skeleton, motion, time).front();
     return ObstaclePose{{bone.frame.origin, bone.turn}, bone.velocity, bone.angular_velocity};
   };
@@ -163,7 +164,7 @@ void add_obstacles(const Settings& settings, const Body& body, World& world,
     const ObstacleSettings& given = settings.world.obstacles[i];
     const std::string path = entry("obstacles", i);
     const int bone = bone_named(given.bone, path, settings, body.skeleton);
-    Placed placed = told_at(settings, (path + ".mesh").c_str(),
+    Placed placed = with_context(settings, (path + ".mesh").c_str(),
                             [&] { return placed_shape(given, settings.body, size); });
     Obstacle obstacle;
     obstacle.name = given.name;
@@ -184,7 +185,7 @@ void add_pins(const Settings& settings, const Body& body, World& world) {
     pins.push_back({region_of(given.region),
                     bone_named(given.bone, entry("pins", i), settings, body.skeleton)});
   }
-  world.pins = told_at(settings, "world.pins", [&] {
+  world.pins = with_context(settings, "world.pins", [&] {
     return pinned(body.rest, pins, static_cast<int>(body.skeleton.size()));
   });
 }
@@ -211,7 +212,7 @@ void add_muscles(const Settings& settings, const Body& body, World& world) {
   for (std::size_t i = 0; i < settings.world.muscles.size(); ++i)
     muscles.push_back(muscle_of(settings.world.muscles[i], entry("muscles", i), settings, body));
   if (muscles.empty()) return;
-  world.muscles = told_at(settings, "world.muscles", [&] {
+  world.muscles = with_context(settings, "world.muscles", [&] {
     return make_muscles(body.rest, body.material.pair.r, std::move(muscles));
   });
 }
@@ -229,7 +230,7 @@ SceneWorld world_of(const Settings& settings, const Body& body) {
         {given.name, form_of(given), region_of(given.region), values_of(given.keys)});
   add_muscles(settings, body, world);
   add_pins(settings, body, world);
-  told_at(settings, "world", [&] { check_world(world); });
+  with_context(settings, "world", [&] { check_world(world); });
   made.world = std::make_shared<const World>(std::move(world));
   return made;
 }

@@ -37,7 +37,7 @@ Place place_of(const Settings& settings, const char* first, const char* second) 
 }
 
 void check_material(const Settings& settings) {
-  const MaterialSettings& material = settings.material;
+  const MaterialOptions& material = settings.material;
   if (!(material.a < material.b))
     throw bad_input(place_of(settings, "material.a", "material.b"),
                     "attraction would end at b = " + number_text(material.b) +
@@ -68,7 +68,7 @@ void check_arrays(const Settings& settings) {
   try {
     requested_arrays(settings.output.arrays);
   } catch (const Error& error) {
-    throw error.within(settings.place("output.arrays"));
+    throw error.with_context(settings.place("output.arrays"));
   }
 }
 
@@ -83,7 +83,7 @@ void check_axes(const Settings& settings) {
 }
 
 void check_clip(const Settings& settings) {
-  const MotionSettings& motion = settings.motion;
+  const MotionOptions& motion = settings.motion;
   if (motion.end && !(*motion.end > motion.start))
     throw bad_input(place_of(settings, "motion.end", "motion.start"),
                     "the clip would end at " + number_text(*motion.end) +
@@ -112,7 +112,7 @@ std::string_view rival_of(std::string_view path) {
 }
 
 void apply_preset(Settings& settings) {
-  MaterialSettings& material = settings.material;
+  MaterialOptions& material = settings.material;
   const MaterialPreset* preset = preset_named(material.preset);
   if (preset == nullptr) return;
   const auto free = [&](std::string_view key) {

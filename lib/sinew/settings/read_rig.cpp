@@ -72,7 +72,7 @@ YamlNode read_file(const Settings& settings, const std::string& file, const std:
   try {
     text = read_text(file);
   } catch (const Error& error) {
-    throw error.within(settings.place(key));
+    throw error.with_context(settings.place(key));
   }
   YamlNode tree = parse_yaml(text, file);
   if (tree.place.file.empty()) tree.place = {file};

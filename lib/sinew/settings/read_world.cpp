@@ -58,21 +58,21 @@ void check_names(const std::vector<Owner>& owners, std::string_view list,
 }
 
 void check_region(const RegionSettings& region, const std::string& path, const Settings& settings) {
-  const bool box = region.low || region.high, ball = region.centre || region.radius;
+  const bool box = region.low || region.high, ball = region.center || region.radius;
   const Place place = settings.place(path);
   if (box && ball)
     throw bad_input(place, path + " has a region given as a box and as a ball",
-                    "keep low and high, or centre and radius");
+                    "keep low and high, or center and radius");
   if (box && !(region.low && region.high))
     throw bad_input(place, path + " has one corner of a box", "give low and high");
-  if (ball && !(region.centre && region.radius))
-    throw bad_input(place, path + " has half of a ball", "give centre and radius");
+  if (ball && !(region.center && region.radius))
+    throw bad_input(place, path + " has half of a ball", "give center and radius");
   if (box && !(region.low->array() < region.high->array()).all())
     throw bad_input(settings.place(path + ".low"), path + ".low is not below high on all axes",
                     "give the least corner as low and the greatest as high");
 }
 
-bool has_region(const RegionSettings& region) { return region.low || region.centre; }
+bool has_region(const RegionSettings& region) { return region.low || region.center; }
 
 /// Throws unless a key that `owner` needs is given.
 void require(bool given, const std::string& path, const std::string& key, const std::string& owner,
@@ -96,14 +96,14 @@ void check_shape(const ObstacleSettings& obstacle, const std::string& path,
                         "give [x, y, z], not all zero");
       return;
     case ObstacleShape::sphere:
-      need(obstacle.centre.has_value(), "centre", "sphere");
+      need(obstacle.center.has_value(), "center", "sphere");
       return need(obstacle.radius.has_value(), "radius", "sphere");
     case ObstacleShape::capsule:
       need(obstacle.from.has_value(), "from", "capsule");
       need(obstacle.to.has_value(), "to", "capsule");
       return need(obstacle.radius.has_value(), "radius", "capsule");
     case ObstacleShape::box:
-      need(obstacle.centre.has_value(), "centre", "box");
+      need(obstacle.center.has_value(), "center", "box");
       need(obstacle.size.has_value(), "size", "box");
       if (!(obstacle.size->array() > 0).all())
         throw bad_input(settings.place(path + ".size"), "a box without size along an axis",
@@ -133,7 +133,7 @@ void read_pin(const YamlNode& item, const std::string& path, PinSettings& pin, S
   check_region(pin.region, path, settings);
   if (!has_region(pin.region))
     throw bad_input(settings.place(path), path + " has no region",
-                    "add low: and high: of a box, or centre: and radius: of a ball");
+                    "add low: and high: of a box, or center: and radius: of a ball");
 }
 
 /// Throws unless the keys that a field's shape needs are given.
@@ -141,7 +141,7 @@ void check_field(const FieldSettings& field, const std::string& path, const Sett
   const auto need = [&](bool given, const char* key, const std::string& shape) {
     require(given, path, key, "field of shape " + shape, settings);
   };
-  const auto need_centre = [&](const char* shape) {
+  const auto need_center = [&](const char* shape) {
     need(field.point.has_value(), "point", shape);
     need(field.strength.has_value(), "strength", shape);
     need(field.core.has_value(), "core", shape);
@@ -152,12 +152,12 @@ void check_field(const FieldSettings& field, const std::string& path, const Sett
     case FieldShape::density:
       return need(field.density.has_value(), "density", "density");
     case FieldShape::attraction:
-      return need_centre("attraction");
+      return need_center("attraction");
     case FieldShape::swirl:
       if (field.axis.norm() == 0)
         throw bad_input(settings.place(path + ".axis"), "a direction without length",
                         "give [x, y, z], not all zero");
-      return need_centre("swirl");
+      return need_center("swirl");
   }
 }
 

@@ -7,8 +7,8 @@ namespace {
 
 using namespace rows;
 
-std::vector<Field<BoneSettings>> make_bones() {
-  using B = BoneSettings;
+std::vector<Field<BoneDefinition>> make_bones() {
+  using B = BoneDefinition;
   return {
       required(field<B>("", "name", SINEW_AT(B, name), "", "unique name of the bone")),
       may_lack("none", field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone")),
@@ -34,8 +34,8 @@ std::vector<Field<BoneSettings>> make_bones() {
   };
 }
 
-std::vector<Field<LimitSettings>> make_limits() {
-  using L = LimitSettings;
+std::vector<Field<LimitDefinition>> make_limits() {
+  using L = LimitDefinition;
   return {
       field<L>("", "swing", SINEW_AT(L, swing), "degrees",
                "how far the bone may lean from its direction at rest on its parent", {0, 180},
@@ -55,13 +55,13 @@ std::vector<Field<BoundSettings>> make_bound() {
       field<B>("", "low", SINEW_AT(B, low), "m", "least corner of the box that they lie in", any,
                "none"),
       field<B>("", "high", SINEW_AT(B, high), "m", "greatest corner of that box", any, "none"),
-      field<B>("", "centre", SINEW_AT(B, centre), "m", "of the ball that they lie in", any, "none"),
+      field<B>("", "center", SINEW_AT(B, center), "m", "of the ball that they lie in", any, "none"),
       field<B>("", "radius", SINEW_AT(B, radius), "m", "of that ball", positive, "none"),
   };
 }
 
-std::vector<Field<TrackSettings>> make_tracks() {
-  using T = TrackSettings;
+std::vector<Field<TrackDefinition>> make_tracks() {
+  using T = TrackDefinition;
   return {
       required(field<T>("", "bone", SINEW_AT(T, bone), "", "name of the bone that moves")),
       choice<T>("", "interpolation", SINEW_AT(T, interpolation),
@@ -71,8 +71,8 @@ std::vector<Field<TrackSettings>> make_tracks() {
   };
 }
 
-std::vector<Field<KeySettings>> make_keys() {
-  using K = KeySettings;
+std::vector<Field<KeyDefinition>> make_keys() {
+  using K = KeyDefinition;
   return {
       field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative, "none"),
       field<K>("", "frame", SINEW_AT(K, frame), "",
@@ -99,12 +99,12 @@ std::vector<Field<KeySettings>> make_keys() {
 
 }  // namespace
 
-std::span<const Field<BoneSettings>> bone_fields() {
+std::span<const Field<BoneDefinition>> bone_fields() {
   static const auto table = make_bones();
   return table;
 }
 
-std::span<const Field<LimitSettings>> limit_fields() {
+std::span<const Field<LimitDefinition>> limit_fields() {
   static const auto table = make_limits();
   return table;
 }
@@ -114,12 +114,12 @@ std::span<const Field<BoundSettings>> bound_fields() {
   return table;
 }
 
-std::span<const Field<TrackSettings>> track_fields() {
+std::span<const Field<TrackDefinition>> track_fields() {
   static const auto table = make_tracks();
   return table;
 }
 
-std::span<const Field<KeySettings>> key_fields() {
+std::span<const Field<KeyDefinition>> key_fields() {
   static const auto table = make_keys();
   return table;
 }

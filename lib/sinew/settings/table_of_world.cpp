@@ -17,7 +17,7 @@ std::vector<Field<ObstacleSettings>> make_obstacles() {
       field<O>("", "point", SINEW_AT(O, point), "m", "of a plane: any point of it"),
       field<O>("", "normal", SINEW_AT(O, normal), "",
                "of a plane: out of the solid, of any length but 0"),
-      field<O>("", "centre", SINEW_AT(O, centre), "m", "of a sphere or box", any, "none"),
+      field<O>("", "center", SINEW_AT(O, center), "m", "of a sphere or box", any, "none"),
       field<O>("", "radius", SINEW_AT(O, radius), "m", "of a sphere or capsule", positive, "none"),
       field<O>("", "from", SINEW_AT(O, from), "m", "of a capsule: one end of its axis", any,
                "none"),
@@ -59,7 +59,7 @@ std::vector<Field<Owner>> make_region(std::string_view box, std::string_view bal
       field<Owner>("", "low", SINEW_AT(Owner, region.low), "m", box, any, "none"),
       field<Owner>("", "high", SINEW_AT(Owner, region.high), "m", "its greatest corner", any,
                    "none"),
-      field<Owner>("", "centre", SINEW_AT(Owner, region.centre), "m", ball, any, "none"),
+      field<Owner>("", "center", SINEW_AT(Owner, region.center), "m", ball, any, "none"),
       field<Owner>("", "radius", SINEW_AT(Owner, region.radius), "m", "its radius", positive,
                    "none"),
   };
@@ -74,7 +74,7 @@ Field<Owner> falloff() {
 std::vector<Field<PinSettings>> make_pins() {
   using P = PinSettings;
   auto rows = make_region<P>("holds the particles in a box at rest: its least corner",
-                             "or in a ball: its centre");
+                             "or in a ball: its center");
   rows.push_back(may_lack("none", field<P>("", "bone", SINEW_AT(P, bone), "",
                                            "name of the bone that carries them; none: they stay")));
   return rows;
@@ -102,7 +102,7 @@ std::vector<Field<FieldSettings>> make_fields() {
                "none"),
   };
   for (auto& row : make_region<F>("acts in a box of the scene: its least corner; none: everywhere",
-                                  "or in a ball: its centre"))
+                                  "or in a ball: its center"))
     rows.push_back(std::move(row));
   rows.push_back(falloff<F>());
   return rows;
@@ -121,7 +121,7 @@ std::vector<Field<MuscleSettings>> make_muscles() {
                         "active stress along the fibres at activation 1", not_negative)),
   };
   for (auto& row :
-       make_region<M>("lies in a box at rest: its least corner", "or in a ball: its centre"))
+       make_region<M>("lies in a box at rest: its least corner", "or in a ball: its center"))
     rows.push_back(std::move(row));
   rows.push_back(falloff<M>());
   return rows;

@@ -11,7 +11,7 @@ namespace {
 std::string bones_text(const Settings& settings) {
   if (settings.bones.empty()) return "";  // they stand in skeleton.file
   std::string text = "  bones:\n";
-  for (const BoneSettings& bone : settings.bones) {
+  for (const BoneDefinition& bone : settings.bones) {
     const bool first = &bone == &settings.bones.front();
     text += entry_text(bone_fields(), bone, 4, first) + "      limits:\n";
     for (const auto& row : limit_fields())
@@ -23,10 +23,10 @@ std::string bones_text(const Settings& settings) {
 std::string tracks_text(const Settings& settings) {
   if (settings.tracks.empty()) return "  tracks: []\n";
   std::string text = "  tracks:\n";
-  for (const TrackSettings& track : settings.tracks) {
+  for (const TrackDefinition& track : settings.tracks) {
     const bool first = &track == &settings.tracks.front();
     text += entry_text(track_fields(), track, 4, first) + "      keys:\n";
-    for (const KeySettings& key : track.keys)
+    for (const KeyDefinition& key : track.keys)
       text += entry_text(key_fields(), key, 8, first && &key == &track.keys.front());
   }
   return text;

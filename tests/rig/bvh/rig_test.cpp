@@ -177,7 +177,7 @@ TEST(BvhRig, StartAndEndCutTheClipAndBeginAtZero) {
   EXPECT_EQ(rig_from(bvh_files::small, options).clips.at(0).duration, 0);
 }
 
-TEST(BvhRig, NeighbouringQuaternionsLieOnTheSameSide) {
+TEST(BvhRig, NeighboringQuaternionsLieOnTheSameSide) {
   std::string motion = "MOTION\nFrames: 100\nFrame Time: 1\n";
   for (int i = 0; i < 100; ++i) motion += std::to_string(i * 47 % 360 - 180) + "\n";
   const Rig rig = rig_from(arm("CHANNELS 1 Yrotation", "", motion));

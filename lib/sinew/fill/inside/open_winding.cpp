@@ -92,14 +92,14 @@ OpenWinding::Node OpenWinding::summary(int first, int last) const {
   Box box;
   for (int i = first; i < last; ++i)
     for (const Vec3& corner : sorted_[i].corners) box.extend(corner);
-  node.centre = box.center();
+  node.center = box.center();
   for (int i = first; i < last; ++i) {
     const Vec3 area = area_of(sorted_[i].corners);
     node.area += area;
     node.size += area.norm();
-    node.moment += (middle_of(sorted_[i].corners) - node.centre) * area.transpose();
+    node.moment += (middle_of(sorted_[i].corners) - node.center) * area.transpose();
     for (const Vec3& corner : sorted_[i].corners)
-      node.reach = std::max(node.reach, (corner - node.centre).norm());
+      node.reach = std::max(node.reach, (corner - node.center).norm());
   }
   return node;
 }
@@ -131,7 +131,7 @@ OpenWinding::Share OpenWinding::sum(const View& view, double farness, double& do
   waiting[count++] = 0;
   while (count > 0) {
     const Node& node = nodes_[waiting[--count]];
-    const Vec3 to = node.centre - view.eye;
+    const Vec3 to = node.center - view.eye;
     const double distance = to.norm();
     if (distance > farness * node.reach && distance > 0) {
       all.value += before(view, node.first, node.last) - from_afar(node, to, distance);

@@ -50,11 +50,11 @@ class OpenWinding {
   struct Node {
     int first, last;
     int left, right;  ///< nodes; -1: a leaf
-    Vec3 centre;
-    double reach;  ///< of the farthest corner from the centre
+    Vec3 center;
+    double reach;  ///< of the farthest corner from the center
     Vec3 area;     ///< sum of the caps' vector areas
     double size;   ///< sum of their areas
-    Mat3 moment;   ///< sum of (middle - centre) area^T
+    Mat3 moment;   ///< sum of (middle - center) area^T
   };
   struct Cap {
     std::array<Vec3, 3> corners;

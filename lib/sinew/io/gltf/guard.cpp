@@ -58,7 +58,7 @@ GuardedGltf guarded_gltf(const std::filesystem::path& path) {
   try {
     return guarded(gltf_container(std::move(file), path.extension()), path.parent_path());
   } catch (const Error& error) {
-    throw error.within({path.string()});
+    throw error.with_context({path.string()});
   }
 }
 

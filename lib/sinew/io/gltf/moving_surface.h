@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A moving surface as one GLB that viewers of glTF and modelling programs play: the surface as it
+// A moving surface as one GLB that viewers of glTF and modeling programs play: the surface as it
 // begins, a morph target for every moment after that, and an animation that goes from one to the
 // next in straight ways (glTF 2.0, section 3.7.2.2). Turned from the scene's directions, x forward
-// and z up, to glTF's, z forward and y up; metres.
+// and z up, to glTF's, z forward and y up; meters.
 #pragma once
 
 #include <filesystem>

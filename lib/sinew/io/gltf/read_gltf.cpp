@@ -51,7 +51,7 @@ PolygonSoup read_gltf(const std::filesystem::path& path) {
     try {
       return soup_of(gltf);
     } catch (const Error& error) {
-      throw error.within({path.string()});
+      throw error.with_context({path.string()});
     }
   } catch (const std::bad_alloc&) {
     throw bad_input({path.string()}, "it takes more memory than there is",

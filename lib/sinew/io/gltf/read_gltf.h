@@ -9,7 +9,7 @@
 namespace sinew {
 
 /// The triangles of the file's default scene (its first one where it names none, every node where
-/// it has none), in metres, y up, as the file has them. Meshes stand where their nodes place them,
+/// it has none), in meters, y up, as the file has them. Meshes stand where their nodes place them,
 /// mirrored ones with their triangles turned so that outsides stay outside. A skinned mesh is taken
 /// in its bind pose, put into the scene as bind_pose.h says: its node does not move it. Strips and
 /// fans become triangles; points and lines are left out. Vertices no triangle uses are left out,

@@ -107,7 +107,7 @@ std::vector<Clip> clips_of(const GuardedGltf& gltf, const GltfBindPose& bind, co
     try {
       clips.push_back(clip_of(gltf, bind, tree, i, rate));
     } catch (const Error& error) {
-      throw error.within({"animation " + std::to_string(i) + ' ' + shown(animations[i].name)});
+      throw error.with_context({"animation " + std::to_string(i) + ' ' + shown(animations[i].name)});
     }
     clips.back().name = free_name(animations[i].name, i, taken);
   }
@@ -147,7 +147,7 @@ GltfRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& o
     try {
       return rig_of(gltf, options);
     } catch (const Error& error) {
-      throw error.within({path.string()});
+      throw error.with_context({path.string()});
     }
   } catch (const std::bad_alloc&) {
     throw bad_input({path.string()}, "it takes more memory than there is",

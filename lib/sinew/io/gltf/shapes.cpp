@@ -150,7 +150,7 @@ GltfTriangles gltf_triangles(const GuardedGltf& gltf, const std::vector<GltfShap
       paste_mesh(loader->GetInternalModel()->Meshes[at], shape, triangles);
     } catch (const Error& error) {
       const std::string& name = gltf.document.meshes[at].name;
-      throw error.within({"mesh " + std::to_string(mesh) + ' ' + shown(name)});
+      throw error.with_context({"mesh " + std::to_string(mesh) + ' ' + shown(name)});
     }
   }
   return triangles;

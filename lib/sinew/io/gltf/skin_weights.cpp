@@ -50,7 +50,7 @@ double& weight_of(int bone, std::vector<BoneWeight>& weights) {
   return weights.back().weight;
 }
 
-/// Each bone once, normalised.
+/// Each bone once, normalized.
 std::vector<BoneWeight> weights_of(const std::vector<Set>& sets, const std::vector<int>& places,
                                    std::size_t vertex) {
   std::vector<BoneWeight> weights;

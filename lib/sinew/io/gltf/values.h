@@ -9,7 +9,7 @@
 
 namespace sinew {
 
-/// All components of all elements, element by element; normalised ones as parts of the largest
+/// All components of all elements, element by element; normalized ones as parts of the largest
 /// whole number, from -1 or 0 to 1. The accessor must have passed the guard and have data. Throws
 /// bad input (without the path) where a number is not finite: "USER hold a number that is not
 /// finite".

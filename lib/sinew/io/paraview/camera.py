@@ -7,7 +7,7 @@ from paraview.simple import *
 INK = [0.16, 0.18, 0.22]
 PAPER_TOP = [0.86, 0.89, 0.93]
 PAPER = [0.98, 0.98, 0.99]
-# What the body may fill of the picture's width and height; the colour bar stands below it.
+# What the body may fill of the picture's width and height; the color bar stands below it.
 WIDE, TALL = 0.9, 0.8
 
 
@@ -65,17 +65,17 @@ def look_at(view, corners, back, aspect):
     across = unit([-back[1], back[0], 0]) if back[0] or back[1] else [1, 0, 0]
     up = [back[1] * across[2] - back[2] * across[1], back[2] * across[0] - back[0] * across[2],
           back[0] * across[1] - back[1] * across[0]]
-    centre, _ = middle_and_size(corners)
+    center, _ = middle_and_size(corners)
     half = math.tan(math.radians(15))
     distance = 0
     for corner in corners:
-        way = [c - m for c, m in zip(corner, centre)]
+        way = [c - m for c, m in zip(corner, center)]
         wide = max(abs(dot(way, up)) / TALL, abs(dot(way, across)) / WIDE / aspect)
         distance = max(distance, dot(way, back) + wide / half)
     low = half * distance * (0.95 - TALL)
-    centre = [m - low * part for m, part in zip(centre, up)]
+    center = [m - low * part for m, part in zip(center, up)]
     view.CameraViewAngle = 30
-    view.CameraFocalPoint = centre
-    view.CameraPosition = [m + distance * part for m, part in zip(centre, back)]
+    view.CameraFocalPoint = center
+    view.CameraPosition = [m + distance * part for m, part in zip(center, back)]
     view.CameraViewUp = up
-    view.CenterOfRotation = centre
+    view.CenterOfRotation = center

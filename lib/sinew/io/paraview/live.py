@@ -6,7 +6,7 @@
     pvbatch live.py --help                                  what else can be chosen
 
 Looks as view.py does. It asks for new frame files ten times a second; those of a run appear whole
-or not at all. The range of colours grows with the run. When the run is over, open view.py.
+or not at all. The range of colors grows with the run. When the run is over, open view.py.
 """
 import time
 import types
@@ -61,7 +61,7 @@ class Follower:
             if self.newest() < 0 or self.shown.get(series) == self.stamp(series):
                 return False
             if series == "particles":
-                self.grow_colours()
+                self.grow_colors()
         except OSError:  # a run that starts anew removes its files
             return False
         return True
@@ -87,10 +87,10 @@ class Follower:
         self.ranged = self.number
         return self.limits != before
 
-    def grow_colours(self):
+    def grow_colors(self):
         if self.grow_limits() and not self.options.range:
-            colours = GetColorTransferFunction(self.options.array)
-            colours.RescaleTransferFunction(*self.limits)
+            colors = GetColorTransferFunction(self.options.array)
+            colors.RescaleTransferFunction(*self.limits)
 
 
 def live_source(series):

@@ -12,7 +12,7 @@ OBSTACLE = [0.62, 0.60, 0.58]
 FORCE = [0.86, 0.30, 0.10]
 RED_GREEN_BLUE = [0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92]
 # Lightness grows with the value, and the lowest is still light enough to see the spheres' shading.
-COLOURS = [(0.0, 0.27, 0.33, 0.62), (0.25, 0.17, 0.52, 0.70), (0.5, 0.25, 0.71, 0.60),
+COLORS = [(0.0, 0.27, 0.33, 0.62), (0.25, 0.17, 0.52, 0.70), (0.5, 0.25, 0.71, 0.60),
            (0.75, 0.67, 0.83, 0.38), (1.0, 0.99, 0.84, 0.22)]
 # A sphere lit from the upper left on each splat; beyond its outline there is nothing.
 SPHERE = """//VTK::Color::Impl
@@ -51,22 +51,22 @@ def cut_body(source, options, scene):
     return cut
 
 
-def spread_colours(colours, low, high):
+def spread_colors(colors, low, high):
     span = high - low if high > low else 1
-    colours.RGBPoints = [part for at, *rgb in COLOURS for part in (low + at * span, *rgb)]
+    colors.RGBPoints = [part for at, *rgb in COLORS for part in (low + at * span, *rgb)]
 
 
-def colour_table(options, limits):
-    """The same colours for the same values at all times."""
-    colours = GetColorTransferFunction(options.array)
-    colours.AutomaticRescaleRangeMode = "Never"
-    colours.ColorSpace = "Lab"
-    spread_colours(colours, *limits)
-    if options.colours:
-        if not colours.ApplyPreset(options.colours, True):
-            stop(f"ParaView has no colours '{options.colours}'; its Colour Map Editor lists them")
-        colours.RescaleTransferFunction(*limits)
-    return colours
+def color_table(options, limits):
+    """The same colors for the same values at all times."""
+    colors = GetColorTransferFunction(options.array)
+    colors.AutomaticRescaleRangeMode = "Never"
+    colors.ColorSpace = "Lab"
+    spread_colors(colors, *limits)
+    if options.colors:
+        if not colors.ApplyPreset(options.colors, True):
+            stop(f"ParaView has no colors '{options.colors}'; its Color Map Editor lists them")
+        colors.RescaleTransferFunction(*limits)
+    return colors
 
 
 def show_particles(source, view, options, array, limits):
@@ -77,7 +77,7 @@ def show_particles(source, view, options, array, limits):
     shown.SetScaleArray = ["POINTS", "radius"]
     shown.UseScaleFunction = 0
     ColorBy(shown, ("POINTS", options.array) + (("Magnitude",) if is_vector(array) else ()))
-    bar = GetScalarBar(colour_table(options, limits), view)
+    bar = GetScalarBar(color_table(options, limits), view)
     bar.Title = options.array if array["unit"] == "1" else f"{options.array} ({array['unit']})"
     bar.ComponentTitle = ""
     bar.Orientation = "Horizontal"
@@ -97,11 +97,11 @@ def letters(options, share):
     return max(9, round(share * options.size[1]))
 
 
-def show_plain(source, view, colour, opacity=1.0):
+def show_plain(source, view, color, opacity=1.0):
     shown = Show(source, view)
     shown.SetRepresentationType("Surface")
     shown.ColorArrayName = ["POINTS", ""]  # ColorBy(shown, None) fails where there are no lines
-    shown.AmbientColor = shown.DiffuseColor = colour
+    shown.AmbientColor = shown.DiffuseColor = color
     shown.Opacity = opacity
     return shown
 
@@ -150,10 +150,10 @@ def show_bones(parts, view):
     bones.Ambient, bones.Specular = 0.25, 0.4
     axes = Show(parts[1], view)
     ColorBy(axes, ("CELLS", "axis"))
-    colours = GetColorTransferFunction("axis")
-    colours.InterpretValuesAsCategories = 1
-    colours.Annotations = ["1", "x", "2", "y", "3", "z"]
-    colours.IndexedColors = RED_GREEN_BLUE
+    colors = GetColorTransferFunction("axis")
+    colors.InterpretValuesAsCategories = 1
+    colors.Annotations = ["1", "x", "2", "y", "3", "z"]
+    colors.IndexedColors = RED_GREEN_BLUE
     axes.Ambient, axes.Specular = 0.25, 0.3
     axes.SetScalarBarVisibility(view, False)
 

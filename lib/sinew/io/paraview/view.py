@@ -6,7 +6,7 @@
     pvbatch view.py --picture out.png --time 1   of that moment (s)
     pvbatch view.py --help                       what else can be chosen
 
-Left the body, cut open: particles as spheres of their true size, coloured by one array. Right the
+Left the body, cut open: particles as spheres of their true size, colored by one array. Right the
 bones with their x, y, z axes in red, green, blue inside the translucent surface. In the window,
 options stand in the variable SINEW_VIEW: SINEW_VIEW="--array velocity --forces" paraview view.py
 """

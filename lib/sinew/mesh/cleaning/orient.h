@@ -8,7 +8,7 @@
 
 #include <sinew/mesh/cleaning/patches.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/settings/settings.h>
+#include <sinew/core/options.h>
 
 namespace sinew {
 

@@ -12,19 +12,19 @@ namespace sinew {
 
 namespace {
 
-struct Neighbour {
+struct Neighbor {
   int face = -1;
   bool against = false;  ///< whether the two go along their edge in the same direction
 };
 
 /// Up to three per face.
-std::vector<std::array<Neighbour, 3>> neighbours_of(std::size_t faces,
+std::vector<std::array<Neighbor, 3>> neighbors_of(std::size_t faces,
                                                     std::span<const EdgeUse> uses) {
-  std::vector<std::array<Neighbour, 3>> neighbours(faces);
-  const auto add = [&](int face, const Neighbour& neighbour) {
-    auto* slot = neighbours[face].begin();
+  std::vector<std::array<Neighbor, 3>> neighbors(faces);
+  const auto add = [&](int face, const Neighbor& neighbor) {
+    auto* slot = neighbors[face].begin();
     while (slot->face >= 0) ++slot;
-    *slot = neighbour;
+    *slot = neighbor;
   };
   for_each_edge(uses, [&](std::span<const EdgeUse> use) {
     if (use.size() != 2) return;
@@ -32,7 +32,7 @@ std::vector<std::array<Neighbour, 3>> neighbours_of(std::size_t faces,
     add(use[0].face, {use[1].face, against});
     add(use[1].face, {use[0].face, against});
   });
-  return neighbours;
+  return neighbors;
 }
 
 /// From the direction of each patch's first face to that of most of its area.
@@ -59,7 +59,7 @@ std::size_t count_twisted(const Patches& patches, std::span<const EdgeUse> uses)
 
 Patches patches_of(const Triangles& surface, std::span<const EdgeUse> uses) {
   const std::size_t faces = surface.faces.size();
-  const auto neighbours = neighbours_of(faces, uses);
+  const auto neighbors = neighbors_of(faces, uses);
   Patches patches{std::vector<int>(faces, -1), std::vector<bool>(faces), 0, 0};
   std::vector<int> queue;
   queue.reserve(faces);
@@ -68,7 +68,7 @@ Patches patches_of(const Triangles& surface, std::span<const EdgeUse> uses) {
     patches.of_face[seed] = patches.count;
     queue.push_back(static_cast<int>(seed));
     for (std::size_t i = queue.size() - 1; i < queue.size(); ++i)
-      for (const Neighbour& next : neighbours[queue[i]]) {
+      for (const Neighbor& next : neighbors[queue[i]]) {
         if (next.face < 0 || patches.of_face[next.face] >= 0) continue;
         patches.of_face[next.face] = patches.count;
         patches.turned[next.face] = patches.turned[queue[i]] != next.against;

@@ -146,7 +146,7 @@ class KeptPoints {
  private:
   Vec3 cell_of(const Vec3& p) const { return (p / edge_).array().floor(); }
 
-  /// Towards the nearer neighbour along each axis: 1 or -1.
+  /// Towards the nearer neighbor along each axis: 1 or -1.
   Vec3 side_of(const Vec3& p, const Vec3& cell) const {
     const Vec3 within = p / edge_ - cell;
     return within.unaryExpr([](double x) { return x < 0.5 ? -1.0 : 1.0; });

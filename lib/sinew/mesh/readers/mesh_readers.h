@@ -17,7 +17,7 @@ namespace sinew {
 /// Wavefront OBJ: `v` and `f` lines with indices of either sign, continued lines joined.
 PolygonSoup read_obj(const MeshFile& file);
 
-/// Geomview OFF (also with colours, normals, texture coordinates; text only).
+/// Geomview OFF (also with colors, normals, texture coordinates; text only).
 PolygonSoup read_off(const MeshFile& file);
 
 /// STL, text or binary: three points of its own for each triangle.

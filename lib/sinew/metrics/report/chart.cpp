@@ -70,7 +70,7 @@ std::string time_axis(const Axis& time, double foot) {
     const double x = place_on(time, time.ticks[i], left, right);
     out += rule(x, foot, x, foot + 4, "zero");
     const bool last = i + 1 == time.ticks.size();
-    const bool at_edge = x > right - 15;  // a centred text would leave the drawing
+    const bool at_edge = x > right - 15;  // a centered text would leave the drawing
     out += text(at_edge ? width - 2 : x, foot + 16, time.texts[i] + (last ? " s" : ""),
                 at_edge ? "end" : "middle");
   }

@@ -23,10 +23,10 @@ std::vector<ChartPlan> plans_of_shape() {
        {"volume_ratio", "J_mean"},
        Shown::as_is,
        {1}},
-      {"Neighbours",
+      {"Neighbors",
        "Pairs lost and won, as a share of the pairs at rest",
        "%",
-       {"broken_neighbours", "new_neighbours", "broken_bonds"},
+       {"broken_neighbors", "new_neighbors", "broken_bonds"},
        Shown::in_percent},
       {"Tip",
        "Turn of the last bone's outermost particles, and of the bone that turns most",
@@ -149,7 +149,7 @@ std::span<const ChartPlan> chart_plans() {
 
 std::span<const std::string_view> telling_metrics() {
   static constexpr std::array<std::string_view, 8> names = {
-      "pose_error_far_rms", "volume_error",     "broken_neighbours", "J_min",
+      "pose_error_far_rms", "volume_error",     "broken_neighbors", "J_min",
       "strain_99",          "displacement_max", "speed_max",         "twist_jump_max"};
   return names;
 }

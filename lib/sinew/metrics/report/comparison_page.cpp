@@ -93,17 +93,17 @@ std::string numbers(const ComparisonInput& input, const std::vector<Chart>& char
   told.summary = input.comparison.summary;
   for (std::size_t i = 0; i < told.summary.metrics.size(); ++i)
     told.summary.metrics[i].worst_frame = largest_difference(input.comparison, i);
-  told.film = input.film;
+  told.playback = input.playback;
   return page_data(told, charts);
 }
 
-std::string film_section(const ComparisonInput& input) {
-  if (input.film.frames.empty()) return "";
+std::string playback_section(const ComparisonInput& input) {
+  if (input.playback.frames.empty()) return "";
   return element("h2", "Side by side") +
          element("p",
                  escaped(name_of(input.comparison, false)) + " beside " +
                      escaped(name_of(input.comparison, true)) +
-                     ", at the same time and in the same colours.",
+                     ", at the same time and in the same colors.",
                  "class=\"quiet\"") +
          view_section("Largest difference of");
 }
@@ -116,7 +116,7 @@ std::string comparison_html(const ComparisonInput& input) {
   const std::string body =
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
-      film_section(input) + charts_section(charts, !input.film.frames.empty()) +
+      playback_section(input) + charts_section(charts, !input.playback.frames.empty()) +
       differences_table(compared) + element("h2", "What differs in the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +

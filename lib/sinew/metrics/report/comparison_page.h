@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <sinew/metrics/comparison.h>
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/report/report.h>
 
 namespace sinew {
@@ -15,7 +15,7 @@ namespace sinew {
 struct ComparisonInput {
   std::string version;  ///< of sinew
   RunComparison comparison;
-  Film film;                              ///< of both, see side_by_side(); of no frames: no 3D view
+  Playback playback;                              ///< of both, see side_by_side(); of no frames: no 3D view
   std::vector<FactGroup> facts;           ///< what differs between the scenes
   std::string first_scene, second_scene;  ///< resolved
 };

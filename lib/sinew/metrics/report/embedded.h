@@ -11,6 +11,6 @@ std::string_view page_script();
 std::string_view view_markup();    ///< the 3D view and its controls
 std::string_view chart_library();  ///< Chart.js
 std::string_view scene_library();  ///< three.js and its orbit controls
-std::string_view licences();       ///< of the libraries, plain text
+std::string_view licenses();       ///< of the libraries, plain text
 
 }  // namespace sinew

@@ -49,8 +49,8 @@ std::string footer(const Page& page) {
   return element(
       "footer",
       element("p", "Written by sinew " + escaped(page.version) + ". " + escaped(page.ending)) +
-          element("details", element("summary", "Licences of what draws this page") +
-                                 element("pre", escaped(licences()))));
+          element("details", element("summary", "Licenses of what draws this page") +
+                                 element("pre", escaped(licenses()))));
 }
 
 }  // namespace

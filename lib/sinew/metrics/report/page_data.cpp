@@ -79,8 +79,8 @@ std::string page_data(const ReportInput& input, std::span<const Chart> charts) {
   data["worst"] = worst_of(input);
   std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.pop_back();
-  text += ",\"film\":";
-  text += input.film.frames.empty() ? "null" : film_json(input.film);
+  text += ",\"playback\":";
+  text += input.playback.frames.empty() ? "null" : playback_json(input.playback);
   text += '}';
   return inert(std::move(text));
 }

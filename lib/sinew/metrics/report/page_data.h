@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <sinew/metrics/report/chart.h>
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/report/report.h>
 
 namespace sinew {
@@ -17,7 +17,7 @@ namespace sinew {
 /// - angles: of the bones, [time, degrees]
 /// - curves: title, note, across, up, lines (name, points [x, y])
 /// - worst: label, frame and time of the worst frame of each telling metric
-/// - film: see film_json(); null without one
+/// - playback: see playback_json(); null without one
 std::string page_data(const ReportInput& input, std::span<const Chart> charts);
 
 }  // namespace sinew

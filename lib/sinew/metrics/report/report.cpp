@@ -44,20 +44,20 @@ std::vector<Chart> filled_charts(const ReportInput& input) {
 }
 
 /// What of the run the 3D view leaves out.
-std::string thinned_text(const Film& film) {
+std::string thinned_text(const Playback& playback) {
   const auto share = [](std::size_t kept, std::size_t all, const char* what) {
     return kept == all ? "all " + std::to_string(all) + what
                        : std::to_string(kept) + " of " + std::to_string(all) + what;
   };
-  return "Shown: " + share(film.particles.size(), film.run_particles, " particles, ") +
-         share(film.frames.size(), film.run_frames, " frames, ") +
-         share(film.points.size(), film.run_points, " points of the surface.");
+  return "Shown: " + share(playback.particles.size(), playback.run_particles, " particles, ") +
+         share(playback.frames.size(), playback.run_frames, " frames, ") +
+         share(playback.points.size(), playback.run_points, " points of the surface.");
 }
 
-std::string film_section(const ReportInput& input) {
-  if (input.film.frames.empty()) return "";
+std::string playback_section(const ReportInput& input) {
+  if (input.playback.frames.empty()) return "";
   return element("h2", "In space") + view_section("Worst frame of") +
-         element("p", thinned_text(input.film), "class=\"quiet\"");
+         element("p", thinned_text(input.playback), "class=\"quiet\"");
 }
 
 std::string curves_section(const ReportInput& input) {
@@ -81,8 +81,8 @@ std::string report_html(const ReportInput& input) {
   const std::vector<Chart> charts = filled_charts(input);
   const std::string body =
       header(input) + verdict_cards(input.frames, input.summary, input.radius) +
-      checks_table(input.checks) + film_section(input) + pictures(input) +
-      charts_section(charts, !input.film.frames.empty()) + curves_section(input) +
+      checks_table(input.checks) + playback_section(input) + pictures(input) +
+      charts_section(charts, !input.playback.frames.empty()) + curves_section(input) +
       metrics_tables(input.frames, input.summary) + element("h2", "What was run") +
       fact_lists(input.facts) + folded("The resolved scene", input.scene_text);
   return page_html({input.title, input.version, body,

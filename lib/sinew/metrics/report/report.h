@@ -9,7 +9,7 @@
 
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/limits.h>
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/summary.h>
 
 namespace sinew {
@@ -50,7 +50,7 @@ struct ReportInput {
   Summary summary;                   ///< of these frames
   std::vector<Check> checks;
   std::vector<Curve> curves;
-  Film film;  ///< of no frames: the page has no 3D view
+  Playback playback;  ///< of no frames: the page has no 3D view
   std::vector<Picture> pictures;
   std::string movie;       ///< relative to the report, or empty
   std::string scene_text;  ///< the resolved scene

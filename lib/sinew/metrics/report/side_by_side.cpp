@@ -2,16 +2,16 @@
 #include <algorithm>
 
 #include <sinew/core/vector.h>
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 
 namespace sinew {
 namespace {
 
 constexpr double gap = 0.15;  // between the two, of the size of the first
 
-/// From where the second film is to where it stands beside the first. The camera looks along x or
+/// From where the second playback is to where it stands beside the first. The camera looks along x or
 /// y, whichever has less: it sees both when they stand along the other.
-Vec3 way_aside(const Film& first, const Film& second) {
+Vec3 way_aside(const Playback& first, const Playback& second) {
   const Box one = box_of(first), other = box_of(second);
   if (one.isEmpty() || other.isEmpty()) return Vec3::Zero();
   const Vec3 size = one.sizes().cwiseMax(other.sizes());
@@ -26,7 +26,7 @@ void append_moved(std::vector<float>& all, const std::vector<float>& places, con
     all.push_back(static_cast<float>(places[i] + way[static_cast<int>(i % 3)]));
 }
 
-/// Not-a-number for the film that has no such values.
+/// Not-a-number for the playback that has no such values.
 void append_values(std::vector<float>& all, std::vector<float> values, std::size_t before,
                    std::size_t count) {
   if (all.empty() && values.empty()) return;
@@ -36,7 +36,7 @@ void append_values(std::vector<float>& all, std::vector<float> values, std::size
 }
 
 /// The places and fields of a frame, those of the second behind.
-FilmFrame joined(FilmFrame frame, const FilmFrame& other, const Vec3& way) {
+PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3& way) {
   const std::size_t before = frame.particles.size() / 3, count = other.particles.size() / 3;
   for (std::size_t f = 0; f < frame.values.size(); ++f)
     append_values(frame.values[f], other.values[f], before, count);
@@ -46,35 +46,35 @@ FilmFrame joined(FilmFrame frame, const FilmFrame& other, const Vec3& way) {
   return frame;
 }
 
-void join_shape(Film& film, const Film& second, const std::array<std::string, 2>& prefixes) {
-  const auto bones = static_cast<int>(film.bone_names.size());
-  const auto points = static_cast<int>(film.points.size());
-  for (std::string& name : film.bone_names) name = prefixes[0] + name;
-  for (const std::string& name : second.bone_names) film.bone_names.push_back(prefixes[1] + name);
-  for (const int bone : second.bone) film.bone.push_back(bone < 0 ? -1 : bone + bones);
+void join_shape(Playback& playback, const Playback& second, const std::array<std::string, 2>& prefixes) {
+  const auto bones = static_cast<int>(playback.bone_names.size());
+  const auto points = static_cast<int>(playback.points.size());
+  for (std::string& name : playback.bone_names) name = prefixes[0] + name;
+  for (const std::string& name : second.bone_names) playback.bone_names.push_back(prefixes[1] + name);
+  for (const int bone : second.bone) playback.bone.push_back(bone < 0 ? -1 : bone + bones);
   for (const auto& [a, b, c] : second.faces)
-    film.faces.push_back({a + points, b + points, c + points});
-  film.particles.insert(film.particles.end(), second.particles.begin(), second.particles.end());
-  film.balls.insert(film.balls.end(), second.balls.begin(), second.balls.end());
-  film.points.insert(film.points.end(), second.points.begin(), second.points.end());
-  film.run_particles += second.run_particles;
-  film.run_points += second.run_points;
+    playback.faces.push_back({a + points, b + points, c + points});
+  playback.particles.insert(playback.particles.end(), second.particles.begin(), second.particles.end());
+  playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());
+  playback.points.insert(playback.points.end(), second.points.begin(), second.points.end());
+  playback.run_particles += second.run_particles;
+  playback.run_points += second.run_points;
 }
 
 }  // namespace
 
-Film side_by_side(const Film& first, const Film& second,
+Playback side_by_side(const Playback& first, const Playback& second,
                   const std::array<std::string, 2>& prefixes) {
-  Film film = first;
+  Playback playback = first;
   const Vec3 way = way_aside(first, second);
-  film.frames.clear();
-  for (const FilmFrame& frame : first.frames) {
+  playback.frames.clear();
+  for (const PlaybackFrame& frame : first.frames) {
     const auto other = std::find_if(second.frames.begin(), second.frames.end(),
-                                    [&](const FilmFrame& one) { return one.frame == frame.frame; });
-    if (other != second.frames.end()) film.frames.push_back(joined(frame, *other, way));
+                                    [&](const PlaybackFrame& one) { return one.frame == frame.frame; });
+    if (other != second.frames.end()) playback.frames.push_back(joined(frame, *other, way));
   }
-  join_shape(film, second, prefixes);
-  return film;
+  join_shape(playback, second, prefixes);
+  return playback;
 }
 
 }  // namespace sinew

@@ -97,7 +97,7 @@ SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held
 template <class L, bool energy>
 SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const Held<L>& held,
                                     const Place<L>& here, const Triple<L>& velocity) {
-  const Triple<L> arm = from_centre<L>(bone.frame, here);
+  const Triple<L> arm = from_center<L>(bone.frame, here);
   const Triple<L> at = into_frame<L>(bone.frame, arm);
   const Pull<L> radial = radial_pull<L, energy>(L::all(bone.radial), at, held);
   const Pull<L> twist = twist_pull<L, energy>(L::all(bone.twist), at, held);

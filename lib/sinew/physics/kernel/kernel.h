@@ -57,13 +57,13 @@ struct Law {
   Real damping;
 };
 
-/// A rigid frame: in it a particle has the coordinates axes (x - centre).
+/// A rigid frame: in it a particle has the coordinates axes (x - center).
 template <class Real>
 struct FrameNow {
-  typename Traits<Real>::Coord centre[3];
-  Real rest_of_centre[3];  ///< what whole numbers leave of it
+  typename Traits<Real>::Coord center[3];
+  Real rest_of_center[3];  ///< what whole numbers leave of it
   Real axes[9];
-  Real velocity[3], spin[3];  ///< of the centre; angular
+  Real velocity[3], spin[3];  ///< of the center; angular
 };
 
 /// A bone, where it is, and its springs. The first axis of its frame points along it.
@@ -95,15 +95,15 @@ struct Holds {
 };
 
 /// The frames that carry a block's particles along, each particle by one.
-struct CarrierSlot {
+struct FrameSlot {
   std::int32_t frame;
   std::int32_t lanes;  ///< whose ones, or -1: all lanes are this frame's
 };
 
 template <class Real>
-struct Carriers {
+struct ComovingFrames {
   const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
-  const CarrierSlot* slots;
+  const FrameSlot* slots;
   const Real* lanes;  ///< x block; 1 where the frame carries the particle, else 0
   const FrameNow<Real>* frames;
 };
@@ -114,7 +114,7 @@ struct Totals {
   double lost;         ///< what the step dissipates per time
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
-  double fastest;      ///< largest squared speed relative to the carrier
+  double fastest;      ///< largest squared speed relative to the comoving_frame
   bool sound;          ///< none too fast (see most_radii_per_step), all values finite
 };
 
@@ -134,7 +134,7 @@ struct Step {
   const std::int32_t* id;
   Lists lists;
   Holds<Real> holds;
-  Carriers<Real> carriers;
+  ComovingFrames<Real> comoving_frames;
   Law<Real> law;
   Real unit;         ///< length of one unit of coordinates
   Real gravity[3];   ///< per time squared
@@ -148,17 +148,17 @@ struct Step {
 };
 
 /// Where particles are in the frames that carry them, beside where they were at a moment of
-/// reference: a body that rides along with them stands still there.
+/// reference: a body that moves along with them stands still there.
 template <class Real>
-struct Ride {
+struct FrameDrift {
   State<Real> state;
-  Carriers<Real> carriers;
+  ComovingFrames<Real> comoving_frames;
   float* reference[3];
 };
 
-/// Sifts the differences of a block's candidates.
+/// Prunes the differences of a block's candidates.
 template <class Real>
-struct Sieve {
+struct PruneInput {
   State<Real> state;
   Real range2;  ///< squared distance
 };
@@ -171,15 +171,15 @@ struct Functions {
   /// Fills `probed` and all of `totals`, moves nothing.
   void (*probe)(const Step<Real>&, std::size_t begin, std::size_t end);
   /// Copies the differences in [from, to) with a pair of the block within range; returns the end.
-  std::int32_t* (*sift_range)(const Sieve<Real>&, std::size_t block, std::int64_t from,
+  std::int32_t* (*prune_range)(const PruneInput<Real>&, std::size_t block, std::int64_t from,
                               std::int64_t to, std::int32_t* kept);
   /// The same of a list of differences.
-  std::int32_t* (*sift)(const Sieve<Real>&, std::size_t block, const std::int32_t* begin,
+  std::int32_t* (*prune)(const PruneInput<Real>&, std::size_t block, const std::int32_t* begin,
                         const std::int32_t* end, std::int32_t* kept);
   /// Writes the reference of the blocks [begin, end).
-  void (*remember)(const Ride<Real>&, std::size_t begin, std::size_t end);
+  void (*remember)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
   /// Their largest squared distance from it.
-  Real (*displacement)(const Ride<Real>&, std::size_t begin, std::size_t end);
+  Real (*displacement)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
 };
 
 enum class InstructionSet { plain, sse2, avx2, avx512 };

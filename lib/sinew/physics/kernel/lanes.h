@@ -17,22 +17,22 @@
 #pragma once
 
 #if defined(__AVX512F__)
-#include "physics/kernel/lanes_avx512.h"
+#include <sinew/physics/kernel/lanes_avx512.h>
 namespace sinew::kernel {
 namespace lanes = avx512;
 }
 #elif defined(__AVX2__)
-#include "physics/kernel/lanes_avx2.h"
+#include <sinew/physics/kernel/lanes_avx2.h>
 namespace sinew::kernel {
 namespace lanes = avx2;
 }
 #elif defined(__SSE2__) && !defined(SINEW_PLAIN_LANES)
-#include "physics/kernel/lanes_sse2.h"
+#include <sinew/physics/kernel/lanes_sse2.h>
 namespace sinew::kernel {
 namespace lanes = sse2;
 }
 #else
-#include "physics/kernel/lanes_plain.h"
+#include <sinew/physics/kernel/lanes_plain.h>
 namespace sinew::kernel {
 namespace lanes = plain;
 }

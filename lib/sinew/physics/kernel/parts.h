@@ -84,12 +84,12 @@ SINEW_INLINE Triple<L> offset(const Place<L>& a, const Place<L>& b) {
   return {L::difference(a.x, b.x), L::difference(a.y, b.y), L::difference(a.z, b.z)};
 }
 
-/// From a frame's centre to the particles, in the directions of the scene.
+/// From a frame's center to the particles, in the directions of the scene.
 template <class L>
-SINEW_INLINE Triple<L> from_centre(const FrameNow<typename L::Real>& frame, const Place<L>& at) {
-  const Place<L> centre{L::all_coord(frame.centre[0]), L::all_coord(frame.centre[1]),
-                        L::all_coord(frame.centre[2])};
-  return offset<L>(at, centre) - all<L>(frame.rest_of_centre);
+SINEW_INLINE Triple<L> from_center(const FrameNow<typename L::Real>& frame, const Place<L>& at) {
+  const Place<L> center{L::all_coord(frame.center[0]), L::all_coord(frame.center[1]),
+                        L::all_coord(frame.center[2])};
+  return offset<L>(at, center) - all<L>(frame.rest_of_center);
 }
 
 /// The coordinates in a frame of a vector in the scene.
@@ -127,7 +127,7 @@ SINEW_INLINE Shares<L> shares_of(const Holds<typename L::Real>& holds, const Slo
   return {L::load(fields + weight * block), L::load(fields + lead * block)};
 }
 
-/// The velocity, at a distance from its centre, of what a frame carries.
+/// The velocity, at a distance from its center, of what a frame carries.
 template <class L>
 SINEW_INLINE Triple<L> carried_by(const FrameNow<typename L::Real>& frame, const Triple<L>& arm) {
   return all<L>(frame.velocity) + cross<L>(all<L>(frame.spin), arm);
@@ -135,17 +135,17 @@ SINEW_INLINE Triple<L> carried_by(const FrameNow<typename L::Real>& frame, const
 
 /// For each lane what `told` says of the frame that carries it.
 template <class L, class Tell>
-SINEW_INLINE Triple<L> by_carrier(const Carriers<typename L::Real>& carriers, std::size_t block,
+SINEW_INLINE Triple<L> by_comoving_frame(const ComovingFrames<typename L::Real>& comoving_frames, std::size_t block,
                                   int lane, Tell tell) {
   constexpr int size = Traits<typename L::Real>::block;
-  const std::uint32_t begin = carriers.first[block], end = carriers.first[block + 1];
-  if (end - begin == 1 && carriers.slots[begin].lanes < 0) [[likely]]
-    return tell(carriers.frames[carriers.slots[begin].frame]);
+  const std::uint32_t begin = comoving_frames.first[block], end = comoving_frames.first[block + 1];
+  if (end - begin == 1 && comoving_frames.slots[begin].lanes < 0) [[likely]]
+    return tell(comoving_frames.frames[comoving_frames.slots[begin].frame]);
   Triple<L> sum = none<L>();
   for (std::uint32_t s = begin; s != end; ++s) {
-    const CarrierSlot slot = carriers.slots[s];
-    const auto* lanes = carriers.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
-    sum = sum + L::load(lanes) * tell(carriers.frames[slot.frame]);
+    const FrameSlot slot = comoving_frames.slots[s];
+    const auto* lanes = comoving_frames.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
+    sum = sum + L::load(lanes) * tell(comoving_frames.frames[slot.frame]);
   }
   return sum;
 }

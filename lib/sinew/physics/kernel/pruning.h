@@ -7,47 +7,47 @@
 namespace sinew::kernel {
 
 template <class L>
-SINEW_INLINE bool meets(const Sieve<typename L::Real>& sieve, const Place<L>* here,
+SINEW_INLINE bool meets(const PruneInput<typename L::Real>& input, const Place<L>* here,
                         std::ptrdiff_t i, std::ptrdiff_t difference) {
   constexpr int vectors = Traits<typename L::Real>::block / L::width;
   bool found = false;
   for (int k = 0; k < vectors; ++k) {
-    const Place<L> there = load_place<L>(sieve.state.x, i + difference + k * L::width);
+    const Place<L> there = load_place<L>(input.state.x, i + difference + k * L::width);
     const Triple<L> apart = offset<L>(here[k], there);
-    found |= L::any(L::less(squared_distance<L>(apart), L::all(sieve.range2)));
+    found |= L::any(L::less(squared_distance<L>(apart), L::all(input.range2)));
   }
   return found;
 }
 
 template <class L, class Next>
-SINEW_INLINE std::int32_t* sift_all(const Sieve<typename L::Real>& sieve, std::size_t block,
+SINEW_INLINE std::int32_t* prune_all(const PruneInput<typename L::Real>& input, std::size_t block,
                                     std::int64_t count, Next next, std::int32_t* kept) {
   constexpr int size = Traits<typename L::Real>::block;
   const auto i = static_cast<std::ptrdiff_t>(block) * size;
   Place<L> here[size / L::width];
   for (int k = 0; k < size / L::width; ++k)
-    here[k] = load_place<L>(sieve.state.x, i + k * L::width);
+    here[k] = load_place<L>(input.state.x, i + k * L::width);
   for (std::int64_t n = 0; n < count; ++n) {
     const std::int32_t difference = next(n);
     *kept = difference;  // without a branch: hits and misses alternate without a pattern
-    kept += meets<L>(sieve, here, i, difference) && difference != 0;
+    kept += meets<L>(input, here, i, difference) && difference != 0;
   }
   return kept;
 }
 
 template <class L>
-std::int32_t* sift_range(const Sieve<typename L::Real>& sieve, std::size_t block, std::int64_t from,
+std::int32_t* prune_range(const PruneInput<typename L::Real>& input, std::size_t block, std::int64_t from,
                          std::int64_t to, std::int32_t* kept) {
-  return sift_all<L>(
-      sieve, block, to - from, [&](std::int64_t n) { return static_cast<std::int32_t>(from + n); },
+  return prune_all<L>(
+      input, block, to - from, [&](std::int64_t n) { return static_cast<std::int32_t>(from + n); },
       kept);
 }
 
 template <class L>
-std::int32_t* sift_list(const Sieve<typename L::Real>& sieve, std::size_t block,
+std::int32_t* prune_list(const PruneInput<typename L::Real>& input, std::size_t block,
                         const std::int32_t* begin, const std::int32_t* end, std::int32_t* kept) {
-  return sift_all<L>(
-      sieve, block, end - begin, [&](std::int64_t n) { return begin[n]; }, kept);
+  return prune_all<L>(
+      input, block, end - begin, [&](std::int64_t n) { return begin[n]; }, kept);
 }
 
 }  // namespace sinew::kernel
@@ -58,28 +58,28 @@ namespace sinew::kernel {
 
 /// Places in the frames that carry them.
 template <class L>
-SINEW_INLINE Triple<L> ridden(const Ride<typename L::Real>& ride, std::size_t block, int lane) {
+SINEW_INLINE Triple<L> ridden(const FrameDrift<typename L::Real>& drift, std::size_t block, int lane) {
   const auto i = static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
-  const Place<L> here = load_place<L>(ride.state.x, i);
-  return by_carrier<L>(
-      ride.carriers, block,
+  const Place<L> here = load_place<L>(drift.state.x, i);
+  return by_comoving_frame<L>(
+      drift.comoving_frames, block,
       lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
-        return into_frame<L>(frame, from_centre<L>(frame, here));
+        return into_frame<L>(frame, from_center<L>(frame, here));
       });
 }
 
 template <class L>
-void remember_blocks(const Ride<typename L::Real>& ride, std::size_t begin, std::size_t end) {
+void remember_blocks(const FrameDrift<typename L::Real>& drift, std::size_t begin, std::size_t end) {
   constexpr int size = Traits<typename L::Real>::block;
   for (std::size_t block = begin; block < end; ++block)
     for (int lane = 0; lane < size; lane += L::width) {
-      const Triple<L> at = ridden<L>(ride, block, lane);
+      const Triple<L> at = ridden<L>(drift, block, lane);
       typename L::Real one[L::width];
       const typename L::V axes[3] = {at.x, at.y, at.z};
       for (int axis = 0; axis < 3; ++axis) {
         L::store(one, axes[axis]);
         for (int k = 0; k < L::width; ++k)
-          ride.reference[axis][block * size + lane + k] = static_cast<float>(one[k]);
+          drift.reference[axis][block * size + lane + k] = static_cast<float>(one[k]);
       }
     }
 }
@@ -92,16 +92,16 @@ SINEW_INLINE typename L::V widened(const float* p) {
 }
 
 template <class L>
-typename L::Real largest_displacement(const Ride<typename L::Real>& ride, std::size_t begin,
+typename L::Real largest_displacement(const FrameDrift<typename L::Real>& drift, std::size_t begin,
                                       std::size_t end) {
   constexpr int size = Traits<typename L::Real>::block;
   typename L::V most = L::all(0);
   for (std::size_t block = begin; block < end; ++block)
     for (int lane = 0; lane < size; lane += L::width) {
       const std::size_t i = block * size + lane;
-      const Triple<L> was{widened<L>(ride.reference[0] + i), widened<L>(ride.reference[1] + i),
-                          widened<L>(ride.reference[2] + i)};
-      const Triple<L> moved = ridden<L>(ride, block, lane) - was;
+      const Triple<L> was{widened<L>(drift.reference[0] + i), widened<L>(drift.reference[1] + i),
+                          widened<L>(drift.reference[2] + i)};
+      const Triple<L> moved = ridden<L>(drift, block, lane) - was;
       most = L::larger(dot<L>(moved, moved), most);
     }
   typename L::Real one[L::width], largest = 0;

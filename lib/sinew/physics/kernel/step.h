@@ -48,7 +48,7 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullL
   return forces;
 }
 
-/// The book: power of the bones, and what is lost at the velocity in the middle of the step.
+/// The ledger: power of the bones, and what is lost at the velocity in the middle of the step.
 template <class L>
 SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
                           const Triple<L>& velocity, int lane, Sums<L>& sums) {
@@ -63,10 +63,10 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
 template <class L>
 SINEW_INLINE void watch(const Step<typename L::Real>& step, std::size_t block, int lane,
                         const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
-  const Triple<L> carried = by_carrier<L>(
-      step.carriers, block,
+  const Triple<L> carried = by_comoving_frame<L>(
+      step.comoving_frames, block,
       lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
-        return carried_by<L>(frame, from_centre<L>(frame, here));
+        return carried_by<L>(frame, from_center<L>(frame, here));
       });
   const Triple<L> relative = drifting - carried;
   L::store(sums.fastest + lane,

@@ -16,21 +16,21 @@ double excess_of_step(const BonePose& before, const BonePose& now, double step, 
 }
 
 template <class Real>
-GroupCells::GroupCells(const BlockState<Real>& state, const Measure& measure,
+GroupCells::GroupCells(const BlockState<Real>& state, const Units& units,
                        std::span<const std::uint32_t> group, double reach)
     : reach_(reach) {
   Box box;
-  for (std::size_t k = 0; k < state.size(); ++k) box.extend(state.position(k, measure));
+  for (std::size_t k = 0; k < state.size(); ++k) box.extend(state.position(k, units));
   size_cells(box, state.size());
   for (std::size_t k = 0; k < state.size(); ++k) {
-    const Vec3 p = state.position(k, measure);
+    const Vec3 p = state.position(k, units);
     add(cell_of(p), group[k], p);
   }
 }
 
-template GroupCells::GroupCells(const BlockState<double>&, const Measure&,
+template GroupCells::GroupCells(const BlockState<double>&, const Units&,
                                 std::span<const std::uint32_t>, double);
-template GroupCells::GroupCells(const BlockState<float>&, const Measure&,
+template GroupCells::GroupCells(const BlockState<float>&, const Units&,
                                 std::span<const std::uint32_t>, double);
 
 void GroupCells::size_cells(const Box& box, std::size_t particles) {
@@ -39,7 +39,7 @@ void GroupCells::size_cells(const Box& box, std::size_t particles) {
     low_ = box.min();
     const Vec3 size = box.sizes();
     const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
-    // A stray particle must not blow the table up: wider cells stay correct, only slower.
+    // A escaped particle particle must not blow the table up: wider cells stay correct, only slower.
     const double most = static_cast<double>(particles) + 4096;
     while (along(0) * along(1) * along(2) > most) edge_ *= 1.5;
     for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(along(axis));
@@ -174,14 +174,14 @@ std::vector<RigidMotion> motions_between(const Pose& before, const Pose& now) {
 }
 
 template <class Real>
-Contacts::Contacts(const BlockState<Real>& state, const Measure& measure,
-                   std::span<const std::uint32_t> carrier, std::size_t groups, double range)
+Contacts::Contacts(const BlockState<Real>& state, const Units& units,
+                   std::span<const std::uint32_t> comoving_frame, std::size_t groups, double range)
     : range_(range),
       reach_(ranges_of_reach * range),
       whole_(groups),
       radius_(groups),
       slices_(groups) {
-  const GroupCells cells(state, measure, carrier, reach_);
+  const GroupCells cells(state, units, comoving_frame, reach_);
   std::vector<std::vector<Box>> parts(groups);
   for (const GroupCells::Part& part : cells.parts()) {
     whole_[part.group].extend(part.box);
@@ -203,9 +203,9 @@ Contacts::Contacts(const BlockState<Real>& state, const Measure& measure,
     }
 }
 
-template Contacts::Contacts(const BlockState<double>&, const Measure&,
+template Contacts::Contacts(const BlockState<double>&, const Units&,
                             std::span<const std::uint32_t>, std::size_t, double);
-template Contacts::Contacts(const BlockState<float>&, const Measure&,
+template Contacts::Contacts(const BlockState<float>&, const Units&,
                             std::span<const std::uint32_t>, std::size_t, double);
 
 double Contacts::approach_near(const Pair& pair, std::span<const RigidMotion> motions, double shift,
@@ -232,18 +232,18 @@ double Contacts::approach_far(const Pair& pair, std::span<const RigidMotion> mot
 }
 
 /// Whether spheres around two groups are now so far apart that the lists need none of their pairs.
-bool Contacts::apart(const Pair& pair, std::span<const Vec3> centres, double shift) const {
+bool Contacts::apart(const Pair& pair, std::span<const Vec3> centers, double shift) const {
   const double least = radius_[pair.a] + radius_[pair.b] + range_ + 2 * shift;
-  return (centres[pair.a] - centres[pair.b]).squaredNorm() >= least * least;
+  return (centers[pair.a] - centers[pair.b]).squaredNorm() >= least * least;
 }
 
 double Contacts::approach(std::span<const RigidMotion> motions, double shift) const {
-  std::vector<Vec3> centres(whole_.size());
+  std::vector<Vec3> centers(whole_.size());
   for (std::size_t group = 0; group < whole_.size(); ++group)
-    centres[group] = motions[group].turn * whole_[group].center() + motions[group].shift;
+    centers[group] = motions[group].turn * whole_[group].center() + motions[group].shift;
   double most = 0;
   for (const Pair& pair : pairs_) {
-    if (apart(pair, centres, shift)) continue;
+    if (apart(pair, centers, shift)) continue;
     most = approach_near(pair, motions, shift, most);
     most = approach_far(pair, motions, shift, most);
   }

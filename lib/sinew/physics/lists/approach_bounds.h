@@ -2,7 +2,7 @@
 // Until when a list holds: no pair outside it may have come within b.
 //
 // A list of the pairs within b + skin holds while particles have approached by no more than the
-// skin. What each has moved relative to its carrier is bounded step by step by the fastest;
+// skin. What each has moved relative to its co-moving frame is bounded step by step by the fastest;
 // the bound is replaced by a look at all of them when it has used up what there is.
 #pragma once
 
@@ -24,13 +24,13 @@ class Drift {
   Drift() = default;
   explicit Drift(double skin) : skin_(skin) {}
 
-  /// A step in which no particle moved more than `length` (m) relative to its carrier.
+  /// A step in which no particle moved more than `length` (m) relative to its co-moving frame.
   void add(double length) { moved_ += length; }
   /// A look at all particles found that none is farther than this from where it was (m).
   void found(double length) { moved_ = length; }
 
   double moved() const { return moved_; }
-  /// Whether the list still holds when the carriers alone have brought particles nearer by this
+  /// Whether the list still holds when the co-moving frames alone have brought particles nearer by this
   /// (m). A little of the skin is left to rounding, of floats at most.
   bool holds(double approach) const { return 2 * moved_ + approach < skin_ * (1 - 1e-5); }
   double skin() const { return skin_; }
@@ -56,7 +56,7 @@ class GroupCells {
 
   /// Cells whose edge is `reach` (m) or more.
   template <class Real>
-  GroupCells(const BlockState<Real>& state, const Measure& measure,
+  GroupCells(const BlockState<Real>& state, const Units& units,
              std::span<const std::uint32_t> group, double reach);
 
   const std::vector<Part>& parts() const { return parts_; }
@@ -102,11 +102,11 @@ std::vector<RigidMotion> motions_between(const Pose& before, const Pose& now);
 class Contacts {
  public:
   Contacts() = default;
-  /// `carrier` names the group of each particle, below `groups`. Lists hold the pairs within
+  /// `co-moving frame` names the group of each particle, below `groups`. Lists hold the pairs within
   /// `range` (m).
   template <class Real>
-  Contacts(const BlockState<Real>& state, const Measure& measure,
-           std::span<const std::uint32_t> carrier, std::size_t groups, double range);
+  Contacts(const BlockState<Real>& state, const Units& units,
+           std::span<const std::uint32_t> comoving_frame, std::size_t groups, double range);
 
   /// How much nearer the frames' motions since the reference may have brought particles that the
   /// lists do not pair, m, when no particle is farther than `shift` (m) out of its place. The lists
@@ -126,7 +126,7 @@ class Contacts {
     double gap;          ///< at least so far from each other, m
   };
 
-  bool apart(const Pair& pair, std::span<const Vec3> centres, double shift) const;
+  bool apart(const Pair& pair, std::span<const Vec3> centers, double shift) const;
   double approach_near(const Pair& pair, std::span<const RigidMotion> motions, double shift,
                        double most) const;
   double approach_far(const Pair& pair, std::span<const RigidMotion> motions, double shift,

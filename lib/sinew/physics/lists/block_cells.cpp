@@ -64,7 +64,7 @@ void BlockCells::size_cells(BlockState<Real>& state, double range) {
   low_ = Vec3(extent[0], extent[1], extent[2]);
   const Vec3 size = Vec3(-extent[3], -extent[4], -extent[5]) - low_;
   const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
-  // A stray particle must not blow the table up: wider cells stay correct, only slower.
+  // A escaped particle particle must not blow the table up: wider cells stay correct, only slower.
   const double most = 4.0 * static_cast<double>(state.size()) + 4096;
   while (along(0) * along(1) * along(2) > most) edge_ *= 1.5;
   for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(along(axis));

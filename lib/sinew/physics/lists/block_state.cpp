@@ -11,49 +11,49 @@ namespace {
 
 // Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
 // at first; it is measured anew when it is larger than 1.25 of that, or off the middle by more than
-// an eighth of it, which is looked at when it may have travelled by 0.36 of it. So no particle
+// an eighth of it, which is looked at when it may have traveled by 0.36 of it. So no particle
 // comes farther out than 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
 constexpr double body_range = 1073741824;  // 2^30
-constexpr double largest = 1.25, off_the_middle = 0.125, travelled = 0.36;
+constexpr double largest = 1.25, off_the_middle = 0.125, traveled = 0.36;
 
 }  // namespace
 
 template <>
-Measure measure_for<double>(const Box&, const PairForce&, double) {
+Units units_for<double>(const Box&, const PairForce&, double) {
   return {};
 }
 
 template <>
-Measure measure_for<float>(const Box& box, const PairForce& pair, double step) {
+Units units_for<float>(const Box& box, const PairForce& pair, double step) {
   // So wide that pads are out of each other's range as well.
   const double extent = (box.isEmpty() ? 0 : box.sizes().maxCoeff()) + 16 * pair.b;
-  Measure measure;
-  measure.length = extent / body_range;
-  measure.time = step;
-  measure.origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
-  return measure;
+  Units units;
+  units.length = extent / body_range;
+  units.time = step;
+  units.origin = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
+  return units;
 }
 
 template <>
-bool serves<double>(const Measure&, const Box&) {
+bool serves<double>(const Units&, const Box&) {
   return true;
 }
 
 template <>
-bool serves<float>(const Measure& measure, const Box& box) {
-  const double usual = body_range * measure.length;
-  return box.isEmpty() || ((box.center() - measure.origin).norm() < off_the_middle * usual &&
+bool serves<float>(const Units& units, const Box& box) {
+  const double usual = body_range * units.length;
+  return box.isEmpty() || ((box.center() - units.origin).norm() < off_the_middle * usual &&
                            box.sizes().maxCoeff() < largest * usual);
 }
 
 template <>
-double free_travel<double>(const Measure&) {
+double free_travel<double>(const Units&) {
   return std::numeric_limits<double>::infinity();
 }
 
 template <>
-double free_travel<float>(const Measure& measure) {
-  return travelled * body_range * measure.length;
+double free_travel<float>(const Units& units) {
+  return traveled * body_range * units.length;
 }
 
 namespace {
@@ -82,41 +82,41 @@ kernel::State<Real> BlockState<Real>::arrays() {
 }
 
 template <>
-Vec3 BlockState<double>::position(std::size_t k, const Measure&) const {
+Vec3 BlockState<double>::position(std::size_t k, const Units&) const {
   const std::size_t slot = k + block;
   return {x_[0][slot], x_[1][slot], x_[2][slot]};
 }
 
 template <>
-void BlockState<double>::set_position(std::size_t k, const Vec3& p, const Measure&) {
+void BlockState<double>::set_position(std::size_t k, const Vec3& p, const Units&) {
   for (int axis = 0; axis < 3; ++axis) x_[axis][k + block] = p[axis];
 }
 
 template <>
-Vec3 BlockState<float>::position(std::size_t k, const Measure& measure) const {
+Vec3 BlockState<float>::position(std::size_t k, const Units& units) const {
   const std::size_t slot = k + block;
   const Vec3 units(x_[0][slot], x_[1][slot], x_[2][slot]);
-  return measure.origin + measure.length * units;
+  return units.origin + units.length * units;
 }
 
 template <>
-void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Measure& measure) {
-  const Vec3 units = (p - measure.origin) / measure.length;
+void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Units& units) {
+  const Vec3 units = (p - units.origin) / units.length;
   for (int axis = 0; axis < 3; ++axis)
     x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(units[axis]));
 }
 
 template <class Real>
-Vec3 BlockState<Real>::velocity(std::size_t k, const Measure& measure) const {
+Vec3 BlockState<Real>::velocity(std::size_t k, const Units& units) const {
   const std::size_t slot = k + block;
-  const double scale = measure.length / measure.time;
+  const double scale = units.length / units.time;
   return scale * Vec3(v_[0][slot], v_[1][slot], v_[2][slot]);
 }
 
 template <class Real>
-void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Measure& measure) {
+void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Units& units) {
   for (int axis = 0; axis < 3; ++axis)
-    v_[axis][k + block] = static_cast<Real>(measure.velocity(v[axis]));
+    v_[axis][k + block] = static_cast<Real>(units.velocity(v[axis]));
 }
 
 template <class Real>

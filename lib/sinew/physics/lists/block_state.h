@@ -18,9 +18,9 @@ namespace sinew {
 
 // Lengths, times and places as the kernel has them.
 
-/// How the kernel measures. Double precision keeps metres and seconds. Single precision counts time
+/// How the kernel measures. Double precision keeps meters and seconds. Single precision counts time
 /// in steps and positions as whole numbers of a small length from an origin.
-struct Measure {
+struct Units {
   double length = 1;  ///< m
   double time = 1;    ///< s
   Vec3 origin = Vec3::Zero();
@@ -29,18 +29,18 @@ struct Measure {
   double velocity(double si) const { return si * time / length; }
 };
 
-/// The measure for particles within `box` (m) that take steps of `step` (s).
+/// The units for particles within `box` (m) that take steps of `step` (s).
 template <class Real>
-Measure measure_for(const Box& box, const PairForce& pair, double step);
+Units units_for(const Box& box, const PairForce& pair, double step);
 
-/// Whether a measure still serves particles within `box` (m): whole numbers hold a body that has
-/// grown or travelled far in a measure of its own.
+/// Whether a units still serves particles within `box` (m): whole numbers hold a body that has
+/// grown or traveled far in a units of its own.
 template <class Real>
-bool serves(const Measure& measure, const Box& box);
+bool serves(const Units& units, const Box& box);
 
-/// How far particles may travel before the measure is looked at again: m.
+/// How far particles may travel before the units is looked at again: m.
 template <class Real>
-double free_travel(const Measure& measure);
+double free_travel(const Units& units);
 
 /// a - b as the kernel has it: whole numbers wrap round.
 inline double difference_of(double a, double b) { return a - b; }
@@ -62,10 +62,10 @@ class BlockState {
   /// Pointers to the first particle; one block before it and one after the last may be read.
   kernel::State<Real> arrays();
 
-  Vec3 position(std::size_t k, const Measure& measure) const;
-  void set_position(std::size_t k, const Vec3& p, const Measure& measure);
-  Vec3 velocity(std::size_t k, const Measure& measure) const;
-  void set_velocity(std::size_t k, const Vec3& v, const Measure& measure);
+  Vec3 position(std::size_t k, const Units& units) const;
+  void set_position(std::size_t k, const Vec3& p, const Units& units);
+  Vec3 velocity(std::size_t k, const Units& units) const;
+  void set_velocity(std::size_t k, const Vec3& v, const Units& units);
 
   MovingColumns<Coord, Real> columns() const;  ///< without the pads
   /// As many as there are.

@@ -14,7 +14,7 @@ double place_along(const Bone& bone, const Vec3& point) {
   return (point - bone.head()).dot(bone.axis());
 }
 
-std::vector<double> centres(const Body& body) {
+std::vector<double> centers(const Body& body) {
   std::vector<double> sum(body.skeleton.size(), 0.0), weight(body.skeleton.size(), 0.0);
   for (std::size_t i = 0; i < body.rest.size(); ++i)
     for (const Influence& influence : body.binding.of(i)) {
@@ -28,19 +28,19 @@ std::vector<double> centres(const Body& body) {
 
 /// Writes the fields of one lane.
 template <class Real>
-void hold(const Body& body, const Influence& influence, const Vec3& rest, double centre,
-          const Measure& measure, Real* lane) {
+void hold(const Body& body, const Influence& influence, const Vec3& rest, double center,
+          const Units& units, Real* lane) {
   constexpr int block = kernel::Traits<Real>::block;
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
   const double r = body.material.pair.r;
   const bool aside = std::hypot(local.y(), local.z()) >= on_axis * r;
   const double distance = influence.rest_distance < on_axis * r ? 0 : influence.rest_distance;
-  const double fields[kernel::held_fields] = {influence.foot - centre, local.x() - centre,
+  const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
                                               aside ? local.y() : 0, aside ? local.z() : 0,
                                               distance};
   for (int field = 0; field < kernel::held_fields; ++field)
-    lane[field * block] = static_cast<Real>(fields[field] / measure.length);
+    lane[field * block] = static_cast<Real>(fields[field] / units.length);
 }
 
 /// Fills the slots of one block after the other.
@@ -49,8 +49,8 @@ class Filler {
  public:
   static constexpr int block = kernel::Traits<Real>::block;
 
-  Filler(const Body& body, const Measure& measure, BoneSlots<Real>& out)
-      : body_(body), measure_(measure), out_(out) {}
+  Filler(const Body& body, const Units& units, BoneSlots<Real>& out)
+      : body_(body), units_(units), out_(out) {}
 
   void add(std::span<const std::int32_t> ids) {
     const std::size_t begin = out_.slots.size();
@@ -58,7 +58,7 @@ class Filler {
       const auto influences = body_.binding.of(ids[lane]);
       for (const Influence& influence : influences) {
         const std::size_t slot = slot_of(influence.bone, begin);
-        hold(body_, influence, body_.rest[ids[lane]], out_.centre[influence.bone], measure_,
+        hold(body_, influence, body_.rest[ids[lane]], out_.center[influence.bone], units_,
              &out_.held[slot * kernel::held_fields * block + lane]);
         Real* shares = &out_.shares[static_cast<std::size_t>(out_.slots[slot].shares) *
                                         kernel::share_fields * block +
@@ -93,7 +93,7 @@ class Filler {
   }
 
   const Body& body_;
-  const Measure& measure_;
+  const Units& units_;
   BoneSlots<Real>& out_;
 };
 
@@ -118,17 +118,17 @@ void put(const Vec3& from, double scale, Real* to) {
 }
 
 /// A point in whole units, and what they leave of it in lengths.
-void put_centre(const Vec3& p, const Measure&, kernel::FrameNow<double>& frame) {
-  put(p, 1, frame.centre);
-  put(Vec3(Vec3::Zero()), 1, frame.rest_of_centre);
+void put_center(const Vec3& p, const Units&, kernel::FrameNow<double>& frame) {
+  put(p, 1, frame.center);
+  put(Vec3(Vec3::Zero()), 1, frame.rest_of_center);
 }
 
-void put_centre(const Vec3& p, const Measure& measure, kernel::FrameNow<float>& frame) {
-  const Vec3 units = (p - measure.origin) / measure.length;
+void put_center(const Vec3& p, const Units& units, kernel::FrameNow<float>& frame) {
+  const Vec3 units = (p - units.origin) / units.length;
   for (int axis = 0; axis < 3; ++axis) {
     const double whole = std::nearbyint(units[axis]);
-    frame.centre[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(whole));
-    frame.rest_of_centre[axis] = static_cast<float>(units[axis] - whole);
+    frame.center[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(whole));
+    frame.rest_of_center[axis] = static_cast<float>(units[axis] - whole);
   }
 }
 
@@ -140,30 +140,30 @@ void put_axes(const Mat3& rotation, Real* axes) {
 }  // namespace
 
 template <class Real>
-kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& centre, const Measure& measure) {
+kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& center, const Units& units) {
   kernel::FrameNow<Real> frame{};
-  put_centre(centre, measure, frame);
+  put_center(center, units, frame);
   put_axes(pose.frame.rotation, frame.axes);
-  put(pose.velocity_at(centre), measure.velocity(1), frame.velocity);
-  put(pose.angular_velocity, measure.time, frame.spin);
+  put(pose.velocity_at(center), units.velocity(1), frame.velocity);
+  put(pose.angular_velocity, units.time, frame.spin);
   return frame;
 }
 
-template kernel::FrameNow<double> frame_now(const BonePose&, const Vec3&, const Measure&);
-template kernel::FrameNow<float> frame_now(const BonePose&, const Vec3&, const Measure&);
+template kernel::FrameNow<double> frame_now(const BonePose&, const Vec3&, const Units&);
+template kernel::FrameNow<float> frame_now(const BonePose&, const Vec3&, const Units&);
 
 template <class Real>
 BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
-                           const Measure& measure) {
+                           const Units& units) {
   constexpr std::size_t block = kernel::Traits<Real>::block;
   BoneSlots<Real> slots;
-  slots.centre = centres(body);
+  slots.center = centers(body);
   const std::size_t count = count_slots(body, id, block);
   slots.slots.reserve(count);
   slots.held.reserve(count * kernel::held_fields * block);
   slots.first.reserve(id.size() / block + 2);
   slots.first.push_back(0);
-  Filler<Real> filler(body, measure, slots);
+  Filler<Real> filler(body, units, slots);
   for (std::size_t begin = 0; begin < id.size(); begin += block)
     filler.add(id.subspan(begin, std::min(block, id.size() - begin)));
   return slots;
@@ -171,31 +171,31 @@ BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
 
 template <class Real>
 std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
-                                             std::span<const double> centre, double mass,
-                                             const Measure& measure) {
+                                             std::span<const double> center, double mass,
+                                             const Units& units) {
   std::vector<kernel::BoneNow<Real>> bones(pose.size());
-  const double spring = measure.time * measure.time / mass;
+  const double spring = units.time * units.time / mass;
   for (std::size_t b = 0; b < pose.size(); ++b) {
-    const Vec3 at = pose[b].frame.origin + centre[b] * pose[b].axis();
+    const Vec3 at = pose[b].frame.origin + center[b] * pose[b].axis();
     const BoneSprings& springs = body.springs[b];
-    bones[b].frame = frame_now<Real>(pose[b], at, measure);
+    bones[b].frame = frame_now<Real>(pose[b], at, units);
     bones[b].radial = static_cast<Real>(springs.radial * spring);
     bones[b].twist = static_cast<Real>(springs.twist * spring);
     bones[b].axial = static_cast<Real>(springs.axial * spring);
-    bones[b].damping = static_cast<Real>(springs.damping * measure.time / mass);
+    bones[b].damping = static_cast<Real>(springs.damping * units.time / mass);
   }
   return bones;
 }
 
 template struct BoneSlots<double>;
 template struct BoneSlots<float>;
-template BoneSlots<double> bone_slots(const Body&, std::span<const std::int32_t>, const Measure&);
-template BoneSlots<float> bone_slots(const Body&, std::span<const std::int32_t>, const Measure&);
+template BoneSlots<double> bone_slots(const Body&, std::span<const std::int32_t>, const Units&);
+template BoneSlots<float> bone_slots(const Body&, std::span<const std::int32_t>, const Units&);
 template std::vector<kernel::BoneNow<double>> bones_now(const Body&, const Pose&,
                                                         std::span<const double>, double,
-                                                        const Measure&);
+                                                        const Units&);
 template std::vector<kernel::BoneNow<float>> bones_now(const Body&, const Pose&,
                                                        std::span<const double>, double,
-                                                       const Measure&);
+                                                       const Units&);
 
 }  // namespace sinew

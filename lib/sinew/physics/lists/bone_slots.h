@@ -21,22 +21,22 @@ struct BoneSlots {
 
   /// Where on each bone's axis its frame has its origin, m from the head: amid what it holds, so
   /// that few digits are lost far from a head.
-  std::vector<double> centre;
+  std::vector<double> center;
 };
 
 /// `id` gives the particles in the kernel's order.
 template <class Real>
 BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
-                           const Measure& measure);
+                           const Units& units);
 
 /// The bones at `pose` in the kernel's form, for particles of `mass` (kg).
 template <class Real>
 std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
-                                             std::span<const double> centre, double mass,
-                                             const Measure& measure);
+                                             std::span<const double> center, double mass,
+                                             const Units& units);
 
-/// A rigid frame with its centre at the point that is at `centre` (m) now.
+/// A rigid frame with its center at the point that is at `center` (m) now.
 template <class Real>
-kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& centre, const Measure& measure);
+kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& center, const Units& units);
 
 }  // namespace sinew

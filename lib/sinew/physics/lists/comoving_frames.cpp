@@ -55,7 +55,7 @@ double width_at(const Body& body, std::size_t parent, std::size_t child) {
 }  // namespace
 
 /// How the turn of a joint is shared out along its axis: by place, what the flesh there has of it.
-class Carriers::Profile {
+class ComovingFrames::Profile {
  public:
   Profile(const Hinge& hinge, const Pose& bones)
       : hinge_(&hinge), parent_(&bones[hinge.parent]), child_(&bones[hinge.child]) {
@@ -110,7 +110,7 @@ class Carriers::Profile {
   std::array<int, places_per_hinge> share_{};
 };
 
-Carriers::Carriers(const Body& body) : hinges_of_(body.skeleton.size()) {
+ComovingFrames::ComovingFrames(const Body& body) : hinges_of_(body.skeleton.size()) {
   const auto& bones = body.skeleton.bones;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     if (bones[b].parent == no_bone) continue;
@@ -134,7 +134,7 @@ Carriers::Carriers(const Body& body) : hinges_of_(body.skeleton.size()) {
 }
 
 /// Amid the places to which both bones have taken the joint.
-BonePose Carriers::pose_of(const Between& between, const Pose& bones) const {
+BonePose ComovingFrames::pose_of(const Between& between, const Pose& bones) const {
   const Hinge& hinge = hinges_[between.hinge];
   const BonePose &parent = bones[hinge.parent], &child = bones[hinge.child];
   const Mat3 back = parent.turn.transpose();
@@ -149,9 +149,9 @@ BonePose Carriers::pose_of(const Between& between, const Pose& bones) const {
 }
 
 template <class Real>
-std::vector<Carriers::Profile> Carriers::profiles(const Body& body, const Pose& bones,
+std::vector<ComovingFrames::Profile> ComovingFrames::profiles(const Body& body, const Pose& bones,
                                                   const BlockState<Real>& state,
-                                                  const Measure& measure,
+                                                  const Units& units,
                                                   std::span<const std::int32_t> id) const {
   std::vector<Profile> sums;
   for (const Hinge& hinge : hinges_) sums.emplace_back(hinge, bones);
@@ -163,7 +163,7 @@ std::vector<Carriers::Profile> Carriers::profiles(const Body& body, const Pose& 
       const int bone = body.binding.bone(static_cast<std::size_t>(id[k]));
       if (bone == no_bone) continue;
       for (const std::size_t h : hinges_of_[static_cast<std::size_t>(bone)])
-        if (piece[h].frames() > 0) piece[h].add(body.rest[id[k]], state.position(k, measure));
+        if (piece[h].frames() > 0) piece[h].add(body.rest[id[k]], state.position(k, units));
     }
   });
   for (const auto& piece : pieces)  // in their order: the sums are the same for all threads
@@ -173,9 +173,9 @@ std::vector<Carriers::Profile> Carriers::profiles(const Body& body, const Pose& 
 }
 
 template <class Real>
-void Carriers::choose(const Body& body, const Pose& bones, const BlockState<Real>& state,
-                      const Measure& measure, std::span<const std::int32_t> id) {
-  const auto profile = profiles(body, bones, state, measure, id);
+void ComovingFrames::choose(const Body& body, const Pose& bones, const BlockState<Real>& state,
+                      const Units& units, std::span<const std::int32_t> id) {
+  const auto profile = profiles(body, bones, state, units, id);
   of_.resize(id.size());
   parallel_for(id.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
@@ -186,7 +186,7 @@ void Carriers::choose(const Body& body, const Pose& bones, const BlockState<Real
 }
 
 /// The bone's own frame, or of the frames between it and others the one farthest from it.
-std::uint32_t Carriers::choice(int bone, const Vec3& rest, std::span<const Profile> profiles,
+std::uint32_t ComovingFrames::choice(int bone, const Vec3& rest, std::span<const Profile> profiles,
                                std::size_t bones) const {
   if (bone == no_bone) return nobody;
   auto found = static_cast<std::uint32_t>(bone);
@@ -206,15 +206,15 @@ std::uint32_t Carriers::choice(int bone, const Vec3& rest, std::span<const Profi
   return found;
 }
 
-template void Carriers::choose(const Body&, const Pose&, const BlockState<double>&, const Measure&,
+template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<double>&, const Units&,
                                std::span<const std::int32_t>);
-template void Carriers::choose(const Body&, const Pose&, const BlockState<float>&, const Measure&,
+template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<float>&, const Units&,
                                std::span<const std::int32_t>);
 
-void Carriers::compress(std::span<const Profile> profile, std::size_t bones) {
+void ComovingFrames::compress(std::span<const Profile> profile, std::size_t bones) {
   std::vector<std::uint32_t> place(bones + hinges_.size() * most_frames, nobody);
-  for (const std::uint32_t carrier : of_)
-    if (carrier != nobody) place[carrier] = 0;
+  for (const std::uint32_t comoving_frame : of_)
+    if (comoving_frame != nobody) place[comoving_frame] = 0;
   between_.clear();
   for (std::size_t c = 0; c < place.size(); ++c) {
     if (c >= bones && place[c] == nobody) continue;
@@ -225,23 +225,23 @@ void Carriers::compress(std::span<const Profile> profile, std::size_t bones) {
         {h, static_cast<double>((c - bones) % most_frames + 1) / (profile[h].frames() + 1)});
   }
   const auto scene = static_cast<std::uint32_t>(bones + between_.size());
-  for (std::uint32_t& carrier : of_) carrier = carrier == nobody ? scene : place[carrier];
+  for (std::uint32_t& comoving_frame : of_) comoving_frame = comoving_frame == nobody ? scene : place[comoving_frame];
 }
 
-Pose Carriers::at(const Pose& bones) const {
+Pose ComovingFrames::at(const Pose& bones) const {
   Pose all = bones;
   for (const Between& between : between_) all.push_back(pose_of(between, bones));
   return all;
 }
 
 template <class Real>
-CarrierSlots<Real> carrier_slots(std::span<const std::uint32_t> carrier) {
+FrameSlots<Real> frame_slots(std::span<const std::uint32_t> comoving_frame) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
-  CarrierSlots<Real> out;
-  out.first.reserve(carrier.size() / size + 2);
+  FrameSlots<Real> out;
+  out.first.reserve(comoving_frame.size() / size + 2);
   out.first.push_back(0);
-  for (std::size_t begin = 0; begin < carrier.size(); begin += size) {
-    const auto block = carrier.subspan(begin, std::min(size, carrier.size() - begin));
+  for (std::size_t begin = 0; begin < comoving_frame.size(); begin += size) {
+    const auto block = comoving_frame.subspan(begin, std::min(size, comoving_frame.size() - begin));
     const bool alone = block.size() == size &&
                        std::all_of(block.begin(), block.end(),
                                    [&](std::uint32_t one) { return one == block.front(); });
@@ -251,7 +251,7 @@ CarrierSlots<Real> carrier_slots(std::span<const std::uint32_t> carrier) {
       const auto frame = static_cast<std::int32_t>(block[lane]);
       auto slot =
           std::find_if(out.slots.begin() + static_cast<std::ptrdiff_t>(first), out.slots.end(),
-                       [&](const kernel::CarrierSlot& one) { return one.frame == frame; });
+                       [&](const kernel::FrameSlot& one) { return one.frame == frame; });
       if (slot == out.slots.end()) {
         out.slots.push_back({frame, static_cast<std::int32_t>(out.lanes.size() / size)});
         out.lanes.resize(out.lanes.size() + size, Real(0));
@@ -264,7 +264,7 @@ CarrierSlots<Real> carrier_slots(std::span<const std::uint32_t> carrier) {
   return out;
 }
 
-template CarrierSlots<double> carrier_slots(std::span<const std::uint32_t>);
-template CarrierSlots<float> carrier_slots(std::span<const std::uint32_t>);
+template FrameSlots<double> frame_slots(std::span<const std::uint32_t>);
+template FrameSlots<float> frame_slots(std::span<const std::uint32_t>);
 
 }  // namespace sinew

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rigid frames in which lists of partners are judged: those of the bones, frames between bones
-// that meet, and the scene's. What rides along with its frame stands still there, and its lists
+// that meet, and the scene's. What moves along with its frame stands still there, and its lists
 // hold. Flesh about a bent joint follows neither of its bones; frames that share out the turn
 // between them follow it closer.
 #pragma once
@@ -16,17 +16,17 @@
 
 namespace sinew {
 
-class Carriers {
+class ComovingFrames {
  public:
-  Carriers() = default;
-  explicit Carriers(const Body& body);
+  ComovingFrames() = default;
+  explicit ComovingFrames(const Body& body);
 
   /// Chooses for each particle of `state` a frame: that of the bone that leads it or, where flesh
   /// as far from a joint has turned otherwise since the rest pose, one between the bones that meet
   /// there. `id` by particle.
   template <class Real>
   void choose(const Body& body, const Pose& bones, const BlockState<Real>& state,
-              const Measure& measure, std::span<const std::int32_t> id);
+              const Units& units, std::span<const std::int32_t> id);
 
   /// By particle: its frame in `at`; the size of that for one that no bone leads.
   std::span<const std::uint32_t> of_particles() const { return of_; }
@@ -49,7 +49,7 @@ class Carriers {
 
   template <class Real>
   std::vector<Profile> profiles(const Body& body, const Pose& bones, const BlockState<Real>& state,
-                                const Measure& measure, std::span<const std::int32_t> id) const;
+                                const Units& units, std::span<const std::int32_t> id) const;
   std::uint32_t choice(int bone, const Vec3& rest, std::span<const Profile> profiles,
                        std::size_t bones) const;
   BonePose pose_of(const Between& between, const Pose& bones) const;
@@ -62,15 +62,15 @@ class Carriers {
   std::vector<std::uint32_t> of_;
 };
 
-/// The carriers in the kernel's form.
+/// The co-moving frames in the kernel's form.
 template <class Real>
-struct CarrierSlots {
+struct FrameSlots {
   std::vector<std::uint32_t> first;  ///< blocks + 1 long
-  std::vector<kernel::CarrierSlot> slots;
+  std::vector<kernel::FrameSlot> slots;
   std::vector<Real> lanes;
 };
 
 template <class Real>
-CarrierSlots<Real> carrier_slots(std::span<const std::uint32_t> carrier);
+FrameSlots<Real> frame_slots(std::span<const std::uint32_t> comoving_frame);
 
 }  // namespace sinew

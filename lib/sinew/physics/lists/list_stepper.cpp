@@ -15,7 +15,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       stepping_(stepping),
       mass_(particles.mass),
       kernel_(kernel::functions_of<Real>(instructions)),
-      carriers_(*body_),
+      comoving_frames_(*body_),
       lists_(kernel_, body_->material.pair, stepping.step) {
   load(particles);
 }
@@ -25,16 +25,16 @@ void ListStepper<Real>::load(const Particles& particles) {
   const std::size_t n = particles.size();
   Box box;
   for (std::size_t i = 0; i < n; ++i) box.extend(particles.position(i));
-  measured_box_ = box;
-  measure_ = measure_for<Real>(box, body_->material.pair, stepping_.step);
+  units_box_ = box;
+  units_ = units_for<Real>(box, body_->material.pair, stepping_.step);
   state_ = next_ = BlockState<Real>(n);
   id_.assign((state_.blocks() + 2) * block, 0);
   caller_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     caller_[k] = static_cast<std::uint32_t>(k);
     id_[k + block] = particles.id[k];
-    state_.set_position(k, particles.position(k), measure_);
-    state_.set_velocity(k, particles.velocity(k), measure_);
+    state_.set_position(k, particles.position(k), units_);
+    state_.set_velocity(k, particles.velocity(k), units_);
   }
   find_slots();
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
@@ -42,12 +42,12 @@ void ListStepper<Real>::load(const Particles& particles) {
 
 template <class Real>
 void ListStepper<Real>::find_slots() {
-  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, measure_);
+  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, units_);
 }
 
 template <class Real>
 void ListStepper<Real>::place_bones(const Pose& pose) {
-  bones_ = bones_now<Real>(*body_, pose, slots_.centre, mass_, measure_);
+  bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, units_);
 }
 
 template <class Real>
@@ -57,27 +57,27 @@ kernel::Holds<Real> ListStepper<Real>::holds() const {
 }
 
 template <class Real>
-kernel::Carriers<Real> ListStepper<Real>::carriers() const {
-  return {carrier_slots_.first.data(), carrier_slots_.slots.data(), carrier_slots_.lanes.data(),
+kernel::ComovingFrames<Real> ListStepper<Real>::comoving_frames() const {
+  return {frame_slots_.first.data(), frame_slots_.slots.data(), frame_slots_.lanes.data(),
           frames_.data()};
 }
 
 template <class Real>
-void ListStepper<Real>::place_carriers(const Pose& pose) {
-  carrier_pose_ = carriers_.at(pose);
+void ListStepper<Real>::place_comoving_frames(const Pose& pose) {
+  comoving_pose_ = comoving_frames_.at(pose);
   frames_.clear();
-  for (std::size_t c = 0; c < carrier_pose_.size(); ++c)
+  for (std::size_t c = 0; c < comoving_pose_.size(); ++c)
     frames_.push_back(c < bones_.size() ? bones_[c].frame
-                                        : frame_now<Real>(carrier_pose_[c],
-                                                          carrier_pose_[c].frame.origin, measure_));
-  frames_.push_back(frame_now<Real>(BonePose(), measure_.origin, measure_));
+                                        : frame_now<Real>(comoving_pose_[c],
+                                                          comoving_pose_[c].frame.origin, units_));
+  frames_.push_back(frame_now<Real>(BonePose(), units_.origin, units_));
 }
 
 template <class Real>
 kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
-  const double L = measure_.length, T = measure_.time, dt = stepping_.step;
+  const double L = units_.length, T = units_.time, dt = stepping_.step;
   const auto real = [](double value) { return static_cast<Real>(value); };
   kernel::Step<Real> step{};
   step.before = state_.arrays();
@@ -86,7 +86,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.id = id_.data() + block;
   step.lists = lists_.arrays();
   step.holds = holds();
-  step.carriers = carriers();
+  step.comoving_frames = comoving_frames();
   const double per_mass = pair.r * T * T / mass_;
   step.law = {real(pair.r / L),
               real(pair.a / L),
@@ -96,21 +96,21 @@ kernel::Step<Real> ListStepper<Real>::job() {
               real(pair.k2 * per_mass),
               real(material.damping * T / mass_)};
   for (int axis = 0; axis < 3; ++axis)
-    step.gravity[axis] = real(measure_.acceleration(stepping_.gravity[axis]));
+    step.gravity[axis] = real(units_.acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
   step.kick = real(dt / T * (first_of_verlet ? 0.5 : 1));
   step.drift = real(dt / T);
   step.middle = real(dt / T / 2);
   step.drift_first = stepping_.integrator == Integrator::explicit_euler;
-  const double most = measure_.velocity(most_radii_per_step * pair.r / dt);
+  const double most = units_.velocity(most_radii_per_step * pair.r / dt);
   step.most = real(most * most);
   step.totals = totals_.data();
   return step;
 }
 
 template <class Real>
-Riders<Real> ListStepper<Real>::riders() {
-  return {state_, measure_, carriers(), carriers_.of_particles(), carrier_pose_};
+MovingParticles<Real> ListStepper<Real>::particles() {
+  return {state_, units_, comoving_frames(), comoving_frames_.of_particles(), comoving_pose_};
 }
 
 template <class Real>
@@ -123,9 +123,9 @@ ListCounts ListStepper<Real>::counts() const {
 
 template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
-  // Per unit of mass and in the kernel's measure: to watts.
+  // Per unit of mass and in the kernel's units: to watts.
   const double watts =
-      mass_ * measure_.length * measure_.length / (measure_.time * measure_.time * measure_.time);
+      mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
   StepSums sums;
   for (const kernel::Totals& piece : totals_)  // in the order of the pieces, whoever made them
     sums.power += piece.power, sums.lost += piece.lost;
@@ -150,11 +150,11 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
     sums.failure = failure(pose);
     return sums;
   }
-  fastest_ = std::sqrt(fastest) * measure_.length / measure_.time;
+  fastest_ = std::sqrt(fastest) * units_.length / units_.time;
   std::swap(state_, next_);
   state_.pad_last_block();
   kicked_ = true;
-  if (sizeof(Real) == 4) travelled_ += travel_of_step(pose);
+  if (sizeof(Real) == 4) traveled_ += travel_of_step(pose);
   ++steps_;
   return sums;
 }
@@ -169,7 +169,7 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < caller_.size(); ++k) {
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
-    const bool finite = std::isfinite(moved) && next_.velocity(k, measure_).allFinite();
+    const bool finite = std::isfinite(moved) && next_.velocity(k, units_).allFinite();
     const Offender one{caller_[k], finite, std::isfinite(moved) ? moved : 0};
     if (finite && moved > fastest.moved) fastest = one;
     if (!finite || moved > most) failure.all.push_back(one);
@@ -185,9 +185,9 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
 template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
   const int bone = body_->binding.bone(static_cast<std::size_t>(id_[k + block]));
-  const Vec3 carried = bone == no_bone ? state_.velocity(k, measure_)
-                                       : pose[bone].velocity_at(state_.position(k, measure_));
-  return next_.velocity(k, measure_) - carried;
+  const Vec3 carried = bone == no_bone ? state_.velocity(k, units_)
+                                       : pose[bone].velocity_at(state_.position(k, units_));
+  return next_.velocity(k, units_) - carried;
 }
 
 template <class Real>
@@ -207,23 +207,23 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   now.probed.partners = partners.data();
   parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.probe(now, begin, end); });
-  const double newtons = mass_ * measure_.length / (measure_.time * measure_.time);
+  const double newtons = mass_ * units_.length / (units_.time * units_.time);
   forces.pair.resize(n);
   forces.damping.resize(n);
   forces.bone.resize(n);
-  forces.neighbours.resize(n);
+  forces.neighbors.resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = caller_[k];
       forces.pair[i] = newtons * Vec3(told[0][k], told[1][k], told[2][k]);
       forces.damping[i] = newtons * Vec3(told[3][k], told[4][k], told[5][k]);
       forces.bone[i] = newtons * Vec3(told[6][k], told[7][k], told[8][k]);
-      forces.neighbours[i] = partners[k];
+      forces.neighbors[i] = partners[k];
     }
   });
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0};
-  const double joules = newtons * measure_.length;
+  const double joules = newtons * units_.length;
   for (const kernel::Totals& piece : totals_)
     balance.pair_energy += joules * piece.pair_energy,
         balance.bone_energy += joules * piece.bone_energy;
@@ -238,8 +238,8 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
     values->resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      particles.set_position(caller_[k], state_.position(k, measure_));
-      particles.set_velocity(caller_[k], state_.velocity(k, measure_));
+      particles.set_position(caller_[k], state_.position(k, units_));
+      particles.set_velocity(caller_[k], state_.velocity(k, units_));
     }
   });
   if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;

@@ -40,21 +40,21 @@ class ListStepper {
   void load(const Particles& particles);
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
-  kernel::Carriers<Real> carriers() const;
-  void place_carriers(const Pose& pose);
-  void choose_carriers(const Pose& pose);
+  kernel::ComovingFrames<Real> comoving_frames() const;
+  void place_comoving_frames(const Pose& pose);
+  void choose_comoving_frames(const Pose& pose);
   kernel::Step<Real> job();
-  Riders<Real> riders();
+  MovingParticles<Real> particles();
 
   void keep_lists_true(const Pose& pose);
   void rebuild(const Pose& pose);
-  bool remeasure();
+  bool change_units();
   double travel_of_step(const Pose& pose) const;
   bool must_look_at_order();
   bool sort();
   void find_slots();
   void restore_order(const std::vector<std::uint32_t>& order);
-  void restore_measure(const WholeNumbers& saved);
+  void restore_units(const WholeNumbers& saved);
   StepSums sums_of_totals() const;
   Failure failure(const Pose& pose);
   Vec3 relative_velocity(const Pose& pose, std::size_t k) const;
@@ -63,28 +63,28 @@ class ListStepper {
   Stepping stepping_;
   double mass_;  ///< of a particle, kg
   kernel::Functions<Real> kernel_;
-  Measure measure_;
-  Box measured_box_;      ///< around the particles when the measure was looked at, m
-  double travelled_ = 0;  ///< since then, at most, m
+  Units units_;
+  Box units_box_;      ///< around the particles when the units was looked at, m
+  double traveled_ = 0;  ///< since then, at most, m
   BlockState<Real> state_, next_;
   std::vector<std::int32_t> id_;       ///< with pads, as the states have
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   BoneSlots<Real> slots_;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< where they are now
-  Carriers carriers_;
-  CarrierSlots<Real> carrier_slots_;
-  Pose carrier_pose_;
-  std::vector<kernel::FrameNow<Real>> frames_;  ///< of the carriers; the last stands still
+  ComovingFrames comoving_frames_;
+  FrameSlots<Real> frame_slots_;
+  Pose comoving_pose_;
+  std::vector<kernel::FrameNow<Real>> frames_;  ///< of the comoving_frames; the last stands still
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
-  PartnerLists<Real> lists_;
+  VerletLists<Real> lists_;
   double mean_when_sorted_ =
-      45;  ///< differences per block in the wide list; here: of a packed body
+      45;  ///< differences per block in the outer list; here: of a packed body
   std::int64_t order_looked_at_ = -1;  ///< before which step
   std::int64_t sorts_ = 0;
   double sorting_ = 0;             ///< s
-  std::optional<double> fastest_;  ///< in a step not yet followed, relative to the carriers, m/s
+  std::optional<double> fastest_;  ///< in a step not yet followed, relative to the comoving_frames, m/s
 
   std::vector<kernel::Totals> totals_;
 };

@@ -20,11 +20,11 @@ constexpr double column_edge = 1.2, most_growth = 1.3;
 constexpr std::int64_t steps_between_looks_at_order = 1024;
 
 template <class Real>
-Box box_of(const BlockState<Real>& state, const Measure& measure, std::size_t grain) {
+Box box_of(const BlockState<Real>& state, const Units& units, std::size_t grain) {
   std::vector<Box> boxes(state.size() / grain + 1);
   parallel_for(state.size(), grain, [&](std::size_t begin, std::size_t end) {
     Box& box = boxes[begin / grain];
-    for (std::size_t k = begin; k < end; ++k) box.extend(state.position(k, measure));
+    for (std::size_t k = begin; k < end; ++k) box.extend(state.position(k, units));
   });
   Box all;
   for (const Box& box : boxes)
@@ -35,24 +35,24 @@ Box box_of(const BlockState<Real>& state, const Measure& measure, std::size_t gr
 }  // namespace
 
 template <class Real>
-void ListStepper<Real>::choose_carriers(const Pose& pose) {
-  carriers_.choose(*body_, pose, state_, measure_, {id_.data() + block, caller_.size()});
-  carrier_slots_ = carrier_slots<Real>(carriers_.of_particles());
-  place_carriers(pose);
+void ListStepper<Real>::choose_comoving_frames(const Pose& pose) {
+  comoving_frames_.choose(*body_, pose, state_, units_, {id_.data() + block, caller_.size()});
+  frame_slots_ = frame_slots<Real>(comoving_frames_.of_particles());
+  place_comoving_frames(pose);
 }
 
 template <class Real>
 void ListStepper<Real>::keep_lists_true(const Pose& pose) {
   const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
-  const bool anew = remeasure();
+  const bool anew = change_units();
   if (must_look_at_order()) {
     rebuild(pose);
-    if (lists_.mean_of_wide() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
+    if (lists_.mean_of_outer() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
     return;
   }
   if (anew || !lists_.made()) return rebuild(pose);
-  place_carriers(pose);
-  if (fastest && !lists_.follow(riders(), *fastest)) rebuild(pose);
+  place_comoving_frames(pose);
+  if (fastest && !lists_.follow(particles(), *fastest)) rebuild(pose);
 }
 
 /// A second look before the same step, as in a run resumed there, would change nothing.
@@ -67,9 +67,9 @@ template <class Real>
 bool ListStepper<Real>::sort() {
   Stopwatch watch;
   const auto order =
-      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / measure_.length);
+      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / units_.length);
   reorder(state_, order, next_);
-  const double sorted = lists_.wide_of(next_, measure_).mean(), unsorted = lists_.mean_of_wide();
+  const double sorted = lists_.outer_of(next_, units_).mean(), unsorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   sorting_ += watch.lap();
   if (sorted > 0.95 * unsorted) return false;
@@ -88,22 +88,22 @@ bool ListStepper<Real>::sort() {
   return true;
 }
 
-/// Takes a new measure where the body may have come to the end of the present one's range, and has.
+/// Takes a new units where the body may have come to the end of the present one's range, and has.
 /// When that is looked at follows from the bones' motion alone: lists differ in a run that is
 /// resumed.
 template <class Real>
-bool ListStepper<Real>::remeasure() {
-  if (sizeof(Real) == 8 || travelled_ <= free_travel<Real>(measure_)) return false;
+bool ListStepper<Real>::change_units() {
+  if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
   const std::size_t n = caller_.size();
-  measured_box_ = box_of(state_, measure_, particles_per_thread);
-  travelled_ = 0;
-  if (sinew::serves<Real>(measure_, measured_box_)) return false;
-  const Measure before = std::exchange(
-      measure_, measure_for<Real>(measured_box_, body_->material.pair, stepping_.step));
+  units_box_ = box_of(state_, units_, particles_per_thread);
+  traveled_ = 0;
+  if (sinew::serves<Real>(units_, units_box_)) return false;
+  const Units before = std::exchange(
+      units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      state_.set_velocity(k, state_.velocity(k, before), measure_);
-      state_.set_position(k, state_.position(k, before), measure_);
+      state_.set_velocity(k, state_.velocity(k, before), units_);
+      state_.set_position(k, state_.position(k, before), units_);
     }
   });
   find_slots();
@@ -115,9 +115,9 @@ template <class Real>
 double ListStepper<Real>::travel_of_step(const Pose& pose) const {
   double fastest = 0;
   for (const BonePose& bone : pose) {
-    const double spread = bone.angular_velocity.norm() * travelled_;
-    for (int corner = 0; corner < 8 && !measured_box_.isEmpty(); ++corner) {
-      const Vec3 at = measured_box_.corner(static_cast<Box::CornerType>(corner));
+    const double spread = bone.angular_velocity.norm() * traveled_;
+    for (int corner = 0; corner < 8 && !units_box_.isEmpty(); ++corner) {
+      const Vec3 at = units_box_.corner(static_cast<Box::CornerType>(corner));
       fastest = std::max(fastest, bone.velocity_at(at).norm() + spread);
     }
   }
@@ -127,8 +127,8 @@ double ListStepper<Real>::travel_of_step(const Pose& pose) const {
 template <class Real>
 void ListStepper<Real>::rebuild(const Pose& pose) {
   place_bones(pose);
-  choose_carriers(pose);
-  lists_.make(riders());
+  choose_comoving_frames(pose);
+  lists_.make(particles());
 }
 
 template void ListStepper<double>::keep_lists_true(const Pose& pose);

@@ -48,7 +48,7 @@ Columns columns_of(const std::array<Coord*, 3>& x, std::size_t count, double edg
   columns.along = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
   columns.across = {(columns.along + 1) % 3, (columns.along + 2) % 3};
   columns.edge = edge;
-  const double most = 2.0 * static_cast<double>(count) + 1024;  // a stray particle far away
+  const double most = 2.0 * static_cast<double>(count) + 1024;  // a escaped particle particle far away
   const auto along = [&](int side) {
     return std::floor(size[columns.across[side]] / columns.edge) + 1;
   };
@@ -176,7 +176,7 @@ std::int32_t* room_for(OffsetLists& part, std::size_t used, std::int64_t count) 
 }
 
 template <class Real>
-kernel::Sieve<Real> sieve_of(BlockState<Real>& state, double range) {
+kernel::PruneInput<Real> prune_input(BlockState<Real>& state, double range) {
   return {state.arrays(), static_cast<Real>(range * range)};
 }
 
@@ -212,18 +212,18 @@ bool within(const std::array<float, 6>& a, const std::array<float, 6>& b, float 
 /// differences.
 class Runs {
  public:
-  template <class Sift>
-  void add(std::uint32_t block, Sift&& sift) {
+  template <class Prune>
+  void add(std::uint32_t block, Prune&& prune) {
     if (end_ == block && begin_ != end_) {
       ++end_;
       return;
     }
-    flush(sift);
+    flush(prune);
     begin_ = block, end_ = block + 1;
   }
-  template <class Sift>
-  void flush(Sift&& sift) {
-    if (begin_ != end_) sift(begin_, end_);
+  template <class Prune>
+  void flush(Prune&& prune) {
+    if (begin_ != end_) prune(begin_, end_);
     begin_ = end_ = 0;
   }
 
@@ -278,7 +278,7 @@ template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          const BlockCells& cells, double range) {
   constexpr std::int64_t size = BlockState<Real>::block;
-  const auto sieve = sieve_of(state, range);
+  const auto input = prune_input(state, range);
   const auto boxes = boxes_of(state);
   const auto reach = static_cast<float>(range * (1 + 1e-6));
   Finders finders(cells);
@@ -286,18 +286,18 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
     auto finder = finders.take();
     std::size_t used = 0;
     for (std::size_t block = begin; block < end; ++block) {
-      const auto sift = [&](std::uint32_t from, std::uint32_t to) {
+      const auto prune = [&](std::uint32_t from, std::uint32_t to) {
         const auto here = static_cast<std::int64_t>(block);
         const std::int64_t low = (from - here) * size - (size - 1);
         const std::int64_t high = (to - here) * size;
         std::int32_t* kept = room_for(part, used, high - low);
-        used = kernel.sift_range(sieve, block, low, high, kept) - part.value.data();
+        used = kernel.prune_range(input, block, low, high, kept) - part.value.data();
       };
       Runs runs;
       finder->for_each_around(block, [&](std::uint32_t other) {
-        if (within(boxes[block], boxes[other], reach)) runs.add(other, sift);
+        if (within(boxes[block], boxes[other], reach)) runs.add(other, prune);
       });
-      runs.flush(sift);
+      runs.flush(prune);
       part.first.push_back(static_cast<std::uint32_t>(used));
     }
     part.value.resize(used);
@@ -306,14 +306,14 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 }
 
 template <class Real>
-OffsetLists sift_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
+OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          const OffsetLists& wider, double range) {
-  const auto sieve = sieve_of(state, range);
+  const auto input = prune_input(state, range);
   return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
     part.value.resize(wider.first[end] - wider.first[begin] + 1);
     std::int32_t* kept = part.value.data();
     for (std::size_t block = begin; block < end; ++block) {
-      kept = kernel.sift(sieve, block, wider.value.data() + wider.first[block],
+      kept = kernel.prune(input, block, wider.value.data() + wider.first[block],
                          wider.value.data() + wider.first[block + 1], kept);
       part.first.push_back(static_cast<std::uint32_t>(kept - part.value.data()));
     }
@@ -325,9 +325,9 @@ template OffsetLists find_offsets(const kernel::Functions<double>&, BlockState<d
                                   const BlockCells&, double);
 template OffsetLists find_offsets(const kernel::Functions<float>&, BlockState<float>&,
                                   const BlockCells&, double);
-template OffsetLists sift_offsets(const kernel::Functions<double>&, BlockState<double>&,
+template OffsetLists prune_offsets(const kernel::Functions<double>&, BlockState<double>&,
                                   const OffsetLists&, double);
-template OffsetLists sift_offsets(const kernel::Functions<float>&, BlockState<float>&,
+template OffsetLists prune_offsets(const kernel::Functions<float>&, BlockState<float>&,
                                   const OffsetLists&, double);
 
 }  // namespace sinew

@@ -56,7 +56,7 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 
 /// Those among `wider` that have a pair closer than `range`.
 template <class Real>
-OffsetLists sift_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
+OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          const OffsetLists& wider, double range);
 
 }  // namespace sinew

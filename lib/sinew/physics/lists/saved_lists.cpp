@@ -12,7 +12,7 @@ void ListStepper<Real>::save(SimulationState& state) const {
   state.moving = state_.columns();
   state.kicked = kicked_;
   state.order = caller_;
-  state.whole_numbers = {measure_.length, measure_.origin, measured_box_, travelled_};
+  state.whole_numbers = {units_.length, units_.origin, units_box_, traveled_};
   state.mean_when_sorted = mean_when_sorted_;
 }
 
@@ -24,7 +24,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   check_moving(*moving, caller_.size());
   if (!state.rest_length.empty()) throw not_a_state("it has bonds");
   restore_order(state.order);
-  restore_measure(state.whole_numbers);
+  restore_units(state.whole_numbers);
   state_.set_columns(*moving);
   next_ = state_;
   find_slots();
@@ -33,7 +33,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   steps_ = state.steps;
   order_looked_at_ = -1;
   fastest_.reset();
-  lists_ = PartnerLists<Real>(kernel_, body_->material.pair, stepping_.step);
+  lists_ = VerletLists<Real>(kernel_, body_->material.pair, stepping_.step);
 }
 
 /// `order` names each particle's place in the caller's order once.
@@ -53,15 +53,15 @@ void ListStepper<Real>::restore_order(const std::vector<std::uint32_t>& order) {
 }
 
 template <class Real>
-void ListStepper<Real>::restore_measure(const WholeNumbers& saved) {
+void ListStepper<Real>::restore_units(const WholeNumbers& saved) {
   const bool sane = saved.length > 0 && std::isfinite(saved.length) && saved.origin.allFinite() &&
                     saved.box.min().allFinite() && saved.box.max().allFinite() &&
-                    saved.travelled >= 0 && std::isfinite(saved.travelled);
-  if (!sane) throw not_a_state("its measure is none");
-  measure_.length = saved.length;
-  measure_.origin = saved.origin;
-  measured_box_ = saved.box;
-  travelled_ = saved.travelled;
+                    saved.traveled >= 0 && std::isfinite(saved.traveled);
+  if (!sane) throw not_a_state("its units is none");
+  units_.length = saved.length;
+  units_.origin = saved.origin;
+  units_box_ = saved.box;
+  traveled_ = saved.traveled;
 }
 
 template void ListStepper<double>::save(SimulationState& state) const;

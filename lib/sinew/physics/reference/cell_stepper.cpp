@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t particles_per_piece = 512;
 
 std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
-  if (!remembers_neighbours(body.material)) return std::nullopt;
+  if (!remembers_neighbors(body.material)) return std::nullopt;
   Points rest;
   rest.reserve(particles.size());
   for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
@@ -216,7 +216,7 @@ Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   forces.damping = forces_.damping;
   forces.bone = forces_.bone;
   forces.world = forces_.world;
-  forces.neighbours = forces_.neighbours;
+  forces.neighbors = forces_.neighbors;
   return {now.power,         now.lost,
           stored_in_pairs(), bone_energy(particles_, *body_, pose),
           now.world_power,   world_.contact_energy,

@@ -53,7 +53,7 @@ class CellStepper {
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
   Particles particles_;
-  std::optional<Solid> solid_;  ///< of materials that remember who was whose neighbour
+  std::optional<Solid> solid_;  ///< of materials that remember who was whose neighbor
   Forces forces_;
   MovingInDouble before_;  ///< the step
   double time_ = 0;

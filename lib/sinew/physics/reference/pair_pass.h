@@ -57,7 +57,7 @@ double sum_over_particles(std::size_t particles, Value&& value) {
 }
 
 /// push(i, j, d) is the force along a pair at distance d (N; positive repels). Fills pair, damping
-/// and neighbours.
+/// and neighbors.
 template <class Push>
 void pair_pass(const Particles& particles, const Material& material, const Push& push,
                Forces& forces);
@@ -72,7 +72,7 @@ void pair_pass(const Particles& particles, const Material& material, const Push&
                Forces& forces) {
   forces.pair.resize(particles.size());
   forces.damping.resize(particles.size());
-  forces.neighbours.resize(particles.size());
+  forces.neighbors.resize(particles.size());
   const CellGrid cells = cells_of(particles, material.pair.b);
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 force = Vec3::Zero(), velocities = Vec3::Zero();
@@ -84,7 +84,7 @@ void pair_pass(const Particles& particles, const Material& material, const Push&
                        ++count;
                      });
     forces.pair[i] = force;
-    forces.neighbours[i] = count;
+    forces.neighbors[i] = count;
     forces.damping[i] = Vec3::Zero();
     if (count > 0 && material.damping > 0)  // towards the partners' mean velocity
       forces.damping[i] = -material.damping * (particles.velocity(i) - velocities / count);

@@ -138,7 +138,7 @@ FibreEnergy energy_of(const Muscles& all, const Activations& activations,
   return sum;
 }
 
-/// (M_i + M_j) X_ij over the neighbours: what i pulls itself with, and what each of them pulls i
+/// (M_i + M_j) X_ij over the neighbors: what i pulls itself with, and what each of them pulls i
 /// with.
 Vec3 force_on(const Muscles& all, const std::vector<Mat3>& by_offset, std::uint32_t i) {
   const auto of = [&](std::uint32_t p) {
@@ -146,7 +146,7 @@ Vec3 force_on(const Muscles& all, const std::vector<Mat3>& by_offset, std::uint3
   };
   const Mat3* own = of(i);
   Vec3 force = Vec3::Zero();
-  for (const auto j : all.rest.neighbours.of(i)) {
+  for (const auto j : all.rest.neighbors.of(i)) {
     const Mat3* other = of(j);
     if (!own && !other) continue;
     const Vec3 offset = all.rest.points[j] - all.rest.points[i];
@@ -157,7 +157,7 @@ Vec3 force_on(const Muscles& all, const std::vector<Mat3>& by_offset, std::uint3
   return force;
 }
 
-/// |dU/dx| of one particle's fibres is V0 S |c|: c_j = (A^-1 t0).X_ij for a neighbour, and minus
+/// |dU/dx| of one particle's fibres is V0 S |c|: c_j = (A^-1 t0).X_ij for a neighbor, and minus
 /// their sum for the particle itself.
 struct Coefficients {
   double own = 0, all = 0;  ///< |sum c|; that and sum |c|
@@ -165,7 +165,7 @@ struct Coefficients {
 
 Coefficients coefficients(const RestShape& rest, std::size_t i, const Vec3& covector) {
   double sum = 0, magnitudes = 0;
-  for (const auto j : rest.neighbours.of(i)) {
+  for (const auto j : rest.neighbors.of(i)) {
     const double c = covector.dot(rest.points[j] - rest.points[i]);
     sum += c;
     magnitudes += std::abs(c);
@@ -183,7 +183,7 @@ void add_rows(const Muscles& all, std::size_t row, std::vector<double>& sums) {
     const double scale =
         std::abs(muscle.strength) * muscle.activation.largest() * all.fibres[k].weight * c.all;
     sums[i] += scale * c.own;
-    for (const auto j : all.rest.neighbours.of(i))
+    for (const auto j : all.rest.neighbors.of(i))
       sums[j] += scale * std::abs(covector.dot(all.rest.points[j] - all.rest.points[i]));
   }
 }
@@ -214,7 +214,7 @@ Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles) {
     muscle.direction.normalize();
   }
   Muscles all;
-  all.rest = rest_shape(std::move(rest), rest_neighbour_range(radius));
+  all.rest = rest_shape(std::move(rest), rest_neighbor_range(radius));
   all.muscles = std::move(muscles);
   sort_fibres(all);
   return all;

@@ -2,14 +2,14 @@
 // Muscles: fibres in the body that pull along their own direction, as an active stress.
 //
 // A fibre lies along t0 (unit) at rest and along F t0 in the deformed body, F the least-squares
-// deformation gradient over the rest neighbours. At activation a in [0, 1] and strength S (Pa) the
+// deformation gradient over the rest neighbors. At activation a in [0, 1] and strength S (Pa) the
 // Kirchhoff stress (force per area times J, what the virial formula with the volume at rest gives)
 // is a S t t^T, t = F t0 / |F t0|. It comes from the potential, per particle of volume V0,
 //   U = a S V0 w ln(lambda),  lambda = |F t0|,
-//   force on neighbour j: -V0 P A^-1 X_ij, the opposite on i,  P = a S w (F t0) t0^T / lambda^2,
+//   force on neighbor j: -V0 P A^-1 X_ij, the opposite on i,  P = a S w (F t0) t0^T / lambda^2,
 // with A = sum X X^T at rest and w the particle's share. P F^T is symmetric, so momentum and
 // angular momentum are kept. Below lambda = 1/2 lambda^2 is held at 1/4 and U continued smoothly: a
-// crushed fibre loses its pull instead of gaining without end. Particles whose neighbours at rest
+// crushed fibre loses its pull instead of gaining without end. Particles whose neighbors at rest
 // lie in a plane have no F, and no fibres.
 #pragma once
 

@@ -39,12 +39,12 @@ ObstacleMotion still(const RigidFrame& frame) {
 
 ObstacleMotion riding(int bone, const Bone& rest, const RigidFrame& frame) {
   return [bone, rest = rest.rest, frame](double, const Pose& bones) {
-    const BonePose& carrier = bones.at(static_cast<std::size_t>(bone));
+    const BonePose& comoving_frame = bones.at(static_cast<std::size_t>(bone));
     ObstaclePose pose;
-    pose.frame.origin = carried(frame.origin, rest, carrier.frame);
-    pose.frame.rotation = carrier.turn * frame.rotation;
-    pose.velocity = carrier.velocity_at(pose.frame.origin);
-    pose.angular_velocity = carrier.angular_velocity;
+    pose.frame.origin = carried(frame.origin, rest, comoving_frame.frame);
+    pose.frame.rotation = comoving_frame.turn * frame.rotation;
+    pose.velocity = comoving_frame.velocity_at(pose.frame.origin);
+    pose.angular_velocity = comoving_frame.angular_velocity;
     return pose;
   };
 }

@@ -2,8 +2,8 @@
 // Solids that push particles out: a spring along the normal, damping of the approach, and dry
 // friction.
 //
-// A particle of radius r whose centre is nearer than r to the surface (d < r, however deep inside)
-// feels, with the velocity v relative to the obstacle's point at its centre, n the outward normal:
+// A particle of radius r whose center is nearer than r to the surface (d < r, however deep inside)
+// feels, with the velocity v relative to the obstacle's point at its center, n the outward normal:
 //   f_n = k (r - d) + c max(0, -v.n)       never pulls
 //   f_t = -min(mu f_n / |v_t|, s) v_t      Coulomb's law, made regular
 // A damping s (kg/s, "stick") makes sliding below the speed mu f_n / s viscous: the force depends

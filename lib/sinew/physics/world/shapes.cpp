@@ -27,7 +27,7 @@ SignedDistance distance_to(const PlaneShape& plane, const Vec3& point) {
 }
 
 SignedDistance distance_to(const SphereShape& sphere, const Vec3& point) {
-  return from_point(point - sphere.centre, sphere.radius, Vec3::UnitZ());
+  return from_point(point - sphere.center, sphere.radius, Vec3::UnitZ());
 }
 
 SignedDistance distance_to(const CapsuleShape& capsule, const Vec3& point) {
@@ -50,7 +50,7 @@ SignedDistance inside_box(const BoxShape& box, const Vec3& local) {
 }
 
 SignedDistance distance_to(const BoxShape& box, const Vec3& point) {
-  const Vec3 local = box.rotation.transpose() * (point - box.centre);
+  const Vec3 local = box.rotation.transpose() * (point - box.center);
   const Vec3 offset = local - local.cwiseMax(-box.half).cwiseMin(box.half);
   if (offset.isZero(0)) return inside_box(box, local);
   const double distance = offset.norm();
@@ -82,7 +82,7 @@ void check_solid(const PlaneShape& plane, const std::string& what) {
 }
 
 void check_solid(const SphereShape& sphere, const std::string& what) {
-  check_place(sphere.centre, what);
+  check_place(sphere.center, what);
   check_size(sphere.radius, what, "radius");
 }
 
@@ -93,7 +93,7 @@ void check_solid(const CapsuleShape& capsule, const std::string& what) {
 }
 
 void check_solid(const BoxShape& box, const std::string& what) {
-  check_place(box.centre, what);
+  check_place(box.center, what);
   for (const double half : box.half) check_size(half, what, "half edge");
   const Mat3 product = box.rotation.transpose() * box.rotation;
   require((product - Mat3::Identity()).cwiseAbs().maxCoeff() < square_enough, what,
@@ -169,7 +169,7 @@ Triangles rounded(const Vec3& a, const Vec3& b, double radius) {
 }
 
 Triangles surface_of(const SphereShape& ball, double) {
-  return rounded(ball.centre, ball.centre, ball.radius);
+  return rounded(ball.center, ball.center, ball.radius);
 }
 
 Triangles surface_of(const CapsuleShape& capsule, double) {
@@ -180,7 +180,7 @@ Triangles surface_of(const BoxShape& box, double) {
   Triangles surface;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    surface.points.push_back(box.centre + box.rotation * sign.cwiseProduct(box.half));
+    surface.points.push_back(box.center + box.rotation * sign.cwiseProduct(box.half));
   }
   surface.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};

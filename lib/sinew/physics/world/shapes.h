@@ -29,7 +29,7 @@ struct PlaneShape {
 };
 
 struct SphereShape {
-  Vec3 centre = Vec3::Zero();  ///< m
+  Vec3 center = Vec3::Zero();  ///< m
   double radius = 1;           ///< m, > 0
 };
 
@@ -40,7 +40,7 @@ struct CapsuleShape {
 };
 
 struct BoxShape {
-  Vec3 centre = Vec3::Zero();        ///< m
+  Vec3 center = Vec3::Zero();        ///< m
   Vec3 half = Vec3::Ones();          ///< half the edges, m, > 0
   Mat3 rotation = Mat3::Identity();  ///< columns are the box's axes
 };

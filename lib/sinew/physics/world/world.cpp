@@ -26,8 +26,8 @@ void resize(WorldForces& forces, std::size_t n) {
   forces.losing_power.assign(n, 0.0);
 }
 
-/// Books a force on particle i whose source moves at `velocity` there; `losing` is part of it.
-void book(WorldForces& forces, std::size_t i, const Vec3& force, const Vec3& losing,
+/// Ledgers a force on particle i whose source moves at `velocity` there; `losing` is part of it.
+void ledger(WorldForces& forces, std::size_t i, const Vec3& force, const Vec3& losing,
           const Vec3& velocity) {
   forces.losing[i] += losing;
   forces.power[i] += force.dot(velocity);
@@ -39,7 +39,7 @@ void add_contact(const Particles& particles, std::size_t i, const ObstaclePose& 
                  const Vec3& force, const Vec3& losing, WorldForces& forces, Reaction& reaction) {
   const Vec3 position = particles.position(i);
   forces.contact[i] += force;
-  book(forces, i, force, losing, pose.velocity_at(position));
+  ledger(forces, i, force, losing, pose.velocity_at(position));
   reaction.force -= force;
   reaction.moment -= (position - pose.frame.origin).cross(force);
 }
@@ -81,7 +81,7 @@ void add_stopping(const Particles& particles, const World& world, const WorldNow
 void add_drag(const Particles& particles, const Drag& drag, std::size_t i, WorldForces& forces) {
   if (drag.rate == 0) return;
   forces.drag[i] = -drag.rate * particles.mass * (particles.velocity(i) - drag.velocity);
-  book(forces, i, forces.drag[i], forces.drag[i], drag.velocity);
+  ledger(forces, i, forces.drag[i], forces.drag[i], drag.velocity);
 }
 
 void add_fields(const Particles& particles, const World& world, const WorldNow& now, std::size_t i,

@@ -33,7 +33,7 @@ struct WorldNow {
 
 WorldNow world_at(const World& world, double time, const Pose& pose);
 
-/// Forces in the order of the particles (N), with what a book of the energy needs.
+/// Forces in the order of the particles (N), with what a ledger of the energy needs.
 struct WorldForces {
   Points contact, drag, field, muscle;
   /// The part of contact and drag that loses energy: damping, friction and drag.
@@ -67,7 +67,7 @@ struct WorldPowers {
 };
 
 /// Powers of `forces` while the particles move at `velocities` (n x 3, m/s, in the order of the
-/// particles; a book passes those of mid-step, which differ from those the forces had). Kinetic and
+/// particles; a ledger passes those of mid-step, which differ from those the forces had). Kinetic and
 /// contact energy grow by obstacles + fields + muscles - lost. Who counts muscle_energy.stored as
 /// energy of the body counts muscle_energy.power instead of muscles.
 WorldPowers world_powers(const WorldForces& forces, const Points& velocities);

@@ -60,7 +60,7 @@ enum class BvhPositions {
 
 struct BvhOptions {
   std::string name = "clip";  ///< of the clip
-  double scale = 1;           ///< metres per unit of the file
+  double scale = 1;           ///< meters per unit of the file
   std::string up = "y";       ///< the file's direction that becomes the scene's z: "x", "-x", ...
   std::string forward = "z";  ///< the file's direction that becomes the scene's x
   int start = 0;              ///< first frame, counted from 0; it gets time 0

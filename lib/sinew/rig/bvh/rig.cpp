@@ -40,7 +40,7 @@ Mat3 axes_of(const BvhOptions& options) {
 void check_numbers(const BvhOptions& options) {
   if (!(options.scale > 0 && options.scale <= largest_scale))
     throw bad_input("a scale of " + number_text(options.scale),
-                    "give the metres per unit of the file, above 0: 0.01 for centimetres");
+                    "give the meters per unit of the file, above 0: 0.01 for centimeters");
   if (!(options.rate >= 0 && std::isfinite(options.rate)))
     throw bad_input("a rate of " + number_text(options.rate) + " keys per second",
                     "give one above 0, or 0 for the file's own");
@@ -58,7 +58,7 @@ Frames frames_of(const Bvh& bvh, const BvhOptions& options) {
   return {options.start, last - options.start + 1};
 }
 
-/// The file's numbers as the scene's: metres, its directions, quaternions.
+/// The file's numbers as the scene's: meters, its directions, quaternions.
 class Reading {
  public:
   Reading(const Bvh& bvh, const BvhOptions& options)
@@ -116,7 +116,7 @@ std::vector<Joint> joints_of(const Bvh& bvh, const Reading& reading) {
   return joints;
 }
 
-/// Neighbours on the same side of the sphere: q and -q are one rotation, and two ways to it.
+/// Neighbors on the same side of the sphere: q and -q are one rotation, and two ways to it.
 void choose_short_ways(std::vector<Quat>& rotations) {
   for (std::size_t i = 1; i < rotations.size(); ++i)
     if (rotations[i].dot(rotations[i - 1]) < 0) rotations[i].coeffs() *= -1;

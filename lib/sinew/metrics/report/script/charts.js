@@ -29,9 +29,9 @@ function angleSet() {
 }
 
 function paint(chart) {
-  const [ink, quiet, rule] = ["--ink", "--quiet", "--rule"].map(colourOf);
+  const [ink, quiet, rule] = ["--ink", "--quiet", "--rule"].map(colorOf);
   for (const set of chart.data.datasets) {
-    const own = set.slot === "angle" ? quiet : colourOf(`--c${set.slot + 1}`);
+    const own = set.slot === "angle" ? quiet : colorOf(`--c${set.slot + 1}`);
     Object.assign(set, { borderColor: own, pointBackgroundColor: own,
       backgroundColor: set.slot === "angle" ? `${quiet}40` : own });
   }
@@ -39,7 +39,7 @@ function paint(chart) {
     scale.ticks.color = scale.title.color = quiet;
     scale.grid.color = scale.grid.borderColor = rule;
   }
-  Object.assign(chart.options.plugins.tooltip, { backgroundColor: colourOf("--card"),
+  Object.assign(chart.options.plugins.tooltip, { backgroundColor: colorOf("--card"),
     titleColor: ink, bodyColor: ink, borderColor: rule, borderWidth: 1 });
   chart.update("none");
 }
@@ -52,12 +52,12 @@ const marks = {
     ctx.save();
     if (marked.time !== null && chart.ofTime) {
       const x = scales.x.getPixelForValue(marked.time);
-      ctx.fillStyle = colourOf("--ink");
+      ctx.fillStyle = colorOf("--ink");
       if (x >= area.left && x <= area.right) ctx.fillRect(x - 0.5, area.top, 1, area.height);
     }
     if (chart.dragged) {
       const [from, to] = chart.dragged;
-      ctx.fillStyle = `${colourOf("--c1")}30`;
+      ctx.fillStyle = `${colorOf("--c1")}30`;
       ctx.fillRect(Math.min(from, to), area.top, Math.abs(to - from), area.height);
     }
     ctx.restore();
@@ -168,7 +168,7 @@ function curveChart(figure, curve) {
   const settings = options({ x: { ...plainScale(curve.across), type: "linear" },
     y: plainScale(curve.up) });
   settings.plugins.legend = { display: curve.lines.length > 1,
-    labels: { boxHeight: 0, color: colourOf("--quiet") } };
+    labels: { boxHeight: 0, color: colorOf("--quiet") } };
   settings.plugins.tooltip.callbacks = { title: (items) => readable(items[0].parsed.x),
     label: (item) => ` ${item.dataset.label}: ${readable(item.parsed.y)}` };
   return new Chart(canvasIn(figure, curve.title),

@@ -6,21 +6,21 @@ const data = JSON.parse(document.getElementById("data").textContent);
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-/** Film arrays as typed arrays; places in metres from the middle of the film's cube. */
-function unpackedFilm(film) {
+/** Playback arrays as typed arrays; places in meters from the middle of the playback's cube. */
+function unpackedPlayback(playback) {
   const places = (text) => {
     const whole = new Uint16Array(bytesOf(text).buffer);
-    return Float32Array.from(whole, (q) => (q / 65535 - 0.5) * film.edge);
+    return Float32Array.from(whole, (q) => (q / 65535 - 0.5) * playback.edge);
   };
   return {
-    ...film,
-    particles: places(film.particles),
-    surface: places(film.surface),
-    bones: places(film.bones),
-    bone: new Int16Array(bytesOf(film.bone).buffer),
-    ids: new Uint32Array(bytesOf(film.ids).buffer),
-    corners: new Uint32Array(bytesOf(film.corners).buffer),
-    fields: film.fields.map((field) => ({ ...field, levels: bytesOf(field.levels) })),
+    ...playback,
+    particles: places(playback.particles),
+    surface: places(playback.surface),
+    bones: places(playback.bones),
+    bone: new Int16Array(bytesOf(playback.bone).buffer),
+    ids: new Uint32Array(bytesOf(playback.ids).buffer),
+    corners: new Uint32Array(bytesOf(playback.corners).buffer),
+    fields: playback.fields.map((field) => ({ ...field, levels: bytesOf(field.levels) })),
   };
 }
 
@@ -30,7 +30,7 @@ function readable(value) {
   return String(Number(Number(value).toPrecision(4))).replace("-", "−");
 }
 
-const colourOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const colorOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 const whenDarkChanges = (job) =>
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", job);

@@ -13,10 +13,10 @@ function sayWithout(reason) {
 function begin() {
   document.documentElement.classList.add("scripted");
   const charts = drawCharts();
-  let film = null;
-  if (data.film)
+  let playback = null;
+  if (data.playback)
     try {
-      film = startFilm(data.film);
+      playback = startPlayback(data.playback);
     } catch (error) {
       sayWithout(error.message);
     }
@@ -24,12 +24,12 @@ function begin() {
     charts: charts.length,
     timeRange: timeCharts.length ? [timeCharts[0].scales.x.min, timeCharts[0].scales.x.max] : null,
     heights: timeCharts.map((chart) => [chart.scales.y.min, chart.scales.y.max]),
-    webgl: film !== null,
-    shot: film?.player.shot ?? null,
-    places: film ? [...film.view.spheres.geometry.attributes.position.array] : [],
-    tints: film ? [...film.view.spheres.geometry.attributes.tint.array] : [],
-    triangles: film?.view.renderer.info.render.triangles ?? 0,
-    points: film?.view.renderer.info.render.points ?? 0,
+    webgl: playback !== null,
+    snapshot: playback?.player.snapshot ?? null,
+    places: playback ? [...playback.view.spheres.geometry.attributes.position.array] : [],
+    tints: playback ? [...playback.view.spheres.geometry.attributes.tint.array] : [],
+    triangles: playback?.view.renderer.info.render.triangles ?? 0,
+    points: playback?.view.renderer.info.render.points ?? 0,
   });
 }
 

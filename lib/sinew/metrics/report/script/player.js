@@ -1,51 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The controls beneath the 3D view: time, colour, parts, and the worst frames.
+// The controls beneath the 3D view: time, color, parts, and the worst frames.
 "use strict";
 
 const byId = (id) => document.getElementById(id);
 
-function fillFields(film) {
-  const options = film.fields.map((field, i) =>
+function fillFields(playback) {
+  const options = playback.fields.map((field, i) =>
     element("option", { value: i, textContent: field.name }));
   byId("field").append(element("option", { value: -1, textContent: "bone it follows" }), ...options);
 }
 
 const mostNames = 12; // bones named beside the view; more would bury it
 
-/** Which colour is which bone. */
-function fillBoneNames(film) {
-  const names = film.boneNames.slice(0, mostNames).map((name, b) => {
-    const colour = boneColours[b % boneColours.length].join(" ");
+/** Which color is which bone. */
+function fillBoneNames(playback) {
+  const names = playback.boneNames.slice(0, mostNames).map((name, b) => {
+    const color = boneColors[b % boneColors.length].join(" ");
     const dot = element("i");
-    dot.style.background = `rgb(${colour})`;
+    dot.style.background = `rgb(${color})`;
     return element("span", {}, [dot, name]);
   });
-  const more = film.boneNames.length - names.length;
+  const more = playback.boneNames.length - names.length;
   if (more > 0) names.push(element("span", { textContent: `and ${more} more` }));
   byId("bone-names").append(...names);
 }
 
-function showScale(film, field) {
+function showScale(playback, field) {
   byId("bone-names").hidden = Boolean(field);
   const [low, bar, high] = byId("scale").children;
   byId("scale").hidden = !field;
   if (!field) return;
-  const stops = viridis.map((colour) => `rgb(${colour.join(" ")})`).join(", ");
+  const stops = viridis.map((color) => `rgb(${color.join(" ")})`).join(", ");
   bar.style.background = `linear-gradient(90deg, ${stops})`;
   low.textContent = readable(field.low);
   high.textContent = `${readable(field.high)} ${field.unit}`.trim();
   byId("scale").title = field.help;
 }
 
-const nearestShot = (film, distance) => film.shots.reduce((best, shot, i) =>
-  distance(shot) < distance(film.shots[best]) ? i : best, 0);
+const nearestSnapshot = (playback, distance) => playback.snapshots.reduce((best, snapshot, i) =>
+  distance(snapshot) < distance(playback.snapshots[best]) ? i : best, 0);
 
-function showWorst(film, go) {
+function showWorst(playback, go) {
   for (const worst of data.worst) {
-    const shot = nearestShot(film, (one) => Math.abs(one.frame - worst.frame));
+    const snapshot = nearestSnapshot(playback, (one) => Math.abs(one.frame - worst.frame));
     const button = element("button", { type: "button", textContent: worst.metric.replace(/_/g, " "),
       title: `frame ${worst.frame}, ${readable(worst.time)} s` });
-    button.addEventListener("click", () => go(shot));
+    button.addEventListener("click", () => go(snapshot));
     byId("worst").append(button);
   }
   byId("worst").hidden = data.worst.length === 0;
@@ -53,61 +53,61 @@ function showWorst(film, go) {
 
 /** The state of the view and the ways to change it. */
 function makePlayer(view) {
-  const { film } = view;
-  const player = { shot: 0, timer: null };
-  const field = () => film.fields[Number(byId("field").value)] ?? null;
+  const { playback } = view;
+  const player = { snapshot: 0, timer: null };
+  const field = () => playback.fields[Number(byId("field").value)] ?? null;
   player.show = () => {
-    const { frame, time } = film.shots[player.shot];
-    byId("time").value = player.shot;
+    const { frame, time } = playback.snapshots[player.snapshot];
+    byId("time").value = player.snapshot;
     byId("clock").textContent = `${time.toFixed(3)} s · frame ${frame}`;
     view.spheres.visible = byId("show-particles").checked;
     view.skin.visible = byId("show-surface").checked;
     for (const bone of view.bones) bone.visible = byId("show-bones").checked;
-    showScale(film, field());
-    showShot(view, { shot: player.shot, field: field(), cut: byId("cut").checked });
+    showScale(playback, field());
+    showSnapshot(view, { snapshot: player.snapshot, field: field(), cut: byId("cut").checked });
     markTime(time);
   };
-  player.go = (shot) => {
-    player.shot = Math.min(Math.max(shot, 0), film.shots.length - 1);
+  player.go = (snapshot) => {
+    player.snapshot = Math.min(Math.max(snapshot, 0), playback.snapshots.length - 1);
     player.show();
   };
   return player;
 }
 
-/** Milliseconds a shot stays, so that the film takes its own time, yet at most ten seconds. */
-function pace(film) {
-  const span = film.shots[film.shots.length - 1].time - film.shots[0].time;
-  return 1000 * Math.min(span, 10) / Math.max(film.shots.length - 1, 1);
+/** Milliseconds a snapshot stays, so that the playback takes its own time, yet at most ten seconds. */
+function pace(playback) {
+  const span = playback.snapshots[playback.snapshots.length - 1].time - playback.snapshots[0].time;
+  return 1000 * Math.min(span, 10) / Math.max(playback.snapshots.length - 1, 1);
 }
 
-function play(player, film) {
+function play(player, playback) {
   const playing = player.timer !== null;
   if (playing) clearInterval(player.timer);
   player.timer = playing ? null : setInterval(
-    () => player.go((player.shot + 1) % film.shots.length), Math.max(pace(film), 16));
+    () => player.go((player.snapshot + 1) % playback.snapshots.length), Math.max(pace(playback), 16));
   byId("play").textContent = playing ? "▶" : "❚❚";
   byId("play").ariaLabel = playing ? "Play" : "Stop";
 }
 
 function connect(player, view) {
-  const { film } = view;
-  byId("time").max = film.shots.length - 1;
+  const { playback } = view;
+  byId("time").max = playback.snapshots.length - 1;
   byId("time").addEventListener("input", () => player.go(Number(byId("time").value)));
-  byId("play").addEventListener("click", () => play(player, film));
+  byId("play").addEventListener("click", () => play(player, playback));
   byId("reset").addEventListener("click", () => aim(view));
   for (const id of ["field", "show-particles", "show-surface", "show-bones", "cut"])
     byId(id).addEventListener("change", player.show);
-  marked.go = (time) => player.go(nearestShot(film, (shot) => Math.abs(shot.time - time)));
+  marked.go = (time) => player.go(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
   whenDarkChanges(player.show);
-  showWorst(film, player.go);
+  showWorst(playback, player.go);
 }
 
-function startFilm(packed) {
-  const film = unpackedFilm(packed);
-  const view = makeView(film, byId("stage"));
+function startPlayback(packed) {
+  const playback = unpackedPlayback(packed);
+  const view = makeView(playback, byId("stage"));
   const player = makePlayer(view);
-  fillFields(film);
-  fillBoneNames(film);
+  fillFields(playback);
+  fillBoneNames(playback);
   connect(player, view);
   player.show();
   return { view, player };

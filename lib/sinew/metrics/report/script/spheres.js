@@ -7,12 +7,12 @@ const sphereVertex = `
   attribute vec3 tint;
   attribute float radius;
   uniform float pixels;
-  varying vec3 colour, centre;
+  varying vec3 color, center;
   varying float size;
   void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
-    colour = tint;
-    centre = seen.xyz;
+    color = tint;
+    center = seen.xyz;
     size = radius;
     gl_Position = projectionMatrix * seen;
     gl_PointSize = max(1.5, radius * projectionMatrix[1][1] * pixels / -seen.z);
@@ -20,7 +20,7 @@ const sphereVertex = `
 
 const sphereFragment = `
   uniform mat4 projectionMatrix;
-  varying vec3 colour, centre;
+  varying vec3 color, center;
   varying float size;
   void main() {
     vec2 at = vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0);
@@ -28,8 +28,8 @@ const sphereFragment = `
     if (outside > 1.0) discard;
     vec3 normal = vec3(at, sqrt(1.0 - outside));
     float light = 0.5 + 0.55 * max(0.0, dot(normal, normalize(vec3(0.35, 0.55, 0.8))));
-    gl_FragColor = vec4(colour * light * (0.75 + 0.25 * normal.z), 1.0);
-    vec4 clip = projectionMatrix * vec4(centre + size * normal, 1.0);
+    gl_FragColor = vec4(color * light * (0.75 + 0.25 * normal.z), 1.0);
+    vec4 clip = projectionMatrix * vec4(center + size * normal, 1.0);
     gl_FragDepthEXT = 0.5 * clip.z / clip.w + 0.5;
   }`;
 
@@ -54,9 +54,9 @@ function makeSpheres(balls) {
 // Viridis (van der Walt and Smith), perceptually uniform, at nine places.
 const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
   [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
-const boneColours = [[70, 130, 190], [217, 119, 66], [80, 160, 110], [150, 100, 180],
+const boneColors = [[70, 130, 190], [217, 119, 66], [80, 160, 110], [150, 100, 180],
   [200, 80, 110], [130, 130, 140], [190, 160, 50], [70, 170, 180]];
-const noColour = [150, 150, 150];
+const noColor = [150, 150, 150];
 
 /** Of a share between 0 and 1, 0 to 255 each. */
 function viridisAt(share) {
@@ -65,5 +65,5 @@ function viridisAt(share) {
   return viridis[low].map((c, k) => c + (at - low) * (viridis[low + 1][k] - c));
 }
 
-const levelColours = Array.from({ length: 256 }, (_, level) =>
-  level === 255 ? noColour : viridisAt(level / 254));
+const levelColors = Array.from({ length: 256 }, (_, level) =>
+  level === 255 ? noColor : viridisAt(level / 254));

@@ -5,16 +5,16 @@
 const away = 1e9; // where particles that are cut away are put, m
 
 /** Throws where the browser has no WebGL. */
-function makeView(film, stage) {
+function makeView(playback, stage) {
   const canvas = stage.querySelector("canvas");
   const context = canvas.getContext("webgl2", { antialias: true }) ||
     canvas.getContext("webgl", { antialias: true });
   if (!context) throw new Error("no WebGL");
   const renderer = new THREE.WebGLRenderer({ canvas, context });
-  const counts = { particles: film.ids.length, points: film.surface.length / 3 / film.shots.length,
-    bones: film.boneNames.length };
-  const view = { film, stage, renderer, counts, scene: new THREE.Scene(),
-    camera: new THREE.PerspectiveCamera(30, 1, film.edge / 100, film.edge * 30) };
+  const counts = { particles: playback.ids.length, points: playback.surface.length / 3 / playback.snapshots.length,
+    bones: playback.boneNames.length };
+  const view = { playback, stage, renderer, counts, scene: new THREE.Scene(),
+    camera: new THREE.PerspectiveCamera(30, 1, playback.edge / 100, playback.edge * 30) };
   view.controls = new THREE.OrbitControls(view.camera, canvas);
   addParts(view);
   aim(view);
@@ -33,16 +33,16 @@ function drawer(view) {
     due = true;
     requestAnimationFrame(() => {
       due = false;
-      view.renderer.setClearColor(colourOf("--stage"));
+      view.renderer.setClearColor(colorOf("--stage"));
       view.renderer.render(view.scene, view.camera);
     });
   };
 }
 
 function addParts(view) {
-  const { film, scene, counts } = view;
-  view.spheres = makeSpheres(film.balls);
-  view.skin = makeSkin(film, counts.points);
+  const { playback, scene, counts } = view;
+  view.spheres = makeSpheres(playback.balls);
+  view.skin = makeSkin(playback, counts.points);
   view.skin.visible = false;
   view.bones = Array.from({ length: counts.bones }, (_, b) => makeBone(b));
   const sun = new THREE.DirectionalLight(0xffffff, 0.75);
@@ -52,10 +52,10 @@ function addParts(view) {
     ...view.bones);
 }
 
-function makeSkin(film, points) {
+function makeSkin(playback, points) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * points), 3));
-  geometry.setIndex(new THREE.BufferAttribute(film.corners, 1));
+  geometry.setIndex(new THREE.BufferAttribute(playback.corners, 1));
   const skin = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xd9a58c,
     side: THREE.DoubleSide, transparent: true, opacity: 0.45, depthWrite: false }));
   skin.frustumCulled = false;
@@ -66,8 +66,8 @@ function makeSkin(film, points) {
 function makeBone(index) {
   const geometry = new THREE.CylinderBufferGeometry(0, 0.07, 0.85, 4).translate(0, 0.575, 0);
   const foot = new THREE.CylinderBufferGeometry(0.07, 0, 0.15, 4).translate(0, 0.075, 0);
-  const colour = new THREE.Color(...boneColours[index % boneColours.length].map((c) => c / 255));
-  const material = new THREE.MeshLambertMaterial({ color: colour, transparent: true, opacity: 0.85,
+  const color = new THREE.Color(...boneColors[index % boneColors.length].map((c) => c / 255));
+  const material = new THREE.MeshLambertMaterial({ color: color, transparent: true, opacity: 0.85,
     depthTest: false, flatShading: true });
   const bone = new THREE.Group();
   for (const part of [geometry, foot]) bone.add(Object.assign(new THREE.Mesh(part, material),
@@ -75,15 +75,15 @@ function makeBone(index) {
   return bone;
 }
 
-/** The camera looks at the whole film from the side it moves in least. */
+/** The camera looks at the whole playback from the side it moves in least. */
 function aim(view) {
-  const { film, camera, controls } = view;
-  const box = new THREE.Box3().setFromArray(film.particles);
+  const { playback, camera, controls } = view;
+  const box = new THREE.Box3().setFromArray(playback.particles);
   const size = box.getSize(new THREE.Vector3());
   const side = size.y <= size.x ? new THREE.Vector3(0.35, -1, 0.25) : new THREE.Vector3(1, -0.35, 0.25);
   box.getCenter(controls.target);
   camera.up.set(0, 0, 1);
-  const reach = size.length() / 2 + Math.max(...film.balls.map(([, radius]) => radius));
+  const reach = size.length() / 2 + Math.max(...playback.balls.map(([, radius]) => radius));
   const wide = Math.min(1, view.stage.clientWidth / view.stage.clientHeight);
   const distance = reach / Math.sin(camera.fov * Math.PI / 360) / wide * 0.92;
   camera.position.copy(controls.target).addScaledVector(side.normalize(), distance);
@@ -101,11 +101,11 @@ function resize(view) {
   view.draw();
 }
 
-const shotOf = (array, count, shot) => array.subarray(3 * count * shot, 3 * count * (shot + 1));
+const snapshotOf = (array, count, snapshot) => array.subarray(3 * count * snapshot, 3 * count * (snapshot + 1));
 
 /** Which particles lie beyond the middle of the body at the start, in the direction seen. */
-function cutAway(film) {
-  const first = shotOf(film.particles, film.ids.length, 0);
+function cutAway(playback) {
+  const first = snapshotOf(playback.particles, playback.ids.length, 0);
   const box = new THREE.Box3().setFromArray(first);
   const size = box.getSize(new THREE.Vector3());
   const axis = size.y <= size.x ? 1 : 0;
@@ -114,26 +114,26 @@ function cutAway(film) {
   return (i) => sign * (first[3 * i + axis] - middle) > 0;
 }
 
-function placeParticles(view, shot, cut) {
+function placeParticles(view, snapshot, cut) {
   const geometry = view.spheres.geometry;
   const places = geometry.attributes.position.array;
-  places.set(shotOf(view.film.particles, view.counts.particles, shot));
+  places.set(snapshotOf(view.playback.particles, view.counts.particles, snapshot));
   if (cut) {
-    const gone = view.gone ?? (view.gone = cutAway(view.film));
+    const gone = view.gone ?? (view.gone = cutAway(view.playback));
     for (let i = 0; i < view.counts.particles; ++i) if (gone(i)) places[3 * i] = away;
   }
   geometry.attributes.position.needsUpdate = true;
 }
 
-function placeSkin(view, shot) {
+function placeSkin(view, snapshot) {
   const geometry = view.skin.geometry;
-  geometry.attributes.position.array.set(shotOf(view.film.surface, view.counts.points, shot));
+  geometry.attributes.position.array.set(snapshotOf(view.playback.surface, view.counts.points, snapshot));
   geometry.attributes.position.needsUpdate = true;
   geometry.computeVertexNormals();
 }
 
-function placeBones(view, shot) {
-  const ends = shotOf(view.film.bones, 2 * view.counts.bones, shot);
+function placeBones(view, snapshot) {
+  const ends = snapshotOf(view.playback.bones, 2 * view.counts.bones, snapshot);
   view.bones.forEach((bone, b) => {
     const head = new THREE.Vector3().fromArray(ends, 6 * b);
     const along = new THREE.Vector3().fromArray(ends, 6 * b + 3).sub(head);
@@ -143,22 +143,22 @@ function placeBones(view, shot) {
   });
 }
 
-/** field: an item of film.fields, or null for the bone each particle follows. */
-function tint(view, shot, field) {
+/** field: an item of playback.fields, or null for the bone each particle follows. */
+function tint(view, snapshot, field) {
   const tints = view.spheres.geometry.attributes.tint;
   const count = view.counts.particles;
   for (let i = 0; i < count; ++i) {
-    const colour = field ? levelColours[field.levels[shot * count + i]]
-      : boneColours[view.film.bone[i] % boneColours.length] ?? noColour;
-    for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = colour[k] / 255;
+    const color = field ? levelColors[field.levels[snapshot * count + i]]
+      : boneColors[view.playback.bone[i] % boneColors.length] ?? noColor;
+    for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = color[k] / 255;
   }
   tints.needsUpdate = true;
 }
 
-function showShot(view, { shot, field, cut }) {
-  placeParticles(view, shot, cut);
-  placeSkin(view, shot);
-  placeBones(view, shot);
-  tint(view, shot, field);
+function showSnapshot(view, { snapshot, field, cut }) {
+  placeParticles(view, snapshot, cut);
+  placeSkin(view, snapshot);
+  placeBones(view, snapshot);
+  tint(view, snapshot, field);
   view.draw();
 }

@@ -5,8 +5,8 @@
 
 #include <sinew/settings/write_scene.h>
 #include <sinew/settings/read_scene.h>
-#include "config/small_scene.h"
-#include "config/temp_folder.h"
+#include "settings/small_scene.h"
+#include "settings/temp_folder.h"
 #include "expect_error.h"
 
 namespace sinew {
@@ -21,7 +21,7 @@ const std::string everything = R"(world:
       friction: 0.4
     - name: ball
       shape: sphere
-      centre: [0, 0, 1]
+      center: [0, 0, 1]
       radius: 0.1
       stiffness: 2
       keys:
@@ -38,7 +38,7 @@ const std::string everything = R"(world:
       bone: lower
     - name: block
       shape: box
-      centre: [1, 2, 3]
+      center: [1, 2, 3]
       size: [1, 1, 2]
       rotation: [0, 45, 0]
       damping: 0
@@ -48,7 +48,7 @@ const std::string everything = R"(world:
   pins:
     - low: [0, 0, 0]
       high: [1, 1, 0.1]
-    - centre: [0, 0, 1]
+    - center: [0, 0, 1]
       radius: 0.2
       bone: lower
   fields:
@@ -144,13 +144,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"  obstacles:\n    - shape: plane\n", ":11:7: world.obstacles[0].name is missing"},
         Mistake{"  obstacles:\n    - name: a\n", ":11:7: world.obstacles[0].shape is missing"},
         Mistake{"  obstacles:\n    - {name: a, shape: cube}\n", "'cube'"},
-        Mistake{"  obstacles:\n    - {name: a, shape: sphere, centre: [0, 0, 0]}\n",
+        Mistake{"  obstacles:\n    - {name: a, shape: sphere, center: [0, 0, 0]}\n",
                 ":11:7: world.obstacles[0].radius is missing, which a sphere needs"},
         Mistake{"  obstacles:\n    - {name: a, shape: capsule, from: [0, 0, 0], radius: 1}\n",
                 "world.obstacles[0].to is missing"},
         Mistake{"  obstacles:\n    - {name: a, shape: box, size: [1, 1, 1]}\n",
-                "world.obstacles[0].centre is missing"},
-        Mistake{"  obstacles:\n    - {name: a, shape: box, centre: [0, 0, 0], size: [1, 0, 1]}\n",
+                "world.obstacles[0].center is missing"},
+        Mistake{"  obstacles:\n    - {name: a, shape: box, center: [0, 0, 0], size: [1, 0, 1]}\n",
                 "a box without size along an axis"},
         Mistake{"  obstacles:\n    - {name: a, shape: mesh}\n", "mesh is missing"},
         Mistake{"  obstacles:\n    - {name: a, shape: plane, normal: [0, 0, 0]}\n",
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"  pins:\n    - low: [0, 0, 0]\n", "world.pins[0] has one corner of a box"},
         Mistake{"  pins:\n    - radius: 2\n", "world.pins[0] has half of a ball"},
         Mistake{"  pins:\n    - {low: [0, 0, 0], high: [1, 0, 1]}\n", "is not below high"},
-        Mistake{"  pins:\n    - {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0]}\n",
+        Mistake{"  pins:\n    - {low: [0, 0, 0], high: [1, 1, 1], center: [0, 0, 0]}\n",
                 "a box and as a ball"},
         Mistake{"  fields:\n    - name: a\n", "world.fields[0].acceleration is missing"},
         Mistake{"  fields:\n    - {name: a, shape: density}\n",

@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-std::string path_of(std::size_t track) { return "motion.tracks[" + std::to_string(track) + "]"; }
+std::string path_of(std::size_t track) { return "tracks[" + std::to_string(track) + "]"; }
 
 std::string path_of(std::size_t track, std::size_t key) {
   return path_of(track) + ".keys[" + std::to_string(key) + "]";
@@ -27,38 +27,38 @@ Quat from_euler(const Vec3& angles, const std::string& order) {
 
 constexpr double largest_rounding = 1e-3;  // of a quaternion's length: more is no rounding
 
-Quat from_quaternion(const std::array<double, 4>& given, const Place& place) {
+Quat from_quaternion(const std::array<double, 4>& given, const std::string& place) {
   const Quat rotation(given[0], given[1], given[2], given[3]);
   const double length = rotation.norm();
   if (!(std::abs(length - 1) <= largest_rounding))
-    throw bad_input(place, "a quaternion of length " + number_text(length) + " is no rotation",
+    throw bad_value(place, "a quaternion of length " + number_text(length) + " is no rotation",
                     "give [w, x, y, z] of length 1");
   return rotation.normalized();
 }
 
-Quat rotation_of(const KeySettings& key, const std::string& order, const Place& place) {
+Quat rotation_of(const KeyDefinition& key, const std::string& order, const std::string& place) {
   const int ways = (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
   if (ways > 1)
-    throw bad_input(place, "a key gives its rotation twice",
+    throw bad_value(place, "a key gives its rotation twice",
                     "keep one of euler, quaternion, and axis and angle");
   if (key.euler) return from_euler(*key.euler, order);
   if (key.quaternion) return from_quaternion(*key.quaternion, place);
   if (key.axis && !key.angle)
-    throw bad_input(place, "an axis without an angle", "give angle: DEGREES");
+    throw bad_value(place, "an axis without an angle", "give angle: DEGREES");
   if (!key.angle) return Quat::Identity();
   if (!key.axis || key.axis->norm() == 0)
-    throw bad_input(place, "an angle without an axis", "give axis: [x, y, z], not all zero");
+    throw bad_value(place, "an angle without an axis", "give axis: [x, y, z], not all zero");
   return Quat(Eigen::AngleAxisd(radians(*key.angle), key.axis->normalized()));
 }
 
 /// Whether a key asks for any rotation; euler angles of 0 do not.
-bool is_turned(const KeySettings& key) {
+bool is_turned(const KeyDefinition& key) {
   const bool by_quaternion = key.quaternion && *key.quaternion != std::array<double, 4>{1, 0, 0, 0};
   return key.angle || by_quaternion || (key.euler && !key.euler->isZero(0));
 }
 
 /// The angle of a key about `axis`, if that is how it is given; no rotation is no angle.
-std::optional<double> angle_about(const Vec3& axis, const KeySettings& key) {
+std::optional<double> angle_about(const Vec3& axis, const KeyDefinition& key) {
   if (!is_turned(key)) return 0;
   if (!key.axis || (key.axis->normalized() - axis).norm() > 1e-12) return std::nullopt;
   return radians(*key.angle);
@@ -66,7 +66,7 @@ std::optional<double> angle_about(const Vec3& axis, const KeySettings& key) {
 
 /// From one key to the next: angles about one axis as they are given, of any size; else the short
 /// way.
-Vec3 turn_between(const KeySettings& from, const KeySettings& to, const Quat& start,
+Vec3 turn_between(const KeyDefinition& from, const KeyDefinition& to, const Quat& start,
                   const Quat& end) {
   const auto given = to.axis ? to.axis : from.axis;
   if (given) {
@@ -77,53 +77,53 @@ Vec3 turn_between(const KeySettings& from, const KeySettings& to, const Quat& st
   return rotation_vector(end * start.conjugate());
 }
 
-void check_order(const TrackSettings& track, const Place& place) {
+void check_order(const TrackDefinition& track, const std::string& place) {
   std::string sorted = track.order;
   std::sort(sorted.begin(), sorted.end());
   if (sorted != "xyz")
-    throw bad_input(place, "'" + track.order + "' is no order of euler angles",
+    throw bad_value(place, "'" + track.order + "' is no order of euler angles",
                     "use xyz, xzy, yxz, yzx, zxy or zyx");
 }
 
-double time_of(const Settings& settings, const KeySettings& key, const std::string& path) {
+double time_of(std::optional<double> frame_rate, const KeyDefinition& key, const std::string& path) {
   if (key.time && key.frame)
-    throw bad_input(settings.place(path + ".frame"), "a key gives its time twice",
+    throw bad_value(path + ".frame", "a key gives its time twice",
                     "keep one of time and frame");
   if (key.time) return *key.time;
   if (!key.frame)
-    throw bad_input(settings.place(path), path + ".time is missing",
+    throw bad_value(path, path + ".time is missing",
                     "add time: SECONDS, or frame: NUMBER");
-  if (!settings.motion.frame_rate)
-    throw bad_input(settings.place(path + ".frame"),
+  if (!frame_rate)
+    throw bad_value(path + ".frame",
                     "a key in frames, and nobody says how many there are in a second",
                     "give motion: frame_rate: as in 30, or time: instead of frame:");
-  return *key.frame / *settings.motion.frame_rate;
+  return *key.frame / *frame_rate;
 }
 
 /// The keys' times, s.
-std::vector<double> times_of(const Settings& settings, std::size_t index) {
+std::vector<double> times_of(const TrackDefinition& track, std::size_t index,
+                             std::optional<double> frame_rate) {
   std::vector<double> times;
-  for (std::size_t i = 0; i < settings.tracks[index].keys.size(); ++i) {
-    const KeySettings& key = settings.tracks[index].keys[i];
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    const KeyDefinition& key = track.keys[i];
     const std::string path = path_of(index, i);
-    const double time = time_of(settings, key, path);
+    const double time = time_of(frame_rate, key, path);
     if (i > 0 && !(time > times.back()))
-      throw bad_input(settings.place(path + (key.frame ? ".frame" : ".time")),
+      throw bad_value(path + (key.frame ? ".frame" : ".time"),
                       "keys are not in ascending time", "sort them, each with its own time");
     times.push_back(time);
   }
   if (times.empty())
-    throw bad_input(settings.place(path_of(index)), "a track without keys",
+    throw bad_value(path_of(index), "a track without keys",
                     "give it keys, or remove it");
   return times;
 }
 
-RotationCurve rotation_curve(const Settings& settings, std::size_t index) {
-  const TrackSettings& track = settings.tracks[index];
+RotationCurve rotation_curve(const TrackDefinition& track, std::size_t index) {
   RotationCurve curve;
   for (std::size_t i = 0; i < track.keys.size(); ++i) {
-    const KeySettings& key = track.keys[i];
-    const Quat rotation = rotation_of(key, track.order, settings.place(path_of(index, i)));
+    const KeyDefinition& key = track.keys[i];
+    const Quat rotation = rotation_of(key, track.order, (path_of(index, i)));
     curve.turns.push_back(
         i > 0 ? turn_between(track.keys[i - 1], key, curve.values.back(), rotation) : Vec3::Zero());
     curve.values.push_back(rotation);
@@ -132,41 +132,41 @@ RotationCurve rotation_curve(const Settings& settings, std::size_t index) {
 }
 
 template <class Value, class Of>
-Curve<Value> curve_of(const TrackSettings& track, Of&& of) {
+Curve<Value> curve_of(const TrackDefinition& track, Of&& of) {
   Curve<Value> curve;
-  for (const KeySettings& key : track.keys) curve.values.push_back(of(key));
+  for (const KeyDefinition& key : track.keys) curve.values.push_back(of(key));
   return curve;
 }
 
-int bone_of(const Settings& settings, std::size_t index, const Skeleton& skeleton,
+int bone_of(const TrackDefinition& track, std::size_t index, const Skeleton& skeleton,
             const Motion& earlier) {
-  const std::string& name = settings.tracks[index].bone;
-  const Place place = settings.place(path_of(index) + ".bone");
+  const std::string& name = track.bone;
+  const std::string place = (path_of(index) + ".bone");
   const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
                                   [&](const Bone& bone) { return bone.name == name; });
   if (found == skeleton.bones.end())
-    throw bad_input(place, "there is no bone '" + name + "'", "use a name from skeleton.bones");
+    throw bad_value(place, "there is no bone '" + name + "'", "use a name from skeleton.bones");
   const int bone = static_cast<int>(found - skeleton.bones.begin());
   for (const Track& track : earlier.tracks)
     if (track.bone == bone)
-      throw bad_input(place, "bone '" + name + "' has two tracks", "put all its keys into one");
+      throw bad_value(place, "bone '" + name + "' has two tracks", "put all its keys into one");
   return bone;
 }
 
 /// Twist, translation and stretch are curves only where a key asks for some.
-Track make_track(const Settings& settings, std::size_t index) {
-  const TrackSettings& given = settings.tracks[index];
-  const std::vector<double> times = times_of(settings, index);
+Track make_track(const TrackDefinition& given, std::size_t index,
+                 std::optional<double> frame_rate) {
+  const std::vector<double> times = times_of(given, index, frame_rate);
   const auto any = [&](auto&& says) {
     return std::any_of(given.keys.begin(), given.keys.end(), says);
   };
   Track track;
-  track.rotation = rotation_curve(settings, index);
-  if (any([](const KeySettings& key) { return key.twist != 0; }))
+  track.rotation = rotation_curve(given, index);
+  if (any([](const KeyDefinition& key) { return key.twist != 0; }))
     track.twist = curve_of<double>(given, [](const auto& key) { return radians(key.twist); });
-  if (any([](const KeySettings& key) { return key.translation != Vec3::Zero(); }))
+  if (any([](const KeyDefinition& key) { return key.translation != Vec3::Zero(); }))
     track.translation = curve_of<Vec3>(given, [](const auto& key) { return key.translation; });
-  if (any([](const KeySettings& key) { return key.stretch != 1; }))
+  if (any([](const KeyDefinition& key) { return key.stretch != 1; }))
     track.stretch = curve_of<double>(given, [](const auto& key) { return key.stretch; });
   const auto finish = [&](auto& curve) {
     curve.interpolation = given.interpolation;
@@ -178,16 +178,16 @@ Track make_track(const Settings& settings, std::size_t index) {
 
 }  // namespace
 
-Motion make_motion(const Settings& settings, const Skeleton& skeleton) {
+Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skeleton,
+                   std::optional<double> frame_rate) {
   Motion motion;
-  for (std::size_t i = 0; i < settings.tracks.size(); ++i) {
-    check_order(settings.tracks[i], settings.place(path_of(i) + ".order"));
-    const int bone = bone_of(settings, i, skeleton, motion);
-    motion.tracks.push_back(make_track(settings, i));
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    check_order(tracks[i], path_of(i) + ".order");
+    const int bone = bone_of(tracks[i], i, skeleton, motion);
+    motion.tracks.push_back(make_track(tracks[i], i, frame_rate));
     motion.tracks.back().bone = bone;
   }
-  return placed(played(std::move(motion), settings), settings.skeleton.scale,
-                to_scene(settings.skeleton));
+  return motion;
 }
 
 }  // namespace sinew

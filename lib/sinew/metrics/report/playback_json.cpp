@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sinew/metrics/report/base64.h>
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 
 namespace sinew {
 namespace {
@@ -13,30 +13,30 @@ using Json = nlohmann::ordered_json;
 
 constexpr double outside = 1e-3;  // share of a field's values at either end that the range leaves
 
-/// The cube that holds all places of the film.
+/// The cube that holds all places of the playback.
 struct Cube {
   Vec3 low = Vec3::Zero();
   double edge = 1;
 };
 
-Cube cube_of(const Film& film) {
-  const Box box = box_of(film);
+Cube cube_of(const Playback& playback) {
+  const Box box = box_of(playback);
   if (box.isEmpty()) return {};
   const double edge = box.sizes().maxCoeff();
   return {box.min(), edge > 0 ? edge : 1};
 }
 
-void quantise(std::vector<std::uint16_t>& out, const std::vector<float>& places, const Cube& cube) {
+void quantize(std::vector<std::uint16_t>& out, const std::vector<float>& places, const Cube& cube) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double share = (places[i] - cube.low[static_cast<int>(i % 3)]) / cube.edge;
     out.push_back(static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0))));
   }
 }
 
-std::string places_of(const Film& film, const Cube& cube,
-                      const std::vector<float> FilmFrame::*places) {
+std::string places_of(const Playback& playback, const Cube& cube,
+                      const std::vector<float> PlaybackFrame::*places) {
   std::vector<std::uint16_t> all;
-  for (const FilmFrame& frame : film.frames) quantise(all, frame.*places, cube);
+  for (const PlaybackFrame& frame : playback.frames) quantize(all, frame.*places, cube);
   return base64_of(all);
 }
 
@@ -45,9 +45,9 @@ struct Range {
 };
 
 /// Where all but the outermost of the values lie; nothing where there are none.
-std::vector<Range> range_of(const Film& film, std::size_t field) {
+std::vector<Range> range_of(const Playback& playback, std::size_t field) {
   std::vector<float> all;
-  for (const FilmFrame& frame : film.frames)
+  for (const PlaybackFrame& frame : playback.frames)
     for (const float value : frame.values[field])
       if (std::isfinite(value)) all.push_back(value);
   if (all.empty()) return {};
@@ -61,10 +61,10 @@ std::vector<Range> range_of(const Film& film, std::size_t field) {
 }
 
 /// The values between 0 and 254 of their range; 255 is none.
-std::string levels_of(const Film& film, std::size_t field, Range range) {
+std::string levels_of(const Playback& playback, std::size_t field, Range range) {
   std::vector<std::uint8_t> all;
   const double width = range.high > range.low ? double(range.high) - range.low : 1;
-  for (const FilmFrame& frame : film.frames)
+  for (const PlaybackFrame& frame : playback.frames)
     for (const float value : frame.values[field]) {
       const double share = std::clamp((double(value) - range.low) / width, 0.0, 1.0);
       all.push_back(std::isnan(value) ? 255 : static_cast<std::uint8_t>(std::lround(254 * share)));
@@ -72,62 +72,62 @@ std::string levels_of(const Film& film, std::size_t field, Range range) {
   return base64_of(all);
 }
 
-Json fields_of(const Film& film) {
+Json fields_of(const Playback& playback) {
   Json fields = Json::array();
-  for (std::size_t f = 0; f < film_fields().size(); ++f) {
-    const FilmField& field = film_fields()[f];
-    for (const Range range : range_of(film, f))
+  for (std::size_t f = 0; f < playback_fields().size(); ++f) {
+    const PlaybackField& field = playback_fields()[f];
+    for (const Range range : range_of(playback, f))
       fields.push_back({{"name", field.name},
                         {"unit", field.unit},
                         {"help", field.help},
                         {"low", range.low},
                         {"high", range.high},
-                        {"levels", levels_of(film, f, range)}});
+                        {"levels", levels_of(playback, f, range)}});
   }
   return fields;
 }
 
-Json shots_of(const Film& film) {
-  Json shots = Json::array();
-  for (const FilmFrame& frame : film.frames)
-    shots.push_back({{"frame", frame.frame}, {"time", frame.time}});
-  return shots;
+Json snapshots_of(const Playback& playback) {
+  Json snapshots = Json::array();
+  for (const PlaybackFrame& frame : playback.frames)
+    snapshots.push_back({{"frame", frame.frame}, {"time", frame.time}});
+  return snapshots;
 }
 
-Json balls_of(const Film& film) {
+Json balls_of(const Playback& playback) {
   Json all = Json::array();
-  for (const auto& [count, radius] : film.balls) all.push_back({count, radius});
+  for (const auto& [count, radius] : playback.balls) all.push_back({count, radius});
   return all;
 }
 
-std::string corners_of(const Film& film) {
+std::string corners_of(const Playback& playback) {
   std::vector<std::uint32_t> corners;
-  for (const auto& face : film.faces)
+  for (const auto& face : playback.faces)
     for (const int corner : face) corners.push_back(static_cast<std::uint32_t>(corner));
   return base64_of(corners);
 }
 
 }  // namespace
 
-std::string film_json(const Film& film) {
-  const Cube cube = cube_of(film);
-  const std::vector<std::int16_t> bone(film.bone.begin(), film.bone.end());
+std::string playback_json(const Playback& playback) {
+  const Cube cube = cube_of(playback);
+  const std::vector<std::int16_t> bone(playback.bone.begin(), playback.bone.end());
   const Json json = {{"run",
-                      {{"frames", film.run_frames},
-                       {"particles", film.run_particles},
-                       {"points", film.run_points}}},
-                     {"balls", balls_of(film)},
+                      {{"frames", playback.run_frames},
+                       {"particles", playback.run_particles},
+                       {"points", playback.run_points}}},
+                     {"balls", balls_of(playback)},
                      {"low", {cube.low.x(), cube.low.y(), cube.low.z()}},
                      {"edge", cube.edge},
-                     {"shots", shots_of(film)},
-                     {"particles", places_of(film, cube, &FilmFrame::particles)},
-                     {"ids", base64_of(film.particles)},
+                     {"snapshots", snapshots_of(playback)},
+                     {"particles", places_of(playback, cube, &PlaybackFrame::particles)},
+                     {"ids", base64_of(playback.particles)},
                      {"bone", base64_of(bone)},
-                     {"boneNames", film.bone_names},
-                     {"surface", places_of(film, cube, &FilmFrame::surface)},
-                     {"corners", corners_of(film)},
-                     {"bones", places_of(film, cube, &FilmFrame::bones)},
-                     {"fields", fields_of(film)}};
+                     {"boneNames", playback.bone_names},
+                     {"surface", places_of(playback, cube, &PlaybackFrame::surface)},
+                     {"corners", corners_of(playback)},
+                     {"bones", places_of(playback, cube, &PlaybackFrame::bones)},
+                     {"fields", fields_of(playback)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -5,7 +5,7 @@
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/write_scene.h>
 #include <sinew/settings/read_scene.h>
-#include "config/temp_folder.h"
+#include "settings/temp_folder.h"
 #include <sinew/rig/motion.h>
 
 namespace sinew {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/metrics/report/film.h>
+#include <sinew/metrics/report/playback.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,17 +50,17 @@ std::size_t frames_paid(std::size_t run_frames, std::size_t bytes, std::size_t f
   return paid > worst_frames ? paid - worst_frames : 1;
 }
 
-std::size_t most_shots(const Film& film) {
-  return std::min(film.run_frames, film.wanted.size() + worst_frames);
+std::size_t most_snapshots(const Playback& playback) {
+  return std::min(playback.run_frames, playback.wanted.size() + worst_frames);
 }
 
-void plan_particles(Film& film, const RestBody& rest, std::size_t bytes) {
-  const std::size_t each = 6 + film_fields().size();
-  const std::size_t fewest = std::min(film.run_particles, fewest_particles);
-  film.wanted = evenly(film.run_frames, frames_paid(film.run_frames, bytes, each * fewest));
-  film.particles =
-      picked(film.run_particles, bytes / (each * std::max<std::size_t>(most_shots(film), 1)));
-  for (const auto i : film.particles) film.bone.push_back(rest.bone_of[i]);
+void plan_particles(Playback& playback, const RestBody& rest, std::size_t bytes) {
+  const std::size_t each = 6 + playback_fields().size();
+  const std::size_t fewest = std::min(playback.run_particles, fewest_particles);
+  playback.wanted = evenly(playback.run_frames, frames_paid(playback.run_frames, bytes, each * fewest));
+  playback.particles =
+      picked(playback.run_particles, bytes / (each * std::max<std::size_t>(most_snapshots(playback), 1)));
+  for (const auto i : playback.particles) playback.bone.push_back(rest.bone_of[i]);
 }
 
 void append(std::vector<float>& out, const Vec3& point) {
@@ -81,90 +81,90 @@ std::vector<float> chosen_values(const std::vector<double>& values,
   return out;
 }
 
-auto place_of(const Film& film, std::size_t frame) {
+auto place_of(const Playback& playback, std::size_t frame) {
   return std::lower_bound(
-      film.frames.begin(), film.frames.end(), frame,
-      [](const FilmFrame& one, std::size_t number) { return one.frame < number; });
+      playback.frames.begin(), playback.frames.end(), frame,
+      [](const PlaybackFrame& one, std::size_t number) { return one.frame < number; });
 }
 
-double shown_radius(const Film& film, double radius) {
-  const auto shown = static_cast<double>(film.particles.size());
-  return radius * std::cbrt(static_cast<double>(film.run_particles) / std::max(1.0, shown));
+double shown_radius(const Playback& playback, double radius) {
+  const auto shown = static_cast<double>(playback.particles.size());
+  return radius * std::cbrt(static_cast<double>(playback.run_particles) / std::max(1.0, shown));
 }
 
 }  // namespace
 
-std::span<const FilmField> film_fields() {
+std::span<const PlaybackField> playback_fields() {
   using V = ParticleValues;
   static constexpr std::array fields = {
-      FilmField{"displacement", "m", "Way from the place at rest", &V::displacement},
-      FilmField{"speed", "m/s", "Size of the velocity", &V::speed},
-      FilmField{"J", "", "Local volume ratio; below zero inside out", &V::J},
-      FilmField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
-      FilmField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
-      FilmField{"D2min", "m²", "Motion that is not affine: flow", &V::D2min},
-      FilmField{"neighbours", "", "Particles within the interaction range", &V::neighbours},
-      FilmField{"turnover", "", "Neighbours lost and won, over those at rest", &V::turnover},
-      FilmField{"distance to rigid pose", "m", "From where its bone alone would carry it",
+      PlaybackField{"displacement", "m", "Way from the place at rest", &V::displacement},
+      PlaybackField{"speed", "m/s", "Size of the velocity", &V::speed},
+      PlaybackField{"J", "", "Local volume ratio; below zero inside out", &V::J},
+      PlaybackField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
+      PlaybackField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
+      PlaybackField{"D2min", "m²", "Motion that is not affine: flow", &V::D2min},
+      PlaybackField{"neighbors", "", "Particles within the interaction range", &V::neighbors},
+      PlaybackField{"turnover", "", "Neighbors lost and won, over those at rest", &V::turnover},
+      PlaybackField{"distance to rigid pose", "m", "From where its bone alone would carry it",
                 &V::pose_error},
-      FilmField{"weight of its bone", "", "Share the bone it follows has in it; 1: that one alone",
+      PlaybackField{"weight of its bone", "", "Share the bone it follows has in it; 1: that one alone",
                 &V::weight},
   };
   return fields;
 }
 
-Box box_of(const Film& film) {
+Box box_of(const Playback& playback) {
   Box box;
-  for (const FilmFrame& frame : film.frames)
+  for (const PlaybackFrame& frame : playback.frames)
     for (const auto* places : {&frame.particles, &frame.surface, &frame.bones})
       for (std::size_t i = 0; i + 2 < places->size(); i += 3)
         box.extend(Vec3((*places)[i], (*places)[i + 1], (*places)[i + 2]));
   return box;
 }
 
-bool Film::wants(std::size_t frame) const {
+bool Playback::wants(std::size_t frame) const {
   return std::binary_search(wanted.begin(), wanted.end(), frame);
 }
 
-bool Film::has(std::size_t frame) const {
+bool Playback::has(std::size_t frame) const {
   const auto place = place_of(*this, frame);
   return place != frames.end() && place->frame == frame;
 }
 
-Film plan_film(const RestBody& rest, std::size_t frames, double share) {
-  Film film;
-  film.run_frames = frames;
-  film.run_particles = rest.particles();
-  film.run_points = rest.surface.points.size();
+Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
+  Playback playback;
+  playback.run_frames = frames;
+  playback.run_particles = rest.particles();
+  playback.run_points = rest.surface.points.size();
   const auto bytes_of = [&](std::size_t all) {
     return static_cast<std::size_t>(share * static_cast<double>(all));
   };
-  plan_particles(film, rest, bytes_of(particle_bytes));
-  film.balls = {{film.particles.size(), shown_radius(film, rest.radius)}};
-  ThinSurface skin = thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_shots(film)));
-  film.points = std::move(skin.points);
-  film.faces = std::move(skin.faces);
-  for (const MeasuredBone& bone : rest.bones) film.bone_names.push_back(bone.name);
-  return film;
+  plan_particles(playback, rest, bytes_of(particle_bytes));
+  playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius)}};
+  ThinSurface skin = thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_snapshots(playback)));
+  playback.points = std::move(skin.points);
+  playback.faces = std::move(skin.faces);
+  for (const MeasuredBone& bone : rest.bones) playback.bone_names.push_back(bone.name);
+  return playback;
 }
 
-void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,
+void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles) {
-  FilmFrame shot{frame,
+  PlaybackFrame snapshot{frame,
                  state.time,
-                 coordinates(state.positions, film.particles),
-                 coordinates(state.surface_points, film.points),
+                 coordinates(state.positions, playback.particles),
+                 coordinates(state.surface_points, playback.points),
                  {},
                  {}};
   for (std::size_t b = 0; b < rest.bones.size(); ++b) {
     const RigidFrame& bone = state.bones[b];
-    append(shot.bones, bone.origin);
+    append(snapshot.bones, bone.origin);
     const double length = state.bone_lengths.empty() ? rest.bones[b].length : state.bone_lengths[b];
-    append(shot.bones, bone.origin + length * bone.rotation.col(0));
+    append(snapshot.bones, bone.origin + length * bone.rotation.col(0));
   }
-  for (const FilmField& field : film_fields())
-    shot.values.push_back(chosen_values(particles.*field.values, film.particles));
-  film.frames.insert(place_of(film, frame), std::move(shot));
+  for (const PlaybackField& field : playback_fields())
+    snapshot.values.push_back(chosen_values(particles.*field.values, playback.particles));
+  playback.frames.insert(place_of(playback, frame), std::move(snapshot));
 }
 
 }  // namespace sinew

@@ -16,10 +16,10 @@ Points cloud(std::size_t count) {
   return points;
 }
 
-TEST(NeighboursWithin, AreThoseOfBruteForceInSeveralPieces) {
+TEST(NeighborsWithin, AreThoseOfBruteForceInSeveralPieces) {
   const Points points = cloud(9000);
   const double range = 0.06;
-  const NeighbourLists lists = neighbours_within(points, range);
+  const NeighborLists lists = neighbors_within(points, range);
   ASSERT_EQ(lists.size(), points.size());
   for (std::size_t i = 0; i < points.size(); i += 7) {
     std::vector<std::uint32_t> expected;
@@ -30,17 +30,17 @@ TEST(NeighboursWithin, AreThoseOfBruteForceInSeveralPieces) {
   }
 }
 
-TEST(NeighboursWithin, OfNothingAndOfOneAreEmpty) {
-  EXPECT_EQ(neighbours_within({}, 1).size(), 0u);
-  EXPECT_EQ(neighbours_within({Vec3(1, 2, 3)}, 1).of(0).size(), 0u);
+TEST(NeighborsWithin, OfNothingAndOfOneAreEmpty) {
+  EXPECT_EQ(neighbors_within({}, 1).size(), 0u);
+  EXPECT_EQ(neighbors_within({Vec3(1, 2, 3)}, 1).of(0).size(), 0u);
 }
 
-TEST(NeighboursWithin, AreTheSameForEveryThreadCount) {
+TEST(NeighborsWithin, AreTheSameForEveryThreadCount) {
   const Points points = cloud(9000);
-  const NeighbourLists expected = neighbours_within(points, 0.06);
+  const NeighborLists expected = neighbors_within(points, 0.06);
   for (const int threads : {1, 2, 3, 8})
     with_threads(threads, [&] {
-      const NeighbourLists found = neighbours_within(points, 0.06);
+      const NeighborLists found = neighbors_within(points, 0.06);
       EXPECT_EQ(found.first, expected.first);
       EXPECT_EQ(found.partner, expected.partner);
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames between bones share out the turn of a joint, and bent flesh rides on them.
+// Frames between bones share out the turn of a joint, and bent flesh moves on them.
 #include <sinew/physics/lists/comoving_frames.h>
 
 #include <set>
@@ -17,7 +17,7 @@ const double joint = planes * half_plane_spacing(r) / 2;
 /// A bar about two bones, of which the upper one bends and twists against the lower, which moves.
 Settings bar_scene(double bend, double twist = 0) {
   Settings settings = test::box_scene(planes);
-  KeySettings end = test::bend_key(1, bend), moved = test::bend_key(1, 25);
+  KeyDefinition end = test::bend_key(1, bend), moved = test::bend_key(1, 25);
   end.twist = twist;
   moved.twist = 40;
   moved.translation = {0.1, 0.2, -0.1};
@@ -50,29 +50,29 @@ struct World {
     return points;
   }
 
-  Carriers carriers(const Pose& bones, const Points& points) const {
+  ComovingFrames comoving_frames(const Pose& bones, const Points& points) const {
     BlockState<double> state(points.size());
-    for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], Measure());
-    Carriers made(body);
-    made.choose(body, bones, state, Measure(), id);
+    for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], Units());
+    ComovingFrames made(body);
+    made.choose(body, bones, state, Units(), id);
     return made;
   }
 };
 
 double angle_of(const Mat3& turn) { return Eigen::AngleAxisd(turn).angle(); }
 
-TEST(Carriers, AreTheBonesAtRest) {
+TEST(ComovingFrames, AreTheBonesAtRest) {
   const World world(bar_scene(90));
-  const Carriers carriers = world.carriers(world.pose(0), world.body.rest);
-  EXPECT_EQ(carriers.at(world.pose(0)).size(), 2u);
+  const ComovingFrames comoving_frames = world.comoving_frames(world.pose(0), world.body.rest);
+  EXPECT_EQ(comoving_frames.at(world.pose(0)).size(), 2u);
   for (std::size_t k = 0; k < world.id.size(); ++k)
-    EXPECT_EQ(carriers.of_particles()[k], world.body.binding.bone(k));
+    EXPECT_EQ(comoving_frames.of_particles()[k], world.body.binding.bone(k));
 }
 
-TEST(Carriers, ShareOutTheTurnOfAJoint) {
+TEST(ComovingFrames, ShareOutTheTurnOfAJoint) {
   const World world(bar_scene(80, 30));
   const Pose bones = world.pose(1);
-  const Pose all = world.carriers(bones, world.bent(bones, joint)).at(bones);
+  const Pose all = world.comoving_frames(bones, world.bent(bones, joint)).at(bones);
   ASSERT_GT(all.size(), 6u);
   const double whole = angle_of(bones[0].turn.transpose() * bones[1].turn);
   double before = 0;
@@ -84,31 +84,31 @@ TEST(Carriers, ShareOutTheTurnOfAJoint) {
   }
 }
 
-TEST(Carriers, CarryBentFleshCloserThanItsBones) {
+TEST(ComovingFrames, CarryBentFleshCloserThanItsBones) {
   const World world(bar_scene(80, 30));
   const Pose bones = world.pose(1);
   const Points points = world.bent(bones, joint);
-  const Carriers carriers = world.carriers(bones, points);
-  const Pose all = carriers.at(bones);
-  double off_carrier = 0, off_bone = 0;
+  const ComovingFrames comoving_frames = world.comoving_frames(bones, points);
+  const Pose all = comoving_frames.at(bones);
+  double off_comoving_frame = 0, off_bone = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto off = [&](std::size_t frame) {
       const Vec3 arm = world.body.rest[k] - Vec3(0, 0, joint);
       return (bones[1].frame.origin + all[frame].turn * arm - points[k]).norm();
     };
-    off_carrier = std::max(off_carrier, off(carriers.of_particles()[k]));
+    off_comoving_frame = std::max(off_comoving_frame, off(comoving_frames.of_particles()[k]));
     off_bone = std::max(off_bone, off(static_cast<std::size_t>(world.body.binding.bone(k))));
   }
-  EXPECT_LT(off_carrier, off_bone / 3);
+  EXPECT_LT(off_comoving_frame, off_bone / 3);
 }
 
-TEST(Carriers, MoveAsTheirVelocitiesSay) {
+TEST(ComovingFrames, MoveAsTheirVelocitiesSay) {
   const World world(bar_scene(120, 70));
   const Pose bones = world.pose(0.6);
-  const Carriers carriers = world.carriers(bones, world.bent(bones, joint));
+  const ComovingFrames comoving_frames = world.comoving_frames(bones, world.bent(bones, joint));
   const double h = 1e-5;
-  const Pose before = carriers.at(world.pose(0.6 - h)), now = carriers.at(bones),
-             after = carriers.at(world.pose(0.6 + h));
+  const Pose before = comoving_frames.at(world.pose(0.6 - h)), now = comoving_frames.at(bones),
+             after = comoving_frames.at(world.pose(0.6 + h));
   ASSERT_GT(now.size(), 4u);
   for (std::size_t c = 0; c < now.size(); ++c)
     for (const Vec3& at : {Vec3(0, 0, 0), Vec3(0.1, -0.05, 0.3)}) {
@@ -116,38 +116,38 @@ TEST(Carriers, MoveAsTheirVelocitiesSay) {
         return Vec3(pose.frame.origin + pose.frame.rotation * at);
       };
       const Vec3 velocity = (place(after[c]) - place(before[c])) / (2 * h);
-      EXPECT_LT((velocity - now[c].velocity_at(place(now[c]))).norm(), 1e-6) << "carrier " << c;
+      EXPECT_LT((velocity - now[c].velocity_at(place(now[c]))).norm(), 1e-6) << "comoving_frame " << c;
     }
 }
 
-TEST(Carriers, OfNobodyIsTheScene) {
+TEST(ComovingFrames, OfNobodyIsTheScene) {
   World world(bar_scene(90));
   world.body.binding.first.assign(world.id.size() + 1, 0);
   world.body.binding.influences.clear();
   const Pose bones = world.pose(1);
-  const Carriers carriers = world.carriers(bones, world.body.rest);
-  for (const std::uint32_t carrier : carriers.of_particles())
-    EXPECT_EQ(carrier, carriers.at(bones).size());
+  const ComovingFrames comoving_frames = world.comoving_frames(bones, world.body.rest);
+  for (const std::uint32_t comoving_frame : comoving_frames.of_particles())
+    EXPECT_EQ(comoving_frame, comoving_frames.at(bones).size());
 }
 
 template <class Real>
 void expect_each_lane_once(std::size_t count, std::size_t run) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
-  std::vector<std::uint32_t> carrier;
+  std::vector<std::uint32_t> comoving_frame;
   for (std::size_t k = 0; k < count; ++k)
-    carrier.push_back(static_cast<std::uint32_t>(k / run % 5));
-  const CarrierSlots<Real> slots = carrier_slots<Real>(carrier);
+    comoving_frame.push_back(static_cast<std::uint32_t>(k / run % 5));
+  const FrameSlots<Real> slots = frame_slots<Real>(comoving_frame);
   ASSERT_EQ(slots.first.size(), (count + size - 1) / size + 1);
   for (std::size_t k = 0; k < (slots.first.size() - 1) * size; ++k) {
     double sum = 0;
     for (std::uint32_t s = slots.first[k / size]; s < slots.first[k / size + 1]; ++s) {
-      const kernel::CarrierSlot slot = slots.slots[s];
+      const kernel::FrameSlot slot = slots.slots[s];
       const double one =
           slot.lanes < 0 ? 1
                          : static_cast<double>(
                                slots.lanes[static_cast<std::size_t>(slot.lanes) * size + k % size]);
       if (one != 0) {
-        ASSERT_EQ(slot.frame, static_cast<std::int32_t>(carrier.at(k)));
+        ASSERT_EQ(slot.frame, static_cast<std::int32_t>(comoving_frame.at(k)));
       }
       sum += one;
     }
@@ -155,7 +155,7 @@ void expect_each_lane_once(std::size_t count, std::size_t run) {
   }
 }
 
-TEST(CarrierSlots, GiveEachParticleItsCarrierAndPadsNone) {
+TEST(FrameSlots, GiveEachParticleItsComovingFrameAndPadsNone) {
   for (const std::size_t count : {1, 16, 37, 200})
     for (const std::size_t run : {1, 3, 16, 50}) {
       expect_each_lane_once<double>(count, run);
@@ -163,7 +163,7 @@ TEST(CarrierSlots, GiveEachParticleItsCarrierAndPadsNone) {
     }
 }
 
-TEST(Carriers, LetListsOfATwistedBodyLast) {
+TEST(ComovingFrames, LetListsOfATwistedBodyLast) {
   Settings settings = test::box_scene(planes);
   settings.binding.joint_zone = 3;
   settings.binding.twist_stiffness = 6.4;

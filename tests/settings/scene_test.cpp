@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "config/small_scene.h"
-#include "config/temp_folder.h"
+#include "settings/small_scene.h"
+#include "settings/temp_folder.h"
 #include <sinew/rig/motion.h>
 
 namespace sinew {
@@ -38,10 +38,10 @@ TEST_F(SceneTest, WhatIsNotGivenHasItsDefault) {
   EXPECT_EQ(settings.body.radius, 0.01);
   EXPECT_FALSE(settings.body.count);
   EXPECT_EQ(settings.body.packing, Packing::fcc);
-  EXPECT_EQ(settings.material.young_modulus, MaterialSettings().young_modulus);
+  EXPECT_EQ(settings.material.young_modulus, MaterialOptions().young_modulus);
   EXPECT_EQ(settings.solver.duration, SolverSettings().duration);
   EXPECT_EQ(settings.solver.precision, Precision::binary64);
-  EXPECT_EQ(settings.solver.neighbour_search, NeighbourSearch::lists);
+  EXPECT_EQ(settings.solver.neighbor_search, NeighborSearch::lists);
   EXPECT_TRUE(settings.tracks.empty());
   ASSERT_EQ(settings.bones.size(), 1u);
   EXPECT_EQ(settings.bones[0].tail, Vec3(0, 0, 1));
@@ -60,7 +60,7 @@ TEST_F(SceneTest, EveryKindOfValueIsRead) {
                                  "    - 0\n"
                                  "    - -9.81\n"
                                  "  precision: single\n"
-                                 "  neighbour_search: cells\n"
+                                 "  neighbor_search: cells\n"
                                  "output:\n"
                                  "  double_precision: true\n"
                                  "  interval: 1/30\n");
@@ -72,7 +72,7 @@ TEST_F(SceneTest, EveryKindOfValueIsRead) {
   EXPECT_FALSE(settings.solver.time_step);
   EXPECT_EQ(settings.solver.gravity, Vec3(0, 0, -9.81));
   EXPECT_EQ(settings.solver.precision, Precision::binary32);
-  EXPECT_EQ(settings.solver.neighbour_search, NeighbourSearch::cells);
+  EXPECT_EQ(settings.solver.neighbor_search, NeighborSearch::cells);
   EXPECT_TRUE(settings.output.double_precision);
   EXPECT_EQ(settings.output.interval, 1.0 / 30);
 }

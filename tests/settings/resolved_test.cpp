@@ -9,8 +9,8 @@
 
 #include <sinew/settings/checks.h>
 #include <sinew/settings/read_scene.h>
-#include "config/small_scene.h"
-#include "config/temp_folder.h"
+#include "settings/small_scene.h"
+#include "settings/temp_folder.h"
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 
@@ -100,9 +100,9 @@ class Chance {
     else
       drawn.body.count = 1000;
     if (!drawn.output.arrays.empty()) drawn.output.arrays = "J, stress";
-    if (drawn.material.k1) drawn.material.young_modulus = MaterialSettings().young_modulus;
-    if (drawn.material.k2) drawn.material.lambda = MaterialSettings().lambda;
-    if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;
+    if (drawn.material.k1) drawn.material.young_modulus = MaterialOptions().young_modulus;
+    if (drawn.material.k2) drawn.material.lambda = MaterialOptions().lambda;
+    if (drawn.material.damping_ratio) drawn.material.damping = MaterialOptions().damping;
     if (drawn.material.model == MaterialModel::paper) {
       drawn.material.breaking_strain.reset();
       drawn.material.yield_strain.reset();
@@ -112,7 +112,7 @@ class Chance {
     }
     if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
     drawn.material.a = 2;
-    if (drawn.material.damping_ratio) drawn.material.damping = MaterialSettings().damping;
+    if (drawn.material.damping_ratio) drawn.material.damping = MaterialOptions().damping;
     if (drawn.material.model != MaterialModel::paper) drawn.material.cohesion = Cohesion::all;
     if (drawn.material.model == MaterialModel::paper)
       drawn.material.breaking_strain = drawn.material.yield_strain = std::nullopt;

@@ -10,11 +10,11 @@ from math import sqrt
 CORNERS = [(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)]
 EDGES = [(a, b) for a in range(8) for b in range(8) if a < b and bin(a ^ b).count("1") == 1]
 FACES = [[c for c in range(8) if c >> axis & 1 == side] for axis in range(3) for side in (0, 1)]
-STEEPNESS = 2  # most that a field changes per metre: pressed parts are not quite distances
+STEEPNESS = 2  # most that a field changes per meter: pressed parts are not quite distances
 
 
-def polygonise(body, cell):
-    """Points and triangles (outward) of `body`, with edges of about `cell` metres."""
+def polygonize(body, cell):
+    """Points and triangles (outward) of `body`, with edges of about `cell` meters."""
     grid = Grid(body, cell)
     points, faces = surface_net(grid)
     for rounds in (6, 4, 4):
@@ -140,7 +140,7 @@ def sum_of_squares(x, y, z):
 
 
 def spread(field, points, faces):
-    """Each point at the middle of its neighbours, brought back to the surface."""
+    """Each point at the middle of its neighbors, brought back to the surface."""
     sums = [[0.0, 0.0, 0.0, 0] for _ in points]
     for face in faces:
         for a, b in zip(face, face[1:] + face[:1]):  # every edge once in each direction

@@ -16,16 +16,16 @@
 
 namespace sinew {
 
-/// A value that particles can be coloured by.
-struct FilmField {
+/// A value that particles can be colored by.
+struct PlaybackField {
   std::string_view name, unit, help;
   std::vector<double> ParticleValues::*values;
 };
 
-/// All that a film keeps, in the order of FilmFrame::values.
-std::span<const FilmField> film_fields();
+/// All that a playback keeps, in the order of PlaybackFrame::values.
+std::span<const PlaybackField> playback_fields();
 
-struct FilmFrame {
+struct PlaybackFrame {
   std::size_t frame = 0;                   ///< of the run
   double time = 0;                         ///< s
   std::vector<float> particles, surface;   ///< x y z each, m
@@ -40,7 +40,7 @@ struct Balls {
   double radius = 0;
 };
 
-struct Film {
+struct Playback {
   std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
   std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
   std::vector<std::uint32_t> particles;                           ///< of the run, ascending
@@ -49,33 +49,33 @@ struct Film {
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
   std::vector<std::string> bone_names;
-  std::vector<FilmFrame> frames;
+  std::vector<PlaybackFrame> frames;
 
   bool wants(std::size_t frame) const;
   bool has(std::size_t frame) const;
 };
 
 /// Around all places of all frames, m; empty where there are none.
-Box box_of(const Film& film);
+Box box_of(const Playback& playback);
 
-/// A film of no frames, with the choice made of what will be kept: all of a small run; of a large
+/// A playback of no frames, with the choice made of what will be kept: all of a small run; of a large
 /// one frames at even distances, the first and the last among them, particles picked at random (the
 /// same ones every time) and a coarser skin.
 /// `share`: of a page's bytes that it may take.
-Film plan_film(const RestBody& rest, std::size_t frames, double share = 1);
+Playback plan_playback(const RestBody& rest, std::size_t frames, double share = 1);
 
-/// Both films in one, the second beside the first: across the shorter of its sides, so that the
+/// Both playbacks in one, the second beside the first: across the shorter of its sides, so that the
 /// page's camera sees them next to each other. Of frames that both have; names of bones get the
 /// prefixes.
-Film side_by_side(const Film& first, const Film& second,
+Playback side_by_side(const Playback& first, const Playback& second,
                   const std::array<std::string, 2>& prefixes);
 
 /// Adds a frame at its place in time.
-void add_frame(Film& film, std::size_t frame, const RestBody& rest, const FrameState& state,
+void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles);
 
-/// For the page's script: places as 16-bit fractions of the film's box, values as 8-bit fractions
+/// For the page's script: places as 16-bit fractions of the playback's box, values as 8-bit fractions
 /// of their range (a thousandth of the values at either end lies outside), all in base64.
-std::string film_json(const Film& film);
+std::string playback_json(const Playback& playback);
 
 }  // namespace sinew

@@ -35,9 +35,9 @@ struct Scene {
         lead(std::move(leads)),
         groups(*std::max_element(lead.begin(), lead.end()) + std::size_t{1}) {
     BlockState<double> state(points.size());
-    const Measure metres;
-    for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], metres);
-    contacts = Contacts(state, metres, lead, groups, range);
+    const Units meters;
+    for (std::size_t k = 0; k < points.size(); ++k) state.set_position(k, points[k], meters);
+    contacts = Contacts(state, meters, lead, groups, range);
   }
 };
 
@@ -111,11 +111,11 @@ TEST(Contacts, NoListedPairComesNearerThanApproachSinceAllows) {
         std::vector<RigidMotion> later;
         for (const RigidMotion& motion : earlier)
           later.push_back(after(motion, random, 0.2 * angle, 0.2 * shift));
-        const double strayed = r / 2;  // of particles from where their bones carried them
-        const double most = scene.contacts.approach_since(earlier, later, strayed);
+        const double escaped = r / 2;  // of particles from where their bones carried them
+        const double most = scene.contacts.approach_since(earlier, later, escaped);
         Points then, now;
         for (std::size_t k = 0; k < scene.points.size(); ++k) {
-          const Vec3 at = scene.points[k] + strayed * test::random_vector(random).normalized();
+          const Vec3 at = scene.points[k] + escaped * test::random_vector(random).normalized();
           then.push_back(moved(earlier[scene.lead[k]], at));
           now.push_back(moved(later[scene.lead[k]], at));
         }
@@ -160,16 +160,16 @@ TEST(Contacts, OnlyTheSurroundingsOfAJointCountInABend) {
   EXPECT_GT(scene.contacts.approach(bend), 2 * r * radians(1));
 }
 
-TEST(Contacts, ATurnBringsParticlesNearerTheFurtherTheyHaveStrayed) {
+TEST(Contacts, ATurnBringsParticlesNearerTheFurtherTheyHaveEscaped) {
   const Scene scene = bar(2);
   const Vec3 joint(0, 0, 41 * half_plane_spacing(r) / 2);
   const Mat3 turn = test::turned(Vec3::UnitY(), 1);
   const std::vector<RigidMotion> rest(2), bend{{}, {turn, joint - turn * joint}};
   const double near = scene.contacts.approach_since(rest, bend, 0);
-  for (const double strayed : {r, 10 * r, 1000 * r}) {
-    const double most = scene.contacts.approach_since(rest, bend, strayed);
-    EXPECT_GE(most, 2 * std::sin(radians(0.5)) * strayed);
-    EXPECT_LE(most, near + 1.5 * radians(1) * strayed);
+  for (const double escaped : {r, 10 * r, 1000 * r}) {
+    const double most = scene.contacts.approach_since(rest, bend, escaped);
+    EXPECT_GE(most, 2 * std::sin(radians(0.5)) * escaped);
+    EXPECT_LE(most, near + 1.5 * radians(1) * escaped);
   }
 }
 
@@ -184,7 +184,7 @@ TEST(Contacts, GroupsFarApartMayMoveFreelyAtFirst) {
 
 TEST(MotionsBetween, CarryWhatRidesOnTheBones) {
   Settings settings = test::box_scene(25);
-  KeySettings end = test::bend_key(1, 70);
+  KeyDefinition end = test::bend_key(1, 70);
   end.twist = 30;
   end.translation = {0.1, 0.2, -0.1};
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end}),
@@ -225,7 +225,7 @@ TEST(ExcessOfStep, BoundsWhatABonesVelocityDoesNotSay) {
   for (const Interpolation interpolation :
        {Interpolation::smooth, Interpolation::linear, Interpolation::step}) {
     Settings settings = test::box_scene(25);
-    KeySettings end = test::bend_key(1, 170);
+    KeyDefinition end = test::bend_key(1, 170);
     end.twist = 400;
     end.translation = {3, -2, 1};
     settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
@@ -257,7 +257,7 @@ TEST(ExcessOfStep, FallsWithTheSquareOfTheStepAndVanishesForSteadyTravel) {
                           pose_at(skeleton, motion, 0.4 + step)[0], step, 1);
   };
   EXPECT_NEAR(excess(1e-3) / excess(5e-4), 4, 0.02);
-  KeySettings end = test::bend_key(1, 0);
+  KeyDefinition end = test::bend_key(1, 0);
   end.translation = {30, 0, 0};
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
   settings.tracks[0].interpolation = Interpolation::linear;
@@ -266,7 +266,7 @@ TEST(ExcessOfStep, FallsWithTheSquareOfTheStepAndVanishesForSteadyTravel) {
 
 TEST(GroupCells, MeetWhereverAPairOfTwoGroupsIsWithinReach) {
   std::mt19937 random(5);
-  const Measure metres;
+  const Units meters;
   constexpr std::size_t count = 1500, groups = 300;
   BlockState<double> state(count);
   Points points;
@@ -274,9 +274,9 @@ TEST(GroupCells, MeetWhereverAPairOfTwoGroupsIsWithinReach) {
   for (std::size_t k = 0; k < count; ++k) {
     points.push_back(40 * r * test::random_vector(random));
     group.push_back(static_cast<std::uint32_t>(random() % groups));
-    state.set_position(k, points[k], metres);
+    state.set_position(k, points[k], meters);
   }
-  const auto met = GroupCells(state, metres, group, range).meetings();
+  const auto met = GroupCells(state, meters, group, range).meetings();
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What describes a body, its material, its bones and their motion: plain values with their defaults,
+// as a scene holds them and the algorithms take them. SI units, angles in degrees; "radii" are
+// multiples of the particle radius. What each value means stands in the table of settings.
+//
+//     MaterialOptions options;
+//     options.young_modulus = 5e3;
+//     const Material material = make_material(options, radius, mass);
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+enum class Packing { fcc, hcp };
+enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
+enum class FillRule { unite, hollow };
+enum class Keep { center, sphere };
+enum class Axis { x, y, z, minus_x, minus_y, minus_z };
+
+/// One of the unit, m.
+double meters(LengthUnit unit);
+
+struct BodyOptions {
+  std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
+  LengthUnit unit = LengthUnit::m;
+  double scale = 1;
+  Axis up = Axis::z;
+  std::optional<Axis> forward;
+  double weld = 0;
+  FillRule rule = FillRule::unite;
+  bool close_holes = false;
+  std::optional<double> wrap;
+  std::optional<double> thickness;
+  std::optional<double> radius;
+  std::optional<int> count;
+  Packing packing = Packing::fcc;
+  std::optional<Vec3> lattice_origin;
+  Vec3 lattice_rotation = Vec3::Zero();
+  Keep keep = Keep::center;
+  double clearance = 0;
+};
+
+enum class MaterialModel { paper, bonded, bonded_volume };
+enum class MaterialPresetName { none, fat, muscle, skin, silicone, rubber_foam, clay };
+enum class Cohesion { all, initial_neighbors };
+enum class DampingForm { paper, symmetric, central };
+
+struct MaterialOptions {
+  MaterialPresetName preset = MaterialPresetName::none;
+  MaterialModel model = MaterialModel::paper;
+  Cohesion cohesion = Cohesion::all;
+  double density = 1000;
+  double young_modulus = 10e3;
+  std::optional<Vec3> modulus_direction;
+  double poisson_ratio = 0.45;
+  std::optional<double> k1;
+  std::optional<double> k2;
+  double lambda = 1;
+  double a = 2;
+  double b = 2.6;
+  double damping = 0.5;
+  std::optional<double> damping_ratio;
+  DampingForm damping_form = DampingForm::paper;
+  std::optional<double> breaking_strain;
+  std::optional<double> yield_strain;
+  double creep_rate = 1;
+};
+
+// Materials by name: what material.preset stands for, each with its source.
+
+struct MaterialPreset {
+  MaterialPresetName name;
+  double density;        ///< kg/m^3
+  double young_modulus;  ///< Pa
+  double poisson_ratio;  ///< within what bonded_volume reaches
+  double damping_ratio;  ///< of the first bending: our choice, such bodies swing once or twice
+  std::optional<double> yield_strain;  ///< of one that flows
+  std::string_view what, source;
+};
+
+/// In the order of the names, without none.
+std::span<const MaterialPreset> material_presets();
+
+/// nullptr for none.
+const MaterialPreset* preset_named(MaterialPresetName name);
+
+struct SkeletonOptions {
+  std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
+  double scale = 1;
+  Axis up = Axis::z;
+  std::optional<Axis> forward;
+};
+
+/// Turns the own directions of a mesh or a rig into the scene's: up becomes z, forward x. Exact.
+Mat3 to_scene(const BodyOptions& settings);
+Mat3 to_scene(const SkeletonOptions& settings);
+
+struct LimitDefinition {
+  std::optional<double> swing = {};
+  std::optional<std::array<double, 2>> twist = {};
+};
+
+struct BoneDefinition {
+  std::string name;
+  std::string parent;
+  std::optional<Vec3> head;       ///< the parent's tail when not given
+  std::optional<Vec3> tail = {};  ///< this or length
+  std::optional<double> length = {};
+  std::optional<Vec3> direction = {};  ///< with length; the parent's when not given
+  std::optional<bool> connected = {};
+  double roll = 0;
+  double stiffness = 1;  ///< these three: factors on the binding's
+  double twist_stiffness = 1;
+  double axial_stiffness = 1;
+  LimitDefinition limits = {};
+};
+
+enum class Interpolation { step, linear, smooth, cubic };
+enum class Extrapolation { hold, loop, ping_pong };
+
+enum class Positions { replace, add };
+
+struct MotionOptions {
+  std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
+  std::string clip;
+  double start = 0;
+  std::optional<double> end;
+  std::optional<double> frame_rate;
+  Positions positions = Positions::replace;
+  Extrapolation extrapolation = Extrapolation::hold;
+  double preroll = 0;
+};
+
+struct KeyDefinition {
+  std::optional<double> time;  ///< this or frame
+  std::optional<double> frame;
+  std::optional<Vec3> axis;
+  std::optional<double> angle;
+  std::optional<Vec3> euler;
+  std::optional<std::array<double, 4>> quaternion;  ///< w, x, y, z
+  double twist = 0;
+  Vec3 translation = Vec3::Zero();
+  double stretch = 1;
+};
+
+struct TrackDefinition {
+  std::string bone;
+  Interpolation interpolation = Interpolation::smooth;
+  std::string order = "xyz";
+  std::vector<KeyDefinition> keys;
+};
+
+enum class BoneForce { paper, anchor };
+enum class TwistForm { servo, open_loop };
+enum class BindMethod { nearest, inside, file };
+
+struct BindingOptions {
+  BindMethod method = BindMethod::nearest;
+  std::optional<double> core_radius;
+  BoneForce force = BoneForce::paper;
+  TwistForm twist_form = TwistForm::servo;
+  double stiffness = 1.6;
+  double twist_stiffness = 1.6;
+  double axial_stiffness = 0.64;
+  double bone_damping = 1;
+  double joint_zone = 0;
+};
+
+enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
+enum class Precision { binary64, binary32 };
+enum class NeighborSearch { lists, cells };
+
+enum class Encoding { zlib, lz4, raw, none };
+
+}  // namespace sinew

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/report/playback.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <sinew/metrics/report/thin_surface.h>
+#include "world.h"
+
+namespace sinew::test {
+namespace {
+
+Playback whole_playback(const RestBody& body, std::size_t frames) {
+  Playback playback = plan_playback(body, frames);
+  for (std::size_t i = 0; i < frames; ++i) {
+    FrameState state = moved_rigidly(body, Mat3::Identity(), Vec3(0.01 * double(i), 0, 0));
+    state.time = 0.1 * double(i);
+    if (playback.wants(i)) add_frame(playback, i, body, state, particle_values(body, state));
+  }
+  return playback;
+}
+
+TEST(Playback, KeepsAllOfASmallRun) {
+  const RestBody body = rest_body(box_input());
+  const Playback playback = whole_playback(body, 4);
+  EXPECT_EQ(playback.frames.size(), 4u);
+  EXPECT_EQ(playback.particles.size(), body.particles());
+  EXPECT_EQ(playback.points.size(), body.surface.points.size());
+  EXPECT_EQ(playback.faces, body.surface.faces);
+}
+
+TEST(Playback, ThinsALongRunEvenlyAndKeepsItsEnds) {
+  const Playback playback = plan_playback(rest_body(box_input()), 5000);
+  EXPECT_EQ(playback.wanted.size(), 112u);  // 120 with the worst ones
+  EXPECT_EQ(playback.wanted.front(), 0u);
+  EXPECT_EQ(playback.wanted.back(), 4999u);
+}
+
+TEST(Playback, ThinsALargeBodyToAPageOfTenMegabytes) {
+  RestInput input = box_input();
+  input.positions = fcc_box(81, 41);
+  input.bone.assign(input.positions.size(), 0);
+  const RestBody body = rest_body(input);
+  Playback playback = whole_playback(body, 100);
+  const FrameState state = at_rest(body);
+  const ParticleValues values = particle_values(body, state);
+  for (std::size_t frame = 0, more = 8; more > 0; ++frame)  // as many worst frames as may come
+    if (!playback.has(frame)) add_frame(playback, frame, body, state, values), --more;
+  EXPECT_LT(playback.particles.size(), body.particles() / 2);
+  ASSERT_EQ(playback.balls.size(), 1u);  // as much of them as of all particles
+  EXPECT_EQ(playback.balls[0].count, playback.particles.size());
+  EXPECT_NEAR(static_cast<double>(playback.particles.size()) * std::pow(playback.balls[0].radius / r, 3),
+              static_cast<double>(body.particles()), 1e-6);
+  EXPECT_TRUE(std::is_sorted(playback.particles.begin(), playback.particles.end()));
+  EXPECT_LT(playback_json(playback).size(), 8u << 20);
+}
+
+TEST(Playback, TakesAsManyBytesAsItMay) {
+  RestInput input = box_input();
+  input.positions = fcc_box(81, 41);
+  input.bone.assign(input.positions.size(), 0);
+  input.surface = sheet(400, 1.0 / 400);
+  const RestBody body = rest_body(input);
+  const Playback playback = plan_playback(body, 100, 0.5);
+  const std::size_t snapshots = playback.wanted.size() + 8, each = 6 + playback_fields().size();
+  EXPECT_EQ(playback.particles.size(), 1'900'000 / (each * snapshots));
+  const ThinSurface thin = thin_surface(body.surface, 600'000 / (6 * snapshots));
+  EXPECT_EQ(playback.points, thin.points);
+  EXPECT_EQ(playback.faces, thin.faces);
+}
+
+TEST(Playback, TakesAWorstFrameInItsPlace) {
+  const RestBody body = rest_body(box_input());
+  Playback playback = plan_playback(body, 5000);
+  FrameState state = at_rest(body);
+  for (const std::size_t frame : {0, 4999, 17})
+    add_frame(playback, frame, body, state, particle_values(body, state));
+  EXPECT_TRUE(playback.has(17));
+  EXPECT_FALSE(playback.has(18));
+  EXPECT_EQ(playback.frames[1].frame, 17u);
+}
+
+TEST(Playback, IsWrittenWithPlacesAndValuesOfEveryFrame) {
+  const RestBody body = rest_body(box_input());
+  const auto json = nlohmann::json::parse(playback_json(whole_playback(body, 3)));
+  const std::size_t n = body.particles();
+  EXPECT_EQ(json["particles"].get<std::string>().size(), (3 * n * 3 * 2 + 2) / 3 * 4);
+  EXPECT_EQ(json["snapshots"].size(), 3u);
+  EXPECT_EQ(json["boneNames"], (std::vector<std::string>{"lower", "upper"}));
+  for (const auto& field : json["fields"]) {
+    EXPECT_EQ(field["levels"].get<std::string>().size(), (3 * n + 2) / 3 * 4) << field["name"];
+    EXPECT_LE(field["low"], field["high"]) << field["name"];
+  }
+  EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
+}
+
+TEST(Playback, HasABoxAroundAllOfIt) {
+  Playback playback;
+  EXPECT_TRUE(box_of(playback).isEmpty());
+  playback.frames.push_back({0, 0, {1, 2, 3, -1, 5, 0}, {0, 0, 7}, {4, 0, 0, 0, -2, 0}, {}});
+  playback.frames.push_back({1, 0.1, {0, 0, -3}, {}, {}, {}});
+  EXPECT_EQ(box_of(playback).min(), Vec3(-1, -2, -3));
+  EXPECT_EQ(box_of(playback).max(), Vec3(4, 5, 7));
+}
+
+TEST(Playback, DrawsBonesAsLongAsTheyAre) {
+  const RestBody body = rest_body(box_input());
+  FrameState state = at_rest(body);
+  for (const MeasuredBone& bone : body.bones) state.bone_lengths.push_back(2 * bone.length);
+  Playback playback = plan_playback(body, 1);
+  add_frame(playback, 0, body, state, particle_values(body, state));
+  const std::vector<float>& ends = playback.frames[0].bones;  // head and tail of each
+  const double length = Vec3(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]).norm();
+  EXPECT_NEAR(length, 2 * body.bones[0].length, 1e-6);
+}
+
+TEST(Playback, LeavesOutWhatWasNotMeasured) {
+  const auto json = nlohmann::json::parse(playback_json(whole_playback(rest_body(box_input()), 1)));
+  for (const auto& field : json["fields"]) EXPECT_NE(field["name"], "von Mises stress");
+}
+
+TEST(ThinSurface, KeepsAllThatIsNotTooMuch) {
+  const Triangles square = sheet(40, 1.0 / 40);
+  const std::size_t all = square.points.size();
+  EXPECT_EQ(thin_surface(square, all).faces, square.faces);
+  EXPECT_LT(thin_surface(square, all - 1).points.size(), all);
+}
+
+TEST(ThinSurface, KeepsShapeWithFewerPoints) {
+  const Triangles grid = sheet(40, 1.0 / 40);
+  const ThinSurface thin = thin_surface(grid, 200);
+  EXPECT_LE(thin.points.size(), 200u);
+  EXPECT_GE(thin.points.size(), 80u);
+  Triangles coarse{{}, thin.faces};
+  for (const auto i : thin.points) coarse.points.push_back(grid.points[i]);
+  EXPECT_NEAR(area(coarse), 1, 0.2);
+  for (const auto& [a, b, c] : thin.faces) EXPECT_TRUE(a != b && b != c && c != a);
+}
+
+}  // namespace
+}  // namespace sinew::test
