@@ -20,8 +20,7 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("INPUT", options.input,
-                 std::string("Scene (YAML), or mesh (").append(mesh_formats) + ')')
+  app.add_option("INPUT", options.input, "Scene (YAML), or mesh (" + mesh_formats() + ')')
       ->required();
   app.add_option("-o", options.output, "Where the filled body goes")
       ->type_name("FILE")
@@ -54,8 +53,7 @@ Settings settings_for_scene(const Options& options, const Common& common) {
 
 void print(const FillReport& report, const Options& options, const Common& common) {
   Results results;
-  for (const ReportRow& row : rows_of(report))
-    results.add(row.key, nlohmann::ordered_json::parse(row.value), row.unit);
+  for (const ReportRow& row : rows_of(report)) results.add(row.key, json_of(row.value), row.unit);
   results.add("warnings", report.warnings);
   results.add("file", options.output);
   results.print(common.json);

@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
         "sinew info configs/box_bend.yaml", "sinew info data/motions/walk.bvh --radius 0.01"}},
       [&](CLI::App& app) {
         app.add_option("FILE", options.path,
-                       std::string("Mesh (").append(mesh_formats) + "), rig (" + rig_formats +
+                       "Mesh (" + mesh_formats() + "), rig (" + rig_formats +
                            ") or scene, rig or clip (YAML)")
             ->required();
         app.add_option("-o", options.drawing, "Draw the mesh with its defects, for ParaView")

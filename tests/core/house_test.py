@@ -23,7 +23,7 @@ HEAVY = {
     r"yaml-cpp/": ("config",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
     r"nlohmann/": ("io", "metrics"),
-    r"(libdeflate|lz4)\.h": ("io",),
+    r"(libdeflate|lz4|expat)\.h": ("io",),
     r"X11/": ("render",),
     r"(spdlog|fmt|CLI)/": (),
 }
@@ -34,7 +34,7 @@ HEAVY_TARGETS = {
     r"yaml-cpp": ("config",),
     r"TBB::": ("core",),
     r"nlohmann_json::": ("io", "metrics"),
-    r"^(deflate|lz4)$": ("io",),
+    r"^(deflate|lz4|expat)$": ("io",),
     r"X11::": ("render",),
     r"spdlog::|fmt::|CLI11::": (),
 }

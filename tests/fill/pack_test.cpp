@@ -322,31 +322,39 @@ TEST(Report, GivesTheSpheresCenterAndVolume) {
   EXPECT_NEAR(report.mesh.volume, 4 * pi / 3, 0.01);
   EXPECT_LT((report.box_size - Vec3::Constant(2)).norm(), 1e-12);
   EXPECT_EQ(rows_of(report)[0].key, "particles");
-  EXPECT_EQ(rows_of(report)[0].value, std::to_string(report.particles));
+  EXPECT_EQ(rows_of(report)[0].value, ReportValue(report.particles));
 }
 
-std::string row_of(const FillReport& report, const std::string& key) {
+std::optional<ReportRow> row_of(const FillReport& report, const std::string& key) {
   for (const ReportRow& row : rows_of(report))
-    if (row.key == key) return row.value + ' ' + row.unit;
-  return {};
+    if (row.key == key) return row;
+  return std::nullopt;
+}
+
+void expect_row(const FillReport& report, const std::string& key, const ReportValue& value,
+                const std::string& unit) {
+  const auto row = row_of(report, key);
+  ASSERT_TRUE(row) << key;
+  EXPECT_EQ(row->value, value) << key;
+  EXPECT_EQ(row->unit, unit) << key;
 }
 
 TEST(Report, SaysZeroForACenterThatIsButRounding) {
   FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
   report.mesh.center = {-3.2e-19, 1e-14, 1e-9};
   report.packed.center = {0, 0, 1e-9};
-  EXPECT_EQ(row_of(report, "mesh_center_of_mass"), "[0, 0, 1e-09] m");
-  EXPECT_EQ(row_of(report, "center_of_mass"), "[0, 0, 1e-09] m");
-  EXPECT_EQ(row_of(report, "center_offset"), "0 m");
-  EXPECT_EQ(row_of(report, "smallest_distance").find("2r"), std::string::npos);
+  expect_row(report, "mesh_center_of_mass", Vec3(0, 0, 1e-9), "m");
+  expect_row(report, "center_of_mass", Vec3(0, 0, 1e-9), "m");
+  expect_row(report, "center_offset", 0.0, "m");
+  expect_row(report, "smallest_distance", report.smallest_distance, "diameters");
 }
 
 TEST(Report, TellsRepairsOnlyWhereSomeWereDone) {
   FillReport report = pack(clean(shapes::sphere(1, 3)), with_radius(0.1)).report;
-  EXPECT_EQ(row_of(report, "faces_read"), "512 ");
-  EXPECT_EQ(row_of(report, "holes_closed"), "");
+  expect_row(report, "faces_read", std::size_t{512}, "");
+  EXPECT_FALSE(row_of(report, "holes_closed"));
   report.cleaning.holes_closed = 3;
-  EXPECT_EQ(row_of(report, "holes_closed"), "3 ");
+  expect_row(report, "holes_closed", std::size_t{3}, "");
 }
 
 TEST(Report, HasTheTetrahedronsCenter) {

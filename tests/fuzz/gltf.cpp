@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/gltf/read_gltf.h>
-#include <sinew/io/gltf/read_rig.h>
+#include <sinew/io/gltf/geometry.h>
+#include <sinew/io/gltf/rig.h>
 #include "sound_mesh.h"
 
 namespace sinew::fuzz {

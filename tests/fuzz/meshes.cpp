@@ -6,17 +6,15 @@
 namespace sinew::fuzz {
 namespace {
 
-void mesh(std::string_view bytes, MeshFormat format) {
-  expect_sound_or_refused([&] {
-    require_sound(read_mesh({"fuzz.mesh", format, std::string(bytes)}));
-  });
+void mesh(std::string_view bytes, PolygonSoup (*read)(const MeshFile&)) {
+  expect_sound_or_refused([&] { require_sound(read({"fuzz.mesh", std::string(bytes)})); });
 }
 
 }  // namespace
 
-void obj(std::string_view bytes) { mesh(bytes, MeshFormat::obj); }
-void off(std::string_view bytes) { mesh(bytes, MeshFormat::off); }
-void ply(std::string_view bytes) { mesh(bytes, MeshFormat::ply); }
-void stl(std::string_view bytes) { mesh(bytes, MeshFormat::stl); }
+void obj(std::string_view bytes) { mesh(bytes, read_obj); }
+void off(std::string_view bytes) { mesh(bytes, read_off); }
+void ply(std::string_view bytes) { mesh(bytes, read_ply); }
+void stl(std::string_view bytes) { mesh(bytes, read_stl); }
 
 }  // namespace sinew::fuzz

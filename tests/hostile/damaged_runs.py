@@ -61,7 +61,7 @@ VTU = {
     "root": lambda text: text.replace(b"VTKFile", b"VTKFill"), "no_grid": lambda text: text.replace(b"<UnstructuredGrid>", b"<Grid>").replace(b"</UnstructuredGrid>", b"</Grid>"),
     "turned": swap("LittleEndian", "BigEndian"), "short_words": swap("UInt64", "UInt32"),
     "compressor": swap("<VTKFile ", '<VTKFile compressor="vtkZLibDataCompressor" '), "compressor_unknown": swap("<VTKFile ", '<VTKFile compressor="mine" '),
-    "doctype": swap("<VTKFile", '<!DOCTYPE a [<!ENTITY b "cccccccccc">]><VTKFile'), "comment": swap("<Piece", "<!-- a --><Piece"),
+    "doctype": swap("<VTKFile", '<!DOCTYPE a [<!ENTITY b "cccccccccc">]><VTKFile'), "comment": swap("<Piece", "<!-- a <Piece"),
     "cdata": swap("<Piece", "<![CDATA[ a ]]><Piece"), "entity": swap('Name="displacement"', 'Name="&displacement;"'),
     "deep": swap("<Piece", "<a>" * 100_000 + "<Piece"), "wide": swap("<FieldData>", "<FieldData>" + "<a/>" * 300_000 + "<b>"),
     "two_pieces": lambda text: text.replace(b"</Piece>", b"</Piece>" + text[text.index(b"<Piece"):text.index(b"</Piece>") + 8]),
@@ -145,7 +145,7 @@ def pvd(run):
     files["unknown_entity"] = replaced(whole, file, b'file="&file;"')
     files["doctype"] = replaced(whole, b"<VTKFile", b'<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]><VTKFile')
     files["alias_bomb"] = replaced(whole, b"<VTKFile", b'<!DOCTYPE a [<!ENTITY b "cc"><!ENTITY d "&b;&b;&b;&b;">]><VTKFile')
-    files["comment"] = replaced(whole, b"<Collection>", b"<!-- a --><Collection>")
+    files["comment"] = replaced(whole, b"<Collection>", b"<!-- a <Collection>")
     files["deep"] = replaced(whole, b"<Collection>", b"<a>" * 200_000 + b"<Collection>")
     files["open"] = whole.replace(b"</Collection>", b"")
     files["not_utf8"] = replaced(whole, b"particles_", b"\xff\xfe_")

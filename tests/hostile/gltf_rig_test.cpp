@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include <sinew/io/gltf/read_rig.h>
+#include <sinew/io/gltf/rig.h>
 #include "io/gltf_rigs.h"
 
 namespace sinew {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include <sinew/io/gltf/read_gltf.h>
+#include <sinew/io/gltf/geometry.h>
 #include "io/gltf_files.h"
 
 namespace sinew {
@@ -442,9 +442,8 @@ TEST_F(HostileGltf, OfBadDataUrisIsRefused) {
   EXPECT_TRUE(contains(said("data:;base64,"), "but 0 are there"));
   EXPECT_TRUE(contains(said("data:;base64,A"), "but 0 are there"));
   EXPECT_TRUE(contains(said("data:;base64," + good.substr(4)), "says it has 96 bytes, but 93"));
-  EXPECT_TRUE(contains(said("data:;base64,!" + good), "but 0 are there"));
-  EXPECT_TRUE(contains(said("data:;base64,====" + good), "are there"))
-      << said("data:;base64,====" + good);
+  for (const char* wrong : {"!", "====", "\n"})
+    EXPECT_TRUE(contains(said("data:;base64," + (wrong + good)), "is not in base64")) << wrong;
 }
 
 }  // namespace

@@ -25,17 +25,6 @@ Dataset particles_of(std::size_t count) {
   return data;
 }
 
-TEST(Base64, IsThatOfRfc4648) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foob"), "Zm9vYg==");
-  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
-}
-
 TEST(RangeOf, IsThatOfAScalarAndOfAVectorsMagnitude) {
   std::vector<double> values(30000, 1.0);
   values[11] = -2, values[29999] = 5, values[20000] = std::nan("");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <sinew/core/base64.h>
 #include <sinew/core/triangles.h>
 #include "scratch.h"
 
@@ -101,21 +102,6 @@ struct Gltf {
   int node(const Json& node) { return add("nodes", node); }
   int scene(const std::vector<int>& roots) { return add("scenes", {{"nodes", roots}}); }
 };
-
-inline std::string base64(std::string bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const std::size_t size = bytes.size();
-  bytes.resize((size + 2) / 3 * 3);
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | static_cast<unsigned char>(bytes[i + k]);
-    for (int shift = 18; shift >= 0; shift -= 6) text += digits[three >> shift & 63];
-  }
-  const std::size_t padding = bytes.size() - size;
-  return text.replace(text.size() - padding, padding, padding, '=');
-}
 
 inline std::string word(std::size_t number) { return raw(std::vector{std::uint32_t(number)}); }
 

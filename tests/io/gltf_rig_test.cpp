@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/gltf/read_rig.h>
+#include <sinew/io/gltf/rig.h>
 
 #include <sinew/settings/read_scene.h>
 #include "expect_error.h"
-#include <sinew/io/gltf/read_gltf.h>
+#include <sinew/io/gltf/geometry.h>
 #include "io/gltf_rigs.h"
 #include <sinew/rig/motion.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include <sinew/core/vector.h>
-#include <sinew/io/gltf/read_rig.h>
+#include <sinew/io/gltf/rig.h>
 #include "io/gltf_files.h"
 #include <sinew/rig/motion.h>
 

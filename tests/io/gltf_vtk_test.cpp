@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Our poses against those of VTK's own loader and reader, for rigs made at random.
-#include <sinew/io/gltf/read_rig.h>
+// Our triangles and poses against those of VTK's own loader and reader, for files made at random.
+#include <sinew/io/gltf/geometry.h>
+#include <sinew/io/gltf/rig.h>
 #include "io/gltf_rigs.h"
 
 namespace sinew {
@@ -290,6 +291,60 @@ TEST_F(GltfRigAndVtk, AgreeOnWhereHeadsAreWhenJointsChangeTheirSize) {
                 agreed * box.diagonal().norm());
     }
   }
+}
+
+/// Interleaved positions, some of them sparse, and corners in these numbers, below two places.
+template <class Number>
+Gltf scattered(int mode, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto unit = [&] { return std::uniform_real_distribution<float>(-1, 1)(random); };
+  Gltf gltf;
+  std::vector<float> mixed(2 + 5 * 20), over(3 * 3);
+  for (auto* all : {&mixed, &over}) std::generate(all->begin(), all->end(), unit);
+  const int points = gltf.accessor(gltf.view(raw(mixed), 20), 20, "VEC3", 5126);
+  gltf.json["accessors"][points]["byteOffset"] = 8;
+  const int at = gltf.view(raw(std::vector<Number>{2, 7, 19}));
+  gltf.json["accessors"][points]["sparse"] = {
+      // VTK wants all offsets
+      {"count", 3},
+      {"indices",
+       {{"bufferView", at}, {"byteOffset", 0}, {"componentType", component_type<Number>()}}},
+      {"values", {{"bufferView", gltf.view(raw(over))}, {"byteOffset", 0}}}};
+  std::vector<Number> corners(30);
+  for (Number& corner : corners) corner = static_cast<Number>(random() % 20);
+  gltf.mesh({{{"attributes", {{"POSITION", points}}},
+              {"indices", gltf.indices(corners)},
+              {"mode", mode}}});
+  const Quat turn = Quat(unit(), unit(), unit(), unit()).normalized();
+  const int child = gltf.node({{"mesh", 0}, {"translation", {unit(), unit(), unit()}}});
+  const int above = gltf.node({{"rotation", numbers(turn)},
+                               {"scale", {2 + unit(), 2 + unit(), 2 + unit()}},
+                               {"children", {child}}});
+  const int beside = gltf.node(
+      {{"mesh", 0}, {"matrix", {1, 0.5, 0, 0, -0.5, 2, 0, 0, 0, 0.25, 3, 0, unit(), 4, 5, 1}}});
+  gltf.scene({beside, above});
+  return gltf;
+}
+
+class GltfTrianglesAndVtk : public Scratch {
+ protected:
+  void expect_agreement(const Gltf& gltf) {
+    const auto path = write(folder, gltf, Form::packed);
+    const PolygonSoup soup = read_gltf(path);
+    const Points expected = vtk_corners(path, -1, 0);
+    ASSERT_EQ(3 * soup.polygons.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_LT((soup.points.at(soup.polygons[i / 3][i % 3]) - expected[i]).norm(), 10 * agreed);
+  }
+};
+
+TEST_F(GltfTrianglesAndVtk, AgreeOnEveryLayoutOfNumbers) {
+  for (const int mode : {4, 6})  // triangles, fans
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      expect_agreement(scattered<std::uint8_t>(mode, seed));
+      expect_agreement(scattered<std::uint16_t>(mode, seed));
+      expect_agreement(scattered<std::uint32_t>(mode, seed));
+    }
 }
 
 }  // namespace

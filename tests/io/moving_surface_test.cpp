@@ -2,7 +2,7 @@
 // Surfaces exported as GLB move in VTK's own reader as they moved here.
 #include <sinew/io/gltf/moving_surface.h>
 
-#include <sinew/io/gltf/read_gltf.h>
+#include <sinew/io/gltf/geometry.h>
 #include "io/gltf_rigs.h"
 #include <sinew/io/point_cache.h>
 

@@ -185,6 +185,22 @@ TEST(Soup, IsCheckedBeforeItIsUsed) {
   refused(bad, "vertex 3 has a coordinate that is not finite");
 }
 
+TEST(Read, TakesFormatsOfOtherFoldersAndNamesThemAll) {
+  const Folder folder;
+  const MeshFormat more[] = {
+      {"One", ".one", [](const std::string&) { return shapes::tetrahedron(); }}};
+  EXPECT_EQ(mesh_format_names(), "OBJ, OFF, STL, PLY");
+  EXPECT_EQ(mesh_format_names(more), "OBJ, OFF, STL, PLY, One");
+  const std::string path = folder.file("a.ONE", "any words");
+  EXPECT_EQ(read_surface(mesh_files::body_at(path), more).triangles.faces.size(), 4u);
+  test::expect_bad_input([&] { read_polygons(path); }, {path + ": a mesh cannot be a '.one' file",
+                                                        "give an .obj, .off, .stl or .ply file"});
+  test::expect_bad_input([&] { read_polygons(folder.file("a.two", "any words"), more); },
+                         {"give an .obj, .off, .stl, .ply or .one file"});
+  test::expect_bad_input([&] { read_polygons(folder.path("missing.two")); },
+                         {"there is no such file"});
+}
+
 TEST(Read, NamesTheFileInWhatCleaningRefuses) {
   const Folder folder;
   const std::string path = folder.file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");

@@ -1,124 +1,171 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/metrics/report/chart.h>
-
+// What the report's charts show: which lines, in which unit, how many points, and where gaps are.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include <sinew/metrics/report/axis.h>
-#include <sinew/metrics/report/markup.h>
+#include <sinew/metrics/report/page.h>
+#include <sinew/metrics/table.h>
+#include "world.h"
 
 namespace sinew::test {
 namespace {
 
-TEST(Axis, TicksAreRoundAndEncloseTheValues) {
-  const Axis axis = round_axis(0.03, 0.92, 4);
-  EXPECT_EQ(axis.low, 0);
-  EXPECT_EQ(axis.high, 1);
-  EXPECT_EQ(axis.texts, (std::vector<std::string>{"0", "0.5", "1.0"}));
-  EXPECT_EQ(round_axis(-3, 7, 5).texts,
-            (std::vector<std::string>{"-4", "-2", "0", "2", "4", "6", "8"}));
+using Json = nlohmann::json;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Without pattern, and some of them twice.
+std::vector<double> some_values(std::size_t count) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i)
+    values.push_back(static_cast<double>((i + 1) * 2654435761u % 1009));
+  return values;
 }
 
-TEST(Axis, GivesAllItsNumbersAsManyDecimalsUnlessTheyAreVerySmallOrLarge) {
-  EXPECT_EQ(tight_axis(0, 1.1e-3, 4).texts.back(), "0.0010");
-  EXPECT_EQ(tight_axis(0, 0.9e-3, 2).texts.back(), readable(5e-4));
-  EXPECT_EQ(tight_axis(0, 1.1e5, 2).texts.back(), readable(1e5));
-  EXPECT_EQ(tight_axis(0, 0.9e5, 4).texts.back(), "50000");
+TEST(DrawnPlaces, AreAllOfAShortLine) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, most_drawn}) {
+    const auto places = drawn_places(std::vector<double>(count, 1.0));
+    ASSERT_EQ(places.size(), count);
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(places[i], i);
+  }
 }
 
-TEST(Axis, TightOnesEndWhereTheValuesDo) {
-  const Axis axis = tight_axis(0, 2.9, 6);
-  EXPECT_EQ(axis.high, 2.9);
-  EXPECT_EQ(axis.texts, (std::vector<std::string>{"0", "0.5", "1.0", "1.5", "2.0", "2.5"}));
-}
-
-TEST(Axis, AFlatCurveLiesInTheMiddle) {
-  const Axis axis = tight_axis(2000, 2000, 4);
-  EXPECT_DOUBLE_EQ(axis.low, 1999);
-  EXPECT_DOUBLE_EQ(axis.high, 2001);
-}
-
-TEST(Axis, HoldsForEveryRange) {
-  for (const double size : {0.0, 1e-300, 1e-12, 1.0, 1e9, 1e299})
-    for (const double offset : {0.0, size, -size, 1e6 * size}) {
-      const Axis axis = round_axis(offset, offset + size, 4);
-      EXPECT_LT(axis.low, axis.high) << size << ' ' << offset;
-      EXPECT_LE(axis.low, offset + 1e-9 * size);
-      EXPECT_GE(axis.ticks.size(), 2u);
-      EXPECT_LE(axis.ticks.size(), 12u);
+TEST(DrawnPlaces, OfALongLineAreFewInOrderAndKeepItsExtremesWhereverTheyAre) {
+  for (const std::size_t count : {most_drawn + 1, 2 * most_drawn - 1, std::size_t{100'000}})
+    for (const std::size_t at : {std::size_t{0}, std::size_t{1}, count / 3, count - 2, count - 1}) {
+      std::vector<double> values = some_values(count);
+      values[at] = 2000;
+      values[count - 1 - at] = at + at + 1 == count ? 2000 : -2000;
+      const auto places = drawn_places(values);
+      EXPECT_LE(places.size(), most_drawn);
+      EXPECT_TRUE(std::is_sorted(places.begin(), places.end(), std::less_equal<>())) << count;
+      EXPECT_TRUE(std::binary_search(places.begin(), places.end(), at)) << count << ' ' << at;
+      EXPECT_TRUE(std::binary_search(places.begin(), places.end(), count - 1 - at)) << count;
     }
 }
 
-TEST(Axis, PlacesValuesInProportion) {
-  const Axis axis{10, 20, {}, {}};
-  EXPECT_EQ(place_on(axis, 10, 100, 0), 100);
-  EXPECT_EQ(place_on(axis, 15, 100, 0), 50);
-  EXPECT_EQ(place_on(axis, 20, 100, 0), 0);
+TEST(DrawnPlaces, KeepAGapAndThePeakBesideIt) {
+  for (std::size_t at = 50'000; at < 50'600; ++at) {  // wherever it lies in its piece
+    std::vector<double> values = some_values(100'000);
+    values[at] = nan;
+    values[at - 1] = values[at + 1] = 2000;
+    const auto places = drawn_places(values);
+    EXPECT_LE(places.size(), most_drawn);
+    ASSERT_TRUE(std::binary_search(places.begin(), places.end(), at)) << at;
+    EXPECT_TRUE(std::binary_search(places.begin(), places.end(), at - 1) ||
+                std::binary_search(places.begin(), places.end(), at + 1))
+        << at;
+  }
 }
 
-TEST(Markup, NumbersHaveFourDigitsForReading) {
-  EXPECT_EQ(readable(0), "0");
-  EXPECT_EQ(readable(1), "1");
-  EXPECT_EQ(readable(-0.0123456), "-0.01235");
-  EXPECT_EQ(readable(1234.56), "1235");
-  EXPECT_EQ(readable(98765.4), "98765");
-  EXPECT_EQ(readable(1.5e-7), "1.500e-07");
-  EXPECT_EQ(readable(100), "100");
-  EXPECT_EQ(readable(std::nan("")), "–");
+TEST(Charts, ShowMetricsOfTheTableAtMostSixAndEachPlanSome) {
+  for (const ChartPlan& plan : chart_plans()) {
+    EXPECT_FALSE(plan.metrics.empty()) << plan.title;
+    EXPECT_LE(plan.metrics.size(), 6u) << plan.title;
+    for (const std::string_view name : plan.metrics)
+      EXPECT_LT(metric_index(name), metrics_table().size()) << name;
+  }
 }
 
-TEST(Markup, TextCannotLeaveItsElement) {
-  EXPECT_EQ(escaped("<a href=\"x\">&'"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
-  EXPECT_EQ(escaped(std::string("a\0b\x1b[31m\n", 9)), "ab[31m\n");
-  EXPECT_EQ(escaped("Gänsefuß"), "Gänsefuß");
+TEST(Charts, ShowRadiiSharesAndChangesAsTheySay) {
+  std::vector<FrameMetrics> frames(2);
+  for (FrameMetrics& frame : frames)
+    for (const Metric& metric : metrics_table()) frame.*metric.value = 0.5;
+  frames[0].pair_energy = -7;
+  frames[1].pair_energy = -5;
+  frames[1].pose_error_rms = 3 * r;
+  frames[1].broken_neighbors = 0.25;
+  const auto last = [&](const std::string& metric, std::string_view unit) {
+    for (const ChartPlan& plan : chart_plans())
+      for (const Line& line : planned_chart(plan, frames, r).lines)
+        if (line.name == metric) return plan.unit == unit ? line.values.back() : not_measured;
+    return not_measured;
+  };
+  EXPECT_EQ(last("pair_energy", "J"), 2);
+  EXPECT_EQ(last("pose_error_rms", "r"), 3);
+  EXPECT_EQ(last("broken_neighbors", "%"), 25);
+  EXPECT_EQ(last("J_min", ""), 0.5);
 }
 
-TEST(Markup, LinksStayRelative) {
-  EXPECT_EQ(link_to("pictures/a b.png"), "pictures/a%20b.png");
-  EXPECT_EQ(link_to("//host/x"), "host/x");
-  EXPECT_EQ(link_to("javascript:x"), "javascript%3Ax");
-  EXPECT_EQ(link_to("a?b#c%d\"e"), "a%3Fb%23c%25d%22e");
+Chart of_lines(std::vector<Line> lines, Drawn drawn = Drawn::always) {
+  return {"title", "note", "m", {0, 1}, drawn, std::move(lines)};
 }
 
-Chart ramp() {
-  Chart chart;
-  chart.title = "Ramp";
-  chart.times = {0, 1, 2};
-  chart.lines = {{"ramp", {0, 0.5, 1}}};
-  chart.baselines = {0};
-  return chart;
+TEST(Charts, LeaveOutLinesThatWereNeverMeasuredAndChartsWithoutAny) {
+  std::vector<Chart> charts{
+      of_lines({{"none", {nan, nan}}}),
+      of_lines({{"none", {nan, INFINITY}}, {"one", {nan, 2}}, {"zero", {0, 0}}}), of_lines({})};
+  leave_out_empty(charts);
+  ASSERT_EQ(charts.size(), 1u);
+  ASSERT_EQ(charts[0].lines.size(), 2u);
+  EXPECT_EQ(charts[0].lines[0].name, "one");
+  EXPECT_EQ(charts[0].lines[1].name, "zero");
 }
 
-TEST(Chart, ARampRunsFromCornerToCorner) {
-  EXPECT_NE(chart_html(ramp()).find("d=\"M50.0 176.0L239.0 93.0L428.0 10.0\""), std::string::npos);
+TEST(Charts, LeaveOutWhatTheSceneHasNothingOf) {
+  std::vector<Chart> charts{of_lines({{"zero", {0, nan}}, {"zero", {0, 0}}}, Drawn::unless_zero),
+                            of_lines({{"zero", {0, 0}}, {"some", {0, -1e-9}}}, Drawn::unless_zero),
+                            of_lines({{"zero", {0, 0}}})};
+  leave_out_empty(charts);
+  ASSERT_EQ(charts.size(), 2u);
+  EXPECT_EQ(charts[0].lines.size(), 2u);
+  EXPECT_EQ(charts[1].lines.size(), 1u);
 }
 
-TEST(Chart, AGapBreaksTheLine) {
-  Chart chart = ramp();
-  chart.times = {0, 1, 2, 3, 4};
-  chart.lines[0].values = {0, 1, std::nan(""), 1, INFINITY};
-  EXPECT_NE(chart_html(chart).find("d=\"M50.0 176.0L144.5 10.0M333.5 10.0\""), std::string::npos);
+TEST(PageJson, TellsAChartWithItsGapsUnitAndBaselines) {
+  PageData data;
+  data.times = {0, 0.5, 1, 1.5};
+  data.charts = {of_lines({{"name", {1, nan, 1.0 / 3, INFINITY}}})};
+  const Json chart = Json::parse(page_json(data))["charts"].at(0);
+  EXPECT_EQ(chart["title"], "title");
+  EXPECT_EQ(chart["note"], "note");
+  EXPECT_EQ(chart["unit"], "m");
+  EXPECT_EQ(chart["baselines"], Json::parse("[0, 1]"));
+  EXPECT_EQ(chart["lines"][0]["name"], "name");
+  EXPECT_EQ(chart["lines"][0]["points"],
+            Json::parse("[[0, 1], [0.5, null], [1, 0.3333333], [1.5, null]]"));
 }
 
-TEST(Chart, ThinningKeepsThePeak) {
-  Chart chart = ramp();
-  chart.times.clear();
-  chart.lines[0].values.assign(100000, 0.0);
-  for (int i = 0; i < 100000; ++i) chart.times.push_back(i);
-  chart.lines[0].values[70001] = 1;
-  const std::string html = chart_html(chart);
-  EXPECT_LT(html.size(), 30000u);
-  EXPECT_NE(html.find("L314.6 10.0L"), std::string::npos);  // 0.70001 of the way, at the top
+TEST(PageJson, ThinsEveryLineAndTheAngles) {
+  PageData data;
+  for (int i = 0; i < 100'000; ++i) data.times.push_back(0.1 * i);
+  data.angles = some_values(data.times.size());
+  data.charts = {of_lines({{"a", data.angles}, {"b", data.angles}})};
+  const Json json = Json::parse(page_json(data));
+  EXPECT_LE(json["angles"].size(), most_drawn);
+  for (const Json& line : json["charts"][0]["lines"])
+    EXPECT_LE(line["points"].size(), most_drawn) << line["name"];
 }
 
-TEST(Chart, BonesShowBeneathOnlyWhereThereAreBones) {
-  Chart chart = ramp();
-  EXPECT_EQ(chart_html(chart).find("bones"), std::string::npos);
-  chart.angles = {0, 45, 90};
-  EXPECT_NE(chart_html(chart).find(">90°<"), std::string::npos);
-  chart.angles = {std::nan(""), std::nan(""), std::nan("")};
-  EXPECT_EQ(chart_html(chart).find("bones"), std::string::npos);
+TEST(PageJson, HasAnglesOnlyWhereThereAreBones) {
+  PageData data;
+  data.times = {0, 1, 2};
+  data.angles = {0, 45, 90};
+  EXPECT_EQ(Json::parse(page_json(data))["angles"], Json::parse("[[0, 0], [1, 45], [2, 90]]"));
+  data.angles = {nan, nan, nan};
+  EXPECT_EQ(Json::parse(page_json(data))["angles"], Json::array());
+}
+
+TEST(PageJson, TellsCurvesAndWorstFrames) {
+  PageData data;
+  data.curves = {{"Law", "f = k x", "x in m", "f in N", {{"pair", {0, 1}, {3, -1}}}}};
+  data.worst = {{"J_min", 7, 0.35}};
+  const Json json = Json::parse(page_json(data));
+  EXPECT_EQ(json["curves"][0]["up"], "f in N");
+  EXPECT_EQ(json["curves"][0]["lines"][0]["points"], Json::parse("[[0, 3], [1, -1]]"));
+  EXPECT_EQ(json["worst"], Json::parse(R"([{"metric": "J_min", "frame": 7, "time": 0.35}])"));
+}
+
+TEST(WorstFrames, AreOfferedOfWhatWentWrong) {
+  std::vector<FrameMetrics> frames(3);
+  frames[1].broken_neighbors = 0;
+  frames[2].volume_error = 0.1;
+  const auto worst = worst_frames(frames, summarize(frames, r));
+  ASSERT_EQ(worst.size(), 1u);  // no neighbors are broken, and the rest was not measured
+  EXPECT_EQ(worst[0].metric, "volume_error");
+  EXPECT_EQ(worst[0].frame, 2u);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sinew/metrics/report/thin_surface.h>
 #include "world.h"
 
 namespace sinew::test {

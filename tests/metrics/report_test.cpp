@@ -6,9 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sinew/core/error.h>
-#include <sinew/metrics/report/charts.h>
-#include <sinew/metrics/report/embedded.h>
-#include <sinew/metrics/report/page_data.h>
+#include <sinew/metrics/report/page.h>
 #include <sinew/metrics/table.h>
 #include <sinew/metrics/summary.h>
 #include "world.h"
@@ -110,37 +108,47 @@ TEST(Report, ShowsFactsPicturesMovieChecksAndScene) {
     EXPECT_TRUE(contains(page, part)) << part;
 }
 
-TEST(Report, DrawsEveryPlannedChart) {
-  const std::string page = report_html(some_report());
-  std::size_t drawings = 0;
-  for (std::size_t at = page.find("<svg"); at != page.npos; at = page.find("<svg", at + 1))
-    ++drawings;
-  EXPECT_EQ(drawings, chart_plans().size());
+/// What the page's script reads from the element of that id.
+nlohmann::json json_in(const std::string& page, const std::string& id) {
+  const std::string begin = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::size_t at = page.find(begin);
+  if (at == page.npos) return nullptr;
+  const std::size_t from = at + begin.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
-TEST(Report, ChartsDrawMetricsOfTheTableAndAtMostSix) {
-  for (const ChartPlan& plan : chart_plans()) {
-    EXPECT_LE(plan.metrics.size(), 6u) << plan.title;
-    for (const std::string_view name : plan.metrics)
-      EXPECT_LT(metric_index(name), metrics_table().size()) << name;
+TEST(Report, HandsEveryPlannedChartAndItsCurvesToTheScript) {
+  ReportInput input = some_report();
+  input.curves = {{"Law", "", "x", "y", {{"pair", {0, 1}, {3, -1}}}}};
+  const std::string page = report_html(input);
+  const auto data = json_in(page, "data");
+  ASSERT_EQ(data["charts"].size(), chart_plans().size());
+  for (std::size_t i = 0; i < chart_plans().size(); ++i) {
+    EXPECT_EQ(data["charts"][i]["title"], chart_plans()[i].title);
+    EXPECT_EQ(data["charts"][i]["lines"].size(), chart_plans()[i].metrics.size());
+    EXPECT_EQ(data["charts"][i]["lines"][0]["points"].size(), input.frames.size());
   }
+  EXPECT_EQ(data["angles"].size(), input.frames.size());
+  EXPECT_EQ(data["curves"].size(), 1u);
+  EXPECT_TRUE(contains(page, "id=\"charts\"") && contains(page, "id=\"curves\""));
 }
 
-TEST(Report, ChartsShowRadiiSharesAndChangesAsTheySay) {
-  auto frames = some_frames(2);
-  frames[0].pair_energy = -7;
-  frames[1].pair_energy = -5;
-  frames[1].pose_error_rms = 3 * r;
-  frames[1].broken_neighbors = 0.25;
-  const auto last = [&](const std::string& metric) {
-    for (const ChartPlan& plan : chart_plans())
-      for (const Line& line : planned_chart(plan, frames, r).lines)
-        if (line.name == metric) return line.values.back();
-    return not_measured;
-  };
-  EXPECT_EQ(last("pair_energy"), 2);
-  EXPECT_EQ(last("pose_error_rms"), 3);
-  EXPECT_EQ(last("broken_neighbors"), 25);
+TEST(Report, HasAPlaybackOnlyWhereThereAreFrames) {
+  ReportInput input = some_report();
+  EXPECT_TRUE(json_in(report_html(input), "playback").is_null());
+  EXPECT_FALSE(contains(report_html(input), "id=\"stage\""));
+  input.playback = some_playback();
+  EXPECT_EQ(json_in(report_html(input), "playback")["snapshots"].size(), 1u);
+  EXPECT_TRUE(contains(report_html(input), "id=\"stage\""));
+}
+
+TEST(Report, SaysWithoutJavaScriptWhereTheNumbersAre) {
+  const std::string page = report_html(some_report());
+  const std::size_t begin = page.find("<noscript>"), end = page.find("</noscript>");
+  ASSERT_LT(begin, end);
+  const std::string line = page.substr(begin, end - begin);
+  for (const char* part : {"JavaScript", "3D view", "metrics.csv"})
+    EXPECT_TRUE(contains(line, part)) << part;
 }
 
 TEST(Report, StandsWithOneFrameAndNothingMeasured) {
@@ -158,18 +166,6 @@ TEST(Report, StandsWithOneFrameAndNothingMeasured) {
 
 TEST(Report, StaysSmallHoweverLongTheRun) {
   EXPECT_LT(own_part(report_html(some_report(50000))).size(), 2u << 20);
-}
-
-TEST(Report, OffersTheWorstFramesOfWhatWentWrong) {
-  ReportInput input = some_report(3);
-  input.frames = std::vector<FrameMetrics>(3);
-  input.frames[1].broken_neighbors = 0;
-  input.frames[2].volume_error = 0.1;
-  input.summary = summarize(input.frames, r);
-  const auto worst = nlohmann::json::parse(page_data(input, {}))["worst"];
-  ASSERT_EQ(worst.size(), 1u);  // no neighbors are broken, and the rest was not measured
-  EXPECT_EQ(worst[0]["metric"], "volume_error");
-  EXPECT_EQ(worst[0]["frame"], 2);
 }
 
 TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {

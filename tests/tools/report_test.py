@@ -32,35 +32,43 @@ const set = (id, value, event) => {
   if (control.type === "checkbox") control.checked = value; else control.value = value;
   control.dispatchEvent(new Event(event));
 };
-function drag(from, to) {
-  const canvas = document.querySelector("figure.chart canvas");
-  const box = canvas.getBoundingClientRect();
-  canvas.setPointerCapture = () => {};
-  for (const [kind, share] of [["pointerdown", from], ["pointermove", to], ["pointerup", to]])
-    canvas.dispatchEvent(new PointerEvent(kind, { button: 0, pointerId: 1,
-      clientX: box.left + share * box.width, clientY: box.top + 50 }));
+const firstChart = () => document.querySelector("#charts canvas");
+const drawn = () => new Promise((done) => setTimeout(done, 200));
+/** Events at a share of the first chart's width, and of its height. */
+function point(kinds, across, up) {
+  const box = firstChart().getBoundingClientRect();
+  firstChart().setPointerCapture = () => {};
+  for (const kind of kinds)
+    firstChart().dispatchEvent(new PointerEvent(kind, { button: 0, pointerId: 1,
+      clientX: box.left + across * box.width, clientY: box.top + up * box.height }));
 }
-setTimeout(() => {
-  try {
-    keep("start");
-    if (states.start.webgl) {
-      const last = document.getElementById("time").max;
-      set("time", Math.floor(last / 2), "input"); keep("middle");
-      set("field", "0", "change"); keep("colored");
-      set("cut", true, "change"); keep("cut"); set("cut", false, "change");
-      document.querySelector("#worst button").click(); keep("worst");
-    }
-    drag(0.4, 0.7); keep("dragged");
-    document.querySelector("figure.chart canvas").dispatchEvent(new Event("dblclick")); keep("whole");
-    states.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
-    states.message = document.querySelector(".message")?.hidden === false;
-    states.overflow = document.documentElement.scrollWidth - innerWidth;
-  } catch (error) { states.error = String(error); }
+const click = ["pointerdown", "pointerup", "click"];
+async function visit() {
+  keep("start");
+  if (states.start.webgl) {
+    const last = document.getElementById("time").max;
+    set("time", Math.floor(last / 2), "input"); keep("middle");
+    set("field", "0", "change"); keep("colored");
+    set("cut", true, "change"); keep("cut"); set("cut", false, "change");
+    document.querySelector("#worst button").click(); keep("worst");
+    point(click, 0.99, 0.4); keep("clicked");
+  }
+  point(["mousemove"], 0.5, 0.4); await drawn(); keep("pointed");
+  point(click, 0.1, 0.04); await drawn(); keep("hidden");
+  point(["pointerdown"], 0.4, 0.4); point(["pointermove", "pointerup"], 0.7, 0.4); keep("dragged");
+  point(["dblclick"], 0.5, 0.4); keep("whole");
+  states.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
+  states.message = document.querySelector(".message")?.hidden === false;
+  states.overflow = document.documentElement.scrollWidth - innerWidth;
+}
+setTimeout(() => visit().catch((error) => { states.error = String(error); }).then(() =>
   document.body.append(Object.assign(document.createElement("pre"),
-    { id: "states", textContent: JSON.stringify(states) }));
-}, 500);
+    { id: "states", textContent: JSON.stringify(states) }))), 500);
 </script>
 """
+# A browser that only dumps its page paints too seldom: the page's frames come by the clock.
+FRAMES = "<script>window.requestAnimationFrame = (job) => setTimeout(() => job(performance.now()), 16);</script>"
+DATA = re.compile(r'(?<=id="data">).*?(?=</script>)', re.DOTALL)
 
 
 def browse(page, *options):
@@ -73,10 +81,19 @@ def console_errors(talk):
     return [line for line in talk.splitlines() if "CONSOLE" in line and "GL Driver Message" not in line]
 
 
-def visit(*options):
-    """The states the visit leaves, and what the console said."""
+def data_of(text):
+    return json.loads(DATA.search(text)[0])
+
+
+def visit(*options, change=None):
+    """The states the visit leaves, and what the console said. change: of the charts' data beforehand."""
     page = RUN / "report_visit.html"
-    page.write_text((RUN / "report.html").read_text().replace("</body>", VISIT + "</body>"))
+    text = (RUN / "report.html").read_text()
+    if change:
+        data = data_of(text)
+        change(data)
+        text = DATA.sub(lambda _: json.dumps(data).replace("<", "\\u003c"), text)
+    page.write_text(text.replace("<head>", "<head>" + FRAMES).replace("</body>", VISIT + "</body>"))
     try:
         done = browse(page, "--dump-dom", "--window-size=1200,900", *options)
     finally:
@@ -101,17 +118,60 @@ class Report(unittest.TestCase):
         self.assertLess((RUN / "report.html").stat().st_size, PAGE_LIMIT)
 
     def test_charts_are_there(self):
-        figures = (RUN / "report.html").read_text().count('<figure class="c')
-        self.assertGreaterEqual(figures, 10)
-        self.assertEqual(self.states["start"]["charts"], figures)
+        data = data_of((RUN / "report.html").read_text())
+        self.assertGreaterEqual(len(data["charts"]), 10)
+        self.assertEqual(self.states["start"]["charts"], len(data["charts"]) + len(data["curves"]))
 
-    def test_charts_are_as_high_as_their_lines(self):
-        data = json.loads(re.search(r'id="data">(.*?)</script>', (RUN / "report.html").read_text(), re.DOTALL)[1])
+    def test_charts_are_as_high_as_their_lines_and_show_their_baselines(self):
+        data = data_of((RUN / "report.html").read_text())
         for chart, (low, high) in zip(data["charts"], self.states["start"]["heights"]):
             values = [y for line in chart["lines"] for _, y in line["points"] if y is not None]
             values += chart["baselines"]
             self.assertTrue(low <= min(values) and max(values) <= high, chart["title"])
             self.assertLessEqual(high - low, max(4 * (max(values) - min(values)), 2), chart["title"])
+
+    def test_ticks_can_be_told_apart_and_have_as_many_decimals(self):
+        for ticks in self.states["start"]["ticks"]:
+            self.assertGreaterEqual(len(ticks), 2)
+            self.assertEqual(len(set(ticks)), len(ticks), ticks)
+            decimals = {len(tick.split("e")[0].partition(".")[2]) for tick in ticks if tick != "0"}
+            self.assertEqual(len(decimals), 1, ticks)
+
+    def test_gaps_stay_gaps_and_what_is_flat_looks_flat(self):
+        def change(data):
+            gap, flat = data["charts"][0]["lines"][0]["points"], data["charts"][1]
+            for point in gap[3:5]:
+                point[1] = None
+            flat["baselines"] = []
+            for line in flat["lines"]:
+                for i, point in enumerate(line["points"]):
+                    point[1] = 2e5 + 1e-6 * (i % 2)
+        states, errors = visit("--disable-gpu", "--disable-3d-apis", change=change)
+        self.assertEqual(errors, [])
+        self.assertEqual(self.states["start"]["gaps"][0], 0)
+        self.assertEqual(states["start"]["gaps"][0], 2)
+        low, high = states["start"]["heights"][1]
+        self.assertGreaterEqual(high - low, 199)
+        self.assertTrue(low < 2e5 < high, (low, high))
+        self.assertEqual(len(set(states["start"]["ticks"][1])), len(states["start"]["ticks"][1]))
+
+    def test_the_pointer_shows_the_values_of_one_time(self):
+        chart = data_of((RUN / "report.html").read_text())["charts"][0]
+        pointed = self.states["pointed"]["pointed"]
+        times = {time for _, time, _ in pointed}
+        self.assertEqual(len(times), 1, pointed)
+        low, high = self.states["start"]["timeRange"]
+        self.assertTrue(low + 0.3 * (high - low) < times.pop() < low + 0.7 * (high - low), pointed)
+        held = {(line["name"], *point) for line in chart["lines"] for point in line["points"]}
+        values = [tuple(value) for value in pointed if value[0] != "bones"]
+        self.assertEqual(len(values), len(chart["lines"]))
+        self.assertLessEqual(set(values), held)
+
+    def test_a_click_leads_to_its_time_but_one_on_a_name_hides_its_line(self):
+        self.assertNotEqual(self.states["clicked"]["snapshot"], self.states["worst"]["snapshot"])
+        self.assertFalse(self.states["pointed"]["hidden"])
+        self.assertTrue(self.states["hidden"]["hidden"])
+        self.assertEqual(self.states["hidden"]["snapshot"], self.states["clicked"]["snapshot"])
 
     def test_the_slider_moves_the_particles(self):
         start, middle = self.states["start"], self.states["middle"]
@@ -153,14 +213,13 @@ class Report(unittest.TestCase):
 
 
 def take_pictures():
-    """The page as wide and narrow screens show it, in light and dark."""
+    """The page as wide and narrow screens show it, and as it prints."""
     PICTURES.mkdir(parents=True, exist_ok=True)
-    for shape, size in {"wide": "1400,4200", "narrow": "500,6000"}.items():
-        for light, number in {"light": 1, "dark": 0}.items():
-            picture = PICTURES / f"report_{shape}_{light}.png"
-            browse(RUN / "report.html", *SOFTWARE_GL, f"--window-size={size}", f"--screenshot={picture}",
-                   f"--blink-settings=preferredColorScheme={number}")
-            print(picture)
+    page = RUN / "report.html"
+    for shape, size in {"wide": "1200,4200", "narrow": "420,6000"}.items():
+        browse(page, *SOFTWARE_GL, f"--window-size={size}", f"--screenshot={PICTURES}/report_{shape}.png")
+    browse(page, *SOFTWARE_GL, f"--print-to-pdf={PICTURES}/report.pdf")
+    print(PICTURES)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/time_step.h>
-#include <sinew/rig/pose.h>
+#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

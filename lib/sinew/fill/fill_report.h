@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <sinew/fill/moments.h>
@@ -57,10 +58,14 @@ struct FillReport {
          seconds_verifying = 0;
 };
 
-/// A line of the report. The value is a number, a word in quotes, or numbers in brackets: JSON as
-/// it stands.
+using ReportValue = std::variant<std::size_t, double, bool, std::string, Vec3,
+                                 std::vector<std::size_t>, std::vector<double>>;
+
+/// A line of the report.
 struct ReportRow {
-  std::string key, value, unit;
+  std::string key;
+  ReportValue value;
+  std::string unit = "";
 };
 
 /// The report for people and scripts, `particles` first. Counts of defects only where not 0.

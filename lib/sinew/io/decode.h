@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Back from the text that encode.h makes of an array to its bytes, in parallel.
+// Back from the data of an array in a VTK XML file, whoever wrote it, to the array's bytes.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,25 @@
 
 namespace sinew {
 
-/// The bytes of which element_text made `text`: nothing where it made none such, or where they are
-/// not as many as `count`. No more is allocated than a sound text of that length could hold.
-std::optional<std::vector<unsigned char>> element_bytes(std::string_view text, Encoding encoding,
-                                                        std::uint64_t count);
+/// How a file keeps its arrays.
+struct Coding {
+  Encoding encoding = Encoding::zlib;  ///< what compresses them: zlib, lz4 or none
+  bool base64 = true;                  ///< else as they are
+  std::size_t word = 8;                ///< bytes of each of the counts before the data: 4 or 8
+};
 
-/// Puts `count` bytes at `to`; whether `text` is just what base64() makes of so many.
-bool from_base64(std::string_view text, std::size_t count, unsigned char* to);
+/// An array's bytes: its own, or those of the file where they lie there as they are.
+struct Decoded {
+  std::vector<unsigned char> own;
+  std::string_view bytes;
+};
+
+/// The bytes of the array that begins with `data`: nothing where the counts before them are not
+/// those of `count` bytes, or where they are damaged. No more is allocated than sound data of that
+/// length could hold.
+std::optional<Decoded> decoded(std::string_view data, const Coding& coding, std::uint64_t count);
+
+/// zlib, the stronger of the compressors, packs at most 1032 bytes into one.
+inline constexpr std::uint64_t most_expansion = 1032;
 
 }  // namespace sinew

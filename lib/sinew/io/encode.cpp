@@ -11,6 +11,7 @@
 #include <memory>
 #include <new>
 
+#include <sinew/core/base64.h>
 #include <sinew/core/parallel.h>
 
 namespace sinew {
@@ -111,7 +112,6 @@ ValueRange range_of(const FileArray& array, int components) {
 namespace {
 
 constexpr std::size_t blocks_per_piece = 16;  // enough to pay for a compressor of its own
-constexpr std::size_t triplets_per_piece = 1 << 17;
 constexpr int fastest = 1;  // moving floats gain nothing from the slower levels
 
 class Compressor {
@@ -195,39 +195,7 @@ std::string plain_text(const FileArray& array) {
   return base64(bytes);
 }
 
-using Pairs = std::array<std::array<char, 2>, 4096>;
-
-/// The two digits of every 12 bits.
-constexpr Pairs pairs_of_digits() {
-  Pairs pairs{};
-  for (std::size_t bits = 0; bits < pairs.size(); ++bits)
-    pairs[bits] = {base64_digits[bits >> 6], base64_digits[bits & 63]};
-  return pairs;
-}
-
-constexpr Pairs pairs = pairs_of_digits();
-
-void put_triplet(const unsigned char* from, char* to) {
-  std::memcpy(to, pairs[from[0] << 4 | from[1] >> 4].data(), 2);
-  std::memcpy(to + 2, pairs[(from[1] & 15) << 8 | from[2]].data(), 2);
-}
-
 }  // namespace
-
-std::string base64(const std::string& bytes) {
-  const std::size_t whole = bytes.size() / 3, rest = bytes.size() % 3;
-  std::string text((bytes.size() + 2) / 3 * 4, '=');
-  const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
-  parallel_for(whole, triplets_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) put_triplet(from + 3 * i, &text[4 * i]);
-  });
-  if (rest == 0) return text;
-  const unsigned char last[3] = {from[3 * whole], rest == 2 ? from[3 * whole + 1] : uint8_t{0}, 0};
-  char end[4];
-  put_triplet(last, end);
-  std::copy_n(end, rest + 1, &text[4 * whole]);
-  return text;
-}
 
 std::string element_text(const FileArray& array, Encoding encoding) {
   const bool packed = encoding == Encoding::zlib || encoding == Encoding::lz4;

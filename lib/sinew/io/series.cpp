@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/series.h>
 
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -16,9 +13,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
-#include <sinew/io/vtk_messages.h>
-#include <sinew/io/xml_bounds.h>
-#include <sinew/core/text.h>
+#include <sinew/io/xml.h>
 
 namespace sinew {
 
@@ -44,23 +39,22 @@ void check_inside(const std::filesystem::path& file) {
     throw refused("'" + file.string().substr(0, 200) + "' does not lie below the PVD's folder");
 }
 
-PvdRow row_of(vtkXMLDataElement& element) {
-  const char* time = element.GetAttribute("timestep");
-  const char* file = element.GetAttribute("file");
-  if (!time || !file) throw refused("a DataSet lacks its timestep or file");
-  check_inside(file);
-  return {time_of(time), file};
+PvdRow row_of(const XmlElement& element) {
+  const auto& given = element.attributes;
+  if (!given.contains("timestep") || !given.contains("file"))
+    throw refused("a DataSet lacks its timestep or file");
+  check_inside(given.at("file"));
+  return {time_of(given.at("timestep")), given.at("file")};
 }
 
-std::vector<PvdRow> rows_of(vtkXMLDataElement& root) {
-  vtkXMLDataElement* collection = root.FindNestedElementWithName("Collection");
-  if (std::string_view(root.GetName()) != "VTKFile" || !collection)
-    throw refused("it is not a PVD file");
+std::vector<PvdRow> rows_of(const std::vector<XmlElement>& elements) {
+  bool collection = false;
   std::vector<PvdRow> rows;
-  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
-    vtkXMLDataElement* element = collection->GetNestedElement(i);
-    if (std::string_view(element->GetName()) == "DataSet") rows.push_back(row_of(*element));
+  for (const XmlElement& element : elements) {
+    collection = collection || element.path == "VTKFile/Collection";
+    if (element.path == "VTKFile/Collection/DataSet") rows.push_back(row_of(element));
   }
+  if (!collection) throw refused("it is not a PVD file");
   return rows;
 }
 
@@ -79,14 +73,8 @@ std::string pvd_text(const std::vector<PvdRow>& rows) {
 
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path, largest_pvd);
-  if (!is_within_bounds(text))
-    throw refused("it is not a PVD file, or one of over 200000 frames").with_context({path.string()});
-  const VtkMessages messages;
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
-      vtkXMLUtilities::ReadElementFromString(text.c_str()));
   try {
-    if (!root || messages.failed()) throw refused("it is not a PVD file");
-    return rows_of(*root);
+    return rows_of(xml_elements(text));
   } catch (const Error& error) {
     throw error.with_context({path.string()});
   }

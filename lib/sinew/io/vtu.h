@@ -25,9 +25,14 @@ struct VtuFormat {
 /// Writes `path` whole or not at all. Throws not written, naming the file.
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format);
 
+/// VTK's number for cells of this kind.
+int vtk_type(CellKind kind);
+
 /// Reads a VTU file whose cells are all vertices, all lines of two points or all triangles.
 /// Integers beyond Int32 become doubles; a field array becomes one row. Throws bad input, naming
-/// the file, for anything else: never a crash, nothing on the console.
+/// the file, for anything else: never a crash, nothing on the console. Arrays may be of any type of
+/// numbers, as words, base64 or appended, compressed by ZLib, LZ4 or not, with counts of 32 or 64
+/// bits.
 Dataset read_vtu(const std::filesystem::path& path);
 
 /// The same with only those arrays of the points that are named and there: much sooner.

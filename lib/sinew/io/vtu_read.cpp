@@ -1,212 +1,201 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vtkAOSDataArrayTemplate.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArraySelection.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <algorithm>
-#include <limits>
+#include <new>
 #include <optional>
-#include <type_traits>
 
-#include <sinew/core/error.h>
-#include <sinew/io/vtk_messages.h>
+#include <sinew/core/file.h>
 #include <sinew/io/vtu.h>
-#include <sinew/io/vtu_header.h>
-#include <sinew/io/vtu_lines.h>
+#include <sinew/io/vtu_array.h>
+#include <sinew/io/xml.h>
 
 namespace sinew {
 namespace {
 
-Error refused(const std::string& what) {
-  return bad_input(what, "use a VTU file as sinew writes them");
-}
-
-bool fits_int32(vtkDataArray& array) {
-  const int type = array.GetDataType();
-  if (type == VTK_FLOAT || type == VTK_DOUBLE) return false;
-  if (array.GetDataTypeSize() < 4 || type == VTK_INT) return true;
-  using Limits = std::numeric_limits<std::int32_t>;
-  for (int k = 0; k < array.GetNumberOfComponents(); ++k) {
-    double range[2];
-    array.GetRange(range, k);
-    if (array.GetNumberOfTuples() > 0 && (range[0] < Limits::min() || range[1] > Limits::max()))
-      return false;
-  }
-  return true;
-}
-
-template <class Value>
-using Typed = vtkAOSDataArrayTemplate<Value>;
-
-template <class Value, class Given>
-std::vector<Value> converted_values(Typed<Given>& array) {
-  const Given* first = array.GetPointer(0);
-  return {first, first + array.GetNumberOfValues()};
-}
-
-template <class Value>
-std::vector<Value> values_of(vtkDataArray& array) {
-  // What our own files hold, without a copy between.
-  if (auto* same = Typed<Value>::FastDownCast(&array)) return converted_values<Value>(*same);
-  if (auto* reals = Typed<float>::FastDownCast(&array); reals && std::is_same_v<Value, double>)
-    return converted_values<Value>(*reals);
-  vtkNew<Typed<Value>> converted;
-  converted->DeepCopy(&array);
-  return converted_values<Value>(*converted);
-}
-
-Column column_of(vtkDataArray& array) {
-  Column column{array.GetName() ? array.GetName() : "", array.GetNumberOfComponents(), {}};
-  if (fits_int32(array))
-    column.values = values_of<std::int32_t>(array);
-  else
-    column.values = values_of<double>(array);
-  return column;
-}
-
-/// The arrays of one kind of place, each `rows` long.
-std::vector<Column> columns_of(vtkFieldData& from, vtkIdType rows) {
-  std::vector<Column> columns;
-  for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
-    vtkDataArray* array = from.GetArray(i);
-    const char* name = from.GetAbstractArray(i)->GetName();
-    if (!array) throw refused("array '" + std::string(name ? name : "") + "' is not numeric");
-    if (array->GetNumberOfTuples() != rows)
-      throw refused("array '" + std::string(name ? name : "") + "' has the wrong length");
-    columns.push_back(column_of(*array));
-  }
-  return columns;
-}
-
-Points points_of(vtkUnstructuredGrid& grid) {
-  if (!grid.GetPoints()) return {};
-  const auto flat = values_of<double>(*grid.GetPoints()->GetData());
-  Points points;
-  points.reserve(flat.size() / 3);
-  for (std::size_t i = 0; i + 2 < flat.size(); i += 3) points.emplace_back(&flat[i]);
-  return points;
-}
-
-CellKind kind_of(vtkUnstructuredGrid& grid) {
-  const vtkUnsignedCharArray* types = grid.GetCellTypesArray();
-  if (grid.GetNumberOfCells() == 0 || !types) return CellKind::vertex;
-  const unsigned char type = types->GetValue(0);
-  for (vtkIdType i = 1; i < types->GetNumberOfValues(); ++i)
-    if (types->GetValue(i) != type) throw refused("its cells are not all of one kind");
-  if (type == VTK_VERTEX) return CellKind::vertex;
-  if (type == VTK_LINE) return CellKind::line;
-  if (type == VTK_TRIANGLE) return CellKind::triangle;
-  throw refused("it holds cells of VTK's type " + std::to_string(type) +
-                ", not vertices, lines or triangles");
-}
-
-/// Checked here because VTK believes what the file says: every cell of `size` points, all existing.
-std::vector<std::int32_t> connectivity_of(vtkUnstructuredGrid& grid, int size) {
-  vtkCellArray& cells = *grid.GetCells();
-  const auto offsets = values_of<double>(*cells.GetOffsetsArray());
-  for (std::size_t i = 0; i < offsets.size(); ++i)
-    if (offsets[i] != static_cast<double>(i) * size)
-      throw refused("a cell does not have " + std::to_string(size) + " point(s)");
-  const auto ids = values_of<double>(*cells.GetConnectivityArray());
-  if (ids.size() != static_cast<std::size_t>(grid.GetNumberOfCells()) * size)
-    throw refused("its cells are cut short");
-  for (const double id : ids)
-    if (!(id >= 0 && id < static_cast<double>(grid.GetNumberOfPoints())))
-      throw refused("a cell names a point that is not there");
-  return {ids.begin(), ids.end()};
-}
-
-void take_field(vtkFieldData& field, Dataset& data) {
-  for (int i = 0; i < field.GetNumberOfArrays(); ++i) {
-    vtkDataArray* array = field.GetArray(i);
-    if (!array) throw refused("its field data is not numeric");
-    Column column = column_of(*array);
-    const bool single = array->GetNumberOfValues() == 1;
-    if (column.name == "TimeValue" && single)
-      data.time = array->GetComponent(0, 0);
-    else if (column.name == "CYCLE" && single && fits_int32(*array))
-      data.cycle = static_cast<std::int32_t>(array->GetComponent(0, 0));
-    else if (auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
-             bytes && column.name == "sinew_meta")
-      data.meta.assign(reinterpret_cast<const char*>(bytes->GetPointer(0)),
-                       static_cast<std::size_t>(bytes->GetNumberOfValues()));
-    else {
-      column.components = static_cast<int>(array->GetNumberOfValues());
-      data.field_columns.push_back(std::move(column));
-    }
-  }
-}
-
-Dataset dataset_of(vtkUnstructuredGrid& grid) {
-  Dataset data;
-  data.points = points_of(grid);
-  data.kind = kind_of(grid);
-  if (grid.GetNumberOfCells() > 0)
-    data.connectivity = connectivity_of(grid, static_cast<int>(data.kind));
-  data.point_columns = columns_of(*grid.GetPointData(), grid.GetNumberOfPoints());
-  data.cell_columns = columns_of(*grid.GetCellData(), grid.GetNumberOfCells());
-  take_field(*grid.GetFieldData(), data);
-  return data;
-}
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;  // bytes
+constexpr std::string_view in_grid = "VTKFile/UnstructuredGrid/";
+constexpr std::string_view appended_path = "VTKFile/AppendedData";
 
 using Names = std::initializer_list<const char*>;
 
-/// Lets the reader pass over all arrays of the points but those named.
-void select(vtkXMLUnstructuredGridReader& reader, const Names& names) {
-  reader.UpdateInformation();
-  vtkDataArraySelection& selection = *reader.GetPointDataArraySelection();
-  selection.DisableAllArrays();
-  for (const char* name : names)
-    if (selection.ArrayExists(name)) selection.EnableArray(name);
+/// What the file says of itself, and its arrays yet encoded.
+struct VtuFile {
+  std::vector<XmlElement> elements;
+  VtuArrays arrays;
+
+  /// Those within a group of the grid, such as "Piece/PointData".
+  std::vector<const XmlElement*> group(const std::string& name) const {
+    const std::string numbers = std::string(in_grid) + name + "/DataArray";
+    const std::string words = std::string(in_grid) + name + "/Array";
+    std::vector<const XmlElement*> found;
+    for (const XmlElement& element : elements)
+      if (element.path == numbers || element.path == words) found.push_back(&element);
+    return found;
+  }
+};
+
+void check_start_and_end(std::string_view text) {
+  if (!text.starts_with('<') || text.substr(0, 4096).find("<VTKFile") == text.npos)
+    throw vtu_refused("it is not a VTK XML file");
+  // A writer that was stopped leaves a file without its last tag.
+  if (!text.substr(0, text.find_last_not_of(" \t\r\n") + 1).ends_with("</VTKFile>"))
+    throw vtu_refused("it is cut short");
+}
+
+void check_root(const XmlElement& root) {
+  if (root.path != "VTKFile") throw vtu_refused("it is not a VTK XML file");
+  if (const auto type = root.attribute("type"); type != "UnstructuredGrid")
+    throw vtu_refused("it holds " + quoted(type) + ", not an UnstructuredGrid");
+  if (root.attribute("byte_order") == "BigEndian")
+    throw vtu_refused("it is of a big-endian machine");
+}
+
+Coding coding_of(const XmlElement& root) {
+  const auto compressor = root.attribute("compressor");
+  const auto header = root.attribute("header_type");
+  Coding coding;
+  coding.word = header == "UInt64" ? 8 : 4;
+  if (!header.empty() && header != "UInt64" && header != "UInt32")
+    throw vtu_refused("its header_type is " + quoted(header));
+  if (compressor.empty())
+    coding.encoding = Encoding::none;
+  else if (compressor == "vtkZLibDataCompressor")
+    coding.encoding = Encoding::zlib;
+  else if (compressor == "vtkLZ4DataCompressor")
+    coding.encoding = Encoding::lz4;
+  else
+    throw vtu_refused("it is compressed by " + quoted(compressor) + ", not by ZLib or LZ4");
+  return coding;
+}
+
+VtuFile file_of(std::string_view text) {
+  check_start_and_end(text);
+  VtuFile file{xml_elements(text, appended_path), {}};
+  check_root(file.elements.front());
+  VtuArrays& arrays = file.arrays;
+  arrays.within = arrays.behind = coding_of(file.elements.front());
+  arrays.most = text.size() * most_expansion;
+  const XmlElement& last = file.elements.back();
+  if (last.path != appended_path) return file;
+  arrays.behind.base64 = last.attribute("encoding") != "raw";
+  const auto mark = last.text.find('_');
+  if (mark != last.text.npos) arrays.appended = last.text.substr(mark + 1);
+  return file;
+}
+
+const XmlElement& piece_of(const VtuFile& file) {
+  const std::string path = std::string(in_grid) + "Piece";
+  const auto is_piece = [&](const XmlElement& element) { return element.path == path; };
+  const auto pieces = std::count_if(file.elements.begin(), file.elements.end(), is_piece);
+  if (pieces != 1) throw vtu_refused("it has " + std::to_string(pieces) + " pieces, not one");
+  return *std::find_if(file.elements.begin(), file.elements.end(), is_piece);
+}
+
+/// The integers of one of the arrays that make up the cells.
+std::vector<std::int32_t> of_cells(const VtuFile& file, const char* name, std::uint64_t count) {
+  for (const XmlElement* array : file.group("Piece/Cells")) {
+    if (array->attribute("Name") != name) continue;
+    Column column = file.arrays.column(*array, count);
+    if (auto* integers = std::get_if<std::vector<std::int32_t>>(&column.values))
+      return std::move(*integers);
+    throw vtu_refused("array " + quoted(name) + " does not hold integers of 32 bits");
+  }
+  throw vtu_refused("its cells have no " + std::string(name));
+}
+
+CellKind kind_of(const std::vector<std::int32_t>& types) {
+  for (const std::int32_t type : types)
+    if (type != types.front()) throw vtu_refused("its cells are not all of one kind");
+  for (const CellKind kind : {CellKind::vertex, CellKind::line, CellKind::triangle})
+    if (types.front() == vtk_type(kind)) return kind;
+  throw vtu_refused("it holds cells of VTK's type " + std::to_string(types.front()) +
+                    ", not vertices, lines or triangles");
+}
+
+void read_cells(const VtuFile& file, std::uint64_t cells, Dataset& data) {
+  if (cells == 0) return;
+  data.kind = kind_of(of_cells(file, "types", cells));
+  const auto size = static_cast<std::int64_t>(data.kind);
+  const auto ends = of_cells(file, "offsets", cells);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (ends[i] != static_cast<std::int64_t>(i + 1) * size)
+      throw vtu_refused("a cell does not have " + std::to_string(size) + " point(s)");
+  data.connectivity = of_cells(file, "connectivity", cells * static_cast<std::uint64_t>(size));
+  for (const std::int32_t id : data.connectivity)
+    if (id < 0 || static_cast<std::size_t>(id) >= data.points.size())
+      throw vtu_refused("a cell names a point that is not there");
+}
+
+void read_points(const VtuFile& file, std::uint64_t points, Dataset& data) {
+  const auto arrays = file.group("Piece/Points");
+  if (points == 0) return;
+  if (arrays.size() != 1) throw vtu_refused("its points are not one array");
+  data.points = file.arrays.points(*arrays.front(), points);
+  for (std::size_t i = 0; i < data.points.size(); ++i)
+    if (!data.points[i].allFinite())
+      throw vtu_refused("point " + std::to_string(i) + " is not finite");
+}
+
+void take_field(const XmlElement& array, const VtuArrays& arrays, Dataset& data) {
+  Column column = arrays.column(array, arrays.count(array, "NumberOfTuples"));
+  const auto* whole = std::get_if<std::vector<std::int32_t>>(&column.values);
+  const auto* real = std::get_if<std::vector<double>>(&column.values);
+  const std::size_t count = whole ? whole->size() : real->size();
+  if (column.name == "TimeValue" && count == 1)
+    data.time = whole ? whole->front() : real->front();
+  else if (column.name == "CYCLE" && whole && count == 1)
+    data.cycle = whole->front();
+  else if (column.name == "sinew_meta" && array.attribute("type") == "UInt8")
+    data.meta.assign(whole->begin(), whole->end());
+  else {
+    column.components = static_cast<int>(count);
+    data.field_columns.push_back(std::move(column));
+  }
+}
+
+bool is_wanted(const XmlElement& array, const std::optional<Names>& names) {
+  return !names || std::find(names->begin(), names->end(), array.attribute("Name")) != names->end();
 }
 
 /// All arrays of the points where `names` is none.
-Dataset read_checked(const std::filesystem::path& path, const std::optional<Names>& names) {
-  if (auto ours = read_vtu_lines(path, names)) return *std::move(ours);
-  const VtkMessages messages;
-  check_vtu_header(path);
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(path.c_str());
-  if (names) select(*reader, *names);
-  reader->Update();
-  if (messages.failed()) throw refused("it cannot be read: " + messages.first_error());
-  if (reader->GetErrorCode() != 0 || !reader->GetOutput())
-    throw refused("it cannot be read, it may be cut short");
-  return dataset_of(*reader->GetOutput());
+Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
+  const XmlElement& piece = piece_of(file);
+  const auto points = file.arrays.count(piece, "NumberOfPoints");
+  const auto cells = file.arrays.count(piece, "NumberOfCells");
+  Dataset data;
+  read_points(file, points, data);
+  read_cells(file, cells, data);
+  for (const XmlElement* array : file.group("Piece/PointData"))
+    if (is_wanted(*array, names)) data.point_columns.push_back(file.arrays.column(*array, points));
+  for (const XmlElement* array : file.group("Piece/CellData"))
+    data.cell_columns.push_back(file.arrays.column(*array, cells));
+  for (const XmlElement* array : file.group("FieldData")) take_field(*array, file.arrays, data);
+  return data;
 }
 
-void check_points(const Points& points) {
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!points[i].allFinite()) throw refused("point " + std::to_string(i) + " is not finite");
-}
-
-Dataset read_with_context(const std::filesystem::path& path, const std::optional<Names>& names) {
+Dataset read_text(std::string_view text, const std::optional<Names>& names,
+                  const std::filesystem::path& path) {
   try {
-    Dataset data = read_checked(path, names);
-    check_points(data.points);
-    return data;
+    return dataset_of(file_of(text), names);
   } catch (const Error& error) {
     throw error.with_context({path.string()});
-  } catch (const std::exception&) {
-    // What VTK throws when it believes a wrong count: out of memory, a vector too long.
-    throw refused("its counts do not fit its size").with_context({path.string()});
+  }
+}
+
+Dataset read_named(const std::filesystem::path& path, const std::optional<Names>& names) {
+  try {
+    return read_text(read_file(path, largest_file), names, path);
+  } catch (const std::bad_alloc&) {
+    throw bad_input({path.string()}, "needs more memory than there is", "read it elsewhere");
   }
 }
 
 }  // namespace
 
-Dataset read_vtu(const std::filesystem::path& path) { return read_with_context(path, std::nullopt); }
+Dataset read_vtu(const std::filesystem::path& path) { return read_named(path, std::nullopt); }
 
 Dataset read_vtu(const std::filesystem::path& path,
                  std::initializer_list<const char*> point_arrays) {
-  return read_with_context(path, point_arrays);
+  return read_named(path, point_arrays);
 }
 
 }  // namespace sinew

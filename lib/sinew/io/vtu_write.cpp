@@ -7,7 +7,6 @@
 #include <sinew/io/arrays.h>
 #include <sinew/io/encode.h>
 #include <sinew/io/vtu.h>
-#include <sinew/io/vtu_tags.h>
 
 namespace sinew {
 namespace {
@@ -212,8 +211,7 @@ class VtuText {
   std::uint64_t offset_ = 0;  ///< of the next array in the appended data
 };
 
-}  // namespace
-
+/// All up to the field data.
 std::string vtu_opening(Encoding encoding) {
   std::string tag =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
@@ -222,6 +220,8 @@ std::string vtu_opening(Encoding encoding) {
   if (encoding == Encoding::lz4) tag += " compressor=\"vtkLZ4DataCompressor\"";
   return tag + ">\n<UnstructuredGrid>\n";
 }
+
+}  // namespace
 
 int vtk_type(CellKind kind) {
   return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;

@@ -74,17 +74,17 @@ constexpr std::size_t most_boxes = 20'000'000;
 
 Kernel::Point_3 point_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-struct Place {
+struct Probing {
   int face;
   Vec3 point, inward;
 };
 
 /// Places that each stand for the same area, in scattered order.
-std::vector<Place> spread(const Triangles& surface) {
+std::vector<Probing> spread(const Triangles& surface) {
   std::vector<double> until;  // area up to and with each face
   double sum = 0;
   for (const auto& face : surface.faces) until.push_back(sum += face_area(surface, face));
-  std::vector<Place> result;
+  std::vector<Probing> result;
   for (int i = 0; i < places && sum > 0; ++i) {
     const int k = i * stride % places;
     const auto found = std::upper_bound(until.begin(), until.end(), (k + 0.5) / places * sum);
@@ -138,7 +138,7 @@ class Rays {
 
   /// From a place to where as many parts are left as were entered; nothing where the place lies
   /// within another part, or there is no end.
-  std::optional<double> thickness(const Place& place) {
+  std::optional<double> thickness(const Probing& place) {
     std::vector<Crossing> crossings = crossings_of(place);
     std::sort(crossings.begin(), crossings.end(),
               [](const Crossing& a, const Crossing& b) { return a.distance < b.distance; });
@@ -154,7 +154,7 @@ class Rays {
   std::size_t boxes() const { return boxes_; }
 
  private:
-  std::vector<Crossing> crossings_of(const Place& place) {
+  std::vector<Crossing> crossings_of(const Probing& place) {
     const Kernel::Point_3 from = point_of(place.point);
     Probe probe;
     tree_.traversal(Kernel::Line_3(from, point_of(place.point + place.inward) - from), probe);
@@ -184,7 +184,7 @@ std::optional<double> thinnest_part(const Triangles& surface) {
   Rays rays(surface);
   std::vector<double> found;
   std::size_t tried = 0;
-  for (const Place& place : spread(surface)) {
+  for (const Probing& place : spread(surface)) {
     if (rays.boxes() > most_boxes) break;
     ++tried;
     if (const auto thickness = rays.thickness(place)) found.push_back(*thickness);

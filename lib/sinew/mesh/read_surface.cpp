@@ -5,19 +5,17 @@
 #include <cmath>
 #include <map>
 
+#include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/readers/mesh_readers.h>
 #include <sinew/mesh/repair.h>
 
 namespace sinew {
 
-PolygonSoup read_polygons(const std::string& path) { return read_mesh(open_mesh(path)); }
-
-Surface read_surface(const BodyOptions& body, const MeshReader& reader) {
+Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) {
   Stopwatch watch;
-  PolygonSoup soup = reader(body.mesh);
+  PolygonSoup soup = read_polygons(body.mesh, more);
   const double reading = watch.lap();
   try {
     Surface surface = prepare(std::move(soup), body);

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a mesh file to a surface. Files: OBJ, OFF (text), STL (text and binary) and PLY (text and
-// binary), told by the extension; any other kind through a reader for it.
+// From a mesh file to a surface.
+//
+//     BodyOptions body;
+//     body.mesh = "part.stl";
+//     body.unit = LengthUnit::mm;
+//     const Surface surface = read_surface(body);
 #pragma once
 
-#include <functional>
-#include <string>
+#include <span>
 
-#include <sinew/core/triangles.h>
-#include <sinew/mesh/surface.h>
 #include <sinew/core/options.h>
+#include <sinew/mesh/readers/mesh_formats.h>
+#include <sinew/mesh/surface.h>
 
 namespace sinew {
 
-/// What the file holds, unchanged: at least one face, corners that exist, finite coordinates.
-/// Throws Error (bad input) naming file, line where there is one, fault and cure.
-PolygonSoup read_polygons(const std::string& path);
-
-using MeshReader = std::function<PolygonSoup(const std::string& path)>;
-
-/// What the reader finds at `body.mesh`, prepared as the settings ask (mesh/prepare.h), with the
-/// time that took. Throws Error (bad input), naming the file.
-Surface read_surface(const BodyOptions& body, const MeshReader& reader = read_polygons);
+/// The mesh at `body.mesh`, in any of the formats that read_polygons takes, prepared as the options
+/// ask, with the time that took. Throws Error (bad input), naming the file.
+Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more = {});
 
 // From what a file holds to the surface that a body's settings ask for.
 

@@ -19,6 +19,7 @@
 #include <sinew/physics/lists/list_stepper.h>
 #include <sinew/physics/reference/cell_stepper.h>
 #include <sinew/physics/stepper.h>
+#include <sinew/rig/motion.h>
 #include <sinew/rig/pose.h>
 #include <sinew/core/options.h>
 

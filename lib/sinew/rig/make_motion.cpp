@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/core/vector.h>
 #include <sinew/rig/motion.h>

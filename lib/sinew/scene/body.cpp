@@ -2,6 +2,7 @@
 #include <sinew/scene/body.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -9,9 +10,8 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/read_gltf.h>
+#include <sinew/io/gltf/geometry.h>
 #include <sinew/mesh/read_surface.h>
-#include <sinew/mesh/readers/mesh_text.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 
@@ -19,14 +19,17 @@ namespace sinew {
 
 namespace {
 
-PolygonSoup read_any(const std::string& path) {
-  const std::string extension = lower(std::filesystem::path(path).extension().string());
-  return extension == ".gltf" || extension == ".glb" ? read_gltf(path) : read_polygons(path);
-}
+PolygonSoup read_gltf_file(const std::string& path) { return read_gltf(path); }
+
+/// Beside those of the room mesh, which knows nothing of io.
+constexpr std::array<MeshFormat, 2> gltf_formats = {
+    {{"glTF", ".gltf", read_gltf_file}, {"GLB", ".glb", read_gltf_file}}};
 
 }  // namespace
 
-Surface read_body_mesh(const BodyOptions& body) { return read_surface(body, read_any); }
+std::string mesh_formats() { return mesh_format_names(gltf_formats); }
+
+Surface read_body_mesh(const BodyOptions& body) { return read_surface(body, gltf_formats); }
 
 namespace {
 
@@ -79,13 +82,23 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
                  [&] { return pack(surface, options); });
 }
 
+nlohmann::ordered_json json_of(const ReportValue& value) {
+  const auto json = [](const auto& one) -> nlohmann::ordered_json {
+    if constexpr (std::is_same_v<std::decay_t<decltype(one)>, Vec3>)
+      return {one.x(), one.y(), one.z()};
+    else
+      return one;
+  };
+  return std::visit(json, value);
+}
+
 BodyFile body_file(Filling filling, const std::string& origin) {
   nlohmann::ordered_json meta;
   meta["program"] = "sinew";
   meta["version"] = version();
   meta["origin"] = origin;
   for (const ReportRow& row : rows_of(filling.report)) {
-    meta["fill"][row.key] = nlohmann::ordered_json::parse(row.value, nullptr, false);
+    meta["fill"][row.key] = json_of(row.value);
     if (!row.unit.empty()) meta["fill_units"][row.key] = row.unit;
   }
   meta["fill"]["warnings"] = filling.report.warnings;

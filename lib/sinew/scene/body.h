@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include <sinew/fill/pack.h>
 #include <sinew/io/single_files.h>
@@ -16,7 +18,8 @@ namespace sinew {
 // The mesh of a scene, or on the command line, ready to be filled: read by the room that knows its
 // format, repaired where that was asked for, cleaned.
 
-inline constexpr const char* mesh_formats = "OBJ, OFF, STL, PLY, glTF, GLB";
+/// The formats, as help texts list them: "OBJ, OFF, STL, PLY, glTF, GLB".
+std::string mesh_formats();
 
 /// Reads body.mesh with the options of the section body. Throws Error (bad input) naming the file.
 Surface read_body_mesh(const BodyOptions& body);
@@ -35,6 +38,9 @@ Surface read_mesh(const Settings& settings);
 
 /// Fills it as the scene says. Errors name the scene's line. `verify`: every site is asked of CGAL.
 Filling fill_body(const Settings& settings, const Surface& surface, bool verify = false);
+
+/// A value of the fill's report as JSON, which has null for numbers that are not finite.
+nlohmann::ordered_json json_of(const ReportValue& value);
 
 /// What body.vtu holds of a filling; `origin` tells from what it was made.
 BodyFile body_file(Filling filling, const std::string& origin);

@@ -5,7 +5,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/read_rig.h>
+#include <sinew/io/gltf/rig.h>
 #include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/context.h>

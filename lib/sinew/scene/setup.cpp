@@ -6,9 +6,9 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/read_rig.h>
+#include <sinew/io/gltf/rig.h>
 #include <sinew/physics/time_step.h>
-#include <sinew/rig/pose.h>
+#include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/world.h>

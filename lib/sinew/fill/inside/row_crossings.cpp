@@ -44,8 +44,6 @@ namespace {
 
 constexpr std::size_t faces_at_a_time = 4096, rows_at_a_time = 512;
 
-int sign(double x) { return (x > 0) - (x < 0); }
-
 /// A point of the surface as the rows see it.
 struct Corner {
   double x, across, up;

@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the guard over glTF files. All throw bad input without the path, and name the
-// element at fault: "accessors[3]".
+// A glTF file whose numbers can be believed: every count, offset and index of it has been looked
+// at.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include <sinew/core/error.h>
-#include <sinew/io/gltf/guard.h>
+#include <sinew/io/gltf/document.h>
+#include <sinew/io/gltf/node_tree.h>
 
 namespace sinew {
 
-/// glTF 2, and no extension required that changes shapes.
-void check_gltf_version(const GltfDocument& document);
+/// A document that holds together. Every index points at something; every element lies in its
+/// view, every view in `bytes`; nodes form trees of moderate depth. Positions are VEC3 of floats,
+/// corners whole numbers, as many as their mode wants. Skins have a bind matrix for every joint and
+/// surfaces joints and weights for every vertex, if any; animations have values for every time.
+/// What the numbers are (corners, coordinates, times, weights) is not looked at.
+struct CheckedGltf {
+  GltfDocument document;    ///< no buffers: the views' offsets count from the start of `bytes`
+  std::vector<char> bytes;  ///< all buffers, below 2 GiB
+  GltfTree tree;            ///< of all nodes
+  std::vector<int> shown;   ///< the nodes of the default scene, parents first
+};
 
-/// Every view lies in its buffer; then the buffers become one: views count from its start.
-void join_gltf_buffers(GltfDocument& document);
+/// Reads a .gltf with its buffers, or a .glb. Buffers are taken from data URIs and from files in
+/// the folder of `path` or below. Throws bad input, with the path.
+CheckedGltf checked_gltf(const std::filesystem::path& path);
 
-/// Every accessor lies in its view, if it has one.
-void check_gltf_accessors(const GltfDocument& document);
-
-/// The indices of sparse accessors (checked before) are within them.
-void check_gltf_sparse(const GuardedGltf& gltf);
-
-/// Indices exist; positions and corners of surfaces have data of the right kind.
-void check_gltf_meshes(const GltfDocument& document);
-
-/// Indices exist; nodes form trees of moderate depth; the default scene, the only one that is left
-/// (all roots where there is none), holds roots, each once.
-void check_gltf_nodes(GltfDocument& document);
+/// The parts of the check that rigs need. All checks throw bad input without the path, and name the
+/// element at fault: "accessors[3]".
 
 /// Indices exist; joints are nodes, each once; inverse bind matrices are enough; surfaces have
 /// joints and weights of the right kind for every vertex. Accessors and meshes are checked before.
@@ -42,25 +43,14 @@ void check_gltf_animations(GltfDocument& document);
 /// The accessor of that index, which must exist and have data. `user` is a plural: "its times".
 const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user);
 
-inline Error damaged_gltf(const std::string& what) { return bad_input(what, "export it again"); }
-
-/// nth("nodes", 3) is "nodes[3]".
-inline std::string nth(const char* what, std::size_t index) {
-  return std::string(what) + '[' + std::to_string(index) + ']';
-}
-
-template <class Element>
-void check_index(int index, const std::vector<Element>& elements, const std::string& user,
-                 const char* what) {
-  if (index < 0 || static_cast<std::size_t>(index) >= elements.size())
-    throw damaged_gltf(user + " names " + what + ' ' + std::to_string(index) + " of " +
-                       std::to_string(elements.size()));
-}
-
-/// Whether indices may be given in such numbers.
-inline bool counts(GltfNumber number) {
-  return number == GltfNumber::uint8 || number == GltfNumber::uint16 ||
-         number == GltfNumber::uint32;
+/// Calls visit(primitive, "meshes[1].primitives[2]") for all of the file.
+template <class Visit>
+void for_each_primitive(const GltfDocument& document, const Visit& visit) {
+  for (std::size_t i = 0; i < document.meshes.size(); ++i) {
+    const auto& primitives = document.meshes[i].primitives;
+    for (std::size_t k = 0; k < primitives.size(); ++k)
+      visit(primitives[k], nth("meshes", i) + '.' + nth("primitives", k));
+  }
 }
 
 }  // namespace sinew

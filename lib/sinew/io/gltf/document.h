@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/error.h>
+
 namespace sinew {
 
 struct GltfBuffer {
@@ -124,5 +126,28 @@ struct GltfDocument {
 /// Bytes of one number, numbers of one element ("VEC3": 3; 0 for an unknown type).
 int size_of(GltfNumber number);
 int components_of(std::string_view type);
+
+/// A length or index in a file, in bytes or elements, is at most this: 32 bits with a sign.
+inline constexpr std::int64_t most_gltf_bytes = 2147483647;
+
+/// Checks the form of each field it takes (type, length, range), not what indices point at. Throws
+/// bad input (without the path) that names the field, and for JSON that is damaged, nests more than
+/// 100 deep or holds more than 4 million values.
+GltfDocument gltf_document(std::string_view json);
+
+inline Error damaged_gltf(const std::string& what) { return bad_input(what, "export it again"); }
+
+/// nth("nodes", 3) is "nodes[3]".
+inline std::string nth(std::string_view what, std::size_t index) {
+  return std::string(what) + '[' + std::to_string(index) + ']';
+}
+
+template <class Element>
+void check_index(int index, const std::vector<Element>& elements, const std::string& user,
+                 const char* what) {
+  if (index < 0 || static_cast<std::size_t>(index) >= elements.size())
+    throw damaged_gltf(user + " names " + what + ' ' + std::to_string(index) + " of " +
+                       std::to_string(elements.size()));
+}
 
 }  // namespace sinew

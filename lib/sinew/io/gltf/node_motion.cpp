@@ -3,15 +3,14 @@
 
 #include <algorithm>
 
-#include <sinew/io/gltf/checks.h>
-#include <sinew/io/gltf/values.h>
+#include <sinew/io/gltf/accessors.h>
 
 namespace sinew {
 namespace {
 
 constexpr double still_scale = 1e-5;
 
-std::vector<double> times_of(const GuardedGltf& gltf, const GltfSampler& sampler,
+std::vector<double> times_of(const CheckedGltf& gltf, const GltfSampler& sampler,
                              const std::string& user) {
   const std::vector<double> times = gltf_values(gltf, sampler.times, user + "'s times");
   if (times.front() < 0)
@@ -37,7 +36,7 @@ Interpolation interpolation_of(const GltfSampler& sampler) {
 
 /// Spreads the file's values over a curve: one for each key, or in-tangent, value and out-tangent.
 template <class Curve, class Make>
-Curve curve_of(const GuardedGltf& gltf, const GltfSampler& sampler, const std::string& user,
+Curve curve_of(const CheckedGltf& gltf, const GltfSampler& sampler, const std::string& user,
                std::size_t parts, const Make& make) {
   Curve curve;
   curve.interpolation = interpolation_of(sampler);
@@ -53,12 +52,12 @@ Curve curve_of(const GuardedGltf& gltf, const GltfSampler& sampler, const std::s
   return curve;
 }
 
-Curve<Vec3> vectors(const GuardedGltf& gltf, const GltfSampler& sampler, const std::string& user) {
+Curve<Vec3> vectors(const CheckedGltf& gltf, const GltfSampler& sampler, const std::string& user) {
   return curve_of<Curve<Vec3>>(gltf, sampler, user, 3,
                                [](const double* x) { return Vec3(x[0], x[1], x[2]); });
 }
 
-RotationCurve rotations(const GuardedGltf& gltf, const GltfSampler& sampler,
+RotationCurve rotations(const CheckedGltf& gltf, const GltfSampler& sampler,
                         const std::string& user) {
   auto curve = curve_of<RotationCurve>(
       gltf, sampler, user, 4, [](const double* x) { return Quat(x[3], x[0], x[1], x[2]); });
@@ -95,7 +94,7 @@ void put(Curve curve, bool still, Curve& moving, Value& place) {
   if (!still) moving = std::move(curve);
 }
 
-void put_channel(const GuardedGltf& gltf, const GltfSampler& sampler, const GltfChannel& channel,
+void put_channel(const CheckedGltf& gltf, const GltfSampler& sampler, const GltfChannel& channel,
                  const std::string& user, GltfNodeMotion& motion) {
   const auto node = static_cast<std::size_t>(channel.node);
   GltfPlace& place = motion.places[node];
@@ -125,7 +124,7 @@ Affine GltfNodeMotion::at(int node, double time) const {
   return place.affine();
 }
 
-GltfNodeMotion gltf_node_motion(const GuardedGltf& gltf, std::size_t index) {
+GltfNodeMotion gltf_node_motion(const CheckedGltf& gltf, std::size_t index) {
   const GltfAnimation& animation = gltf.document.animations[index];
   GltfNodeMotion motion;
   for (const GltfNode& node : gltf.document.nodes) motion.places.push_back(place_of(node));

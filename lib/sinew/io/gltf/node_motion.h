@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include <sinew/io/gltf/guard.h>
-#include <sinew/io/gltf/node_tree.h>
+#include <sinew/io/gltf/checks.h>
 #include <sinew/rig/curve.h>
 
 namespace sinew {
@@ -31,6 +30,6 @@ struct GltfNodeMotion {
 /// that change by less than 1e-5 of themselves count as unchanged: rounding of exporters. Throws
 /// bad input (without the path) for times that do not ascend from 0 or more, numbers that are not
 /// finite and rotations of length 0.
-GltfNodeMotion gltf_node_motion(const GuardedGltf& gltf, std::size_t animation);
+GltfNodeMotion gltf_node_motion(const CheckedGltf& gltf, std::size_t animation);
 
 }  // namespace sinew

@@ -8,20 +8,6 @@
 
 namespace sinew {
 
-PolygonSoup read_mesh(const MeshFile& file) {
-  switch (file.format) {
-    case MeshFormat::obj:
-      return read_obj(file);
-    case MeshFormat::off:
-      return read_off(file);
-    case MeshFormat::stl:
-      return read_stl(file);
-    case MeshFormat::ply:
-      return read_ply(file);
-  }
-  return {};
-}
-
 Vec3 next_point(Words& words, const MeshFile& file) {
   Vec3 point;
   for (double& coordinate : point) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mesh formats, each read once from end to end and checked on the way. What mesh files contain
-// makes most readers trip: unknown keywords, tabs, continued lines, "solid" headers of binary
-// files, counts that do not fit, indices out of range.
+// The readers of mesh formats, each file read once from end to end and checked on the way. What
+// mesh files contain makes most readers trip: unknown keywords, tabs, continued lines, "solid"
+// headers of binary files, counts that do not fit, indices out of range.
 #pragma once
 
 #include <sinew/core/triangles.h>
@@ -25,9 +25,6 @@ PolygonSoup read_stl(const MeshFile& file);
 
 /// Stanford PLY, text or binary of either byte order.
 PolygonSoup read_ply(const MeshFile& file);
-
-/// By the one for the file's format.
-PolygonSoup read_mesh(const MeshFile& file);
 
 /// The next three words as coordinates.
 Vec3 next_point(Words& words, const MeshFile& file);

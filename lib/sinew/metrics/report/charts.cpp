@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include <sinew/metrics/table.h>
 
@@ -128,16 +130,37 @@ double shown_value(const ChartPlan& plan, double value, double start, double rad
   return value;
 }
 
-/// A line that was never measured only takes room in the legend; one stays in any case.
-void drop_unmeasured(Chart& chart) {
-  const auto unmeasured = [](const Line& line) {
-    return std::none_of(line.values.begin(), line.values.end(), drawable);
-  };
-  const auto first = std::find_if_not(chart.lines.begin(), chart.lines.end(), unmeasured);
-  if (first == chart.lines.end())
-    chart.lines.resize(1);
-  else
-    std::erase_if(chart.lines, unmeasured);
+bool never_measured(const Line& line) {
+  return std::none_of(line.values.begin(), line.values.end(), drawable);
+}
+
+bool zero(const Line& line) {
+  return std::none_of(line.values.begin(), line.values.end(),
+                      [](double value) { return std::abs(value) > 0; });
+}
+
+bool has_nothing(const Chart& chart) {
+  return std::all_of(chart.lines.begin(), chart.lines.end(), [&](const Line& line) {
+    return chart.drawn == Drawn::unless_zero && zero(line);
+  });
+}
+
+/// The places from begin to end that are worth drawing; whichever of them there are.
+std::set<std::size_t> telling_places(const std::vector<double>& values, std::size_t begin,
+                                     std::size_t end) {
+  std::optional<std::size_t> low, high, gap;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!drawable(values[i])) {
+      gap = i;
+      continue;
+    }
+    if (!low || values[i] < values[*low]) low = i;
+    if (!high || values[i] > values[*high]) high = i;
+  }
+  std::set<std::size_t> places;
+  for (const auto& place : {low, high, gap})
+    if (place) places.insert(*place);
+  return places;
 }
 
 }  // namespace
@@ -154,36 +177,42 @@ std::span<const std::string_view> telling_metrics() {
   return names;
 }
 
-bool is_drawn(const ChartPlan& plan, std::span<const FrameMetrics> frames) {
-  if (plan.drawn == Drawn::always) return true;
-  return std::any_of(plan.metrics.begin(), plan.metrics.end(), [&](std::string_view name) {
-    const auto value = metrics_table()[metric_index(name)].value;
-    return std::any_of(frames.begin(), frames.end(),
-                       [&](const FrameMetrics& frame) { return std::abs(frame.*value) > 0; });
-  });
+std::vector<double> shown_values(const ChartPlan& plan, std::string_view metric,
+                                 std::span<const FrameMetrics> frames, double radius) {
+  const auto value = metrics_table()[metric_index(metric)].value;
+  std::vector<double> values;
+  for (const FrameMetrics& frame : frames)
+    values.push_back(shown_value(plan, frame.*value, frames.front().*value, radius));
+  return values;
 }
 
 Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames, double radius) {
   Chart chart{std::string(plan.title),
               std::string(plan.note),
               std::string(plan.unit),
-              {},
-              {},
               plan.baselines,
+              plan.drawn,
               {}};
-  for (const FrameMetrics& frame : frames) {
-    chart.times.push_back(frame.time);
-    chart.angles.push_back(frame.bone_angle);
-  }
-  for (const std::string_view name : plan.metrics) {
-    const auto value = metrics_table()[metric_index(name)].value;
-    Line line{std::string(name), {}};
-    for (const FrameMetrics& frame : frames)
-      line.values.push_back(shown_value(plan, frame.*value, frames.front().*value, radius));
-    chart.lines.push_back(std::move(line));
-  }
-  drop_unmeasured(chart);
+  for (const std::string_view metric : plan.metrics)
+    chart.lines.push_back({std::string(metric), shown_values(plan, metric, frames, radius)});
   return chart;
 }
+
+void leave_out_empty(std::vector<Chart>& charts) {
+  for (Chart& chart : charts) std::erase_if(chart.lines, never_measured);
+  std::erase_if(charts, has_nothing);
+}
+
+std::vector<std::size_t> drawn_places(const std::vector<double>& values) {
+  const std::size_t grain = values.size() <= most_drawn ? 1 : values.size() / (most_drawn / 3) + 1;
+  std::vector<std::size_t> places;
+  for (std::size_t begin = 0; begin < values.size(); begin += grain) {
+    const auto kept = telling_places(values, begin, std::min(values.size(), begin + grain));
+    places.insert(places.end(), kept.begin(), kept.end());
+  }
+  return places;
+}
+
+bool drawable(double value) { return std::abs(value) < 1e300; }
 
 }  // namespace sinew

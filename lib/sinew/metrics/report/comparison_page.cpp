@@ -2,12 +2,12 @@
 #include <sinew/metrics/report/comparison_page.h>
 
 #include <algorithm>
+#include <limits>
+#include <set>
 
 #include <sinew/metrics/report/charts.h>
 #include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/report/page.h>
-#include <sinew/metrics/report/page_data.h>
-#include <sinew/metrics/report/tables.h>
 #include <sinew/metrics/table.h>
 
 namespace sinew {
@@ -38,25 +38,18 @@ std::string verdict_of(const ComparedRun& run, const std::string& name) {
   return element("h2", escaped(name)) + verdict_cards(run.frames, run.summary, run.radius);
 }
 
-bool all_measured_nowhere(const Chart& chart) {
-  return std::all_of(chart.lines.begin(), chart.lines.end(), [](const Line& line) {
-    return std::none_of(line.values.begin(), line.values.end(), drawable);
-  });
-}
-
 /// One metric of both runs over each other.
 Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const RunComparison& compared) {
-  ChartPlan one = plan;
-  one.metrics = {metric};
   const double radius = compared.first.radius;
-  Chart chart = planned_chart(one, compared.first.frames, radius);
-  chart.lines[0].name = name_of(compared, false);
-  Chart second = planned_chart(one, compared.second.frames, radius);
-  chart.lines.push_back({name_of(compared, true), std::move(second.lines[0].values)});
-  chart.title = metric;
-  std::replace(chart.title.begin(), chart.title.end(), '_', ' ');
-  chart.note = metrics_table()[metric_index(metric)].help;
-  return chart;
+  std::string title(metric);
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return {title,
+          std::string(metrics_table()[metric_index(metric)].help),
+          std::string(plan.unit),
+          plan.baselines,
+          plan.drawn,
+          {{name_of(compared, false), shown_values(plan, metric, compared.first.frames, radius)},
+           {name_of(compared, true), shown_values(plan, metric, compared.second.frames, radius)}}};
 }
 
 Chart chart_of_distances(const RunComparison& compared) {
@@ -67,64 +60,154 @@ Chart chart_of_distances(const RunComparison& compared) {
                        {"reference_particles_rms", "reference_particles_max",
                         "reference_surface_rms", "reference_hausdorff", "reference_distance_mean"},
                        Shown::in_radii};
-  Chart chart = planned_chart(plan, compared.differences, compared.first.radius);
-  for (std::size_t i = 0; i < compared.first.frames.size(); ++i)
-    chart.angles[i] = compared.first.frames[i].bone_angle;
-  return chart;
+  return planned_chart(plan, compared.differences, compared.first.radius);
 }
 
 std::vector<Chart> charts_of(const RunComparison& compared) {
   std::vector<Chart> charts{chart_of_distances(compared)};
-  std::vector<std::string_view> drawn;
+  std::set<std::string_view> drawn;
   for (const ChartPlan& plan : chart_plans())
-    for (const std::string_view metric : plan.metrics) {
-      if (std::find(drawn.begin(), drawn.end(), metric) != drawn.end()) continue;
-      drawn.push_back(metric);
-      charts.push_back(chart_of_both(plan, metric, compared));
-    }
-  std::erase_if(charts, all_measured_nowhere);
+    for (const std::string_view metric : plan.metrics)
+      if (drawn.insert(metric).second) charts.push_back(chart_of_both(plan, metric, compared));
+  leave_out_empty(charts);
   return charts;
 }
 
-/// What the page's script is told: the buttons of worst frames lead to the largest differences.
-std::string numbers(const ComparisonInput& input, const std::vector<Chart>& charts) {
-  ReportInput told;
-  told.frames = input.comparison.differences;
-  told.summary = input.comparison.summary;
-  for (std::size_t i = 0; i < told.summary.metrics.size(); ++i)
-    told.summary.metrics[i].worst_frame = largest_difference(input.comparison, i);
-  told.playback = input.playback;
-  return page_data(told, charts);
+/// The buttons of worst frames lead to the largest differences.
+PageData drawn_data(const RunComparison& compared) {
+  PageData data;
+  for (const FrameMetrics& frame : compared.first.frames) {
+    data.times.push_back(frame.time);
+    data.angles.push_back(frame.bone_angle);
+  }
+  data.charts = charts_of(compared);
+  Summary worst = compared.summary;
+  for (std::size_t i = 0; i < worst.metrics.size(); ++i)
+    worst.metrics[i].worst_frame = largest_difference(compared, i);
+  data.worst = worst_frames(compared.differences, worst);
+  return data;
 }
 
 std::string playback_section(const ComparisonInput& input) {
   if (input.playback.frames.empty()) return "";
-  return element("h2", "Side by side") +
-         element("p",
-                 escaped(name_of(input.comparison, false)) + " beside " +
-                     escaped(name_of(input.comparison, true)) +
-                     ", at the same time and in the same colors.",
-                 "class=\"quiet\"") +
-         view_section("Largest difference of");
+  const std::string line = name_of(input.comparison, false) + " beside " +
+                           name_of(input.comparison, true) +
+                           ", at the same time and in the same colors.";
+  return element("section",
+                 element("h2", "Side by side") + element("p", escaped(line), "class=\"quiet\"") +
+                     view_section("Largest difference of"),
+                 "class=\"needs-script\"");
+}
+
+/// What was measured of both runs, and by how much it differs.
+std::string differences_table(const RunComparison& compared) {
+  std::string rows, run_rows;
+  for (std::size_t i = 1; i < metrics_table().size(); ++i) {
+    const auto largest = largest_difference(compared, i);
+    if (!largest) continue;
+    const Metric& metric = metrics_table()[i];
+    const bool own = is_distance(metric.name);
+    const FrameMetrics& at = compared.differences[*largest];
+    const auto final = [&](const ComparedRun& run) {
+      return own ? not_measured : run.frames.back().*metric.value;
+    };
+    rows += row(described(metric), {{"a, final", readable(final(compared.first))},
+                                    {"b, final", readable(final(compared.second))},
+                                    {"b − a, final", readable(compared.summary.metrics[i].final)},
+                                    {"largest", readable(at.*metric.value)},
+                                    {"at", readable(at.time) + " s"}});
+  }
+  for (const RunMetric& metric : run_metrics_table())
+    run_rows += row(described(metric), {{"a", readable(compared.first.summary.*metric.value)},
+                                        {"b", readable(compared.second.summary.*metric.value)},
+                                        {"b − a", readable(compared.summary.*metric.value)}});
+  return element("h2", "Differences") +
+         table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows) +
+         element("h2", "Of the whole runs") + table({"metric", "a", "b", "b − a"}, run_rows);
+}
+
+constexpr double gap = 0.15;  // between the two, of the size of the first
+
+/// From where the second playback is to where it stands beside the first. The camera looks along x or
+/// y, whichever has less: it sees both when they stand along the other.
+Vec3 way_aside(const Playback& first, const Playback& second) {
+  const Box one = box_of(first), other = box_of(second);
+  if (one.isEmpty() || other.isEmpty()) return Vec3::Zero();
+  const Vec3 size = one.sizes().cwiseMax(other.sizes());
+  const int axis = size.x() >= size.y() ? 0 : 1;
+  Vec3 way = Vec3::Zero();
+  way[axis] = one.max()[axis] - other.min()[axis] + gap * size[axis];
+  return way;
+}
+
+void append_moved(std::vector<float>& all, const std::vector<float>& places, const Vec3& way) {
+  for (std::size_t i = 0; i < places.size(); ++i)
+    all.push_back(static_cast<float>(places[i] + way[static_cast<int>(i % 3)]));
+}
+
+/// Not-a-number for the playback that has no such values.
+void append_values(std::vector<float>& all, std::vector<float> values, std::size_t before,
+                   std::size_t count) {
+  if (all.empty() && values.empty()) return;
+  all.resize(before, std::numeric_limits<float>::quiet_NaN());
+  values.resize(count, std::numeric_limits<float>::quiet_NaN());
+  all.insert(all.end(), values.begin(), values.end());
+}
+
+/// The places and fields of a frame, those of the second behind.
+PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3& way) {
+  const std::size_t before = frame.particles.size() / 3, count = other.particles.size() / 3;
+  for (std::size_t f = 0; f < frame.values.size(); ++f)
+    append_values(frame.values[f], other.values[f], before, count);
+  append_moved(frame.particles, other.particles, way);
+  append_moved(frame.surface, other.surface, way);
+  append_moved(frame.bones, other.bones, way);
+  return frame;
+}
+
+void join_shape(Playback& playback, const Playback& second, const std::array<std::string, 2>& prefixes) {
+  const auto bones = static_cast<int>(playback.bone_names.size());
+  const auto points = static_cast<int>(playback.points.size());
+  for (std::string& name : playback.bone_names) name = prefixes[0] + name;
+  for (const std::string& name : second.bone_names) playback.bone_names.push_back(prefixes[1] + name);
+  for (const int bone : second.bone) playback.bone.push_back(bone < 0 ? -1 : bone + bones);
+  for (const auto& [a, b, c] : second.faces)
+    playback.faces.push_back({a + points, b + points, c + points});
+  playback.particles.insert(playback.particles.end(), second.particles.begin(), second.particles.end());
+  playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());
+  playback.points.insert(playback.points.end(), second.points.begin(), second.points.end());
+  playback.run_particles += second.run_particles;
+  playback.run_points += second.run_points;
 }
 
 }  // namespace
 
+Playback side_by_side(const Playback& first, const Playback& second,
+                  const std::array<std::string, 2>& prefixes) {
+  Playback playback = first;
+  const Vec3 way = way_aside(first, second);
+  playback.frames.clear();
+  for (const PlaybackFrame& frame : first.frames) {
+    const auto other = std::find_if(second.frames.begin(), second.frames.end(),
+                                    [&](const PlaybackFrame& one) { return one.frame == frame.frame; });
+    if (other != second.frames.end()) playback.frames.push_back(joined(frame, *other, way));
+  }
+  join_shape(playback, second, prefixes);
+  return playback;
+}
+
 std::string comparison_html(const ComparisonInput& input) {
   const RunComparison& compared = input.comparison;
-  const std::vector<Chart> charts = charts_of(compared);
   const std::string body =
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
-      playback_section(input) + charts_section(charts, !input.playback.frames.empty()) +
+      playback_section(input) + charts_section(!input.playback.frames.empty()) +
       differences_table(compared) + element("h2", "What differs in the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +
       folded("The resolved scene of " + name_of(compared, true), input.second_scene);
   return page_html({compared.first.name + " and " + compared.second.name, input.version, body,
-                    "The same numbers, frame by frame, are in compare.csv, and summed up in "
-                    "metrics.json.",
-                    numbers(input, charts)});
+                    "compare.csv", drawn_data(compared), input.playback});
 }
 
 }  // namespace sinew

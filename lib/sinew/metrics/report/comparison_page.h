@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// report.html of a comparison: two runs beside each other on one page.
+// report.html of a comparison: two runs beside each other on one page and in one 3D view.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,12 @@
 #include <sinew/metrics/report/report.h>
 
 namespace sinew {
+
+/// Both playbacks in one, the second beside the first: across the shorter of its sides, so that the
+/// page's camera sees them next to each other. Of frames that both have; names of bones get the
+/// prefixes.
+Playback side_by_side(const Playback& first, const Playback& second,
+                  const std::array<std::string, 2>& prefixes);
 
 /// Texts are plain; the page escapes them.
 struct ComparisonInput {

@@ -75,6 +75,21 @@ std::string element(std::string_view tag, const std::string& content, std::strin
   return '<' + name + space + std::string(attributes) + '>' + content + "</" + name + ">\n";
 }
 
+std::string row(const std::string& first, const std::vector<Cell>& cells) {
+  std::string out = element("td", first);
+  for (const Cell& cell : cells)
+    out += element("td", escaped(cell.text),
+                   "class=\"number\" data-label=\"" + escaped(cell.label) + '"');
+  return element("tr", out);
+}
+
+std::string table(std::initializer_list<std::string_view> columns, const std::string& rows) {
+  std::string heads;
+  for (const std::string_view column : columns)
+    heads += element("th", escaped(column), heads.empty() ? "" : "class=\"number\"");
+  return element("table", element("thead", element("tr", heads)) + element("tbody", rows));
+}
+
 std::string readable(double value) {
   if (std::isnan(value)) return "–";
   if (value == 0) return "0";

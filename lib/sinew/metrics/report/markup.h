@@ -2,8 +2,10 @@
 // Pieces of HTML: everything a user wrote is escaped before it becomes part of a page.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -21,6 +23,16 @@ std::string link_to(std::string_view path);
 /// <tag>content</tag>; the content is markup already. `attributes`: markup as well, or empty.
 std::string element(std::string_view tag, const std::string& content,
                     std::string_view attributes = {});
+
+struct Cell {
+  std::string_view label;  ///< of its column
+  std::string text;        ///< plain
+};
+
+/// A row of a table; `first`: markup.
+std::string row(const std::string& first, const std::vector<Cell>& cells);
+
+std::string table(std::initializer_list<std::string_view> columns, const std::string& rows);
 
 /// A number for reading: four significant digits, a dash for not-a-number.
 std::string readable(double value);

@@ -1,21 +1,66 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/report/page.h>
 
-#include <sinew/metrics/report/embedded.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
 #include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/summary.h>
 
 namespace sinew {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+/// Seven digits are more than a screen can show.
+Json shown(double value) {
+  if (!drawable(value)) return nullptr;
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.7g", value);
+  return std::strtod(text.data(), nullptr);
+}
+
+Json points_of(const std::vector<double>& across, const std::vector<double>& up) {
+  Json points = Json::array();
+  for (const std::size_t i : drawn_places(up)) points.push_back({shown(across[i]), shown(up[i])});
+  return points;
+}
+
+Json json_of(const Chart& chart, const std::vector<double>& times) {
+  Json lines = Json::array();
+  for (const Line& line : chart.lines)
+    lines.push_back({{"name", line.name}, {"points", points_of(times, line.values)}});
+  return {{"title", chart.title},
+          {"note", chart.note},
+          {"unit", chart.unit},
+          {"baselines", chart.baselines},
+          {"lines", std::move(lines)}};
+}
+
+Json json_of(const Curve& curve) {
+  Json lines = Json::array();
+  for (const CurveLine& line : curve.lines)
+    lines.push_back({{"name", line.name}, {"points", points_of(line.x, line.y)}});
+  return {{"title", curve.title},
+          {"note", curve.note},
+          {"across", curve.across},
+          {"up", curve.up},
+          {"lines", std::move(lines)}};
+}
+
+bool has_bones(const std::vector<double>& angles) {
+  return std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; });
+}
+
 // The browser itself holds the page to this: no request to anywhere but for the pictures beside it.
 constexpr std::string_view only_this_file =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "img-src 'self' file: data:; media-src 'self' file:; style-src 'unsafe-inline'; "
     "script-src 'unsafe-inline'\">\n";
-
-constexpr std::string_view charts_hint =
-    "Drag across a chart to see a part of the time, double-click for all of it";
 
 const char* name_of(Level level) {
   switch (level) {
@@ -31,9 +76,15 @@ const char* name_of(Level level) {
   return "unknown";
 }
 
+std::string json_script(const std::string& id, std::string json) {
+  return element("script", inert(std::move(json)), "type=\"application/json\" id=\"" + id + '"');
+}
+
 std::string scripts(const Page& page) {
-  const std::string data = element("script", page.data, "type=\"application/json\" id=\"data\"");
-  return data + element("script", std::string(chart_library())) +
+  const std::string playback =
+      page.playback.frames.empty() ? "" : json_script("playback", playback_json(page.playback));
+  return json_script("data", page_json(page.data)) + playback +
+         element("script", std::string(chart_library())) +
          element("script", std::string(scene_library())) +
          element("script", std::string(page_script()));
 }
@@ -45,22 +96,58 @@ std::string head(const Page& page) {
          element("style", std::string(page_style()));
 }
 
+std::string without_script(const Page& page) {
+  const std::string line =
+      "The charts and the 3D view need JavaScript; the numbers they show are in " + page.table;
+  return element("noscript", element("p", escaped(line) + '.'));
+}
+
 std::string footer(const Page& page) {
-  return element(
-      "footer",
-      element("p", "Written by sinew " + escaped(page.version) + ". " + escaped(page.ending)) +
-          element("details", element("summary", "Licenses of what draws this page") +
-                                 element("pre", escaped(licenses()))));
+  const std::string line = "Written by sinew " + page.version +
+                           ". The same numbers, frame by frame, are in " + page.table +
+                           ", and summed up in metrics.json.";
+  return element("footer", element("p", escaped(line)) +
+                               folded("Licenses of what draws this page", std::string(licenses())));
+}
+
+/// Name, unit, meaning and formula.
+template <class Row>
+std::string description(const Row& metric) {
+  const std::string unit =
+      metric.unit.empty() ? "" : element("span", escaped(metric.unit), "class=\"unit\"");
+  return element("code", escaped(metric.name)) + unit + element("small", escaped(metric.help)) +
+         element("small", element("code", escaped(metric.formula)));
 }
 
 }  // namespace
 
+std::string page_json(const PageData& data) {
+  Json json{{"charts", Json::array()}, {"curves", Json::array()}, {"worst", Json::array()}};
+  for (const Chart& chart : data.charts) json["charts"].push_back(json_of(chart, data.times));
+  for (const Curve& curve : data.curves) json["curves"].push_back(json_of(curve));
+  for (const auto& [metric, frame, time] : data.worst)
+    json["worst"].push_back({{"metric", metric}, {"frame", frame}, {"time", time}});
+  json["angles"] = has_bones(data.angles) ? points_of(data.times, data.angles) : Json::array();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<WorstFrame> worst_frames(std::span<const FrameMetrics> frames, const Summary& worst) {
+  std::vector<WorstFrame> all;
+  for (const std::string_view name : telling_metrics()) {
+    const std::size_t metric = metric_index(name);
+    const auto frame = worst.metrics[metric].worst_frame;
+    if (frame && std::abs(frames[*frame].*metrics_table()[metric].value) > 0)
+      all.push_back({name, *frame, frames[*frame].time});
+  }
+  return all;
+}
+
 std::string page_html(const Page& page) {
-  return "<!DOCTYPE html>\n" +
-         element("html",
-                 '\n' + element("head", '\n' + head(page)) +
-                     element("body", '\n' + page.body + footer(page) + scripts(page)),
-                 "lang=\"en\"");
+  return "<!DOCTYPE html>\n" + element("html",
+                                       '\n' + element("head", '\n' + head(page)) +
+                                           element("body", '\n' + without_script(page) + page.body +
+                                                               footer(page) + scripts(page)),
+                                       "lang=\"en\"");
 }
 
 std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& summary,
@@ -77,13 +164,39 @@ std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& s
   return element("section", cards, "class=\"cards\" aria-label=\"Verdict\"");
 }
 
-std::string charts_section(const std::vector<Chart>& charts, bool with_view) {
-  std::string figures;
-  for (const Chart& chart : charts) figures += chart_html(chart);
-  const std::string hint =
-      std::string(charts_hint) + (with_view ? ", click to go there in the 3D view." : ".");
-  return element("h2", "Over time") + element("p", hint, "class=\"quiet needs-script\"") +
-         element("div", figures, "class=\"charts\"");
+std::string checks_table(std::span<const Check> checks) {
+  if (checks.empty()) return "";
+  std::string rows;
+  for (const Check& check : checks) {
+    const std::string verdict = element("span", check.pass ? "kept" : "fails",
+                                        check.pass ? "class=\"word good\"" : "class=\"word poor\"");
+    rows += row(element("code", escaped(check.expression)) + ' ' + verdict,
+                {{"value", readable(check.value)},
+                 {"limit", readable(check.limit)},
+                 {"frame", check.frame ? std::to_string(*check.frame) : "–"}});
+  }
+  return element("h2", "Limits") + table({"fails when", "value", "limit", "frame"}, rows);
+}
+
+std::string described(const Metric& metric) { return description(metric); }
+
+std::string described(const RunMetric& metric) { return description(metric); }
+
+std::string charts_section(bool with_view) {
+  std::string hint =
+      "Drag across a chart to see a part of the time, double-click for all of it, click a name to "
+      "hide its line";
+  hint += with_view ? "; a click into a chart goes there in the 3D view." : ".";
+  return element("section",
+                 element("h2", "Over time") + element("p", hint, "class=\"quiet hint\"") +
+                     element("div", "", "class=\"charts\" id=\"charts\""),
+                 "class=\"needs-script\"");
+}
+
+std::string view_section(std::string_view worst) {
+  constexpr std::string_view place = "{worst}";
+  std::string markup(view_markup());
+  return markup.replace(markup.find(place), place.size(), worst);
 }
 
 std::string fact_lists(const std::vector<FactGroup>& all) {
@@ -100,12 +213,6 @@ std::string fact_lists(const std::vector<FactGroup>& all) {
 std::string folded(const std::string& title, const std::string& text) {
   if (text.empty()) return "";
   return element("details", element("summary", escaped(title)) + element("pre", escaped(text)));
-}
-
-std::string view_section(std::string_view worst) {
-  constexpr std::string_view place = "{worst}";
-  std::string markup(view_markup());
-  return markup.replace(markup.find(place), place.size(), worst);
 }
 
 }  // namespace sinew

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the reports of a run and of a comparison have in common.
+// What the reports of a run and of a comparison have in common: the frame of the page, the sections
+// both have, and the numbers that the page's script draws.
 #pragma once
 
 #include <span>
@@ -8,17 +9,47 @@
 #include <vector>
 
 #include <sinew/metrics/frame_metrics.h>
-#include <sinew/metrics/report/chart.h>
+#include <sinew/metrics/limits.h>
+#include <sinew/metrics/report/charts.h>
+#include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/report/report.h>
 #include <sinew/metrics/summary.h>
+#include <sinew/metrics/table.h>
 
 namespace sinew {
+
+struct WorstFrame {
+  std::string_view metric;
+  std::size_t frame = 0;  ///< of the run
+  double time = 0;        ///< s
+};
+
+/// What the page draws, beside the playback.
+struct PageData {
+  std::vector<double> times;   ///< of the charts' frames, ascending, s
+  std::vector<double> angles;  ///< of the bones in them, degrees
+  std::vector<Chart> charts;
+  std::vector<Curve> curves;
+  std::vector<WorstFrame> worst;
+};
+
+/// One JSON object:
+/// - charts: title, note, unit, baselines, lines (name, points [time, value or null])
+/// - angles: of the bones, [time, degrees]; none where there are no bones
+/// - curves: title, note, across, up, lines (name, points [x, y])
+/// - worst: metric, frame, time
+std::string page_json(const PageData& data);
+
+/// The frames that the buttons beside the 3D view lead to, for each telling metric the one named
+/// by `worst`, which may be none; zeros are no worst ones.
+std::vector<WorstFrame> worst_frames(std::span<const FrameMetrics> frames, const Summary& worst);
 
 struct Page {
   std::string title, version;  ///< plain text
   std::string body;            ///< markup
-  std::string ending;          ///< where the numbers are, plain text
-  std::string data;            ///< JSON that may stand in a script: see page_data.h
+  std::string table;           ///< the file that has the numbers of every frame: metrics.csv
+  PageData data;
+  const Playback& playback;  ///< of no frames: the page has no 3D view
 };
 
 /// The whole page, UTF-8, with everything that draws it.
@@ -28,8 +59,18 @@ std::string page_html(const Page& page);
 std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& summary,
                           double radius);
 
-/// Heading, hint and figures; whether the page has a 3D view that a click may lead to.
-std::string charts_section(const std::vector<Chart>& charts, bool with_view);
+/// Heading and table; empty without checks.
+std::string checks_table(std::span<const Check> checks);
+
+/// Name, unit, meaning and formula of a metric.
+std::string described(const Metric& metric);
+std::string described(const RunMetric& metric);
+
+/// Heading, hint and the place of the charts; whether a click on them leads to a 3D view.
+std::string charts_section(bool with_view);
+
+/// The 3D view and its controls; `worst` stands before the buttons that lead to a frame.
+std::string view_section(std::string_view worst);
 
 /// Lists of facts beside each other; empty without any.
 std::string fact_lists(const std::vector<FactGroup>& groups);
@@ -37,7 +78,12 @@ std::string fact_lists(const std::vector<FactGroup>& groups);
 /// Text to be opened, such as a scene; empty where there is none.
 std::string folded(const std::string& title, const std::string& text);
 
-/// The 3D view and its controls; `worst` stands before the buttons that lead to a frame.
-std::string view_section(std::string_view worst);
+// The texts that every page carries.
+std::string_view page_style();
+std::string_view page_script();
+std::string_view view_markup();    ///< the 3D view and its controls
+std::string_view chart_library();  ///< Chart.js
+std::string_view scene_library();  ///< three.js and its orbit controls
+std::string_view licenses();       ///< of the libraries, plain text
 
 }  // namespace sinew

@@ -10,9 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/triangles.h>
+#include <sinew/metrics/rest_body.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/particle_values.h>
-#include <sinew/metrics/rest_body.h>
 
 namespace sinew {
 
@@ -58,17 +59,21 @@ struct Playback {
 /// Around all places of all frames, m; empty where there are none.
 Box box_of(const Playback& playback);
 
+/// A coarser skin out of some of a surface's own points (Rossignac and Borrel's vertex clustering):
+/// one point stays of each cell of a grid.
+struct ThinSurface {
+  std::vector<std::uint32_t> points;      ///< of the surface, ascending
+  std::vector<std::array<int, 3>> faces;  ///< indices into points
+};
+
+/// At most `most` points, all of a surface that has no more; faces that collapse go.
+ThinSurface thin_surface(const Triangles& surface, std::size_t most);
+
 /// A playback of no frames, with the choice made of what will be kept: all of a small run; of a large
 /// one frames at even distances, the first and the last among them, particles picked at random (the
 /// same ones every time) and a coarser skin.
 /// `share`: of a page's bytes that it may take.
 Playback plan_playback(const RestBody& rest, std::size_t frames, double share = 1);
-
-/// Both playbacks in one, the second beside the first: across the shorter of its sides, so that the
-/// page's camera sees them next to each other. Of frames that both have; names of bones get the
-/// prefixes.
-Playback side_by_side(const Playback& first, const Playback& second,
-                  const std::array<std::string, 2>& prefixes);
 
 /// Adds a frame at its place in time.
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include <sinew/metrics/report/base64.h>
+#include <sinew/core/base64.h>
 #include <sinew/metrics/report/playback.h>
 
 namespace sinew {
@@ -12,6 +12,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double outside = 1e-3;  // share of a field's values at either end that the range leaves
+
+/// Of the numbers' bytes, the lowest first.
+template <class Number>
+std::string base64_of(const std::vector<Number>& numbers) {
+  return base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
+}
 
 /// The cube that holds all places of the playback.
 struct Cube {

@@ -5,8 +5,6 @@
 #include <sinew/metrics/report/charts.h>
 #include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/report/page.h>
-#include <sinew/metrics/report/page_data.h>
-#include <sinew/metrics/report/tables.h>
 
 namespace sinew {
 namespace {
@@ -35,12 +33,18 @@ std::string pictures(const ReportInput& input) {
   return element("h2", "Pictures") + element("div", figures, "class=\"pictures\"");
 }
 
-std::vector<Chart> filled_charts(const ReportInput& input) {
-  std::vector<Chart> charts;
+PageData drawn_data(const ReportInput& input) {
+  PageData data;
+  for (const FrameMetrics& frame : input.frames) {
+    data.times.push_back(frame.time);
+    data.angles.push_back(frame.bone_angle);
+  }
   for (const ChartPlan& plan : chart_plans())
-    if (is_drawn(plan, input.frames))
-      charts.push_back(planned_chart(plan, input.frames, input.radius));
-  return charts;
+    data.charts.push_back(planned_chart(plan, input.frames, input.radius));
+  leave_out_empty(data.charts);
+  data.curves = input.curves;
+  data.worst = worst_frames(input.frames, input.summary);
+  return data;
 }
 
 /// What of the run the 3D view leaves out.
@@ -56,21 +60,42 @@ std::string thinned_text(const Playback& playback) {
 
 std::string playback_section(const ReportInput& input) {
   if (input.playback.frames.empty()) return "";
-  return element("h2", "In space") + view_section("Worst frame of") +
-         element("p", thinned_text(input.playback), "class=\"quiet\"");
+  return element("section",
+                 element("h2", "In space") + view_section("Worst frame of") +
+                     element("p", thinned_text(input.playback), "class=\"quiet\""),
+                 "class=\"needs-script\"");
 }
 
 std::string curves_section(const ReportInput& input) {
-  std::string figures;
-  for (const Curve& curve : input.curves)
-    figures += element("figure",
-                       element("figcaption", element("h3", escaped(curve.title)) +
-                                                 element("p", escaped(curve.note))) +
-                           element("noscript", "Drawn where scripts may run."),
-                       "class=\"curve\"");
-  if (figures.empty()) return "";
-  return element("h2", "The laws with this scene's numbers") +
-         element("div", figures, "class=\"charts\"");
+  if (input.curves.empty()) return "";
+  return element("section",
+                 element("h2", "The laws with this scene's numbers") +
+                     element("div", "", "class=\"charts\" id=\"curves\""),
+                 "class=\"needs-script\"");
+}
+
+std::string worst_text(std::span<const FrameMetrics> frames, const MetricSummary& values) {
+  if (!values.worst_frame) return "–";
+  return std::to_string(*values.worst_frame) + " (" + readable(frames[*values.worst_frame].time) +
+         " s)";
+}
+
+/// Every metric with its numbers, meaning and formula.
+std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& summary) {
+  std::string rows, run_rows;
+  for (std::size_t i = 0; i < metrics_table().size(); ++i) {
+    const MetricSummary& values = summary.metrics[i];
+    rows += row(described(metrics_table()[i]), {{"min", readable(values.min)},
+                                                {"max", readable(values.max)},
+                                                {"mean", readable(values.mean)},
+                                                {"final", readable(values.final)},
+                                                {"worst frame", worst_text(frames, values)}});
+  }
+  for (const RunMetric& metric : run_metrics_table())
+    run_rows += row(described(metric), {{"value", readable(summary.*metric.value)}});
+  return element("h2", "All metrics") +
+         table({"metric", "min", "max", "mean", "final", "worst frame"}, rows) +
+         element("h2", "Of the whole run") + table({"metric", "value"}, run_rows);
 }
 
 }  // namespace
@@ -78,17 +103,14 @@ std::string curves_section(const ReportInput& input) {
 std::string report_html(const ReportInput& input) {
   if (input.frames.empty())
     throw bad_input("a report needs a frame at least", "measure a run that has written frames");
-  const std::vector<Chart> charts = filled_charts(input);
   const std::string body =
       header(input) + verdict_cards(input.frames, input.summary, input.radius) +
       checks_table(input.checks) + playback_section(input) + pictures(input) +
-      charts_section(charts, !input.playback.frames.empty()) + curves_section(input) +
+      charts_section(!input.playback.frames.empty()) + curves_section(input) +
       metrics_tables(input.frames, input.summary) + element("h2", "What was run") +
       fact_lists(input.facts) + folded("The resolved scene", input.scene_text);
-  return page_html({input.title, input.version, body,
-                    "The same numbers, frame by frame, are in metrics.csv, and summed up in "
-                    "metrics.json.",
-                    page_data(input, charts)});
+  return page_html(
+      {input.title, input.version, body, "metrics.csv", drawn_data(input), input.playback});
 }
 
 }  // namespace sinew

@@ -95,15 +95,15 @@ void BlockState<double>::set_position(std::size_t k, const Vec3& p, const Units&
 template <>
 Vec3 BlockState<float>::position(std::size_t k, const Units& units) const {
   const std::size_t slot = k + block;
-  const Vec3 units(x_[0][slot], x_[1][slot], x_[2][slot]);
-  return units.origin + units.length * units;
+  const Vec3 whole(x_[0][slot], x_[1][slot], x_[2][slot]);
+  return units.origin + units.length * whole;
 }
 
 template <>
 void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Units& units) {
-  const Vec3 units = (p - units.origin) / units.length;
+  const Vec3 scaled = (p - units.origin) / units.length;
   for (int axis = 0; axis < 3; ++axis)
-    x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(units[axis]));
+    x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(scaled[axis]));
 }
 
 template <class Real>

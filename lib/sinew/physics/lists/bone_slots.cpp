@@ -124,11 +124,11 @@ void put_center(const Vec3& p, const Units&, kernel::FrameNow<double>& frame) {
 }
 
 void put_center(const Vec3& p, const Units& units, kernel::FrameNow<float>& frame) {
-  const Vec3 units = (p - units.origin) / units.length;
+  const Vec3 scaled = (p - units.origin) / units.length;
   for (int axis = 0; axis < 3; ++axis) {
-    const double whole = std::nearbyint(units[axis]);
+    const double whole = std::nearbyint(scaled[axis]);
     frame.center[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(whole));
-    frame.rest_of_center[axis] = static_cast<float>(units[axis] - whole);
+    frame.rest_of_center[axis] = static_cast<float>(scaled[axis] - whole);
   }
 }
 

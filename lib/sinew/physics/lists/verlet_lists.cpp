@@ -13,10 +13,10 @@ namespace {
 // In diameters, measured: longer lists cost every step, shorter ones are made more often. The
 // narrow skin leaves out the second neighbors of a packed body.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
-// Particles that moved farther than the others are escaped: farther than the first of these, in
+// Particles that moved farther than the others have escaped: farther than the first of these, in
 // diameters, that only one block in so many exceeds, or than the last. If more than one particle in
 // so many is, all lists are made anew.
-constexpr std::array escaped{0.04, 0.07, 0.1, 0.15, 0.2};
+constexpr std::array escape_distances{0.04, 0.07, 0.1, 0.15, 0.2};
 constexpr std::size_t blocks_per_escaped = 100, particles_per_escaped = 50;
 constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
 constexpr std::size_t pieces_per_part = 32;
@@ -147,22 +147,22 @@ std::vector<double> VerletLists<Real>::displacements(const MovingParticles<Real>
   return largest;
 }
 
-/// Beyond what displacement, m, particles of blocks so displaced are escaped.
+/// Beyond what displacement, m, particles of blocks so displaced have escaped.
 template <class Real>
 double VerletLists<Real>::escaped_beyond(const std::vector<double>& displaced,
                                          const Units& units) const {
-  for (const double diameters : escaped) {
+  for (const double diameters : escape_distances) {
     const double limit = diameters * 2 * pair_.r, lengths = 0.999 * limit / units.length;
     const auto beyond = std::count_if(displaced.begin(), displaced.end(),
                                       [&](double most) { return most >= lengths; });
     if (static_cast<std::size_t>(beyond) * blocks_per_escaped <= displaced.size()) return limit;
   }
-  return escaped.back() * 2 * pair_.r;
+  return escape_distances.back() * 2 * pair_.r;
 }
 
 /// The particles displaced by `limit` (m) or more, ascending.
 template <class Real>
-std::vector<std::uint32_t> VerletLists<Real>::escaped(const MovingParticles<Real>& particles,
+std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(const MovingParticles<Real>& particles,
                                                       const std::vector<double>& displaced,
                                                       double limit) {
   const double lengths = 0.999 * limit / particles.units.length;
@@ -187,7 +187,7 @@ bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
   ++counts_.looks;
   const auto displaced = displacements(particles);
   const double limit = escaped_beyond(displaced, particles.units);
-  const auto found = escaped(particles, displaced, limit);
+  const auto found = escaped_particles(particles, displaced, limit);
   if (found.size() * particles_per_escaped > particles.comoving_frame.size()) return false;
   for (const std::uint32_t k : found) anchor(particles, k);
   // Of places widened by what the escaped particles have moved, hence after that.
@@ -218,7 +218,7 @@ Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles
   return then.origin + then.rotation * (now.rotation.transpose() * (here - now.origin));
 }
 
-/// The pairs of a escaped particle with all that could come near it before the next look, when others may have
+/// The pairs of an escaped particle with all that could come near it before the next look, when others may have
 /// come nearer by `nearer` (m) than their references tell.
 template <class Real>
 void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uint32_t k, double nearer,

@@ -62,7 +62,7 @@ class VerletLists {
   bool look(const MovingParticles<Real>& particles);
   std::vector<double> displacements(const MovingParticles<Real>& particles);
   double escaped_beyond(const std::vector<double>& displaced, const Units& units) const;
-  std::vector<std::uint32_t> escaped(const MovingParticles<Real>& particles,
+  std::vector<std::uint32_t> escaped_particles(const MovingParticles<Real>& particles,
                                     const std::vector<double>& displaced, double limit);
   Vec3 place(const MovingParticles<Real>& particles, std::size_t k) const;
   Vec3 place_when_listed(const MovingParticles<Real>& particles, std::size_t k) const;

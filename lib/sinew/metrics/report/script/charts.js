@@ -2,46 +2,30 @@
 // The charts: hover for values, drag for a part of the time, double-click for all of it.
 "use strict";
 
-const dashes = [[], [], [], [7, 4], [2, 4], [9, 3, 2, 3]];
+// Later lines lie over earlier ones, which show between their dashes where both are the same.
+const dashes = [[], [9, 4], [3, 3], [12, 3, 3, 3], [6, 2], [2, 5]];
 const timeCharts = [];
 const marked = { time: null, go: null }; // the 3D view's time, and the way to change it
 
 const asXY = (points) => points.map(([x, y]) => ({ x, y: y === null ? NaN : y }));
 
+/** Whether a point has no neighbor that a line could lead to. */
+const alone = ({ dataset, dataIndex: i }) =>
+  [i - 1, i + 1].every((k) => Number.isNaN(dataset.data[k]?.y ?? NaN));
+
 function lineSet(line, i) {
-  return {
-    label: line.name,
-    data: asXY(line.points),
-    yAxisID: "y",
-    slot: i % 6,
-    borderWidth: 2,
-    borderDash: dashes[i % 6],
-    pointRadius: 0,
-    pointHitRadius: 8,
-    pointHoverRadius: 4,
-    borderJoinStyle: "round",
-  };
+  const color = palette[i % palette.length];
+  return { label: line.name, data: asXY(line.points), yAxisID: "y", order: -i,
+    borderColor: color, backgroundColor: color, borderWidth: 2, borderDash: dashes[i % dashes.length],
+    borderJoinStyle: "round", pointRadius: (context) => (alone(context) ? 2.5 : 0),
+    pointHoverRadius: 4 };
 }
 
 function angleSet() {
+  const color = colorOf("--quiet");
   return { label: "bones", data: asXY(data.angles), yAxisID: "angle", fill: "origin",
-    slot: "angle", borderWidth: 1, pointRadius: 0, pointHoverRadius: 3 };
-}
-
-function paint(chart) {
-  const [ink, quiet, rule] = ["--ink", "--quiet", "--rule"].map(colorOf);
-  for (const set of chart.data.datasets) {
-    const own = set.slot === "angle" ? quiet : colorOf(`--c${set.slot + 1}`);
-    Object.assign(set, { borderColor: own, pointBackgroundColor: own,
-      backgroundColor: set.slot === "angle" ? `${quiet}40` : own });
-  }
-  for (const scale of Object.values(chart.options.scales)) {
-    scale.ticks.color = scale.title.color = quiet;
-    scale.grid.color = scale.grid.borderColor = rule;
-  }
-  Object.assign(chart.options.plugins.tooltip, { backgroundColor: colorOf("--card"),
-    titleColor: ink, bodyColor: ink, borderColor: rule, borderWidth: 1 });
-  chart.update("none");
+    borderColor: color, backgroundColor: `${color}40`, borderWidth: 1, pointRadius: 0,
+    pointHoverRadius: 3 };
 }
 
 /** A vertical line at the 3D view's time, and the range being dragged. */
@@ -50,14 +34,14 @@ const marks = {
   afterDatasetsDraw(chart) {
     const { ctx, chartArea: area, scales } = chart;
     ctx.save();
-    if (marked.time !== null && chart.ofTime) {
+    if (marked.time !== null) {
       const x = scales.x.getPixelForValue(marked.time);
       ctx.fillStyle = colorOf("--ink");
       if (x >= area.left && x <= area.right) ctx.fillRect(x - 0.5, area.top, 1, area.height);
     }
     if (chart.dragged) {
       const [from, to] = chart.dragged;
-      ctx.fillStyle = `${colorOf("--c1")}30`;
+      ctx.fillStyle = `${palette[0]}30`;
       ctx.fillRect(Math.min(from, to), area.top, Math.abs(to - from), area.height);
     }
     ctx.restore();
@@ -90,7 +74,7 @@ function listen(chart) {
   const within = (event) =>
     Math.min(Math.max(event.offsetX, chart.chartArea.left), chart.chartArea.right);
   canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
+    if (event.button !== 0 || event.offsetY < chart.chartArea.top) return; // above: the legend
     chart.dragged = [within(event), within(event)];
     canvas.setPointerCapture(event.pointerId);
   });
@@ -104,86 +88,113 @@ function listen(chart) {
   canvas.addEventListener("dblclick", () => showTimes());
 }
 
-const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, callback: readable },
-  grid: {}, title: { display: Boolean(text), text } });
+/** As many decimals as tell the ticks apart, which are multiples of 1, 2 or 5 times a power of ten. */
+function tickText(value, _, ticks) {
+  if (value === 0) return "0";
+  const largest = Math.max(...ticks.map((tick) => Math.abs(tick.value)));
+  const power = largest >= 1e5 || largest < 1e-3 ? Math.floor(Math.log10(largest)) : 0;
+  const step = ticks.length > 1 ? Math.abs(ticks[1].value - ticks[0].value) : largest;
+  const decimals = Math.max(0, Math.ceil(power - Math.log10(step) - 1e-9));
+  const text = (value / 10 ** power).toFixed(decimals) + (power ? `e${power}` : "");
+  return text.replaceAll("-", "−");
+}
+
+const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, includeBounds: false,
+  callback: tickText }, title: { display: Boolean(text), text } });
+
+const leastSpan = 1e-3; // of the values' size: below it a line is flat, not noise
+
+/** Ends that the scale shows in any case: the baselines, and enough around a flat line. */
+function shownEnds(chart) {
+  const values = chart.lines.flatMap((line) => line.points.map((point) => point[1]))
+    .filter((value) => value !== null).concat(chart.baselines);
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const [middle, size] = [(low + high) / 2, Math.max(Math.abs(low), Math.abs(high))];
+  const half = Math.max(high - low, leastSpan * size) / 2;
+  return { suggestedMin: middle - half, suggestedMax: size === 0 ? 1 : middle + half };
+}
 
 /** The bones' angle lies in a strip beneath; its one text stands within it. */
-const angleScale = () => ({ ...plainScale(""), axis: "y", position: "left", stack: "all",
-  stackWeight: 1, min: 0, ticks: { maxTicksLimit: 2, mirror: true, labelOffset: 9,
+const angleScale = () => ({ axis: "y", position: "left", stack: "all", stackWeight: 1, min: 0,
+  suggestedMax: 1, ticks: { maxTicksLimit: 2, mirror: true, labelOffset: 9,
     callback: (value) => (value > 0 ? `bones ${readable(value)}°` : "") } });
 
 function timeScales(chart, [low, high]) {
-  const ends = (chart.baselines.length ? chart.baselines : [NaN]);
   const scales = data.angles.length ? { angle: angleScale() } : {};
-  scales.y = { ...plainScale(chart.unit), axis: "y", position: "left", stack: "all", stackWeight: 5,
-    suggestedMin: Math.min(...ends), suggestedMax: Math.max(...ends) };
-  scales.x = { ...plainScale(""), type: "linear", min: low, max: high };
-  scales.x.ticks.callback = (value, i, ticks) =>
-    readable(value) + (i === ticks.length - 1 ? " s" : "");
+  scales.y = { ...plainScale(chart.unit && `in ${chart.unit}`), ...shownEnds(chart), axis: "y", position: "left",
+    stack: "all", stackWeight: 5 };
+  scales.x = { ...plainScale("time (s)"), type: "linear", min: low, max: high };
   return scales;
 }
 
-const tooltip = {
-  callbacks: {
-    title: (items) => (items.length ? `${readable(items[0].parsed.x)} s` : ""),
-    label: (item) => ` ${item.dataset.label}: ${readable(item.parsed.y)}` +
-      (item.dataset.slot === "angle" ? "°" : ""),
-  },
-};
+const asListed = (one, other) => one.datasetIndex - other.datasetIndex;
 
-function options(scales) {
-  return { animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
-    interaction: { mode: "nearest", axis: "x", intersect: false }, scales,
-    plugins: { legend: { display: false }, tooltip: { boxPadding: 4 } } };
+function options(scales, unit) {
+  return { animation: false, maintainAspectRatio: false, normalized: true, scales,
+    interaction: { mode: "nearest", axis: "x", intersect: false },
+    plugins: {
+      legend: { align: "start", labels: { boxHeight: 0, boxWidth: 30, padding: 10,
+        sort: asListed } },
+      tooltip: { boxPadding: 4, itemSort: asListed, callbacks: {
+        title: (items) => (items.length ? `${readable(items[0].parsed.x)} ${unit}` : ""),
+        label: ({ dataset, parsed }) => ` ${dataset.label}: ${readable(parsed.y)}` +
+          (dataset.yAxisID === "angle" ? "°" : ""),
+      } },
+    } };
 }
 
-/** A canvas in the place of the figure's drawing. */
-function canvasIn(figure, label) {
-  const canvas = element("canvas", { role: "img", ariaLabel: label });
-  figure.querySelector("svg, noscript")?.remove();
-  figure.append(element("div", { className: "plot" }, [canvas]));
+/** A figure with its heading and a canvas, added to the section. */
+function canvasIn(section, { title, note }) {
+  const canvas = element("canvas", { role: "img", ariaLabel: title });
+  section.append(element("figure", {}, [
+    element("figcaption", {}, [element("h3", { textContent: title }),
+      element("p", { textContent: note })]),
+    element("div", { className: "plot" }, [canvas])]));
   return canvas;
 }
 
 function wholeTime(chart) {
   const times = chart.lines.flatMap((line) => line.points.map((point) => point[0]));
-  return times.length ? [Math.min(...times), Math.max(...times)] : [0, 1];
+  const [low, high] = [Math.min(...times), Math.max(...times)];
+  return low < high ? [low, high] : [low - 0.5, low + 0.5];
 }
 
-function timeChart(figure, plan) {
+function timeChart(plan) {
   const whole = wholeTime(plan);
-  const settings = options(timeScales(plan, whole));
-  settings.plugins.tooltip = { ...settings.plugins.tooltip, ...tooltip };
   const datasets = plan.lines.map(lineSet);
+  const settings = options(timeScales(plan, whole), "s");
+  settings.plugins.legend.labels.filter = (item) => item.text !== "bones";
   if (data.angles.length) datasets.push(angleSet());
-  const chart = new Chart(canvasIn(figure, `${plan.title} against time`),
+  const chart = new Chart(canvasIn(byId("charts"), plan),
     { type: "line", data: { datasets }, options: settings, plugins: [marks] });
-  Object.assign(chart, { ofTime: true, wholeTime: whole });
+  chart.wholeTime = whole;
   timeCharts.push(chart);
   listen(chart);
   return chart;
 }
 
-function curveChart(figure, curve) {
-  const settings = options({ x: { ...plainScale(curve.across), type: "linear" },
-    y: plainScale(curve.up) });
-  settings.plugins.legend = { display: curve.lines.length > 1,
-    labels: { boxHeight: 0, color: colorOf("--quiet") } };
-  settings.plugins.tooltip.callbacks = { title: (items) => readable(items[0].parsed.x),
-    label: (item) => ` ${item.dataset.label}: ${readable(item.parsed.y)}` };
-  return new Chart(canvasIn(figure, curve.title),
-    { type: "line", data: { datasets: curve.lines.map(lineSet) }, options: settings });
+const curveChart = (curve) => new Chart(canvasIn(byId("curves"), curve),
+  { type: "line", data: { datasets: curve.lines.map(lineSet) },
+    options: options({ x: { ...plainScale(curve.across), type: "linear" },
+      y: plainScale(curve.up) }, "") });
+
+/** On paper two charts stand beside each other, sharper than on a screen. */
+function followPrinting(charts) {
+  const size = (ratio, ...widthAndHeight) => charts.forEach((chart) => {
+    chart.options.devicePixelRatio = ratio;
+    chart.resize(...widthAndHeight);
+  });
+  addEventListener("beforeprint", () => size(3, 360, 230));
+  addEventListener("afterprint", () => size(devicePixelRatio));
 }
 
 function drawCharts() {
-  const figures = [...document.querySelectorAll("figure.chart")];
-  const curves = [...document.querySelectorAll("figure.curve")];
-  const all = [...figures.map((figure, i) => timeChart(figure, data.charts[i])),
-    ...curves.map((figure, i) => curveChart(figure, data.curves[i]))];
-  const paintAll = () => all.forEach(paint);
-  paintAll();
-  whenDarkChanges(paintAll);
-  return all;
+  const { defaults } = Chart;
+  Object.assign(defaults, { color: colorOf("--ink"), borderColor: colorOf("--rule") });
+  defaults.font.family = getComputedStyle(document.body).fontFamily;
+  const charts = [...data.charts.map(timeChart), ...data.curves.map(curveChart)];
+  followPrinting(charts);
+  return charts;
 }
 
 /** Marks a time in all charts, s. */

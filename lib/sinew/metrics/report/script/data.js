@@ -2,7 +2,9 @@
 // The page's data, and its numbers unpacked from base64.
 "use strict";
 
-const data = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+
+const data = JSON.parse(byId("data").textContent);
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
@@ -27,13 +29,15 @@ function unpackedPlayback(playback) {
 /** Four significant digits, for people. */
 function readable(value) {
   if (value === null || Number.isNaN(value)) return "–";
-  return String(Number(Number(value).toPrecision(4))).replace("-", "−");
+  const number = Number(value.toPrecision(4)), size = Math.abs(number);
+  const plain = number === 0 || (size >= 1e-4 && size < 1e6);
+  return (plain ? String(number) : number.toExponential()).replaceAll("-", "−").replace("+", "");
 }
 
-const colorOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+// Okabe and Ito's colors, which color-blind readers tell apart; the pale ones come last.
+const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#4d4d4d", "#e69f00", "#56b4e9", "#b8ad00"];
 
-const whenDarkChanges = (job) =>
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", job);
+const colorOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 function element(tag, properties = {}, children = []) {
   const made = Object.assign(document.createElement(tag), properties);

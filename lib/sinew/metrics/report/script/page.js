@@ -14,9 +14,9 @@ function begin() {
   document.documentElement.classList.add("scripted");
   const charts = drawCharts();
   let playback = null;
-  if (data.playback)
+  if (byId("playback"))
     try {
-      playback = startPlayback(data.playback);
+      playback = startPlayback(JSON.parse(byId("playback").textContent));
     } catch (error) {
       sayWithout(error.message);
     }
@@ -24,6 +24,11 @@ function begin() {
     charts: charts.length,
     timeRange: timeCharts.length ? [timeCharts[0].scales.x.min, timeCharts[0].scales.x.max] : null,
     heights: timeCharts.map((chart) => [chart.scales.y.min, chart.scales.y.max]),
+    ticks: timeCharts.map((chart) => chart.scales.y.ticks.map((tick) => tick.label)),
+    gaps: timeCharts.map((chart) => chart.getDatasetMeta(0).data.filter((point) => point.skip).length),
+    pointed: timeCharts[0]?.tooltip.dataPoints?.map(({ dataset, parsed }) =>
+      [dataset.label, parsed.x, parsed.y]) ?? [],
+    hidden: timeCharts[0]?.isDatasetVisible(0) === false,
     webgl: playback !== null,
     snapshot: playback?.player.snapshot ?? null,
     places: playback ? [...playback.view.spheres.geometry.attributes.position.array] : [],

@@ -2,8 +2,6 @@
 // The controls beneath the 3D view: time, color, parts, and the worst frames.
 "use strict";
 
-const byId = (id) => document.getElementById(id);
-
 function fillFields(playback) {
   const options = playback.fields.map((field, i) =>
     element("option", { value: i, textContent: field.name }));
@@ -15,9 +13,8 @@ const mostNames = 12; // bones named beside the view; more would bury it
 /** Which color is which bone. */
 function fillBoneNames(playback) {
   const names = playback.boneNames.slice(0, mostNames).map((name, b) => {
-    const color = boneColors[b % boneColors.length].join(" ");
     const dot = element("i");
-    dot.style.background = `rgb(${color})`;
+    dot.style.background = palette[b % palette.length];
     return element("span", {}, [dot, name]);
   });
   const more = playback.boneNames.length - names.length;
@@ -98,7 +95,6 @@ function connect(player, view) {
   for (const id of ["field", "show-particles", "show-surface", "show-bones", "cut"])
     byId(id).addEventListener("change", player.show);
   marked.go = (time) => player.go(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
-  whenDarkChanges(player.show);
   showWorst(playback, player.go);
 }
 

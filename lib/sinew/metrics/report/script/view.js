@@ -28,14 +28,15 @@ function makeView(playback, stage) {
 /** A function that draws at the next repaint, however often it is called until then. */
 function drawer(view) {
   let due = false;
+  const draw = () => {
+    due = false;
+    view.renderer.setClearColor(colorOf("--stage"));
+    view.renderer.render(view.scene, view.camera);
+  };
+  addEventListener("beforeprint", draw);
   return () => {
-    if (due) return;
+    if (!due) requestAnimationFrame(draw);
     due = true;
-    requestAnimationFrame(() => {
-      due = false;
-      view.renderer.setClearColor(colorOf("--stage"));
-      view.renderer.render(view.scene, view.camera);
-    });
   };
 }
 
@@ -66,7 +67,7 @@ function makeSkin(playback, points) {
 function makeBone(index) {
   const geometry = new THREE.CylinderBufferGeometry(0, 0.07, 0.85, 4).translate(0, 0.575, 0);
   const foot = new THREE.CylinderBufferGeometry(0.07, 0, 0.15, 4).translate(0, 0.075, 0);
-  const color = new THREE.Color(...boneColors[index % boneColors.length].map((c) => c / 255));
+  const color = new THREE.Color(palette[index % palette.length]);
   const material = new THREE.MeshLambertMaterial({ color: color, transparent: true, opacity: 0.85,
     depthTest: false, flatShading: true });
   const bone = new THREE.Group();

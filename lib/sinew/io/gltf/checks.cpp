@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/gltf/checks.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/io/gltf/accessors.h>
+#include <sinew/io/gltf/container.h>
+
+namespace sinew {
+namespace {
+
+/// What is drawn onto a shape, or lights it, leaves the shape alone.
+bool leaves_shapes(std::string_view extension) {
+  constexpr std::array<std::string_view, 8> harmless = {
+      "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
+      "KHR_lights_",    "EXT_lights_",  "KHR_xmp",      "KHR_animation_pointer"};
+  return std::any_of(harmless.begin(), harmless.end(),
+                     [&](std::string_view start) { return extension.starts_with(start); });
+}
+
+std::string cure_for(std::string_view extension) {
+  const auto names = [&](const char* part) { return extension.find(part) != extension.npos; };
+  if (names("draco") || names("meshopt")) return "export without mesh compression";
+  if (names("quantization")) return "export without quantization";
+  if (names("instancing")) return "export without instancing";
+  return "export without it";
+}
+
+/// glTF 2, and no extension required that changes shapes.
+void check_version(const GltfDocument& document) {
+  const auto is_2 = [](std::string_view version) { return version.starts_with("2."); };
+  if (!is_2(document.version) || document.least_version > "2.0")
+    throw bad_input("it is of glTF version " +
+                        shown(is_2(document.version) ? document.least_version : document.version),
+                    "export it as glTF 2.0");
+  for (const std::string& extension : document.extensions_required)
+    if (!leaves_shapes(extension))
+      throw bad_input("it needs the extension " + shown(extension), cure_for(extension));
+}
+
+/// Every view lies in its buffer; then the buffers become one: views count from its start.
+void join_buffers(GltfDocument& document) {
+  std::vector<std::int64_t> starts = {0};
+  for (const GltfBuffer& buffer : document.buffers) starts.push_back(starts.back() + buffer.size);
+  for (std::size_t i = 0; i < document.views.size(); ++i) {
+    GltfView& view = document.views[i];
+    check_index(view.buffer, document.buffers, nth("bufferViews", i), "buffer");
+    const auto buffer = static_cast<std::size_t>(view.buffer);
+    if (view.offset + view.size > document.buffers[buffer].size)
+      throw damaged_gltf(nth("bufferViews", i) + " ends at byte " +
+                         std::to_string(view.offset + view.size) + " of a buffer of " +
+                         std::to_string(document.buffers[buffer].size));
+    view.offset += starts[buffer];
+    view.buffer = 0;
+  }
+  document.buffers.clear();
+}
+
+/// Whether indices may be given in such numbers.
+bool counts(GltfNumber number) {
+  return number == GltfNumber::uint8 || number == GltfNumber::uint16 ||
+         number == GltfNumber::uint32;
+}
+
+/// That `count` elements of `size` bytes from `offset` on lie in the view.
+void check_extent(const GltfDocument& document, const std::string& user, int view_index,
+                  std::int64_t offset, std::int64_t count, std::int64_t size) {
+  check_index(view_index, document.views, user, "bufferView");
+  const GltfView& view = document.views[static_cast<std::size_t>(view_index)];
+  const std::int64_t step = view.stride > 0 ? view.stride : size;
+  if (step < size)
+    throw damaged_gltf(user + " has elements of " + std::to_string(size) + " bytes every " +
+                       std::to_string(step));
+  const std::int64_t end = offset + (count - 1) * step + size;  // below 2^31 + 2^31 252 + 64
+  if (end > view.size)
+    throw damaged_gltf(user + " ends at byte " + std::to_string(end) + " of a bufferView of " +
+                       std::to_string(view.size));
+}
+
+/// Bytes.
+std::int64_t element_size(const GltfAccessor& accessor) {
+  return std::int64_t{size_of(accessor.number)} * components_of(accessor.type);
+}
+
+void check_accessor(const GltfDocument& document, std::size_t index) {
+  const GltfAccessor& accessor = document.accessors[index];
+  const std::string user = nth("accessors", index);
+  const std::int64_t size = element_size(accessor);
+  if (accessor.view >= 0)
+    check_extent(document, user, accessor.view, accessor.offset, accessor.count, size);
+  if (!accessor.sparse) return;
+  const GltfSparse& sparse = *accessor.sparse;
+  if (sparse.count > accessor.count || !counts(sparse.index_number))
+    throw damaged_gltf(user + ".sparse does not fit it");
+  check_extent(document, user + ".sparse.indices", sparse.index_view, sparse.index_offset,
+               sparse.count, size_of(sparse.index_number));
+  check_extent(document, user + ".sparse.values", sparse.value_view, sparse.value_offset,
+               sparse.count, size);
+}
+
+/// The indices of a sparse accessor, checked before, are within it.
+void check_sparse(const CheckedGltf& gltf, std::size_t index) {
+  const GltfAccessor& accessor = gltf.document.accessors[index];
+  const GltfSparse& sparse = *accessor.sparse;
+  const GltfElements places(gltf, sparse.index_view, sparse.index_offset, sparse.index_number);
+  for (std::int64_t i = 0; i < sparse.count; ++i)
+    if (const std::int64_t at = places.index(i); at >= accessor.count)
+      throw damaged_gltf(nth("accessors", index) + ".sparse names element " + std::to_string(at) +
+                         " of " + std::to_string(accessor.count));
+}
+
+void check_accessors(const CheckedGltf& gltf) {
+  const auto& accessors = gltf.document.accessors;
+  for (std::size_t i = 0; i < accessors.size(); ++i) check_accessor(gltf.document, i);
+  for (std::size_t i = 0; i < accessors.size(); ++i)
+    if (accessors[i].sparse) check_sparse(gltf, i);
+}
+
+void check_positions(const GltfAccessor& accessor, const std::string& user) {
+  if (accessor.type != "VEC3" || accessor.number != GltfNumber::float32)
+    throw bad_input(user + " are " + accessor.type + " of component type " +
+                        std::to_string(static_cast<int>(accessor.number)) + ", not VEC3 of 5126",
+                    "export positions as floats, without quantization");
+}
+
+void check_corners(const GltfAccessor& accessor, const std::string& user) {
+  if (accessor.type != "SCALAR" || !counts(accessor.number) || accessor.normalized)
+    throw damaged_gltf(user + " are not plain unsigned numbers");
+  if (accessor.sparse) throw bad_input(user + " are sparse", "export without sparse accessors");
+}
+
+void check_count(GltfMode mode, std::int64_t corners, const std::string& user) {
+  if (corners < 3 || (mode == GltfMode::triangles && corners % 3 != 0))
+    throw damaged_gltf(user + " has " + std::to_string(corners) +
+                       " corners, which make no triangles");
+}
+
+void check_surface(const GltfDocument& document, const GltfPrimitive& primitive,
+                   const std::string& user) {
+  const std::string positions = user + "'s positions", indices = user + "'s indices";
+  const GltfAccessor* corners = &accessor_of(document, primitive.positions(), positions);
+  check_positions(*corners, positions);
+  if (primitive.indices >= 0) {
+    corners = &accessor_of(document, primitive.indices, indices);
+    check_corners(*corners, indices);
+  }
+  check_count(primitive.mode, corners->count, user);
+}
+
+void check_primitive(const GltfDocument& document, const GltfPrimitive& primitive,
+                     const std::string& user) {
+  if (primitive.indices >= 0) check_index(primitive.indices, document.accessors, user, "accessor");
+  for (const auto& [name, index] : primitive.attributes)
+    check_index(index, document.accessors, user, "accessor");
+  if (primitive.is_surface()) check_surface(document, primitive, user);
+}
+
+void check_node(const GltfDocument& document, std::size_t index) {
+  const GltfNode& node = document.nodes[index];
+  const std::string user = nth("nodes", index);
+  if (node.mesh >= 0) check_index(node.mesh, document.meshes, user, "mesh");
+  if (node.skin >= 0) check_index(node.skin, document.skins, user, "skin");
+  const auto& m = node.matrix;  // column by column: these are the last row
+  if (!m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
+    throw damaged_gltf(user + "'s matrix does not end in the row 0 0 0 1");
+}
+
+/// The topmost nodes of the default scene: of the first one where none is named, every node without
+/// parent where there are no scenes.
+std::vector<int> roots_of_scene(const GltfDocument& document, const GltfTree& tree) {
+  if (document.scene >= 0) check_index(document.scene, document.scenes, "scene", "scene");
+  if (!document.scenes.empty())
+    return document.scenes[static_cast<std::size_t>(std::max(document.scene, 0))];
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < tree.parents.size(); ++i)
+    if (tree.parents[i] < 0) roots.push_back(static_cast<int>(i));
+  return roots;
+}
+
+/// All nodes of the scene, parents first; its topmost ones have no parents and are there once.
+std::vector<int> shown_nodes(const GltfDocument& document, const GltfTree& tree) {
+  std::vector<int> shown = roots_of_scene(document, tree);
+  std::vector<bool> listed(document.nodes.size());
+  for (const int root : shown) {
+    check_index(root, document.nodes, "its scene", "node");
+    const auto at = static_cast<std::size_t>(root);
+    if (tree.parents[at] >= 0 || listed[at])
+      throw damaged_gltf("its scene holds node " + std::to_string(root) + " twice");
+    listed[at] = true;
+  }
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto& children = document.nodes[static_cast<std::size_t>(shown[i])].children;
+    shown.insert(shown.end(), children.begin(), children.end());
+  }
+  return shown;
+}
+
+CheckedGltf checked(const GltfContainer& container, const std::filesystem::path& folder) {
+  CheckedGltf gltf{gltf_document(container.json), {}, {}, {}};
+  GltfDocument& document = gltf.document;
+  check_version(document);
+  gltf.bytes = gltf_bytes(document.buffers, container.binary, folder);
+  join_buffers(document);
+  check_accessors(gltf);
+  for_each_primitive(document, [&](const GltfPrimitive& primitive, const std::string& user) {
+    check_primitive(document, primitive, user);
+  });
+  for (std::size_t i = 0; i < document.nodes.size(); ++i) check_node(document, i);
+  gltf.tree = gltf_tree(document);
+  gltf.shown = shown_nodes(document, gltf.tree);
+  check_gltf_skins(document);
+  check_gltf_animations(document);
+  return gltf;
+}
+
+}  // namespace
+
+const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user) {
+  check_index(index, document.accessors, user, "accessor");
+  const GltfAccessor& accessor = document.accessors[static_cast<std::size_t>(index)];
+  if (accessor.view >= 0) return accessor;
+  if (accessor.sparse)
+    throw bad_input(user + " are sparse data over nothing", "export without sparse accessors");
+  throw bad_input(user + " have no data", "export without mesh compression");
+}
+
+CheckedGltf checked_gltf(const std::filesystem::path& path) {
+  std::string file = read_file(path, most_gltf_bytes);  // its errors name the path themselves
+  try {
+    return checked(gltf_container(std::move(file), path.extension()), path.parent_path());
+  } catch (const Error& error) {
+    throw error.with_context({path.string()});
+  }
+}
+
+}  // namespace sinew

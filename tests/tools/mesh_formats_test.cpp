@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the settings' help says of mesh formats is what is read.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <sinew/settings/table.h>
+#include <sinew/scene/body.h>
+
+namespace sinew {
+namespace {
+
+TEST(MeshFormats, AreThoseThatTheSettingsHelpLists) {
+  const auto table = settings_table();
+  const auto mesh = std::find_if(table.begin(), table.end(), [](const Field<Settings>& field) {
+    return field.section == "body" && field.name == "mesh";
+  });
+  ASSERT_NE(mesh, table.end());
+  EXPECT_EQ(mesh->help, "mesh (" + mesh_formats() + "), relative to the scene");
+}
+
+}  // namespace
+}  // namespace sinew
