@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/core/particles.h>
 #include <sinew/settings/settings.h>
 #include <sinew/physics/simulation.h>
@@ -119,7 +121,7 @@ inline Body make_body(const Settings& settings, const Points& rest) {
   const double r = *settings.body.radius, V0 = volume_per_particle(r);
   Body body;
   body.rest = rest;
-  body.skeleton = make_skeleton(settings);
+  body.skeleton = skeleton_of(settings);
   body.binding = bind_to_bones(rest, body.skeleton, V0, settings.binding.joint_zone);
   body.material = make_material(settings.material, r, settings.material.density * V0);
   body.springs = bone_springs(settings.binding, body.material, body.binding);
@@ -132,7 +134,7 @@ inline Simulation make_simulation(const Settings& settings, const Points& rest) 
   const Body body = make_body(settings, rest);
   const double limit = step_limit(settings.solver.integrator, body.material, body.springs);
   const double step = choose_step(settings.solver, limit, settings.output.interval).step;
-  return Simulation(body, make_motion(settings, body.skeleton),
+  return Simulation(body, motion_of(settings, body.skeleton),
                     particles_at(rest, body.material.pair.r, body.material.mass),
                     stepping_of(settings.solver, step));
 }
@@ -154,7 +156,7 @@ inline Material material_of(const Settings& settings) {
 inline Simulation simulation_from(const Settings& settings, const Points& rest,
                                   const Particles& particles, double step) {
   const Body body = make_body(settings, rest);
-  return Simulation(body, make_motion(settings, body.skeleton), particles,
+  return Simulation(body, motion_of(settings, body.skeleton), particles,
                     stepping_of(settings.solver, step));
 }
 

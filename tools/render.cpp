@@ -24,9 +24,9 @@ struct Options {
 
 std::string help_of_views() {
   std::string text = "Comma-separated list of";
-  for (const ViewPreset& look : view_presets())
-    ((text += look.name == view_presets().front().name ? " " : ", ") += look.name) +=
-        " (" + std::string(look.help) + ')';
+  for (const ViewPreset& preset : view_presets())
+    ((text += preset.name == view_presets().front().name ? " " : ", ") += preset.name) +=
+        " (" + std::string(preset.help) + ')';
   return text;
 }
 
@@ -94,8 +94,8 @@ FigureSetOptions figure_set_options(const Options& options) {
 
 Exit render(const Options& options, const Common& common) {
   FigureSetOptions figure_set = figure_set_options(options);
-  std::vector<ViewPreset> looks;
-  for (const std::string& view : options.views) looks.push_back(view_preset_named(view));
+  std::vector<ViewPreset> presets;
+  for (const std::string& view : options.views) presets.push_back(view_preset_named(view));
   ensure_display();
   Stopwatch watch;
   std::deque<DrawnRun> runs;
@@ -103,14 +103,14 @@ Exit render(const Options& options, const Common& common) {
   for (const std::string& folder : {options.folder, options.other_folder})
     if (!folder.empty())
       shown.push_back(
-          &runs.emplace_back(folder, looks, options.array, figure_set.view, common.threads != 1));
+          &runs.emplace_back(folder, presets, options.array, figure_set.view, common.threads != 1));
   const RunFiles& run = runs.front().files();
   figure_set.folder =
       options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
   create({figure_set.folder});
   int pictures = 0;
-  for (std::size_t look = 0; look < looks.size(); ++look) {
-    FigureSet pages(shown, look, figure_set);
+  for (std::size_t preset = 0; preset < presets.size(); ++preset) {
+    FigureSet pages(shown, preset, figure_set);
     pictures += pages.pictures() + 1;
     pages.sheet();
     if (!options.no_movie) pages.movie();

@@ -137,7 +137,7 @@ Scene scene_of(Condition condition, std::size_t count) {
   const Settings settings = settings_of(condition, bar);
   Scene scene;
   scene.body = test::make_body(settings, rest_of(condition, bar));
-  scene.motion = make_motion(settings, scene.body.skeleton);
+  scene.motion = motion_of(settings, scene.body.skeleton);
   scene.start = start_of(condition, bar, scene.body);
   const double limit =
       step_limit(settings.solver.integrator, scene.body.material, scene.body.springs);

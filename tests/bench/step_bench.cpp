@@ -117,7 +117,7 @@ void count_lists(benchmark::State& state, const ListCounts& lists) {
   state.counters["rebuilds"] = static_cast<double>(lists.rebuilds);
   state.counters["prunings"] = static_cast<double>(lists.prunings);
   state.counters["sorts"] = static_cast<double>(lists.sorts);
-  state.counters["offsets"] = lists.narrow;
+  state.counters["offsets"] = lists.inner;
 }
 
 /// Every lap begins with the same state, which else would settle during the measurement.

@@ -32,7 +32,7 @@ EQUIVALENT = [
     (r".*surface_measures\.cpp", r"^Vec3 area_vector", r"0", "a triangle's area is that from any of its corners"),
     (r".*comparison_page\.cpp", r"i < worst.metrics", r"0", "the first metric is the time, which has no worst frame"),
     (r".*slices\.cpp", r"double last = -2;", r"2", "what comes before the first is none of its neighbors"),
-    (r".*physics/simulation\.cpp", r"world_book_\.add_step\(sums\.world_power, 0\)", r"0",
+    (r".*physics/simulation\.cpp", r"world_ledger_\.add_step\(sums\.world_power, 0\)", r"0",
      "only its work is asked for"),
     (r".*solid\.cpp", r"volume_\.assign\(n, 0\)", r"0", "each is found before it is asked for"),
     (r".*physics/simulation\.h", r"double held_at_start_ = 0;", r"0", "the first step finds it"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every kind of mistake in a scene ends with exit code 2 and one line that names file, line, column
 // and cure; never with a crash.
+#include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ namespace {
 std::string verdict(const std::filesystem::path& file) {
   try {
     const Settings settings = read_scene(file);
-    make_motion(settings, make_skeleton(settings));
+    motion_of(settings, skeleton_of(settings));
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::bad_input);
     return error.what();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/io/gltf/rig.h>
 
 #include <sinew/settings/read_scene.h>
@@ -295,8 +296,8 @@ TEST_F(ReadGltfRig, RefusesAFileWithoutASkin) {
 TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
   const std::filesystem::path source = SINEW_SOURCE_DIR;
   const Settings settings = read_scene(source / "configs/box_bend.yaml");
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Motion motion = motion_of(settings, skeleton);
   const GltfRig rig = read_gltf_rig(source / "data/motions/box_bend.glb");
   ASSERT_EQ(rig.rig.skeleton.size(), 2u);
   const Clip& clip = find_clip(rig.rig.clips, "bend");

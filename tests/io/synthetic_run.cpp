@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include <sinew/scene/rig.h>
+
 namespace sinew {
 namespace {
 
@@ -101,8 +103,8 @@ SyntheticRun::SyntheticRun()
       bone(nearest_bones(rest)),
       skin(box(8, 24)),
       skin_bone(nearest_bones(skin.points)),
-      skeleton(make_skeleton(settings())),
-      motion(make_motion(settings(), skeleton)) {}
+      skeleton(skeleton_of(settings())),
+      motion(motion_of(settings(), skeleton)) {}
 
 Dataset SyntheticRun::particles(Moment moment) const {
   const Pose pose = pose_at(skeleton, motion, moment.time);

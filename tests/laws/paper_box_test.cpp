@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <sinew/scene/rig.h>
 #include <sinew/core/deformation.h>
 #include "world.h"
 
@@ -67,8 +68,8 @@ double broken(const Points& now, double b) {
 
 TEST(PaperBox, BentBy90DegreesFollowsItsBoneAndSettles) {
   const auto states = run(bend_scene(), {1.0, 1.25, 1.5});
-  const Skeleton skeleton = make_skeleton(bend_scene());
-  const Pose pose = pose_at(skeleton, make_motion(bend_scene(), skeleton), 1.5);
+  const Skeleton skeleton = skeleton_of(bend_scene());
+  const Pose pose = pose_at(skeleton, motion_of(bend_scene(), skeleton), 1.5);
   const Points rest = box();
   Points rigid;
   for (const Vec3& point : rest)

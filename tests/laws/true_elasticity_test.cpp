@@ -2,6 +2,8 @@
 // What has bonds comes back from where the paper's body flows.
 #include <gtest/gtest.h>
 
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/core/deformation.h>
 #include "world.h"
 
@@ -107,7 +109,7 @@ double longest_step(const Settings& settings, const Points& rest, double expecte
   std::mt19937 random(1);
   for (Vec3& point : start) point += 1e-7 * r * test::random_vector(random);
   const auto rests = [&](double step) {
-    Simulation simulation(body, make_motion(settings, body.skeleton),
+    Simulation simulation(body, motion_of(settings, body.skeleton),
                           particles_at(start, r, body.material.mass),
                           stepping_of(settings.solver, step));
     try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What bones' motions may do to lists is bounded from above, and not by far too much.
+#include <sinew/scene/rig.h>
 #include <sinew/physics/lists/approach_bounds.h>
 
 #include <numeric>
@@ -189,8 +190,8 @@ TEST(MotionsBetween, CarryWhatRidesOnTheBones) {
   end.translation = {0.1, 0.2, -0.1};
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), end}),
                      test::track("upper", {test::bend_key(0, 0), end})};
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Motion motion = motion_of(settings, skeleton);
   const Pose before = pose_at(skeleton, motion, 0.3), now = pose_at(skeleton, motion, 0.8);
   const auto motions = motions_between(before, now);
   ASSERT_EQ(motions.size(), 3u);
@@ -230,8 +231,8 @@ TEST(ExcessOfStep, BoundsWhatABonesVelocityDoesNotSay) {
     end.translation = {3, -2, 1};
     settings.tracks = {test::track("lower", {test::bend_key(0, 0), end})};
     settings.tracks[0].interpolation = interpolation;
-    const Skeleton skeleton = make_skeleton(settings);
-    const Motion motion = make_motion(settings, skeleton);
+    const Skeleton skeleton = skeleton_of(settings);
+    const Motion motion = motion_of(settings, skeleton);
     for (const double from : {-0.005, 0.0, 0.3, 0.995})
       for (const double step : {1e-4, 1e-2}) {
         const BonePose before = pose_at(skeleton, motion, from)[0];
@@ -250,9 +251,9 @@ TEST(ExcessOfStep, BoundsWhatABonesVelocityDoesNotSay) {
 TEST(ExcessOfStep, FallsWithTheSquareOfTheStepAndVanishesForSteadyTravel) {
   Settings settings = test::box_scene(25);
   settings.tracks = {test::track("lower", {test::bend_key(0, 0), test::bend_key(1, 100)})};
-  const Skeleton skeleton = make_skeleton(settings);
+  const Skeleton skeleton = skeleton_of(settings);
   const auto excess = [&](double step) {
-    const Motion motion = make_motion(settings, skeleton);
+    const Motion motion = motion_of(settings, skeleton);
     return excess_of_step(pose_at(skeleton, motion, 0.4)[0],
                           pose_at(skeleton, motion, 0.4 + step)[0], step, 1);
   };

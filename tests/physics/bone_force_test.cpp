@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/physics/bone_force.h>
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ struct Pull {
   explicit Pull(const Vec3& rest, BoneForce form = BoneForce::paper) {
     settings = test::box_scene();
     settings.bones = {{"bone", "", Vec3(0.1, 0.2, 0), Vec3(0.1, 0.2, 1)}};
-    skeleton = make_skeleton(settings);
+    skeleton = skeleton_of(settings);
     binding = bind_to_bones({rest}, skeleton, 1e-2, 0);
     material = test::material_of(settings);
     springs = {3, 5, 7, 0.2, form, TwistForm::servo};
@@ -247,7 +248,7 @@ TEST(BoneSprings, TakeTheStrengthOfTheirBone) {
   settings.bones[1].axial_stiffness = 0;
   const Body body = test::make_body(settings, test::fcc_box(7, 7, 25, r));
   const auto own =
-      bone_springs(settings.binding, body.material, body.binding, make_skeleton(settings));
+      bone_springs(settings.binding, body.material, body.binding, skeleton_of(settings));
   EXPECT_EQ(own[0].radial, body.springs[0].radial);
   EXPECT_EQ(own[0].damping, body.springs[0].damping);
   EXPECT_DOUBLE_EQ(own[1].radial, 4 * body.springs[1].radial);

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include <sinew/scene/rig.h>
 #include <sinew/core/parallel.h>
 #include <sinew/physics/forces.h>
 #include "world.h"
@@ -35,7 +36,7 @@ struct Scene {
   explicit Scene(BoneForce form = BoneForce::paper)
       : settings(bent_scene(form)),
         body(test::make_body(settings, test::fcc_box(7, 7, 25, r))),
-        pose(pose_at(body.skeleton, make_motion(settings, body.skeleton), 0.6)),
+        pose(pose_at(body.skeleton, motion_of(settings, body.skeleton), 0.6)),
         particles(test::shaken(body.rest, body.material, r, 0.5)) {}
 };
 
@@ -67,7 +68,7 @@ TEST(BoneForces, VanishWhenAllMovesWithTheBones) {
     Settings settings = bent_scene(form);
     settings.tracks.pop_back();  // both bones turn as one
     const Body body = test::make_body(settings, test::fcc_box(7, 7, 25, r));
-    const Pose pose = pose_at(body.skeleton, make_motion(settings, body.skeleton), 0.4);
+    const Pose pose = pose_at(body.skeleton, motion_of(settings, body.skeleton), 0.4);
     ASSERT_GT(pose[1].angular_velocity.norm(), 0.1);
     Particles particles = particles_at(body.rest, r, body.material.mass);
     for (std::size_t i = 0; i < particles.size(); ++i) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel's bone forces are those of bone_force.h, wherever particles are about their bones.
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/physics/lists/bone_slots.h>
 
 #include <numeric>
@@ -32,7 +34,7 @@ struct Scene {
   explicit Scene(const Settings& given)
       : settings(given),
         body(test::make_body(settings, rest)),
-        pose(pose_at(body.skeleton, make_motion(settings, body.skeleton), 0)) {}
+        pose(pose_at(body.skeleton, motion_of(settings, body.skeleton), 0)) {}
 
   double stiffness() const { return body.springs[0].stiffest() + body.springs[1].stiffest(); }
 };
@@ -206,7 +208,7 @@ TEST(BoneSlots, OfParticlesThatNoBoneHoldsAreNone) {
     loose.first.push_back(static_cast<std::uint32_t>(loose.influences.size()));
   }
   binding = loose;
-  const Motion motion = make_motion(scene.settings, scene.body.skeleton);
+  const Motion motion = motion_of(scene.settings, scene.body.skeleton);
   const Particles particles = about_their_bones(Scene(moving_scene(0)), 20, 1, {0, 0, 0});
   Forces expected;
   bone_forces(particles, scene.body, scene.pose, expected);

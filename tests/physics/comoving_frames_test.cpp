@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames between bones share out the turn of a joint, and bent flesh moves on them.
+#include <sinew/scene/rig.h>
 #include <sinew/physics/lists/comoving_frames.h>
 
 #include <set>
@@ -33,7 +34,7 @@ struct World {
 
   explicit World(const Settings& settings)
       : body(test::make_body(settings, test::fcc_box(7, 7, planes, r))),
-        motion(make_motion(settings, body.skeleton)) {
+        motion(motion_of(settings, body.skeleton)) {
     for (std::size_t i = 0; i < body.rest.size(); ++i) id.push_back(static_cast<std::int32_t>(i));
   }
   Pose pose(double time) const { return pose_at(body.skeleton, motion, time); }

@@ -275,7 +275,7 @@ TEST(ListsThrough, ABendOfABodyThatBonesHoldInPart) {
     for (const Story& story : {bend(), collide(), crush()}) {
       const Settings settings = test::in(precision, story.settings);
       const Body body = half_held(settings, story.rest);
-      Simulation simulation(body, make_motion(settings, body.skeleton),
+      Simulation simulation(body, motion_of(settings, body.skeleton),
                             particles_at(story.rest, r, body.material.mass),
                             stepping_of(settings.solver, test::step_of(settings, body, 0.2)));
       for (int moment = 0; moment < 20; ++moment) {
@@ -326,7 +326,7 @@ struct Snapshots {
 };
 
 Simulation begin(const Snapshots& snapshots) {
-  return {snapshots.body, make_motion(snapshots.settings, snapshots.body.skeleton), snapshots.particles,
+  return {snapshots.body, motion_of(snapshots.settings, snapshots.body.skeleton), snapshots.particles,
           stepping_of(snapshots.settings.solver, test::step_of(snapshots.settings, snapshots.body, 0.2))};
 }
 
@@ -364,15 +364,15 @@ std::string counts_after_250_steps(const std::string& name, Simulation simulatio
   const ListCounts counts = simulation.list_counts();
   std::string row = name;
   for (const auto count :
-       {counts.rebuilds, counts.prunings, counts.looks, counts.escaped, counts.sorts})
+       {counts.rebuilds, counts.prunings, counts.checks, counts.escaped, counts.sorts})
     row += ',' + std::to_string(count);
-  return row + ',' + test::rounded(counts.wide) + ',' + test::rounded(counts.narrow) + '\n';
+  return row + ',' + test::rounded(counts.outer) + ',' + test::rounded(counts.inner) + '\n';
 }
 
 /// A change of these numbers changes how long a run takes, not where its body goes: look whether
 /// it was meant.
 TEST(ListsThrough, StoriesAreMadeAsOftenAndAsLongAsTheyWere) {
-  std::string text = "story,rebuilds,prunings,looks,escaped,sorts,wide,narrow\n";
+  std::string text = "story,rebuilds,prunings,checks,escaped,sorts,outer,inner\n";
   for (const Precision precision : test::precisions) {
     const std::string in = precision == Precision::binary64 ? " in double" : " in single";
     for (const Story& story : {bend(), twist(), crush(), collide(), melt(), shake(), travel(),

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/physics/rest_stability.h>
 #include <sinew/physics/simulation.h>
 #include <sinew/physics/time_step.h>
@@ -49,7 +51,7 @@ struct Story {
     const WorldLoad load = {added_stiffness(world, particles), added_damping(world, particles)};
     const double limit =
         step_limit(Integrator::symplectic_euler, body.material, body.springs, load);
-    Simulation simulation(body, make_motion(settings, body.skeleton), particles,
+    Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, limit / 4));
     const std::string start = row(name + " start", numbers(simulation, limit));
     for (int step = 0; step < steps; ++step) simulation.step();
@@ -192,7 +194,7 @@ TEST(Golden, WorldsPushAsTheyDid) {
   };
   Obstacle rider = obstacle(walls, "rider",
                             CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
-  rider.motion = riding(1, make_skeleton(walls.settings).bones[1], {});
+  rider.motion = riding(1, skeleton_of(walls.settings).bones[1], {});
   walls.world.obstacles = {
       obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, rider,
       obstacle(

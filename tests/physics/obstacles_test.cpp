@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/physics/world/obstacle.h>
 
 #include <gtest/gtest.h>
@@ -323,8 +324,8 @@ TEST(Obstacles, AStillOneStaysAndOneWithoutMotionIsInTheScene) {
 TEST(Obstacles, OneThatRidesMovesWithItsBone) {
   Settings scene = test::box_scene();
   scene.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 90)})};
-  const Skeleton skeleton = make_skeleton(scene);
-  const Motion motion = make_motion(scene, skeleton);
+  const Skeleton skeleton = skeleton_of(scene);
+  const Motion motion = motion_of(scene, skeleton);
   const RigidFrame frame = {{0.1, 0.05, 0.6}, test::turned({1, 2, 0}, 20)};
   const ObstacleMotion drift = riding(1, skeleton.bones[1], frame);
   const auto at = [&](double time) { return drift(time, pose_at(skeleton, motion, time)); };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation that is saved and restored goes on with the bits of one that never stopped, wherever
 // it stops and on any number of threads, while particles are sorted and measured anew.
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/core/parallel.h>
 #include "expect_error.h"
 #include <sinew/physics/world/world.h>
@@ -28,7 +30,7 @@ struct World {
       particles.set_velocity(i, particles.velocity(i) + velocity);
     const double step = test::step_of(settings, body, factor);
     body.world = around;
-    return Simulation(body, make_motion(settings, body.skeleton), particles,
+    return Simulation(body, motion_of(settings, body.skeleton), particles,
                       stepping_of(settings.solver, step));
   }
 };

@@ -27,7 +27,7 @@ struct Told {
   std::vector<double> energies;
   Points pair, damping, bone;
   std::vector<int> neighbors;
-  std::int64_t rebuilds, prunings, looks, escaped, sorts;
+  std::int64_t rebuilds, prunings, checks, escaped, sorts;
   double wide, narrow;
 
   bool operator==(const Told&) const = default;
@@ -46,11 +46,11 @@ Told tell(Simulation& simulation) {
           forces.neighbors,
           lists.rebuilds,
           lists.prunings,
-          lists.looks,
+          lists.checks,
           lists.escaped,
           lists.sorts,
-          lists.wide,
-          lists.narrow};
+          lists.outer,
+          lists.inner};
 }
 
 Told run(kernel::InstructionSet set, const Settings& settings, const Points& rest, int steps,

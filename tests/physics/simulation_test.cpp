@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/physics/simulation.h>
 
 #include <gtest/gtest.h>
@@ -38,7 +40,7 @@ TEST(Simulation, StretchingBonesGoByCellsAndTakeTheBodyAlong) {
   while (simulation.time() < 0.6) simulation.step();
   const ListCounts lists = simulation.list_counts();
   EXPECT_EQ(lists.rebuilds, 0) << "the kernel knows rigid bones only";
-  EXPECT_EQ(lists.wide + lists.narrow, 0);
+  EXPECT_EQ(lists.outer + lists.inner, 0);
   const Bone& lower = simulation.body().skeleton.bones[0];
   const Particles& now = simulation.particles();
   double shift = 0;
@@ -233,7 +235,7 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
   for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, {30, 0, 0});
   for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
     settings.solver.neighbor_search = way;
-    Simulation simulation(body, make_motion(settings, body.skeleton), particles,
+    Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, 1e-3));
     EXPECT_NO_THROW({
       while (simulation.steps() < 200) simulation.step();
@@ -251,7 +253,7 @@ TEST(Unstable, StopsWhereNoBoneHoldsTheFlesh) {
       Body body = half_bound(settings, rest);
       body.springs.assign(body.springs.size(), {});
       const double step = 1.2 * step_limit(integrator, body.material, body.springs);
-      Simulation simulation(body, make_motion(settings, body.skeleton),
+      Simulation simulation(body, motion_of(settings, body.skeleton),
                             test::shaken(rest, body.material, 0, 1e-6),
                             stepping_of(settings.solver, step));
       test::expect_error(Exit::unstable,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Step limits from both sides: noise on a body at rest stays small just below, and grows above.
+#include <sinew/scene/setup.h>
 #include <sinew/physics/time_step.h>
 
 #include <gtest/gtest.h>

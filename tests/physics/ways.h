@@ -3,6 +3,9 @@
 // the cells they are held against.
 #pragma once
 
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +45,7 @@ inline double step_of(const Settings& settings, const Body& body, double factor 
 inline Simulation simulation_with(kernel::InstructionSet set, const Settings& settings,
                                   const Points& rest, const Particles& particles, double step) {
   const Body body = make_body(settings, rest);
-  return Simulation(body, make_motion(settings, body.skeleton), particles,
+  return Simulation(body, motion_of(settings, body.skeleton), particles,
                     stepping_of(settings.solver, step), set);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include <sinew/scene/rig.h>
 #include <sinew/physics/world/force_field.h>
 #include <sinew/physics/world/pins.h>
 #include <sinew/physics/world/world.h>
@@ -165,8 +166,8 @@ TEST(Pins, HoldTheParticlesInTheirShapeAndOnIt) {
 TEST(Pins, StayOrGoWithTheirBone) {
   Settings scene = test::box_scene();
   scene.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 90)})};
-  const Skeleton skeleton = make_skeleton(scene);
-  const Motion motion = make_motion(scene, skeleton);
+  const Skeleton skeleton = skeleton_of(scene);
+  const Motion motion = motion_of(scene, skeleton);
   const Vec3 rest(0.1, 0.2, 0.5);
   const auto at = [&](double time, int bone) {
     return pin_pose({0, bone}, rest, skeleton, pose_at(skeleton, motion, time));

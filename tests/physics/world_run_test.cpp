@@ -2,6 +2,8 @@
 // Whole bodies among obstacles, pins, fields and muscles.
 #include <gtest/gtest.h>
 
+#include <sinew/scene/setup.h>
+#include <sinew/scene/rig.h>
 #include <sinew/physics/simulation.h>
 #include <sinew/physics/world/world.h>
 #include "world.h"
@@ -42,7 +44,7 @@ class Box {
     const double step =
         share_of_limit * step_limit(settings.solver.integrator, body.material, body.springs, load);
     for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, velocity);
-    Simulation simulation(body, make_motion(settings, body.skeleton), particles,
+    Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, step));
     while (simulation.time() < duration) simulation.step();
     return simulation;
@@ -87,7 +89,7 @@ TEST(WorldRun, AnEmptyWorldChangesNoBit) {
   const Simulation with = box.run(0.05);
   Body body = test::make_body(box.settings, box.rest);
   const double step = 0.5 * step_limit(Integrator::symplectic_euler, body.material, body.springs);
-  Simulation without(body, make_motion(box.settings, body.skeleton),
+  Simulation without(body, motion_of(box.settings, body.skeleton),
                      particles_at(box.rest, r, box.mass), stepping_of(box.settings.solver, step));
   while (without.time() < 0.05) without.step();
   EXPECT_EQ(with.particles().x, without.particles().x);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/physics/world/shapes.h>
 
 #include <gtest/gtest.h>
@@ -166,7 +167,7 @@ TEST(WorldShapes, AMeshIsNotAskedAboutPlacesFarFromIt) {
 }
 
 TEST(WorldShapes, ACapsuleLiesAboutABone) {
-  const Skeleton skeleton = make_skeleton(test::box_scene());
+  const Skeleton skeleton = skeleton_of(test::box_scene());
   const CapsuleShape about = capsule_about(skeleton.bones[1], 0.05);
   EXPECT_EQ(about.a, skeleton.bones[1].head());
   EXPECT_EQ(about.b, skeleton.bones[1].tail());

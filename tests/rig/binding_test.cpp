@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/binding.h>
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ constexpr double r = 0.01;
 const double V0 = volume_per_particle(r);
 
 Points box() { return test::fcc_box(11, 11, 49, r); }
-Skeleton two_bones() { return make_skeleton(test::box_scene()); }
+Skeleton two_bones() { return skeleton_of(test::box_scene()); }
 
 double weight_of(const Binding& binding, std::size_t i, int bone) {
   for (const Influence& influence : binding.of(i))
@@ -28,7 +29,7 @@ TEST(NearestBone, IsTheNearestSegmentAndTheLowerIndexOnTies) {
   settings.bones = {{"a", "", Vec3(0, 0, 0), Vec3(0, 0, 1)},
                     {"b", "a", {}, Vec3(0, 0, 2)},
                     {"c", "", Vec3(3, 0, 0), Vec3(3, 0, 1)}};
-  const Skeleton skeleton = make_skeleton(settings);
+  const Skeleton skeleton = skeleton_of(settings);
   const std::pair<Vec3, int> cases[] = {{{0.4, 0, 0.3}, 0}, {{0.4, 0, 1.3}, 1}, {{0, 0, -9}, 0},
                                         {{0, 0, 9}, 1},     {{2.9, 5, 0}, 2},   {{0.2, 0.1, 1}, 0},
                                         {{1.5, 0, 0.5}, 0}, {{1.5, 2, 0.5}, 0}};
@@ -97,7 +98,7 @@ Skeleton tree() {
                     {"right", "trunk", {}, Vec3(0.2, 0, 0.5)},
                     {"tip", "right", {}, Vec3(0.4, 0.1, 0.5)},
                     {"loose", "tip", Vec3(0, 0.4, 0), Vec3(0, 0.4, 0.2)}};
-  return make_skeleton(settings);
+  return skeleton_of(settings);
 }
 
 Points cloud() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/inside_distance.h>
 
 #include <gtest/gtest.h>
@@ -44,7 +45,7 @@ Skeleton bones() {
                      Vec3(-from_middle - 1.3 * r, 0, top)},
                     {"right", "palm", Vec3(from_middle - 1.3 * r, 0, palm_top),
                      Vec3(from_middle - 1.3 * r, 0, top)}};
-  return make_skeleton(settings);
+  return skeleton_of(settings);
 }
 
 Binding bound(const Points& rest, bool inside, double joint_zone = 0) {
@@ -89,7 +90,7 @@ TEST(InsideBinding, GivesWhatNoWayReachesToTheNearestAndCountsIt) {
 
 TEST(InsideBinding, IsThatOfTheNearestBoneInAConvexBody) {
   const Points rest = test::fcc_box(11, 11, 49, r);
-  const Skeleton skeleton = make_skeleton(test::box_scene());
+  const Skeleton skeleton = skeleton_of(test::box_scene());
   BindOptions options;
   options.radius = r;
   options.inside = true;
@@ -103,7 +104,7 @@ TEST(InsideDistance, IsTheStraightOneInTheOpen) {
   for (const double turn : {0, 25}) {
     const Mat3 turned = test::turned({1, 2, 3}, turn);
     const Points rest = test::affine(test::fcc_box(15, 15, 31, r), turned);
-    Skeleton skeleton = make_skeleton(test::box_scene(31));
+    Skeleton skeleton = skeleton_of(test::box_scene(31));
     skeleton = placed(skeleton, 1, turned);
     const auto near = near_inside(inside_ways(rest, skeleton, r), skeleton, r);
     for (std::size_t i = 0; i < rest.size(); ++i)

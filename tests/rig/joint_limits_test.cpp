@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/motion_checks.h>
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ Skeleton held_bone(const Vec3& axis) {
   settings.bones = {{"b", "", Vec3(1, 2, 3), Vec3(Vec3(1, 2, 3) + axis)}};
   settings.bones[0].limits.swing = 40;
   settings.bones[0].limits.twist = {-20, 30};
-  return make_skeleton(settings);
+  return skeleton_of(settings);
 }
 
 /// Turns in time about axes that change themselves, far beyond what the joint allows.

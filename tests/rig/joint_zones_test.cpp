@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/joint_zones.h>
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ constexpr double step = 1e-5;
 Skeleton skeleton_of(std::vector<BoneDefinition> bones) {
   Settings settings;
   settings.bones = std::move(bones);
-  return make_skeleton(settings);
+  return skeleton_of(settings);
 }
 
 /// Weights by bone.
@@ -98,7 +99,7 @@ TEST(JointZones, EndWhereEachChildHasItsOwn) {
 }
 
 TEST(JointZones, WithoutLengthThereAreNone) {
-  const Skeleton skeleton = make_skeleton(test::box_scene());
+  const Skeleton skeleton = skeleton_of(test::box_scene());
   const JointZones zones = joint_zones(skeleton, {0.01, 0.01}, 0);
   EXPECT_EQ(zones.longest(), 0);
   EXPECT_EQ(weights_at(skeleton, zones, skeleton.bones[1].head()), (std::vector<double>{1, 0}));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/motion.h>
 
 #include <gtest/gtest.h>
@@ -30,8 +31,8 @@ Settings chain(int bones) {
 }
 
 Pose pose_of(const Settings& settings, double time) {
-  const Skeleton skeleton = make_skeleton(settings);
-  return pose_at(skeleton, make_motion(settings, skeleton), time);
+  const Skeleton skeleton = skeleton_of(settings);
+  return pose_at(skeleton, motion_of(settings, skeleton), time);
 }
 
 KeyDefinition shift_key(double time, const Vec3& shift) {
@@ -47,7 +48,7 @@ void expect_near(const Vec3& found, const Vec3& expected, double tolerance = 1e-
 }
 
 TEST(Pose, AtRestIsTheRestFrame) {
-  const Skeleton skeleton = make_skeleton(chain(3));
+  const Skeleton skeleton = skeleton_of(chain(3));
   const Pose pose = rest_pose(skeleton);
   for (std::size_t b = 0; b < 3; ++b) {
     expect_near(pose[b].frame.origin, skeleton.bones[b].head());
@@ -187,8 +188,8 @@ TEST(PoseCursor, GivesTheSameBitsInAnyOrderOfTimes) {
       settings.bones[2].limits.swing = 60;
       settings.motion.extrapolation = after;
       settings.motion.preroll = 0.5;
-      const Skeleton skeleton = make_skeleton(settings);
-      const Motion motion = make_motion(settings, skeleton);
+      const Skeleton skeleton = skeleton_of(settings);
+      const Motion motion = motion_of(settings, skeleton);
       PoseCursor cursor(skeleton, motion);
       for (const double time : {0.0, 0.2, 0.5, 1.1, 1.2, 1.21, 3.9, 2.5, 2.4, 0.1, 7.0, 1.2}) {
         const Pose& pose = cursor.at(time);
@@ -257,7 +258,7 @@ Settings placed_bend() {
 }
 
 void expect_refused(const Settings& settings, const std::vector<std::string>& parts) {
-  expect_bad_input([&] { make_motion(settings, make_skeleton(settings)); }, parts);
+  expect_bad_input([&] { motion_of(settings, skeleton_of(settings)); }, parts);
 }
 
 TEST(Motion, RefusesUnknownBonesAndTwoTracksOfOne) {

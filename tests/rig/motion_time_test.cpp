@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include <sinew/scene/rig.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/core/vector.h>
@@ -33,8 +34,8 @@ struct Bend {
 };
 
 Bend bend_at(const Settings& settings, double time) {
-  const Skeleton skeleton = make_skeleton(settings);
-  const BonePose pose = pose_at(skeleton, make_motion(settings, skeleton), time)[1];
+  const Skeleton skeleton = skeleton_of(settings);
+  const BonePose pose = pose_at(skeleton, motion_of(settings, skeleton), time)[1];
   return {degrees(std::atan2(pose.turn(0, 2), pose.turn(0, 0))),
           degrees(pose.angular_velocity.y())};
 }
@@ -86,7 +87,7 @@ TEST(ClipTime, RefusesToStartAfterTheLastKey) {
   Settings settings = bending();
   settings.motion.start = 3;
   settings.places["motion.start"] = {"s.yaml", 7, 3};
-  expect_bad_input([&] { make_motion(settings, make_skeleton(settings)); },
+  expect_bad_input([&] { motion_of(settings, skeleton_of(settings)); },
                    {"s.yaml:7:3: ", "3 s", "; "});
 }
 
@@ -107,8 +108,8 @@ TEST(Preroll, RampsTwistTranslationAndStretchAndNeverJumps) {
   key.translation = Vec3(1, 0, 2);
   key.stretch = 3;
   settings.motion.preroll = 0.4;
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Motion motion = motion_of(settings, skeleton);
   const auto half = local_motions(skeleton, motion, 0.2)[1];
   EXPECT_NEAR(degrees(half.twist), 200, 1e-10);
   EXPECT_LT((half.translation - Vec3(0.5, 0, 1)).norm(), 1e-14);
@@ -128,8 +129,8 @@ TEST(Stretch, MovesTheTailAndWhatHangsOnTheBone) {
   key.stretch = 3;
   settings.tracks = {track("lower", {key})};
   settings.motion.start = 0;
-  const Skeleton skeleton = make_skeleton(settings);
-  const Pose pose = pose_at(skeleton, make_motion(settings, skeleton), 0);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Pose pose = pose_at(skeleton, motion_of(settings, skeleton), 0);
   const auto near = [](const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-14; };
   EXPECT_TRUE(near(pose[1].frame.origin, {3, 0, 0}));
   EXPECT_TRUE(near(pose[2].frame.origin, {1.5, 0, -0.3}));
@@ -141,8 +142,8 @@ TEST(Stretch, VelocityOfAPointIsItsDerivative) {
   Settings settings = bending();
   settings.tracks[0].keys[1].stretch = 2.5;
   settings.tracks[0].keys[1].twist = 200;
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Motion motion = motion_of(settings, skeleton);
   const Vec3 point(0.2, -0.1, 1.7);
   const auto at = [&](double time) { return pose_at(skeleton, motion, time)[1]; };
   const double h = 1e-6;
@@ -174,7 +175,7 @@ TEST(Keys, QuaternionsAreNormalizedWithinRoundingElseRefused) {
   expect_bend(settings, 0, 50, 0);
   for (const double size : {0.0, 0.99, 1.01, 2.0}) {
     settings.tracks[0].keys[0].quaternion = {size * c, 0, size * s, 0};
-    expect_bad_input([&] { make_motion(settings, make_skeleton(settings)); },
+    expect_bad_input([&] { motion_of(settings, skeleton_of(settings)); },
                      {"s.yaml:9:1: ", "quaternion of length", "; "});
   }
 }
@@ -191,9 +192,9 @@ TEST(Placed, RigAndMotionTurnAndGrowTogether) {
   EXPECT_EQ(turn * Vec3::UnitY(), Vec3::UnitZ());
   EXPECT_EQ(turn * Vec3::UnitZ(), Vec3::UnitX());
   for (const double time : {0.0, 0.7, 1.9}) {
-    const Skeleton one = make_skeleton(settings), two = make_skeleton(other);
-    const BonePose a = pose_at(one, make_motion(settings, one), time)[1];
-    const BonePose b = pose_at(two, make_motion(other, two), time)[1];
+    const Skeleton one = skeleton_of(settings), two = skeleton_of(other);
+    const BonePose a = pose_at(one, motion_of(settings, one), time)[1];
+    const BonePose b = pose_at(two, motion_of(other, two), time)[1];
     EXPECT_LT((b.frame.origin - 0.01 * turn * a.frame.origin).norm(), 1e-15);
     EXPECT_LT((b.turn - turn * a.turn * turn.transpose()).norm(), 1e-14);
     EXPECT_LT((b.axis() - turn * a.axis()).norm(), 1e-14);
@@ -211,7 +212,7 @@ TEST(Placed, BonesHaveTheSidesOfBonesThatStandSoFromTheStart) {
   for (BoneDefinition& bone : turned.bones) bone.head.reset();
   turned.bones[0].head = Vec3::Zero();
   for (std::size_t b = 0; b < 2; ++b) turned.bones[b].tail = back * *standing.bones[b].tail;
-  const Skeleton one = make_skeleton(standing), two = make_skeleton(turned);
+  const Skeleton one = skeleton_of(standing), two = skeleton_of(turned);
   for (std::size_t b = 0; b < 2; ++b) {
     EXPECT_LT((two.bones[b].tail() - one.bones[b].tail()).norm(), 1e-15);
     EXPECT_LT((two.bones[b].rest.rotation - one.bones[b].rest.rotation).norm(), 1e-14) << b;
@@ -219,8 +220,8 @@ TEST(Placed, BonesHaveTheSidesOfBonesThatStandSoFromTheStart) {
 }
 
 std::vector<std::string> warnings_of(const Settings& settings) {
-  const Skeleton skeleton = make_skeleton(settings);
-  return motion_warnings(skeleton, make_motion(settings, skeleton), 1e-3);
+  const Skeleton skeleton = skeleton_of(settings);
+  return motion_warnings(skeleton, motion_of(settings, skeleton), 1e-3);
 }
 
 void expect_warned(const Settings& settings, const std::vector<std::string>& parts) {

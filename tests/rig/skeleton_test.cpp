@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/skeleton.h>
 
 #include <gtest/gtest.h>
@@ -25,11 +26,11 @@ Settings two_bones() {
 }
 
 void expect_refused(const Settings& settings, const std::vector<std::string>& parts) {
-  expect_bad_input([&] { make_skeleton(settings); }, parts);
+  expect_bad_input([&] { skeleton_of(settings); }, parts);
 }
 
 TEST(Skeleton, PutsAHeadOnItsParentsTail) {
-  const Skeleton skeleton = make_skeleton(two_bones());
+  const Skeleton skeleton = skeleton_of(two_bones());
   ASSERT_EQ(skeleton.size(), 2u);
   const Bone& upper = skeleton.bones[1];
   EXPECT_EQ(upper.parent, 0);
@@ -68,17 +69,17 @@ TEST(Skeleton, TakesLengthAndDirectionInPlaceOfATail) {
   Settings settings = two_bones();
   settings.bones[1].tail.reset();
   settings.bones[1].length = 0.5;
-  EXPECT_EQ(make_skeleton(settings).bones[1].tail(), Vec3(0, 0, 1.5)) << "the parent's direction";
+  EXPECT_EQ(skeleton_of(settings).bones[1].tail(), Vec3(0, 0, 1.5)) << "the parent's direction";
   settings.bones[1].direction = Vec3(0, 8, 0);
-  EXPECT_EQ(make_skeleton(settings).bones[1].tail(), Vec3(0, 0.5, 1));
+  EXPECT_EQ(skeleton_of(settings).bones[1].tail(), Vec3(0, 0.5, 1));
 }
 
 TEST(Skeleton, RollTurnsTheSidesAboutTheBone) {
   for (const double roll : {-30.0, 90.0, 200.0}) {
     Settings settings = two_bones();
-    const Mat3 flat = make_skeleton(settings).bones[1].rest.rotation;
+    const Mat3 flat = skeleton_of(settings).bones[1].rest.rotation;
     settings.bones[1].roll = roll;
-    const Mat3 rolled = make_skeleton(settings).bones[1].rest.rotation;
+    const Mat3 rolled = skeleton_of(settings).bones[1].rest.rotation;
     EXPECT_LT((rolled - test::turned(Vec3::UnitZ(), roll) * flat).norm(), 1e-14);
   }
 }

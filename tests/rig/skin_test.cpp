@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/skin.h>
 
 #include <gtest/gtest.h>
@@ -158,7 +159,7 @@ struct Fingers {
     Settings settings;
     settings.bones = {{"left", "", Vec3(-shift, 0, 0), Vec3(-shift, 0, 0.2)},
                       {"right", "", Vec3(shift, 0, 0), Vec3(shift, 0, 0.2)}};
-    skeleton = make_skeleton(settings);
+    skeleton = skeleton_of(settings);
     binding = bind_to_bones(points, skeleton, volume_per_particle(r), 0);
   }
 

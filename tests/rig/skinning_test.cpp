@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/rig/skinning.h>
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ struct Prism {
     Settings settings;
     settings.bones = {{"lower", "", Vec3(0, 0, -1), Vec3(0, 0, 0.5)},
                       {"upper", "lower", {}, Vec3(0, 0, 2)}};
-    skeleton = make_skeleton(settings);
+    skeleton = skeleton_of(settings);
     weights.first.push_back(0);
     for (int k = 0; k <= slices; ++k)
       for (int corner = 0; corner < 4; ++corner) add(k, corner);

@@ -2,6 +2,7 @@
 // A rig and a clip that stand in YAML files of their own.
 #include <gtest/gtest.h>
 
+#include <sinew/scene/rig.h>
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/write_scene.h>
 #include <sinew/settings/read_scene.h>
@@ -47,7 +48,7 @@ class RigFile : public testing::Test {
   std::string message() {
     try {
       const Settings settings = read();
-      make_motion(settings, make_skeleton(settings));
+      motion_of(settings, skeleton_of(settings));
     } catch (const Error& error) {
       EXPECT_EQ(error.exit(), Exit::bad_input);
       return error.what();
@@ -65,11 +66,11 @@ class RigFile : public testing::Test {
 
 TEST_F(RigFile, HoldsBonesAndTracks) {
   const Settings settings = read();
-  const Skeleton skeleton = make_skeleton(settings);
+  const Skeleton skeleton = skeleton_of(settings);
   ASSERT_EQ(skeleton.size(), 2u);
   EXPECT_EQ(skeleton.bones[1].tail(), Vec3(0, 0, 3));
   EXPECT_NEAR(skeleton.bones[0].limits.most_twist, radians(45), 1e-15);
-  const Motion motion = make_motion(settings, skeleton);
+  const Motion motion = motion_of(settings, skeleton);
   ASSERT_EQ(motion.tracks.size(), 1u);
   EXPECT_EQ(last_key(motion), 2);
   EXPECT_NEAR(motion.tracks[0].rotation.turns[1].y(), radians(270), 1e-12);
@@ -83,10 +84,10 @@ TEST_F(RigFile, ResolvedSceneHoldsAllOfIt) {
   write("scene.yaml", text);
   const Settings again = read();
   EXPECT_EQ(resolved_scene(again, folder_.path()), text);
-  const Skeleton one = make_skeleton(settings), two = make_skeleton(again);
+  const Skeleton one = skeleton_of(settings), two = skeleton_of(again);
   for (const double time : {0.0, 0.7, 1.3, 4.0}) {
-    const Pose a = pose_at(one, make_motion(settings, one), time);
-    const Pose b = pose_at(two, make_motion(again, two), time);
+    const Pose a = pose_at(one, motion_of(settings, one), time);
+    const Pose b = pose_at(two, motion_of(again, two), time);
     EXPECT_EQ(a[1].frame.rotation, b[1].frame.rotation);
     EXPECT_EQ(a[1].stretch, b[1].stretch);
   }
@@ -139,7 +140,7 @@ TEST_F(RigFile, OfAnotherKindIsKeptForItsReader) {
 
 TEST_F(RigFile, ScenesOwnFrameRateGoesFirst) {
   const Settings settings = read({parse_override("motion.frame_rate=50")});
-  EXPECT_EQ(last_key(make_motion(settings, make_skeleton(settings))), 1);
+  EXPECT_EQ(last_key(motion_of(settings, skeleton_of(settings))), 1);
 }
 
 TEST_F(RigFile, RefusesUpAlongForwardAndAnEndBeforeTheStart) {

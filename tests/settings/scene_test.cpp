@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
 
 #include <gtest/gtest.h>
@@ -196,8 +197,8 @@ TEST(ShippedScenes, BendAndTwistAreWholeScenes) {
   for (const char* name : {"box_bend", "box_twist"}) {
     const Settings settings =
         read_scene(std::string(SINEW_SOURCE_DIR "/configs/") + name + ".yaml");
-    const Skeleton skeleton = make_skeleton(settings);
-    const Motion motion = make_motion(settings, skeleton);
+    const Skeleton skeleton = skeleton_of(settings);
+    const Motion motion = motion_of(settings, skeleton);
     EXPECT_EQ(skeleton.size(), 2u) << name;
     EXPECT_EQ(motion.tracks.size(), 1u) << name;
     EXPECT_EQ(settings.body.radius, 0.01) << name;
@@ -208,8 +209,8 @@ TEST(ShippedScenes, BendAndTwistAreWholeScenes) {
 
 TEST(ShippedScenes, BendTipsTheUpperBoneAndBringsItBack) {
   const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_bend.yaml");
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Motion motion = motion_of(settings, skeleton);
   const auto axis = [&](double time) { return pose_at(skeleton, motion, time)[1].axis(); };
   EXPECT_TRUE(axis(0).isApprox(Vec3::UnitZ()));
   EXPECT_TRUE(axis(1.25).isApprox(Vec3::UnitX()));
@@ -220,8 +221,8 @@ TEST(ShippedScenes, ArmAndCreatureBeginAndEndAtRest) {
   for (const char* name : {"arm_bend", "creature_walk"}) {
     const Settings settings =
         read_scene(std::string(SINEW_SOURCE_DIR "/configs/") + name + ".yaml");
-    const Skeleton skeleton = make_skeleton(settings);
-    const Motion motion = make_motion(settings, skeleton);
+    const Skeleton skeleton = skeleton_of(settings);
+    const Motion motion = motion_of(settings, skeleton);
     const Pose rest = pose_at(skeleton, {}, 0);
     for (const double time : {0.0, settings.solver.duration}) {
       const Pose pose = pose_at(skeleton, motion, time);
@@ -235,8 +236,8 @@ TEST(ShippedScenes, ArmAndCreatureBeginAndEndAtRest) {
 
 TEST(ShippedScenes, ArmMakesAFist) {
   const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/arm_bend.yaml");
-  const Skeleton skeleton = make_skeleton(settings);
-  const Pose fist = pose_at(skeleton, make_motion(settings, skeleton), 1.6);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Pose fist = pose_at(skeleton, motion_of(settings, skeleton), 1.6);
   const auto points = [&](const std::string& name) {
     for (std::size_t b = 0; b < skeleton.size(); ++b)
       if (skeleton.bones[b].name == name) return fist[b].axis();
@@ -249,8 +250,8 @@ TEST(ShippedScenes, ArmMakesAFist) {
 
 TEST(ShippedScenes, TwistTurnsTheUpperBoneAboutItself) {
   const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_twist.yaml");
-  const Skeleton skeleton = make_skeleton(settings);
-  const Pose pose = pose_at(skeleton, make_motion(settings, skeleton), settings.solver.duration);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Pose pose = pose_at(skeleton, motion_of(settings, skeleton), settings.solver.duration);
   EXPECT_TRUE(pose[1].axis().isApprox(Vec3::UnitZ()));
   EXPECT_NEAR(pose[1].twist, pi / 2, 1e-12);
   EXPECT_GT(settings.binding.joint_zone, 0);

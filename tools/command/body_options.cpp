@@ -22,7 +22,7 @@ bool is_wanted(const Row& row, BodyFlags::Kind kind) {
          (row.section == "material" && row.name == "density");
 }
 
-std::vector<const Row*> rows(BodyFlags::Kind kind) {
+std::vector<const Row*> wanted_rows(BodyFlags::Kind kind) {
   std::vector<const Row*> wanted;
   for (const Row& row : settings_table())
     if (is_wanted(row, kind)) wanted.push_back(&row);
@@ -55,7 +55,7 @@ std::string help_of(const Row& row) {
 }  // namespace
 
 void BodyFlags::declare(CLI::App& app, Kind kind) {
-  const auto wanted = rows(kind);
+  const auto wanted = wanted_rows(kind);
   given_.resize(wanted.size());  // options keep the places of their values
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Row& row = *wanted[i];

@@ -13,7 +13,7 @@
 
 namespace sinew {
 
-// The book a simulation keeps of a body's energy, J.
+// The ledger a simulation keeps of a body's energy, J.
 
 struct Energies {
   double kinetic = 0;
@@ -55,7 +55,7 @@ struct WholeNumbers {
 
 struct SimulationState {
   std::int64_t steps = 0;
-  LedgerEntries book;
+  LedgerEntries ledger;
   LedgerEntries world_ledger;    ///< of obstacles, fields, muscles and pins
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
   bool kicked = false;       ///< velocities are half a step ahead (velocity Verlet)

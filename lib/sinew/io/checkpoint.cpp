@@ -38,11 +38,11 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("count", run.particles);
   transfer("timestep", run.time_step);
   transfer("steps", state.steps);
-  for (auto* book : {&state.book, &state.world_book}) {
-    transfer("work", book->work);
-    transfer("lost", book->dissipation);
-    transfer("power", book->power);
-    transfer("begun", book->begun);
+  for (auto* ledger : {&state.ledger, &state.world_ledger}) {
+    transfer("work", ledger->work);
+    transfer("lost", ledger->dissipation);
+    transfer("power", ledger->power);
+    transfer("begun", ledger->begun);
   }
   transfer("heldkin", state.held_at_start);
   transfer("kicked", state.kicked);

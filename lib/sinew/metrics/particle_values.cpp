@@ -184,7 +184,6 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
 
 namespace {
 
-constexpr std::size_t piece = 1024;
 
 template <std::size_t n>
 using Values = std::array<double, n>;

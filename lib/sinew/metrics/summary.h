@@ -16,18 +16,6 @@
 
 namespace sinew {
 
-// How soon the body comes to rest once its bones do.
-
-/// The longest stretches of three frames or more in which no bone turns by more than 0.01 degrees
-/// or shifts by more than 1e-3 r from where it was at the stretch's start. bones: a pose per frame.
-std::vector<Hold> holds(std::span<const std::vector<RigidFrame>> bones, double radius);
-
-/// The time (s) from the hold's start after which the rms distance of the particles to their places
-/// in its last frame stays below 0.2 r. Frames are asked for backwards from the last, two in
-/// memory.
-double settling_time(const Hold& hold, std::span<const double> times, double radius,
-                     const std::function<Points(std::size_t frame)>& positions);
-
 /// Of one metric over the frames in which it was measured; not-a-number when it never was.
 struct MetricSummary {
   double min = not_measured, max = not_measured, mean = not_measured;
@@ -61,6 +49,18 @@ Summary summarize(std::span<const FrameMetrics> frames, double radius,
 /// Adds the particles that have the worst values. worst_particles: of every frame, see measure.h.
 void add_worst_particles(Summary& summary,
                          std::span<const std::vector<std::int64_t>> worst_particles);
+
+// How soon the body comes to rest once its bones do.
+
+/// The longest stretches of three frames or more in which no bone turns by more than 0.01 degrees
+/// or shifts by more than 1e-3 r from where it was at the stretch's start. bones: a pose per frame.
+std::vector<Hold> holds(std::span<const std::vector<RigidFrame>> bones, double radius);
+
+/// The time (s) from the hold's start after which the rms distance of the particles to their places
+/// in its last frame stays below 0.2 r. Frames are asked for backwards from the last, two in
+/// memory.
+double settling_time(const Hold& hold, std::span<const double> times, double radius,
+                     const std::function<Points(std::size_t frame)>& positions);
 
 // What a run amounts to, in five numbers and a few words.
 

@@ -111,11 +111,11 @@ void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particle
 
 /// How often lists were made, and how long they are.
 struct ListCounts {
-  std::int64_t rebuilds = 0, prunings = 0, looks = 0, sorts = 0;
+  std::int64_t rebuilds = 0, prunings = 0, checks = 0, sorts = 0;
   std::int64_t escaped = 0;      ///< particles that got new partners by themselves
-  double wide = 0, narrow = 0;  ///< differences per block
+  double outer = 0, inner = 0;  ///< differences per block
   /// Wall time spent on them, s.
-  double rebuilding = 0, pruning = 0, looking = 0, sorting = 0;
+  double rebuilding = 0, pruning = 0, checking = 0, sorting = 0;
 };
 
 }  // namespace sinew

@@ -67,7 +67,7 @@ struct Column {
 };
 
 /// Where everything lies on the sheet, pixels.
-struct Layout {
+struct SheetLayout {
   std::vector<Column> columns;
   std::vector<int> rows;  ///< where the panels of each begin
   int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
@@ -105,7 +105,7 @@ int caption_lines(const std::vector<Snapshot>& snapshots) {
 
 /// The largest scale at which the columns, with gaps between, fit into the width and the row
 /// height.
-void lay_columns(Layout& layout, const SheetOptions& options) {
+void lay_columns(SheetLayout& layout, const SheetOptions& options) {
   const int count = static_cast<int>(layout.columns.size()), gap = layout.margin;
   const double space = options.width - (count + 1) * gap;
   const double high = layout.columns.front().frame.sizes().y();
@@ -124,8 +124,8 @@ bool show_values(const std::vector<SheetRow>& rows) {
                      [](const SheetRow& row) { return shows_values(row.view); });
 }
 
-Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {
-  Layout layout;
+SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+  SheetLayout layout;
   layout.columns = columns_of(rows, options.view);
   layout.margin = std::max(12, options.width / 32);
   layout.text.size = std::max(11, options.width / 64);
@@ -144,7 +144,7 @@ Layout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options)
   return layout;
 }
 
-void draw_row(Image& sheet, const SheetRow& row, int y, const Layout& layout,
+void draw_row(Image& sheet, const SheetRow& row, int y, const SheetLayout& layout,
               const SheetOptions& options) {
   write_text(sheet, row.title, layout.margin, y - line_height(layout.text), layout.text);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
@@ -155,7 +155,7 @@ void draw_row(Image& sheet, const SheetRow& row, int y, const Layout& layout,
   }
 }
 
-void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots, const Layout& layout) {
+void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots, const SheetLayout& layout) {
   TextStyle words = layout.text;
   words.align = Align::center;
   for (std::size_t i = 0; i < snapshots.size(); ++i)
@@ -175,7 +175,7 @@ void check(const std::vector<SheetRow>& rows) {
 
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
   check(rows);
-  const Layout layout = layout_of(rows, options);
+  const SheetLayout layout = layout_of(rows, options);
   Image sheet(layout.width, layout.height);
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);

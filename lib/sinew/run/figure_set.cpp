@@ -16,8 +16,8 @@ std::string numbered(std::size_t frame) {
 
 }  // namespace
 
-FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t look, FigureSetOptions options)
-    : runs_(std::move(runs)), preset_(look), options_(std::move(options)) {
+FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset, FigureSetOptions options)
+    : runs_(std::move(runs)), preset_(preset), options_(std::move(options)) {
   for (const DrawnRun* run : runs_) painters_.emplace_back(run->files().surface, scale());
 }
 
@@ -56,7 +56,7 @@ std::string FigureSet::title(std::size_t run) const {
 }
 
 std::string FigureSet::name() const {
-  return (runs_.size() > 1 ? "compare_" : "") + std::string(drawn(0).look.name);
+  return (runs_.size() > 1 ? "compare_" : "") + std::string(drawn(0).preset.name);
 }
 
 FigureOptions FigureSet::figure_options(Finish finish) const {
@@ -72,7 +72,7 @@ FigureOptions FigureSet::figure_options(Finish finish) const {
 std::vector<Panel> FigureSet::panels(const std::vector<Snapshot>& snapshots) {
   std::vector<Panel> panels;
   for (std::size_t run = 0; run < snapshots.size(); ++run)
-    panels.push_back({&painters_[run], &snapshots[run], drawn(run).look.view, title(run)});
+    panels.push_back({&painters_[run], &snapshots[run], drawn(run).preset.view, title(run)});
   return panels;
 }
 
@@ -112,7 +112,7 @@ void FigureSet::sheet() {
   }
   std::vector<SheetRow> rows;
   for (std::size_t run = 0; run < runs_.size(); ++run)
-    rows.push_back({&painters_[run], &over_time[run], drawn(run).look.view, title(run)});
+    rows.push_back({&painters_[run], &over_time[run], drawn(run).preset.view, title(run)});
   write_png(contact_sheet(rows, sheet), place(name() + "_sheet.png"));
 }
 

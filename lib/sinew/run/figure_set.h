@@ -26,8 +26,8 @@ struct FigureSetOptions {
 /// One look at one run or two, in the same colors and to the same scale.
 class FigureSet {
  public:
-  /// `look`: which of the runs' looks. The runs must outlive the figure_set.
-  FigureSet(std::vector<const DrawnRun*> runs, std::size_t look, FigureSetOptions options);
+  /// `preset`: which of the runs' presets. The runs must outlive the figure_set.
+  FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset, FigureSetOptions options);
 
   int pictures();  ///< one of each moment; returns how many
   void sheet();    ///< all moments in one picture: of the body as in the paper's figure 4
@@ -44,7 +44,7 @@ class FigureSet {
   std::string title(std::size_t run) const;
   std::string name() const;
   std::string place(const std::string& file) const { return (options_.folder / file).string(); }
-  bool of_body() const { return runs_.size() == 1 && drawn(0).look.name == "body"; }
+  bool of_body() const { return runs_.size() == 1 && drawn(0).preset.name == "body"; }
 
   std::vector<const DrawnRun*> runs_;
   std::size_t preset_;

@@ -86,18 +86,6 @@ struct ReactionColumns {
 
 }  // namespace
 
-std::vector<std::int32_t> bones_of_particles(const Body& body) {
-  std::vector<std::int32_t> bones(body.rest.size());
-  for (std::size_t i = 0; i < bones.size(); ++i) bones[i] = body.binding.bone(i);
-  return bones;
-}
-
-std::vector<double> weights_of_particles(const Body& body) {
-  std::vector<double> weights(body.rest.size());
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = body.binding.weight(i);
-  return weights;
-}
-
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                    const Body& body, const Triangles& surface, std::vector<Triangles> obstacles,
                    std::span<const double> kept)

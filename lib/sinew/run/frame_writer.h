@@ -25,6 +25,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/skin.h>
 #include <sinew/rig/skinning.h>
+#include <sinew/scene/setup.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -103,10 +104,5 @@ class FrameWriter {
   std::atomic<int> written_ = 0;
   Background writer_;  ///< the last member: it ends before what it works with
 };
-
-/// The bone that holds each particle most, in the written order.
-std::vector<std::int32_t> bones_of_particles(const Body& body);
-/// That bone's share in it.
-std::vector<double> weights_of_particles(const Body& body);
 
 }  // namespace sinew

@@ -44,10 +44,10 @@ Json material_of(const Material& material) {
 
 Json lists_of(const ListCounts& counts) {
   return {{"rebuilds", counts.rebuilds},
-          {"sifts", counts.sifts},
-          {"looks", counts.looks},
+          {"prunings", counts.prunings},
+          {"checks", counts.checks},
           {"sorts", counts.sorts},
-          {"strays", counts.strays}};
+          {"escaped", counts.escaped}};
 }
 
 /// Keeps what a run that is resumed has spent and when it began.
@@ -59,8 +59,8 @@ void go_on_from(const Json& before, Json& record) {
 
 }  // namespace
 
-RunLog::RunLog(const RunFolder& folder, int argc, char** argv, bool resumed)
-    : folder_(folder), record_(begin_record(argc, argv)) {
+RunLog::RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed)
+    : folder_(folder), record_(begin_record(command)) {
   record_["seconds"] = Json::object();
   record_["resumed"] = 0;
   if (resumed) go_on_from(read_record(folder), record_);
@@ -74,9 +74,9 @@ RunLog::RunLog(const RunFolder& folder, int argc, char** argv, bool resumed)
   }
   log_->set_pattern("%Y-%m-%d %H:%M:%S  %v");
   log_->set_error_handler([this](const std::string&) { log_failed_ = true; });
-  std::string command;
-  for (int i = 0; i < argc; ++i) command += std::string(i > 0 ? " " : "") + argv[i];
-  log("sinew " + record_["version"].get<std::string>() + ": " + command);
+  std::string words;
+  for (const std::string& word : command) words += (words.empty() ? "" : " ") + word;
+  log("sinew " + record_["version"].get<std::string>() + ": " + words);
 }
 
 RunLog::~RunLog() = default;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/setup.h>
@@ -21,7 +22,7 @@ class RunLog {
  public:
   /// Begins both files, status "running". Throws not written.
   /// A run that is resumed goes on with what they hold.
-  RunLog(const RunFolder& folder, int argc, char** argv, bool resumed = false);
+  RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <sinew/core/system.h>
+#include <sinew/core/error.h>
 #include <sinew/core/file.h>
 
 namespace sinew {
@@ -87,12 +88,12 @@ std::string status_of(const RunFolder& folder) {
   return status != record.end() && status->is_string() ? status->get<std::string>() : "";
 }
 
-nlohmann::ordered_json begin_record(int argc, char** argv) {
+nlohmann::ordered_json begin_record(const std::vector<std::string>& command) {
   nlohmann::ordered_json record;
   record["program"] = "sinew";
   record["version"] = version();
   record["status"] = "running";
-  record["command"] = std::vector<std::string>(argv, argv + argc);
+  record["command"] = command;
   record["host"] = host_name();
   record["cores"] = std::thread::hardware_concurrency();
   record["started"] = utc_now();

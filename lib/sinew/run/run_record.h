@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include <sinew/run/run_folder.h>
 
@@ -22,6 +23,6 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
 std::string status_of(const RunFolder& folder);
 
 /// A record with version, command line, host and start time filled in.
-nlohmann::ordered_json begin_record(int argc, char** argv);
+nlohmann::ordered_json begin_record(const std::vector<std::string>& command);
 
 }  // namespace sinew

@@ -158,12 +158,12 @@ void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool firs
 
 }  // namespace
 
-DrawnRun::DrawnRun(const std::string& folder, const std::vector<ViewPreset>& looks,
+DrawnRun::DrawnRun(const std::string& folder, const std::vector<ViewPreset>& presets,
                    const std::string& array, const Mat3& view, bool ahead)
     : run_(open_run({folder})), view_(view) {
-  for (const ViewPreset& look : looks)
+  for (const ViewPreset& preset : presets)
     views_.push_back(
-        {look, DrawnValues(run_, array.empty() ? std::string(look.array) : array), {}});
+        {preset, DrawnValues(run_, array.empty() ? std::string(preset.array) : array), {}});
   read_story(view, ahead);
 }
 
@@ -245,8 +245,8 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   std::vector<double> values = drawn.values.at(index, frame);
   Snapshot snapshot = snapshot_of(run_, std::move(frame), story_.angle[index]);
   snapshot.values = std::move(values);
-  if (drawn.look.cut_open) cut_open(snapshot);
-  if (drawn.look.view == View::arrows) add_arrows(snapshot, index, drawn);
+  if (drawn.preset.cut_open) cut_open(snapshot);
+  if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);
   return snapshot;
 }
 

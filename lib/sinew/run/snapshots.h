@@ -56,9 +56,9 @@ Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& 
 // A run as pictures need it: its moments as snapshots, and what must be known of all of them before the
 // first is drawn.
 
-/// What one look shows of a run.
+/// What one preset shows of a run.
 struct DrawnView {
-  ViewPreset look;
+  ViewPreset preset;
   DrawnValues values;
   DrawnValues::Range range;  ///< over all frames
 };
@@ -70,9 +70,9 @@ struct Story {
 
 class DrawnRun {
  public:
-  /// Reads all frames once. `array`: in color instead of what each look shows by itself, or empty.
+  /// Reads all frames once. `array`: in color instead of what each preset shows by itself, or empty.
   /// Throws bad input.
-  DrawnRun(const std::string& folder, const std::vector<ViewPreset>& looks, const std::string& array,
+  DrawnRun(const std::string& folder, const std::vector<ViewPreset>& presets, const std::string& array,
            const Mat3& view, bool ahead);
   DrawnRun(const DrawnRun&) = delete;
   DrawnRun& operator=(const DrawnRun&) = delete;

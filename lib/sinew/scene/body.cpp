@@ -9,6 +9,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/mesh/read_surface.h>

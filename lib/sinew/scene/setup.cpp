@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <sinew/core/error.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/rig.h>
 #include <sinew/physics/time_step.h>
@@ -161,6 +162,24 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   return setup;
 }
 
+ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body) {
+  Stopwatch watch;
+  ReadyScene ready;
+  ready.surface = read_mesh(settings);
+  ready.body = body ? *std::move(body)
+                    : body_file(fill_body(settings, ready.surface), origin_of(settings));
+  ready.seconds_filling = watch.lap();
+  ready.setup = set_up(settings, ready.body.particles);
+  ready.body.bone = bones_of_particles(ready.setup.body);
+  ready.body.weight = weights_of_particles(ready.setup.body);
+  ready.seconds_binding = watch.lap();
+  return ready;
+}
+
+Simulation start(const Settings& settings, const ReadyScene& ready) {
+  return start(settings, ready.setup, ready.body.particles);
+}
+
 Simulation start(const Settings& settings, Setup setup, Particles particles) {
   return Simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
                     stepping_of(settings.solver, setup.steps.step));
@@ -185,6 +204,18 @@ double bone_speed(const Setup& setup, double interval) {
     }
   }
   return fastest * setup.steps.step / body.material.pair.r;
+}
+
+std::vector<std::int32_t> bones_of_particles(const Body& body) {
+  std::vector<std::int32_t> bones(body.rest.size());
+  for (std::size_t i = 0; i < bones.size(); ++i) bones[i] = body.binding.bone(i);
+  return bones;
+}
+
+std::vector<double> weights_of_particles(const Body& body) {
+  std::vector<double> weights(body.rest.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = body.binding.weight(i);
+  return weights;
 }
 
 }  // namespace sinew

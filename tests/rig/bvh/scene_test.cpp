@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
 #include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/motion.h>
@@ -22,8 +23,8 @@ std::map<std::string, RigidFrame> frames_of(const Skeleton& skeleton, const Pose
 
 void expect_same_motion(const std::string& scene, const std::string& file) {
   const Settings settings = read_scene(source + "/configs/" + scene);
-  const Skeleton skeleton = make_skeleton(settings);
-  const Motion motion = make_motion(settings, skeleton);
+  const Skeleton skeleton = skeleton_of(settings);
+  const Motion motion = motion_of(settings, skeleton);
   const Rig rig = rig_of(read_bvh(source + "/data/motions/" + file));
   const Clip& clip = rig.clips.at(0);
   EXPECT_EQ(rig.skeleton.size(), skeleton.size());
@@ -40,7 +41,7 @@ void expect_same_motion(const std::string& scene, const std::string& file) {
 }
 
 void expect_same_bones(const std::string& scene, const std::string& file) {
-  const Skeleton skeleton = make_skeleton(read_scene(source + "/configs/" + scene));
+  const Skeleton skeleton = skeleton_of(read_scene(source + "/configs/" + scene));
   for (const Bone& bone : rig_of(read_bvh(source + "/data/motions/" + file)).skeleton.bones)
     for (const Bone& other : skeleton.bones) {
       if (bone.name != other.name) continue;

@@ -184,7 +184,7 @@ std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(const MovingPart
 template <class Real>
 bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
   Stopwatch watch;
-  ++counts_.looks;
+  ++counts_.checks;
   const auto displaced = displacements(particles);
   const double limit = escaped_beyond(displaced, particles.units);
   const auto found = escaped_particles(particles, displaced, limit);
@@ -199,7 +199,7 @@ bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
   for (std::size_t b = 0; b < listed_pose_.size(); ++b)
     reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
   outer_drift_.found(limit + 2.5e-7 * reach);
-  counts_.looking += watch.lap();
+  counts_.checking += watch.lap();
   // Escaped are found in the cells around their place; and no two of them may meet that were farther
   // apart, when the lists were made, than the bones' contacts know.
   const double edge = cells_.edge() * particles.units.length;
@@ -277,8 +277,8 @@ void VerletLists<Real>::anchor(const MovingParticles<Real>& particles, std::uint
 template <class Real>
 ListCounts VerletLists<Real>::counts() const {
   ListCounts counts = counts_;
-  counts.wide = outer_.mean();
-  counts.narrow = inner_.mean();
+  counts.outer = outer_.mean();
+  counts.inner = inner_.mean();
   return counts;
 }
 

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/simulate.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include <sinew/core/file.h>
+#include <sinew/core/system.h>
+#include <sinew/core/text.h>
+#include <sinew/io/view_script.h>
+#include <sinew/run/frame_writer.h>
+#include <sinew/run/run_checkpoints.h>
+#include <sinew/run/run_log.h>
+#include <sinew/run/run_record.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/check.h>
+#include <sinew/scene/setup.h>
+#include <sinew/settings/write_scene.h>
+
+namespace sinew {
+namespace {
+
+void say(const SimulateOptions& options, const std::string& line) {
+  if (options.message) options.message(line);
+}
+
+/// Whether there is anything to do; refuses to overwrite a run unasked.
+bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
+  if (!folder.used()) refuse_foreign_files(folder);
+  if (!folder.used()) return true;
+  const std::string status = status_of(folder);
+  if (options.force) return true;
+  if (!options.resume)
+    throw bad_input(Place{folder.path.string()}, "holds a run already",
+                    "replace it with --force, or choose another folder with -o");
+  if (status == "finished") {
+    say(options, "the run in " + folder.path.string() + " is finished already");
+    return false;
+  }
+  return true;
+}
+
+/// How the run advances through time.
+struct Schedule {
+  int frames = 0;  ///< after the first
+  int steps_per_frame = 0;
+  double interval = 0;  ///< s between frames
+  int there = 0;        ///< frames that are written already
+
+  std::vector<double> times_there() const {
+    std::vector<double> times;
+    for (int frame = 0; frame < there; ++frame) times.push_back(frame * interval);
+    return times;
+  }
+
+  /// Frames up to a state; one that lies after the end is not of this run.
+  int frames_until(const SimulationState& state) const {
+    const std::int64_t last = std::int64_t{frames} * steps_per_frame;
+    if (state.steps > last)
+      throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
+                          ", and the run ends with step " + std::to_string(last),
+                      "begin again with --force");
+    return static_cast<int>(state.steps / steps_per_frame + 1);
+  }
+};
+
+/// The last sound state of an unstable run, with the particles that failed after it.
+void write_last_state(const Simulation& simulation, const std::filesystem::path& path) {
+  const Body& body = simulation.body();
+  const Particles& before = simulation.particles();
+  std::vector<Offence> offence(before.size(), Offence::none);
+  std::vector<double> moved(before.size());
+  for (const Offender& one : simulation.offenders()) {
+    const auto id = static_cast<std::size_t>(before.id[one.particle]);
+    offence[id] = one.finite ? Offence::too_fast : Offence::not_finite;
+    moved[id] = one.moved / before.radius;
+  }
+  const auto bone = bones_of_particles(body);
+  write_blowup(path, {before, body.rest, bone, offence, moved},
+               {simulation.time(), static_cast<std::int32_t>(simulation.steps())});
+}
+
+/// One run while it goes on: what is stepped, and who writes of it.
+class Run {
+ public:
+  Run(const Settings& scene, const RunFolder& folder, const SimulateOptions& options, RunLog& log,
+      RunCheckpoints& checkpoints)
+      : scene_(scene), folder_(folder), options_(options), log_(log), checkpoints_(checkpoints) {}
+
+  /// Steps to the end, from `state` on where there is one.
+  Exit to_end(ReadyScene ready, const std::optional<SimulationState>& state) {
+    try {
+      Stopwatch watch;
+      if (!state) write_beginning(ready);
+      log_.spend("writing", watch.lap());
+      begin(std::move(ready), state);
+      log_.spend("binding", watch.lap());
+      const Exit exit = write_frames();
+      log_.end(exit == Exit::done ? "finished" : "stopped", *simulation_);
+      return exit;
+    } catch (const Error& error) {
+      log_.fail(error.exit() == Exit::unstable ? "unstable" : "failed", error.what());
+      throw;
+    } catch (const std::exception& error) {
+      log_.fail("failed", error.what());
+      throw;
+    }
+  }
+
+ private:
+  void write_beginning(const ReadyScene& ready) {
+    write_body(folder_.body(), ready.body, scene_.output.encoding);
+    write_file(folder_.scene(), resolved_scene(scene_, folder_.path));
+    write_view_script(folder_.path);
+  }
+
+  void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
+    schedule_ = {ready.setup.frames, ready.setup.steps.per_frame, scene_.output.interval};
+    std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
+    simulation_.emplace(
+        start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
+    ready.body = {};  // millions of numbers that nobody needs any more
+    if (state) {
+      simulation_->restore(*state);
+      schedule_.there = schedule_.frames_until(*state);
+      log_.frames(schedule_.there);
+    }
+    writer_.emplace(folder_.path, scene_.output, simulation_->body(), ready.surface.triangles,
+                    std::move(obstacles), schedule_.times_there());
+    simulation_->forces();  // finds the first neighbors: no part of what writing costs
+  }
+
+  /// Steps through and closes the series; the sound frames of an unstable run too.
+  Exit write_frames() {
+    try {
+      const Exit exit = step_through();
+      close();
+      return exit;
+    } catch (const Error& error) {
+      log_.frames(writer_->written());
+      if (error.exit() != Exit::unstable) throw;
+      close();
+      log_.frames(writer_->written());
+      write_last_state(*simulation_, folder_.blowup());
+      say(options_,
+          "the body before the step that failed is in " + folder_.blowup().string());
+      throw;
+    } catch (...) {
+      log_.frames(writer_->written());
+      throw;
+    }
+  }
+
+  /// Stops after any step. A checkpoint comes after the frame of its moment.
+  Exit step_through() {
+    Stopwatch watch;
+    const std::int64_t begun = simulation_->steps();
+    for (int frame = schedule_.there;; simulation_->step()) {
+      if (simulation_->steps() == std::int64_t{frame} * schedule_.steps_per_frame) {
+        log_.spend("stepping", watch.lap());
+        add_frame(frame);
+        log_.spend("writing", watch.lap());  // what the stepping waited for it
+        report(frame++);
+      }
+      if (frame > schedule_.frames) return Exit::done;
+      // However little time there is, a run that is resumed again and again comes to its end.
+      const bool asked = options_.stop_requested && options_.stop_requested();
+      const bool stop =
+          asked || (checkpoints_.out_of_time() && simulation_->steps() > begun);
+      if (!stop && !checkpoints_.due()) continue;
+      log_.spend("stepping", watch.lap());
+      save();
+      log_.spend("writing", watch.lap());
+      if (stop) return Exit::interrupted;
+    }
+  }
+
+  void add_frame(int frame) {
+    const double time = frame * schedule_.interval;
+    writer_->add(*simulation_, time);
+    log_.frame(frame, time);
+  }
+
+  void report(int frame) const {
+    if (options_.progress)
+      options_.progress({frame, schedule_.frames, frame * schedule_.interval,
+                         simulation_->steps(), writer_->waited()});
+  }
+
+  void save() {
+    checkpoints_.save(*simulation_, *writer_);
+    log_.checkpoint(simulation_->steps());
+  }
+
+  /// Waits for the frames that are still being written.
+  void close() {
+    Stopwatch watch;
+    writer_->close();
+    log_.spend("writing", watch.lap());
+  }
+
+  const Settings& scene_;
+  const RunFolder& folder_;
+  const SimulateOptions& options_;
+  RunLog& log_;
+  RunCheckpoints& checkpoints_;
+  Schedule schedule_;
+  std::optional<Simulation> simulation_;
+  std::optional<FrameWriter> writer_;
+};
+
+ReadyScene prepare_in(const Settings& scene, const RunFolder& folder) {
+  const std::string origin = origin_of(scene);
+  auto there = body_of_scene(folder.body(), origin);
+  if (!there && !folder.used() && std::filesystem::exists(folder.body()))
+    throw bad_input(Place{folder.body().string()}, "is there, and not the body of this scene",
+                    "choose another folder with -o, or move the file away");
+  ReadyScene ready = prepare(scene, std::move(there));
+  const Triangles& skin = ready.surface.triangles;
+  check_space(folder.path, needs_of(scene, ready.setup, skin.points.size(), skin.faces.size()),
+              size_of_old_run(folder));
+  return ready;
+}
+
+/// The state to continue with, when that is asked for and there is one.
+std::optional<SimulationState> state_to_resume(const RunFolder& folder,
+                                               const SimulateOptions& options,
+                                               const RunIdentity& run,
+                                               RunCheckpoints& checkpoints) {
+  if (!options.resume || !folder.used()) return std::nullopt;
+  std::string complaint;
+  auto state = checkpoints.resume(run, complaint);
+  if (!complaint.empty()) say(options, "passed over: " + complaint);
+  say(options, state ? "going on from step " + std::to_string(state->steps)
+                     : "no checkpoint in " + folder.path.string() + ": beginning again");
+  return state;
+}
+
+void say_what_is_doubtful(const Settings& scene, const Setup& setup,
+                          const SimulateOptions& options) {
+  say(options, "step " + three_digits(setup.steps.step) + " s, " +
+                   three_digits(setup.steps.factor()) + " of the stability limit " +
+                   three_digits(setup.steps.limit) + " s");
+  for (const std::string& warning :
+       warnings_of(setup, scene.solver, bone_speed(setup, scene.output.interval)))
+    say(options, "sinew: warning: " + warning);
+}
+
+}  // namespace
+
+RunResult simulate(const Settings& scene, const RunFolder& folder,
+                   const SimulateOptions& options) {
+  create(folder);
+  const FolderLock lock(folder);
+  if (!lock.left_by().empty())
+    say(options, "taking over from " + lock.left_by() + ", which ended without a word");
+  if (!may_begin(folder, options)) return {Exit::done, true, ""};
+
+  const std::string resolved = resolved_scene(scene, folder.path);
+  if (options.resume && folder.used()) check_same_scene(folder, resolved);
+  ReadyScene ready = prepare_in(scene, folder);
+  RunCheckpoints checkpoints(folder, scene);
+  const RunIdentity identity = identity_of(resolved, ready.setup, ready.surface.triangles);
+  const auto state = state_to_resume(folder, options, identity, checkpoints);
+  if (!state) remove_old_run(folder);
+  checkpoints.keep_for(identity);
+  RunLog log(folder, options.command, state.has_value());
+  log.spend("filling", ready.seconds_filling);
+  log.spend("binding", ready.seconds_binding);
+  log.describe(scene, ready.setup);
+  say_what_is_doubtful(scene, ready.setup, options);
+  if (options.before_stepping) options.before_stepping();
+  const Exit exit =
+      Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
+  return {exit, false, log.record().dump()};
+}
+
+}  // namespace sinew
