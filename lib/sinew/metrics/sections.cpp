@@ -23,7 +23,7 @@ constexpr std::array table = {
                   "|place - joint| <= sqrt(A_B) / 2", &S::joint},
     SectionMetric{"area", "m^2", "Area within the ring of the skin that lay in the plane at rest",
                   "A = |sum x_i cross x_i+1| / 2", &S::area},
-    SectionMetric{"area_ratio", "", "Area relative to rest; 0: pinched off", "A / A0",
+    SectionMetric{"area_ratio", "", "Area relative to the rest area; 0: pinched off", "A / A0",
                   &S::area_ratio},
 };
 
