@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv,
       {"check",
-       "Says what a run would need, and what is doubtful in its scene.",
+       "Reports what a run needs, and doubtful settings of its scene.",
        {"sinew check configs/box_bend.yaml",
         "sinew check configs/box_bend.yaml --set body.radius=0.005"}},
       [&](CLI::App& app) { app.add_option("SCENE", scene, "Scene file (YAML)")->required(); },

@@ -22,11 +22,11 @@ struct Options {
 void declare(CLI::App& app, Options& options) {
   app.add_option("INPUT", options.input, "Scene (YAML), or mesh (" + mesh_formats() + ')')
       ->required();
-  app.add_option("-o", options.output, "Where the filled body goes")
+  app.add_option("-o", options.output, "File of the filled body")
       ->type_name("FILE")
       ->capture_default_str();
   app.add_flag("--verify", options.verify,
-               "Compare every site with CGAL's Side_of_triangle_mesh (closed meshes; slow)");
+               "Check every site against CGAL's Side_of_triangle_mesh (closed meshes; slow)");
   options.body.declare(app);
 }
 

@@ -285,7 +285,7 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv,
       {"info",
-       "Says what is in a mesh, a rig, a clip or a scene, and what is wrong with it.",
+       "Describes a mesh, rig, clip or scene and lists its defects.",
        {"sinew info data/meshes/box.obj", "sinew info part.stl --unit mm -o defects.vtu",
         "sinew info configs/box_bend.yaml", "sinew info data/motions/walk.bvh --radius 0.01"}},
       [&](CLI::App& app) {
@@ -296,7 +296,7 @@ int main(int argc, char** argv) {
         app.add_option("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
             ->type_name("FILE.vtu");
         app.add_option("--radius", options.radius,
-                       "Of particles, m: how fast would the rig move them?")
+                       "Radius of particles, m: report how fast the rig would move them")
             ->check(CLI::PositiveNumber);
         options.body.declare(app, BodyFlags::Kind::mesh);
       },

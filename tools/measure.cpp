@@ -23,23 +23,22 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("DIR", options.folders, "Folder of the run; of two runs: they are compared")
+  app.add_option("DIR", options.folders, "Folder of the run, or folders of two runs to compare")
       ->required()
       ->expected(1, 2);
-  app.add_option("-o", options.out, "Of two runs: the folder for their comparison")
-      ->type_name("DIR");
+  app.add_option("-o", options.out, "Folder for the comparison of two runs")->type_name("DIR");
   app.add_option("--fail-on", options.limits,
-                 "End with 1 when this holds in any frame, such as 'volume_error > 0.05'; of two "
-                 "runs a metric is the second's less the first's")
+                 "Exit with code 1 if this holds in any frame, such as 'volume_error > 0.05'; for "
+                 "two runs a metric is the second's minus the first's")
       ->type_name("LIMIT")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--reference", options.reference,
-                 "Measure the distance to the surfaces of this series too")
+                 "Also measure the distance to the surfaces of this series")
       ->type_name("FILE.pvd");
   app.add_option("--arrays", options.arrays,
-                 "Write these of every particle and frame too, as values.pvd: F, J, stress, ...; "
-                 "all")
+                 "Also write these arrays of every particle and frame, as values.pvd: F, J, "
+                 "stress, ...; all")
       ->type_name("NAMES");
 }
 
@@ -142,8 +141,8 @@ int main(int argc, char** argv) {
   Options options;
   About about{
       "measure",
-      "Measures a run: metrics.csv, metrics_bones.csv, sections.csv, metrics.json, "
-      "report.html. Compares two: compare.csv, metrics.json, report.html.",
+      "Measures a run: metrics.csv, metrics_bones.csv, sections.csv, metrics.json, report.html. "
+      "Compares two runs: compare.csv, metrics.json, report.html.",
       {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'",
        "sinew measure out/paper out/bonded -o out/paper_bonded",
        "sinew measure out/coarse --reference out/fine/surface.pvd",

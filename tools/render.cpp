@@ -46,12 +46,12 @@ void declare_what(CLI::App& app, Options& options) {
   app.add_option("--compare", options.other_folder, "Another run, shown beside this one")
       ->type_name("DIR");
   app.add_option("--times", options.times,
-                 "Moments of the pictures, s; the telling ones if not given")
+                 "Times of the pictures, s; chosen by the motion if not given")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("T,T,...");
   app.add_option("--array", options.array,
-                 "What is shown in color: displacement, velocity, force_pair, strain, J, ...")
+                 "Array shown in color: displacement, velocity, force_pair, strain, J, ...")
       ->type_name("NAME");
   app.add_flag("--no-movie", options.no_movie, "Pictures only");
   app.add_option("-o", options.target, "Folder of the pictures, by default DIR/pictures");
@@ -66,7 +66,7 @@ void declare_how(CLI::App& app, Options& options) {
       ->type_name("NAME")
       ->capture_default_str();
   app.add_option("--camera", options.camera,
-                 "three_quarter, front, back, left, right, top, or the direction to the viewer")
+                 "three_quarter, front, back, left, right, top, or the direction toward the viewer")
       ->type_name("NAME or X,Y,Z")
       ->capture_default_str();
   app.add_option("--width", options.width, "Width of pictures and movie, pixels")

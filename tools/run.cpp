@@ -83,12 +83,12 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv,
       {"run",
-       "The whole job: fills, simulates, draws and measures a scene.",
+       "Fills, simulates, renders and measures a scene.",
        {"sinew run configs/box_bend.yaml",
         "sinew run configs/box_bend.yaml -o /tmp/soft --set body.radius=0.014"}},
       [&](CLI::App& app) {
         declare(app, options);
-        app.add_flag("--no-movie", options.no_movie, "Pictures, but no movie");
+        app.add_flag("--no-movie", options.no_movie, "Pictures only");
       },
       [&](const Common& common) { return run(options, common); });
 }

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv,
       {"simulate",
-       "Moves the bones of a scene and writes what the body does.",
+       "Moves the bones of a scene and writes the motion of the body.",
        {"sinew simulate configs/box_bend.yaml",
         "sinew simulate configs/box_bend.yaml -o /tmp/soft --set material.young_modulus=5000"}},
       [&](CLI::App& app) { declare(app, options); },

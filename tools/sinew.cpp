@@ -25,14 +25,14 @@ struct Known {
 };
 
 constexpr std::array<Known, 8> commands = {{
-    {"run", "the whole job: fill, simulate, measure, render"},
-    {"check", "what a run would need, and what is doubtful in its scene"},
-    {"fill", "fill a closed mesh with closest-packed particles"},
-    {"simulate", "move the bones and let the body follow"},
-    {"measure", "metrics and a report of a run"},
-    {"render", "pictures and a movie of a run"},
-    {"view", "a run in ParaView, while it goes too"},
-    {"info", "what is in a file, and what is wrong with it"},
+    {"run", "fill, simulate, render and measure a scene"},
+    {"check", "report what a run needs, and doubtful settings"},
+    {"fill", "fill a mesh with closest-packed particles"},
+    {"simulate", "move the bones and write the motion of the body"},
+    {"measure", "write the metrics and the report of a run"},
+    {"render", "draw pictures and a movie of a run"},
+    {"view", "open a run in ParaView, even while it is in progress"},
+    {"info", "describe a file and list its defects"},
 }};
 
 std::string usage() {
@@ -43,8 +43,8 @@ std::string usage() {
     text +=
         "  " + std::string(name) + std::string(10 - name.size(), ' ') + std::string(purpose) + '\n';
   return text +
-         "\nOptions:\n  -h, --help  Show this help and stop\n"
-         "  --version   Show the version and stop\n\n"
+         "\nOptions:\n  -h, --help  Show this help and exit\n"
+         "  --version   Show the version and exit\n\n"
          "Examples:\n  sinew run configs/box_bend.yaml\n  sinew fill --help\n";
 }
 

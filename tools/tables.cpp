@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-tables NAME: prints a table of the README as Markdown. For developers; not installed.
+// sinew-tables NAME: prints a table of the README files as Markdown. For developers; not installed.
 #include <string>
 
 #include "command/command.h"

@@ -31,17 +31,19 @@ struct Options {
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("DIR", options.folder, "Folder of the run")->required();
-  app.add_flag("--live", options.live, "Follow a run that is still going");
-  app.add_option("--array", options.array, "What colors the particles, displacement if not given");
+  app.add_flag("--live", options.live, "Follow a run in progress");
+  app.add_option("--array", options.array,
+                 "Array that colors the particles, by default displacement");
   app.add_option("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
   app.add_option("--forces", options.forces,
-                 "Arrows of a force: force_pair if none is named, force_bone, force ...")
+                 "Arrows of a force: force_pair if none is named, force_bone, force, ...")
       ->expected(0, 1);
-  app.add_option("--time", options.time, "Moment of the picture, s");
+  app.add_option("--time", options.time, "Time of the picture, s");
   app.add_option("--size", options.size, "Size of the picture, pixels")
       ->expected(2)
       ->type_name("W H");
-  app.add_option("--picture", options.picture, "Leave a picture there instead of opening a window")
+  app.add_option("--picture", options.picture,
+                 "Write a picture to this file instead of opening a window")
       ->type_name("FILE.png");
 }
 
@@ -172,7 +174,7 @@ Exit view(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   About about{"view",
-              "Starts ParaView on a run: the body cut open, its bones within the skin.",
+              "Opens a run in ParaView: the body cut open, and its bones within the skin.",
               {"sinew view out/box_bend", "sinew view --live out/box_bend",
                "sinew view out/box_bend --array velocity --forces force_pair",
                "sinew view out/box_bend --picture bent.png --time 1"}};

@@ -4,9 +4,9 @@
 
 usage: compare.py PROGRAMS OUT [--quick] [--update-readme]
 
-PROGRAMS holds step_bench and make_state. Writes speed.md, speed.svg and speed.json to OUT; --update-readme puts
-table and plot into the README as well. Candidates take turns, round by round, so that what else the machine does
-meets them all; ratios are taken within a round. Exit code 1 when the bits depend on the number of threads.
+PROGRAMS holds step_bench and make_state. Writes speed.md, speed.svg and speed.json to OUT; --update-readme also
+puts the table into tests/bench/README.md and the plot into data/pictures. Candidates take turns, round by round, so
+that other load on the machine meets them all; ratios are taken within a round. Exit code 1 when the bits depend on the number of threads.
 """
 import argparse
 import json
@@ -20,7 +20,7 @@ import speed_tables
 from speed_runs import Runs
 
 SOURCE = Path(__file__).resolve().parents[2]
-README = SOURCE / "README.md"
+README = SOURCE / "tests/bench/README.md"
 MARKED = re.compile(r"(<!-- speed -->\n).*?(<!-- /speed -->)", re.S)
 STATES = ("rest", "bent", "twisted", "crushed", "flowed")
 LAMMPS_STATES = ("rest", "flowed")  # nothing holds the others there: they would spring back
@@ -58,7 +58,7 @@ def measure(runs, plan):
 def readme_text():
     text = README.read_text(encoding="utf-8")
     if not MARKED.search(text):
-        sys.exit("compare.py: README.md has no lines <!-- speed --> and <!-- /speed -->; add them")
+        sys.exit("compare.py: tests/bench/README.md has no lines <!-- speed --> and <!-- /speed -->; add them")
     return text
 
 

@@ -31,9 +31,9 @@ std::string help_footer(const About& about) {
 }
 
 void declare_common(CLI::App& app, const About& about, Given& given) {
-  app.set_help_flag("-h,--help", "Show this help and stop");
-  app.set_version_flag("--version", "sinew " + version(), "Show the version and stop");
-  app.add_flag("--quiet", given.common.quiet, "No progress, no talk");
+  app.set_help_flag("-h,--help", "Show this help and exit");
+  app.set_version_flag("--version", "sinew " + version(), "Show the version and exit");
+  app.add_flag("--quiet", given.common.quiet, "Print no progress and no messages");
   app.add_flag("--json", given.common.json, "Print the results as one JSON object");
   app.add_option("--threads", given.common.threads, "Threads to use; 0: one per core")
       ->type_name("N")

@@ -55,7 +55,7 @@ inline void declare(CLI::App& app, RunOptions& options) {
   app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
       ->type_name("DIR");
   auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
-  app.add_flag("--resume", options.resume, "Go on with a run that was stopped")->excludes(force);
+  app.add_flag("--resume", options.resume, "Continue a run that was stopped")->excludes(force);
   app.add_option("--asked-of", options.asked_of)->group("");  // hidden: run says it to simulate
 }
 

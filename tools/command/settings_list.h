@@ -8,7 +8,7 @@
 
 namespace sinew {
 
-// Rows of Markdown tables, for the README.
+// Rows of Markdown tables, for the README files.
 
 /// "| a | b |" with a line break; bars within a cell are escaped.
 inline std::string markdown_row(std::initializer_list<std::string_view> cells) {
@@ -27,7 +27,7 @@ inline std::string markdown_row(std::initializer_list<std::string_view> cells) {
 /// A line for each key, by section, for --help.
 std::string settings_help();
 
-/// A Markdown table for each section, for the README.
+/// A Markdown table for each section, for configs/README.md.
 std::string settings_markdown();
 
 }  // namespace sinew

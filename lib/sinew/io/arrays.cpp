@@ -20,48 +20,52 @@ const std::vector<std::string_view> wxyz = {"W", "X", "Y", "Z"};
 
 std::vector<WrittenArray> table_of_all() {
   return {
-      {"all", field, "TimeValue", "s", one, exact, plain, "time of the scene"},
+      {"all", field, "TimeValue", "s", one, exact, plain, "simulated time"},
       {"all", field, "CYCLE", "1", one, whole, plain, "steps taken so far"},
-      {"all", field, "sinew_meta", "1", one, bytes, plain, "UTF-8 JSON about the file"},
+      {"all", field, "sinew_meta", "1", one, bytes, plain, "metadata of the file, as UTF-8 JSON"},
   };
 }
 
 std::vector<WrittenArray> table_of_body() {
   return {
-      {"body", point, "Points", "m", xyz, exact, plain, "particle at rest, as in the mesh"},
+      {"body", point, "Points", "m", xyz, exact, plain,
+       "position of the particle at rest, in the mesh's coordinates"},
       {"body", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
       {"body", point, "radius", "m", one, exact, plain, "radius of the particle"},
       {"body", point, "mass", "kg", one, exact, plain, "mass of the particle"},
-      {"body", point, "neighbors", "1", one, whole, plain, "touching particles at rest"},
-      {"body", point, "component", "1", one, whole, plain, "connected piece it belongs to, from 0"},
+      {"body", point, "neighbors", "1", one, whole, plain, "number of touching particles at rest"},
+      {"body", point, "component", "1", one, whole, plain,
+       "connected component it belongs to, from 0"},
       {"body", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
-      {"body", point, "weight", "1", one, exact, plain, "share that bone has in it, 0 for none"},
+      {"body", point, "weight", "1", one, exact, plain, "weight of that bone, 0 for none"},
   };
 }
 
 std::vector<WrittenArray> table_of_particles() {
   return {
-      {"particles", point, "Points", "m", xyz, real, plain, "where the particle is"},
+      {"particles", point, "Points", "m", xyz, real, plain, "position of the particle"},
       {"particles", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
       {"particles", point, "bone", "1", one, whole, scalars, "bone it is bound to, -1 for none"},
-      {"particles", point, "weight", "1", one, real, plain,
-       "share that bone has in it, 0 for none"},
+      {"particles", point, "weight", "1", one, real, plain, "weight of that bone, 0 for none"},
       {"particles", point, "radius", "m", one, real, plain, "radius of the particle"},
-      {"particles", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"particles", point, "displacement", "m", xyz, real, vectors,
+       "displacement from the rest position"},
       {"particles", point, "velocity", "m/s", xyz, real, plain, "velocity"},
       {"particles", point, "force", "N", xyz, real, plain, "sum of all forces on it"},
-      {"particles", point, "force_pair", "N", xyz, real, plain, "elastic force of its partners"},
-      {"particles", point, "force_damping", "N", xyz, real, plain, "damping force of its partners"},
+      {"particles", point, "force_pair", "N", xyz, real, plain, "elastic force of its neighbors"},
+      {"particles", point, "force_damping", "N", xyz, real, plain,
+       "damping force of its neighbors"},
       {"particles", point, "force_bone", "N", xyz, real, plain, "force of its bone"},
       {"particles", point, "force_world", "N", xyz, real, plain,
-       "force of obstacles, drag, fields, muscles and pins, where a scene has some"},
-      {"particles", point, "neighbors", "1", one, whole, plain, "partners within the range b"},
+       "force of obstacles, drag, fields, muscles and pins, if the scene has any"},
+      {"particles", point, "neighbors", "1", one, whole, plain,
+       "number of neighbors within the range b"},
       {"particles", point, "broken_bonds", "1", one, whole, plain,
-       "bonds it has lost, where the material has bonds"},
-      {"particles", field, "kinetic_energy", "J", one, exact, plain, "energy of motion"},
+       "number of its broken bonds, if the material has bonds"},
+      {"particles", field, "kinetic_energy", "J", one, exact, plain, "kinetic energy"},
       {"particles", field, "pair_energy", "J", one, exact, plain, "elastic energy of all pairs"},
       {"particles", field, "bone_energy", "J", one, exact, plain,
-       "elastic energy towards the bones"},
+       "elastic energy of the bone springs"},
       {"particles", field, "gravity_energy", "J", one, exact, plain, "potential energy of gravity"},
       {"particles", field, "work_of_bones", "J", one, exact, plain,
        "work the bones have done so far"},
@@ -87,17 +91,17 @@ std::vector<WrittenArray> table_of_requested(const char* series) {
       {series, point, "hencky_strain", "1", tensor, real, plain,
        "Hencky strain ln(F^T F) / 2, on request"},
       {series, point, "strain_eq", "1", one, real, plain,
-       "equivalent strain sqrt(2/3 dev H : dev H) of it, on request"},
+       "equivalent strain sqrt(2/3 dev H : dev H), H the Hencky strain, on request"},
       {series, point, "stress", "Pa", tensor, real, plain,
        "virial stress -(1/2V0) sum f r, tension positive, on request"},
-      {series, point, "von_mises", "Pa", one, real, plain, "its von Mises stress, on request"},
+      {series, point, "von_mises", "Pa", one, real, plain, "von Mises stress, on request"},
       {series, point, "D2min", "m^2", one, real, plain,
-       "motion of the neighbors that F does not explain, on request"},
+       "non-affine motion of the neighbors, which F does not explain, on request"},
       {series, point, "turnover", "1", one, real, plain,
-       "neighbors lost and won over those at rest, on request"},
+       "neighbors lost and gained, relative to those at rest, on request"},
       {series, point, "inverted", "1", one, whole, plain, "1 where J <= 0, on request"},
       {series, point, "pose_error", "m", one, real, plain,
-       "distance from where its bone alone would carry it, on request"},
+       "distance from the rigid pose of its bone, on request"},
   };
 }
 
@@ -107,7 +111,7 @@ std::vector<WrittenArray> table_of_requested_in_particles() {
 
 std::vector<WrittenArray> table_of_values() {
   std::vector<WrittenArray> rows = {
-      {"values", point, "Points", "m", xyz, real, plain, "where the particle is"},
+      {"values", point, "Points", "m", xyz, real, plain, "position of the particle"},
       {"values", point, "id", "1", one, whole, scalars, "number of the particle, from 0"},
   };
   for (WrittenArray& row : table_of_requested("values")) rows.push_back(std::move(row));
@@ -117,9 +121,11 @@ std::vector<WrittenArray> table_of_values() {
 std::vector<WrittenArray> table_of_surface_in(const char* series, const char* of_points) {
   return {
       {series, point, "Points", "m", xyz, real, plain, of_points},
-      {series, point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {series, point, "displacement", "m", xyz, real, vectors,
+       "displacement from the rest position"},
       {series, point, "normal", "1", xyz, real, plain, "outward unit normal"},
-      {series, point, "bone", "1", one, whole, scalars, "bone that moves it most, -1 for none"},
+      {series, point, "bone", "1", one, whole, scalars,
+       "bone with the most influence on it, -1 for none"},
   };
 }
 
@@ -140,7 +146,7 @@ std::vector<WrittenArray> table_of_bones() {
       {"bones", point, "Points", "m", xyz, real, plain, "head, tail and tips of the three axes"},
       {"bones", cell, "axis", "1", one, whole, scalars, "0 the bone, 1, 2, 3 its x, y, z axis"},
       {"bones", cell, "bone", "1", one, whole, plain, "number of the bone, from 0"},
-      {"bones", cell, "parent", "1", one, whole, plain, "bone it hangs on, -1 for none"},
+      {"bones", cell, "parent", "1", one, whole, plain, "parent of the bone, -1 for none"},
   };
 }
 
@@ -148,13 +154,13 @@ std::vector<WrittenArray> table_of_frames() {
   return {
       {"frames", point, "Points", "m", xyz, real, plain, "head of the bone"},
       {"frames", point, "bone", "1", one, whole, scalars, "number of the bone, from 0"},
-      {"frames", point, "parent", "1", one, whole, plain, "bone it hangs on, -1 for none"},
-      {"frames", point, "length", "m", one, real, plain, "head to tail"},
+      {"frames", point, "parent", "1", one, whole, plain, "parent of the bone, -1 for none"},
+      {"frames", point, "length", "m", one, real, plain, "distance from head to tail"},
       {"frames", point, "orientation", "1", wxyz, real, plain, "quaternion: scene to bone axes"},
       {"frames", point, "axis_x", "1", xyz, real, plain, "unit x axis, along the bone"},
       {"frames", point, "axis_y", "1", xyz, real, plain, "unit y axis"},
       {"frames", point, "axis_z", "1", xyz, real, plain, "unit z axis"},
-      {"frames", point, "twist", "degree", one, real, plain, "turn about the bone's own axis"},
+      {"frames", point, "twist", "degree", one, real, plain, "rotation about the bone's own axis"},
       {"frames", point, "velocity", "m/s", xyz, real, vectors, "velocity of the head"},
       {"frames", point, "angular_velocity", "rad/s", xyz, real, plain, "angular velocity"},
       {"frames", point, "reaction_force", "N", xyz, real, plain, "force of the body on the bone"},
@@ -171,7 +177,7 @@ std::vector<WrittenArray> table_of_obstacles() {
       {"obstacles", point, "reaction_force", "N", xyz, real, plain,
        "force of the body on the obstacle"},
       {"obstacles", point, "reaction_moment", "N m", xyz, real, plain,
-       "its moment about the obstacle's middle"},
+       "its moment about the obstacle's center"},
   };
 }
 
@@ -179,26 +185,28 @@ std::vector<WrittenArray> table_of_defects() {
   return {
       {"defects", point, "Points", "m", xyz, exact, plain, "point of the cleaned mesh"},
       {"defects", cell, "defect", "1", one, whole, scalars,
-       "0 none; edges: 1 open, 2 crowded, 3 twisted; faces: 4 turned, 5 cutting another, 6 flat"},
+       "0 none; edges: 1 open, 2 non-manifold, 3 twisted; faces: 4 reversed, 5 intersecting "
+       "another, 6 degenerate"},
       {"defects", cell, "component", "1", one, whole, plain,
-       "piece the face belongs to, from 0; -1 for edges"},
-      {"defects", cell, "hole", "1", one, whole, plain,
-       "hole the edge belongs to, from 0; -1 for faces"},
+       "connected component of the face, from 0; -1 for edges"},
+      {"defects", cell, "hole", "1", one, whole, plain, "hole of the edge, from 0; -1 for faces"},
   };
 }
 
 std::vector<WrittenArray> table_of_blowup() {
   return {
-      {"blowup", point, "Points", "m", xyz, real, plain, "where the particle was before the step"},
+      {"blowup", point, "Points", "m", xyz, real, plain,
+       "position of the particle before the step"},
       {"blowup", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
       {"blowup", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
       {"blowup", point, "radius", "m", one, real, plain, "radius of the particle"},
-      {"blowup", point, "displacement", "m", xyz, real, vectors, "way from its place at rest"},
+      {"blowup", point, "displacement", "m", xyz, real, vectors,
+       "displacement from the rest position"},
       {"blowup", point, "velocity", "m/s", xyz, real, plain, "velocity before the step"},
       {"blowup", point, "offender", "1", one, whole, scalars,
-       "0 no; 1 moved too far in the step, 2 reached a value that is not finite"},
+       "0 no; 1 moved too far in the step; 2 reached a non-finite value"},
       {"blowup", point, "moved", "radii", one, real, plain,
-       "an offender's way in the step, relative to its bone; 0 where that is not finite"},
+       "distance that an offender moved in the step, relative to its bone; 0 if not finite"},
   };
 }
 

@@ -14,15 +14,16 @@ namespace {
 using S = SectionMetrics;
 
 constexpr std::array table = {
-    SectionMetric{"time", "s", "Time in the scene", "t", &S::time},
+    SectionMetric{"time", "s", "Simulated time", "t", &S::time},
     SectionMetric{"bone", "", "Index of the bone, as in frames.pvd", "", &S::bone},
-    SectionMetric{"along", "", "Where the section crosses the bone: 0 at its head, 1 at its tail",
+    SectionMetric{"along", "",
+                  "Position of the section along the bone: 0 at its head, 1 at its tail",
                   "axis . (x - o) / length, at rest", &S::along},
     SectionMetric{"joint", "", "1 within half a width of a joint, else 0",
                   "|place - joint| <= sqrt(A_B) / 2", &S::joint},
-    SectionMetric{"area", "m^2", "Area within the skin's ring that lay in that plane at rest",
+    SectionMetric{"area", "m^2", "Area within the ring of the skin that lay in the plane at rest",
                   "A = |sum x_i cross x_i+1| / 2", &S::area},
-    SectionMetric{"area_ratio", "", "Area relative to the one at rest; 0: pinched off", "A / A0",
+    SectionMetric{"area_ratio", "", "Area relative to the rest area; 0: pinched off", "A / A0",
                   &S::area_ratio},
 };
 

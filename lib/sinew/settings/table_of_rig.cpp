@@ -13,18 +13,19 @@ std::vector<Field<BoneDefinition>> make_bones() {
       required(field<B>("", "name", SINEW_AT(B, name), "", "unique name of the bone")),
       may_lack("none", field<B>("", "parent", SINEW_AT(B, parent), "", "name of an earlier bone")),
       field<B>("", "head", SINEW_AT(B, head), "m",
-               "where it begins at rest; auto: at its parent's tail"),
-      field<B>("", "tail", SINEW_AT(B, tail), "m", "where it ends at rest; give this or length",
-               any, "none"),
-      field<B>("", "length", SINEW_AT(B, length), "m", "from head to tail, instead of tail",
-               positive, "none"),
+               "position of its head at rest; auto: its parent's tail"),
+      field<B>("", "tail", SINEW_AT(B, tail), "m",
+               "position of its tail at rest; give this or length", any, "none"),
+      field<B>("", "length", SINEW_AT(B, length), "m",
+               "distance from head to tail, instead of tail", positive, "none"),
       field<B>("", "direction", SINEW_AT(B, direction), "",
-               "where it points, with length, of any size; auto: where its parent points"),
+               "its direction, for use with length, as a vector of any size; auto: its parent's "
+               "direction"),
       field<B>("", "connected", SINEW_AT(B, connected), "",
-               "whether it begins at its parent's tail; auto: where it has no head"),
+               "whether it begins at its parent's tail; auto: if it has no head"),
       field<B>("", "roll", SINEW_AT(B, roll), "degrees",
-               "turns its sides about it; at 0 the first side is across the bone and that axis of "
-               "x, y, z which is least along it"),
+               "rotation of its side axes about it; at 0 the first side axis is perpendicular to "
+               "the bone and to the axis of x, y, z least aligned with it"),
       field<B>("", "stiffness", SINEW_AT(B, stiffness), "", "factor on binding.stiffness",
                not_negative),
       field<B>("", "twist_stiffness", SINEW_AT(B, twist_stiffness), "",
@@ -38,10 +39,10 @@ std::vector<Field<LimitDefinition>> make_limits() {
   using L = LimitDefinition;
   return {
       field<L>("", "swing", SINEW_AT(L, swing), "degrees",
-               "how far the bone may lean from its direction at rest on its parent", {0, 180},
-               "none"),
+               "largest angle between the bone and its rest direction relative to its parent",
+               {0, 180}, "none"),
       field<L>("", "twist", SINEW_AT(L, twist), "degrees",
-               "least and greatest turn about the bone itself", any, "none"),
+               "least and greatest twist about the bone itself", any, "none"),
   };
 }
 
@@ -49,14 +50,15 @@ std::vector<Field<BoundSettings>> make_bound() {
   using B = BoundSettings;
   return {
       may_lack("none", field<B>("", "bone", SINEW_AT(B, bone), "",
-                                "name of the bone that holds these particles, and no other")),
+                                "name of the only bone that holds these particles")),
       field<B>("", "ids", SINEW_AT(B, ids), "", "numbers of the particles, as in body.vtu",
                not_negative, "none"),
-      field<B>("", "low", SINEW_AT(B, low), "m", "least corner of the box that they lie in", any,
+      field<B>("", "low", SINEW_AT(B, low), "m", "lower corner of the box that contains them", any,
                "none"),
-      field<B>("", "high", SINEW_AT(B, high), "m", "greatest corner of that box", any, "none"),
-      field<B>("", "center", SINEW_AT(B, center), "m", "of the ball that they lie in", any, "none"),
-      field<B>("", "radius", SINEW_AT(B, radius), "m", "of that ball", positive, "none"),
+      field<B>("", "high", SINEW_AT(B, high), "m", "upper corner of that box", any, "none"),
+      field<B>("", "center", SINEW_AT(B, center), "m", "center of the ball that contains them", any,
+               "none"),
+      field<B>("", "radius", SINEW_AT(B, radius), "m", "radius of that ball", positive, "none"),
   };
 }
 
@@ -66,34 +68,37 @@ std::vector<Field<TrackDefinition>> make_tracks() {
       required(field<T>("", "bone", SINEW_AT(T, bone), "", "name of the bone that moves")),
       choice<T>("", "interpolation", SINEW_AT(T, interpolation),
                 {"step", "linear", "smooth", "cubic"},
-                "between keys; smooth rests at each, cubic passes them without a jump of speed"),
-      field<T>("", "order", SINEW_AT(T, order), "", "order of euler angles, such as xyz or zyx"),
+                "interpolation between keys; smooth rests at each key, cubic passes keys with "
+                "continuous speed"),
+      field<T>("", "order", SINEW_AT(T, order), "",
+               "order of the Euler angles, such as xyz or zyx"),
   };
 }
 
 std::vector<Field<KeyDefinition>> make_keys() {
   using K = KeyDefinition;
   return {
-      field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative, "none"),
+      field<K>("", "time", SINEW_AT(K, time), "s", "time of this key", not_negative, "none"),
       field<K>("", "frame", SINEW_AT(K, frame), "",
-               "the same in frames, from 0, instead of time; motion.frame_rate has their rate",
+               "frame of this key, from 0, instead of time; motion.frame_rate sets the rate",
                not_negative, "none"),
-      field<K>("", "axis", SINEW_AT(K, axis), "",
-               "axis of the rotation, in the parent's directions", any, "none"),
+      field<K>("", "axis", SINEW_AT(K, axis), "", "axis of the rotation, in the parent's axes", any,
+               "none"),
       field<K>("", "angle", SINEW_AT(K, angle), "degrees",
-               "angle about the axis, of any size: keys about one axis turn all the way", any,
+               "angle about the axis, of any size: keys about the same axis turn all the way", any,
                "none"),
       field<K>("", "euler", SINEW_AT(K, euler), "degrees",
-               "rotation about x, y and z of the parent's directions, instead of axis and angle",
-               any, "none"),
+               "rotation about the parent's x, y and z axes, instead of axis and angle", any,
+               "none"),
       field<K>("", "quaternion", SINEW_AT(K, quaternion), "",
-               "rotation as [w, x, y, z] of length 1, instead of axis and angle", any, "none"),
+               "rotation as a unit quaternion [w, x, y, z], instead of axis and angle", any,
+               "none"),
       field<K>("", "twist", SINEW_AT(K, twist), "degrees",
-               "turn about the bone itself, of any size, after the rotation"),
+               "twist about the bone itself, of any size, after the rotation"),
       field<K>("", "translation", SINEW_AT(K, translation), "m",
-               "shift of the head from its place on the parent"),
+               "displacement of the head from its position on the parent"),
       field<K>("", "stretch", SINEW_AT(K, stretch), "",
-               "factor of the bone's length; what hangs on the bone moves with it", positive),
+               "factor on the bone's length; descendants move with the bone", positive),
   };
 }
 

@@ -11,43 +11,48 @@ std::vector<Field<ObstacleSettings>> make_obstacles() {
   using O = ObstacleSettings;
   return {
       required(field<O>("", "name", SINEW_AT(O, name), "", "unique name of the obstacle")),
-      required(choice<O>("", "shape", SINEW_AT(O, shape),
-                         {"plane", "sphere", "capsule", "box", "mesh"},
-                         "a plane is solid behind it; the others are solid within")),
-      field<O>("", "point", SINEW_AT(O, point), "m", "of a plane: any point of it"),
+      required(choice<O>(
+          "", "shape", SINEW_AT(O, shape), {"plane", "sphere", "capsule", "box", "mesh"},
+          "shape of the obstacle; a plane is solid behind it, the others are solid inside")),
+      field<O>("", "point", SINEW_AT(O, point), "m", "plane: any point on it"),
       field<O>("", "normal", SINEW_AT(O, normal), "",
-               "of a plane: out of the solid, of any length but 0"),
-      field<O>("", "center", SINEW_AT(O, center), "m", "of a sphere or box", any, "none"),
-      field<O>("", "radius", SINEW_AT(O, radius), "m", "of a sphere or capsule", positive, "none"),
-      field<O>("", "from", SINEW_AT(O, from), "m", "of a capsule: one end of its axis", any,
+               "plane: its normal, out of the solid, of any length but 0"),
+      field<O>("", "center", SINEW_AT(O, center), "m", "sphere or box: its center", any, "none"),
+      field<O>("", "radius", SINEW_AT(O, radius), "m", "sphere or capsule: its radius", positive,
                "none"),
-      field<O>("", "to", SINEW_AT(O, to), "m", "of a capsule: the other end", any, "none"),
-      field<O>("", "size", SINEW_AT(O, size), "m", "of a box: its edges along x, y and z", any,
+      field<O>("", "from", SINEW_AT(O, from), "m", "capsule: one end of its axis", any, "none"),
+      field<O>("", "to", SINEW_AT(O, to), "m", "capsule: the other end of its axis", any, "none"),
+      field<O>("", "size", SINEW_AT(O, size), "m", "box: its edge lengths along x, y and z", any,
                "none"),
       field<O>("", "rotation", SINEW_AT(O, rotation), "degrees",
-               "of a box: turns it about its x, then y, then z axis"),
+               "box: its rotation about its x, then y, then z axis"),
       path(may_lack("none", field<O>("", "mesh", SINEW_AT(O, mesh), "",
-                                     "of a mesh: a closed surface (formats and lengths as "
-                                     "body.mesh), relative to the scene"))),
-      may_lack("none", field<O>("", "bone", SINEW_AT(O, bone), "",
-                                "name of the bone that carries it; or give keys; or it stands")),
+                                     "mesh: path of a closed surface (formats and lengths as "
+                                     "body.mesh), relative to the scene file"))),
+      may_lack(
+          "none",
+          field<O>(
+              "", "bone", SINEW_AT(O, bone), "",
+              "name of the bone that carries it, instead of keys; without either it stands still")),
       field<O>("", "friction", SINEW_AT(O, friction), "", "coefficient of dry friction",
                not_negative),
       field<O>("", "stiffness", SINEW_AT(O, stiffness), "k",
-               "of the contact, over that of two particles", positive),
-      field<O>("", "damping", SINEW_AT(O, damping), "sqrt(k m)", "of what approaches it",
+               "stiffness of the contact, relative to that of two particles", positive),
+      field<O>("", "damping", SINEW_AT(O, damping), "sqrt(k m)", "damping of what approaches it",
                not_negative),
       choice<O>("", "interpolation", SINEW_AT(O, interpolation),
-                {"step", "linear", "smooth", "cubic"}, "between keys, as of motion.tracks"),
+                {"step", "linear", "smooth", "cubic"},
+                "interpolation between keys, as in motion.tracks"),
   };
 }
 
 std::vector<Field<PlaceKeySettings>> make_place_keys() {
   using K = PlaceKeySettings;
   return {
-      required(field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative)),
-      field<K>("", "translation", SINEW_AT(K, translation), "m", "shift from its place at first"),
-      field<K>("", "axis", SINEW_AT(K, axis), "", "axis through its middle that it turns about"),
+      required(field<K>("", "time", SINEW_AT(K, time), "s", "time of this key", not_negative)),
+      field<K>("", "translation", SINEW_AT(K, translation), "m",
+               "displacement from its initial position"),
+      field<K>("", "axis", SINEW_AT(K, axis), "", "axis of its rotation, through its center"),
       field<K>("", "angle", SINEW_AT(K, angle), "degrees", "angle about the axis, of any size"),
   };
 }
@@ -57,8 +62,7 @@ template <class Owner>
 std::vector<Field<Owner>> make_region(std::string_view box, std::string_view ball) {
   return {
       field<Owner>("", "low", SINEW_AT(Owner, region.low), "m", box, any, "none"),
-      field<Owner>("", "high", SINEW_AT(Owner, region.high), "m", "its greatest corner", any,
-                   "none"),
+      field<Owner>("", "high", SINEW_AT(Owner, region.high), "m", "its upper corner", any, "none"),
       field<Owner>("", "center", SINEW_AT(Owner, region.center), "m", ball, any, "none"),
       field<Owner>("", "radius", SINEW_AT(Owner, region.radius), "m", "its radius", positive,
                    "none"),
@@ -73,10 +77,11 @@ Field<Owner> falloff() {
 
 std::vector<Field<PinSettings>> make_pins() {
   using P = PinSettings;
-  auto rows = make_region<P>("holds the particles in a box at rest: its least corner",
+  auto rows = make_region<P>("holds the particles in a box at rest: its lower corner",
                              "or in a ball: its center");
-  rows.push_back(may_lack("none", field<P>("", "bone", SINEW_AT(P, bone), "",
-                                           "name of the bone that carries them; none: they stay")));
+  rows.push_back(
+      may_lack("none", field<P>("", "bone", SINEW_AT(P, bone), "",
+                                "name of the bone that carries them; none: they stay in place")));
   return rows;
 }
 
@@ -85,9 +90,10 @@ std::vector<Field<FieldSettings>> make_fields() {
   std::vector<Field<F>> rows = {
       required(field<F>("", "name", SINEW_AT(F, name), "", "unique name of the field")),
       choice<F>("", "shape", SINEW_AT(F, shape), {"uniform", "density", "attraction", "swirl"},
-                "one acceleration; a force per volume; towards a point; around an axis"),
+                "uniform: one acceleration; density: a force per volume; attraction: toward a "
+                "point; swirl: around an axis"),
       field<F>("", "acceleration", SINEW_AT(F, acceleration), "m/s^2",
-               "uniform: that it gives to what is in its region", any, "none"),
+               "uniform: acceleration of what is in its region", any, "none"),
       field<F>("", "density", SINEW_AT(F, density), "N/m^3",
                "density: force per volume of the body at rest", any, "none"),
       field<F>("", "point", SINEW_AT(F, point), "m",
@@ -95,13 +101,14 @@ std::vector<Field<FieldSettings>> make_fields() {
       field<F>("", "axis", SINEW_AT(F, axis), "",
                "swirl: direction of its axis, right-handed, of any length but 0"),
       field<F>("", "strength", SINEW_AT(F, strength), "m/s^2",
-               "attraction and swirl: acceleration outside the core; below 0: the other way", any,
-               "none"),
+               "attraction and swirl: acceleration outside the core; negative: in the opposite "
+               "direction",
+               any, "none"),
       field<F>("", "core", SINEW_AT(F, core), "m",
-               "attraction and swirl: within this distance it falls to 0 in proportion", positive,
-               "none"),
+               "attraction and swirl: within this distance the acceleration falls linearly to 0",
+               positive, "none"),
   };
-  for (auto& row : make_region<F>("acts in a box of the scene: its least corner; none: everywhere",
+  for (auto& row : make_region<F>("acts in a box of the scene: its lower corner; none: everywhere",
                                   "or in a ball: its center"))
     rows.push_back(std::move(row));
   rows.push_back(falloff<F>());
@@ -112,16 +119,16 @@ std::vector<Field<MuscleSettings>> make_muscles() {
   using M = MuscleSettings;
   std::vector<Field<M>> rows = {
       required(field<M>("", "name", SINEW_AT(M, name), "", "unique name of the muscle")),
-      may_lack("none",
-               field<M>("", "bone", SINEW_AT(M, bone), "",
-                        "it lies along this bone, in what is bound to it if no region is given")),
+      may_lack("none", field<M>("", "bone", SINEW_AT(M, bone), "",
+                                "bone along which it lies; without a region, it consists of what "
+                                "is bound to that bone")),
       field<M>("", "direction", SINEW_AT(M, direction), "",
-               "of its fibres at rest, of any length but 0; auto: along the bone"),
+               "direction of its fibers at rest, of any length but 0; auto: along the bone"),
       required(field<M>("", "strength", SINEW_AT(M, strength), "Pa",
-                        "active stress along the fibres at activation 1", not_negative)),
+                        "active stress along the fibers at activation 1", not_negative)),
   };
   for (auto& row :
-       make_region<M>("lies in a box at rest: its least corner", "or in a ball: its center"))
+       make_region<M>("lies in a box at rest: its lower corner", "or in a ball: its center"))
     rows.push_back(std::move(row));
   rows.push_back(falloff<M>());
   return rows;
@@ -131,7 +138,7 @@ std::vector<Field<ValueKeySettings>> make_value_keys(std::string_view name, std:
                                                      Range range) {
   using K = ValueKeySettings;
   return {
-      required(field<K>("", "time", SINEW_AT(K, time), "s", "when this key holds", not_negative)),
+      required(field<K>("", "time", SINEW_AT(K, time), "s", "time of this key", not_negative)),
       required(field<K>("", name, SINEW_AT(K, value), "", help, range)),
   };
 }
@@ -160,7 +167,7 @@ std::span<const Field<FieldSettings>> field_fields() {
 
 std::span<const Field<ValueKeySettings>> strength_fields() {
   static const auto table =
-      make_value_keys("strength", "factor on the field; straight lines between keys", any);
+      make_value_keys("strength", "factor on the field; linear between keys", any);
   return table;
 }
 
@@ -171,7 +178,7 @@ std::span<const Field<MuscleSettings>> muscle_fields() {
 
 std::span<const Field<ValueKeySettings>> activation_fields() {
   static const auto table =
-      make_value_keys("activation", "share of the strength; straight lines between keys", {0, 1});
+      make_value_keys("activation", "fraction of the strength; linear between keys", {0, 1});
   return table;
 }
 
