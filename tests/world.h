@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/core/particles.h>
-#include <sinew/settings/settings.h>
 #include <sinew/physics/simulation.h>
 #include <sinew/physics/time_step.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
+#include <sinew/settings/settings.h>
 
 namespace sinew::test {
 

@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "command/command.h"
-#include "command/results.h"
-#include <sinew/settings/read_scene.h>
-#include <sinew/core/system.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/run/run_folder.h>
 #include <sinew/physics/rest_stability.h>
 #include <sinew/physics/time_step.h>
+#include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/stepper_choice.h>
 #include <sinew/scene/world.h>
+#include <sinew/settings/read_scene.h>
+#include "command/command.h"
+#include "command/results.h"
 
 namespace {
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include <sinew/scene/body.h>
+#include <sinew/settings/read_scene.h>
+#include "command/body_options.h"
 #include "command/command.h"
 #include "command/results.h"
-#include <sinew/settings/read_scene.h>
-#include <sinew/scene/body.h>
-#include "command/body_options.h"
 
 namespace {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; or what two runs have in common, and what not.
-#include "command/command.h"
-#include "command/results.h"
 #include <sinew/core/file.h>
 #include <sinew/core/requested_arrays.h>
 #include <sinew/core/system.h>
-#include <sinew/run/run_record.h>
-#include <sinew/run/compare_runs.h>
-#include <sinew/run/report_input.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
+#include <sinew/run/compare_runs.h>
+#include <sinew/run/report_input.h>
+#include <sinew/run/run_record.h>
+#include "command/command.h"
+#include "command/results.h"
 
 namespace {
 

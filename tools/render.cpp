@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "command/command.h"
-#include "command/results.h"
 #include <sinew/core/system.h>
+#include <sinew/render/display.h>
 #include <sinew/run/figure_set.h>
 #include <sinew/run/run_record.h>
-#include <sinew/render/display.h>
+#include "command/command.h"
+#include "command/results.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string help_of_views() {
   return text;
 }
 
-std::string help_of_colors() {
+std::string help_of_colormap() {
   std::string text;
   for (const NamedColorMap& named : color_maps())
     (text += text.empty() ? "One of " : ", ") += named.name;
@@ -62,7 +62,7 @@ void declare_how(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LOW,HIGH");
-  app.add_option("--colors", options.colors, help_of_colors())
+  app.add_option("--colormap", options.colors, help_of_colormap())
       ->type_name("NAME")
       ->capture_default_str();
   app.add_option("--camera", options.camera,
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
               "Draws pictures and a movie of a run.",
               {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080",
                "sinew render out/box_bend --view strain,section --times 0,0.5,1 --no-movie",
-               "sinew render out/box_bend --view forces --camera front --colors inferno",
+               "sinew render out/box_bend --view forces --camera front --colormap inferno",
                "sinew render out/paper --compare out/bonded"}};
   about.takes_scene = false;
   return run_command(

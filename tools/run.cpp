@@ -2,11 +2,10 @@
 // sinew-run: the whole job, each part by its own program.
 #include <filesystem>
 
+#include <sinew/run/run_folder.h>
 #include "command/child.h"
 #include "command/command.h"
 #include "command/results.h"
-#include "command/command.h"
-#include <sinew/run/run_folder.h>
 
 namespace {
 

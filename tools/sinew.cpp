@@ -12,9 +12,9 @@
 #include <system_error>
 #include <vector>
 
+#include <sinew/core/text.h>
 #include "command/command.h"
 #include "command/results.h"
-#include <sinew/core/text.h>
 
 namespace {
 

@@ -2,14 +2,13 @@
 // sinew-tables NAME: prints a table of the README files as Markdown. For developers; not installed.
 #include <string>
 
-#include "command/command.h"
-#include "command/settings_list.h"
-#include "command/results.h"
-#include "command/settings_list.h"
 #include <sinew/io/arrays.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/sections.h>
 #include <sinew/metrics/table.h>
+#include "command/command.h"
+#include "command/results.h"
+#include "command/settings_list.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <system_error>
 #include <vector>
 
-#include "command/command.h"
-#include <sinew/run/run_folder.h>
 #include <sinew/render/display.h>
+#include <sinew/run/run_folder.h>
+#include "command/command.h"
 
 namespace {
 

@@ -13,8 +13,7 @@ TEST(AllPairs, StepAsTheSimulationDoes) {
     const Scene scene = scene_of(condition, 3000);
     const Particles start = settled(scene, condition);
     Particles particles = start;
-    Simulation simulation =
-        simulation_of(scene, start, Precision::binary64, NeighborSearch::cells);
+    Simulation simulation = simulation_of(scene, start, Precision::binary64, NeighborSearch::cells);
     Forces forces;
     for (int step = 0; step < 3; ++step) {
       step_all_pairs(particles, scene.body, simulation.pose(), scene.step, forces);

@@ -10,13 +10,13 @@
 
 #include <algorithm>
 
-#include "bench/vtk_inside.h"
-#include <sinew/core/particles.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include <sinew/fill/filled_sites.h>
 #include <sinew/fill/inside/inside_runs.h>
 #include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>
+#include "bench/vtk_inside.h"
 #include "mesh/shapes.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <complex>
 
-#include <sinew/core/particles.h>
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include <sinew/core/triangles.h>
 
 namespace sinew::bench {

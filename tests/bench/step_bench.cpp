@@ -15,13 +15,13 @@
 #include <cstdio>
 #include <memory>
 
+#include <sinew/core/hash.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/system.h>
 #include "bench/all_pairs.h"
 #include "bench/limits.h"
 #include "bench/peak_memory.h"
 #include "bench/state_file.h"
-#include <sinew/core/hash.h>
-#include <sinew/core/parallel.h>
-#include <sinew/core/system.h>
 
 namespace {
 

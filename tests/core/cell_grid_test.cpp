@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <random>
 
-
 namespace sinew {
 namespace {
 

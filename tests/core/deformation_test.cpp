@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include <sinew/core/particles.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include "world.h"
 
 namespace sinew {

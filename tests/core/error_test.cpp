@@ -12,7 +12,8 @@ TEST(Error, TellsPlaceWhatAndCureInOneLine) {
   const Error error = bad_input({"a.yaml", 3, 7}, "it is wrong", "right it");
   EXPECT_STREQ(error.what(), "a.yaml:3:7: it is wrong; right it");
   EXPECT_EQ(error.exit(), Exit::bad_input);
-  EXPECT_STREQ(error.with_context({"b.yaml", 2}).what(), "b.yaml:2: a.yaml:3:7: it is wrong; right it");
+  EXPECT_STREQ(error.with_context({"b.yaml", 2}).what(),
+               "b.yaml:2: a.yaml:3:7: it is wrong; right it");
   EXPECT_STREQ(error.with_context({}).what(), error.what());
   EXPECT_STREQ(not_written("out/x", "the disk is full", "make room").what(),
                "out/x: the disk is full; make room");

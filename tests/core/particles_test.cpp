@@ -7,8 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include <sinew/core/hash.h>
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 #include "world.h"
 

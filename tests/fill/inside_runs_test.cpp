@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include <sinew/core/particles.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include <sinew/fill/filled_sites.h>
 #include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>

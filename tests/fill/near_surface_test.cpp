@@ -7,8 +7,8 @@
 #include <random>
 #include <tuple>
 
-#include <sinew/core/particles.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -5,16 +5,16 @@
 
 #include <functional>
 
-#include <sinew/core/particles.h>
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
 #include <sinew/core/hash.h>
-#include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include <sinew/fill/lattice.h>
 #include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>
-#include "mesh/mesh_files.h"
 #include <sinew/mesh/read_surface.h>
+#include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
 
 namespace sinew {
@@ -82,8 +82,7 @@ TEST(Pack, GivesTheMeshsMassInAll) {
 TEST(Pack, HasInnerParticlesTouching12OthersAt2r) {
   for (const Packing packing : {Packing::fcc, Packing::hcp}) {
     const Filling filling = pack(clean(shapes::sphere(1, 4)), with_radius(0.05, packing));
-    const auto lists =
-        neighbors_within(positions_of(filling.particles), rest_neighbor_range(0.05));
+    const auto lists = neighbors_within(positions_of(filling.particles), rest_neighbor_range(0.05));
     for (std::size_t i = 0; i < filling.particles.size(); ++i) {
       ASSERT_EQ(filling.neighbors[i], static_cast<int>(lists.of(i).size()));
       ASSERT_TRUE(filling.neighbors[i] == 12 || filling.particles.position(i).norm() > 0.85);

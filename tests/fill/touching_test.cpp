@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sinew/core/particles.h>
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/particles.h>
 #include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 

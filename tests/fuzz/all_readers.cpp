@@ -4,8 +4,11 @@
 namespace sinew::fuzz {
 
 std::vector<Target> tried_targets() {
-  return {{"bvh", bvh}, {"checkpoint", checkpoint}, {"gltf", gltf}, {"obj", obj}, {"off", off},
-          {"ply", ply}, {"pvd", pvd}, {"scene", scene}, {"stl", stl}, {"vtu", vtu}};
+  return {{"bvh", bvh},   {"checkpoint", checkpoint},
+          {"gltf", gltf}, {"obj", obj},
+          {"off", off},   {"ply", ply},
+          {"pvd", pvd},   {"scene", scene},
+          {"stl", stl},   {"vtu", vtu}};
 }
 
 }  // namespace sinew::fuzz

@@ -2,12 +2,12 @@
 // Scenes, and what a run leaves behind.
 #include <cstring>
 
-#include <sinew/settings/write_scene.h>
-#include <sinew/settings/read_scene.h>
 #include <sinew/core/hash.h>
 #include <sinew/io/checkpoint.h>
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
+#include <sinew/settings/read_scene.h>
+#include <sinew/settings/write_scene.h>
 #include "targets.h"
 
 namespace sinew::fuzz {

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include <sinew/core/error.h>
+#include <sinew/mesh/read_surface.h>
 #include "expect_error.h"
 #include "mesh/mesh_files.h"
-#include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 

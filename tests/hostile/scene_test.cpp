@@ -8,11 +8,11 @@
 
 #include <random>
 
-#include "settings/small_scene.h"
-#include "settings/temp_folder.h"
+#include <sinew/rig/motion.h>
 #include <sinew/settings/table.h>
 #include "hostile/scenes.h"
-#include <sinew/rig/motion.h>
+#include "settings/small_scene.h"
+#include "settings/temp_folder.h"
 
 namespace sinew {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/io/gltf/rig.h>
+#include <sinew/scene/rig.h>
 
+#include <sinew/io/gltf/geometry.h>
+#include <sinew/rig/motion.h>
 #include <sinew/settings/read_scene.h>
 #include "expect_error.h"
-#include <sinew/io/gltf/geometry.h>
 #include "io/gltf_rigs.h"
-#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <sinew/core/vector.h>
 #include <sinew/io/gltf/rig.h>
-#include "io/gltf_files.h"
 #include <sinew/rig/motion.h>
+#include "io/gltf_files.h"
 
 namespace sinew::gltf_files {
 

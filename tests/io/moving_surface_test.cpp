@@ -3,8 +3,8 @@
 #include <sinew/io/gltf/moving_surface.h>
 
 #include <sinew/io/gltf/geometry.h>
-#include "io/gltf_rigs.h"
 #include <sinew/io/point_cache.h>
+#include "io/gltf_rigs.h"
 
 namespace sinew {
 namespace {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <sinew/core/triangles.h>
-#include <sinew/io/single_files.h>
 #include <sinew/io/frames.h>
+#include <sinew/io/single_files.h>
 #include <sinew/rig/motion.h>
 
 namespace sinew {

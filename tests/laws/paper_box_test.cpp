@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include <sinew/scene/rig.h>
 #include <sinew/core/deformation.h>
+#include <sinew/scene/rig.h>
 #include "world.h"
 
 namespace sinew {

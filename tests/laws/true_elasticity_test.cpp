@@ -2,9 +2,9 @@
 // What has bonds comes back from where the paper's body flows.
 #include <gtest/gtest.h>
 
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/core/deformation.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 #include "world.h"
 
 namespace sinew {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <thread>
 
-#include "expect_error.h"
 #include <sinew/mesh/read_surface.h>
+#include "expect_error.h"
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include <sinew/core/parallel.h>
-#include "expect_error.h"
 #include <sinew/mesh/read_surface.h>
+#include "expect_error.h"
 #include "mesh/shapes.h"
 
 namespace sinew {

@@ -208,7 +208,8 @@ TEST(SideBySide, AFieldThatOnlyOneHasIsNoneForTheOther) {
   const RestBody without = rest_body(box_input());
   RestInput input = box_input();
   input.law.force = [](double d) { return 2 * r - d; };
-  const Playback both = side_by_side(playback_of(without), playback_of(rest_body(input)), {"a: ", "b: "});
+  const Playback both =
+      side_by_side(playback_of(without), playback_of(rest_body(input)), {"a: ", "b: "});
   const auto& stress = both.frames[0].values[4];
   ASSERT_EQ(stress.size(), 2 * without.particles());
   EXPECT_TRUE(std::isnan(stress.front()));

@@ -6,15 +6,14 @@
 #include <regex>
 
 #include <sinew/core/requested_arrays.h>
-#include "golden.h"
 #include <sinew/metrics/bone_metrics.h>
-#include <sinew/metrics/files.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/report/comparison_page.h>
 #include <sinew/metrics/report/page.h>
 #include <sinew/metrics/report/report.h>
 #include <sinew/metrics/summary.h>
+#include "golden.h"
 #include "world.h"
 
 namespace sinew::test {
@@ -209,7 +208,8 @@ TEST(Golden, TheComparisonIsWhatItWas) {
   const Measured one = measured(1, 2e-3), other = measured(0.8, 2e-3);
   const RunComparison both = compare(compared("one", one), compared("other", other));
   const ComparisonInput input{
-      "1.2.3", both, side_by_side(one.playback, other.playback, {"one: ", "other: "}), {}, "a", "b"};
+      "1.2.3", both, side_by_side(one.playback, other.playback, {"one: ", "other: "}),
+      {},      "a",  "b"};
   expect_golden("metrics/golden/comparison.csv", rounded_columns(comparison_csv(both)));
   expect_golden("metrics/golden/comparison.html", own_part(comparison_html(input)));
 }

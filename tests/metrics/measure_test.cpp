@@ -7,8 +7,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
-#include "expect_error.h"
 #include <sinew/metrics/table.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew::test {

@@ -49,8 +49,9 @@ TEST(Playback, ThinsALargeBodyToAPageOfTenMegabytes) {
   EXPECT_LT(playback.particles.size(), body.particles() / 2);
   ASSERT_EQ(playback.balls.size(), 1u);  // as much of them as of all particles
   EXPECT_EQ(playback.balls[0].count, playback.particles.size());
-  EXPECT_NEAR(static_cast<double>(playback.particles.size()) * std::pow(playback.balls[0].radius / r, 3),
-              static_cast<double>(body.particles()), 1e-6);
+  EXPECT_NEAR(
+      static_cast<double>(playback.particles.size()) * std::pow(playback.balls[0].radius / r, 3),
+      static_cast<double>(body.particles()), 1e-6);
   EXPECT_TRUE(std::is_sorted(playback.particles.begin(), playback.particles.end()));
   EXPECT_LT(playback_json(playback).size(), 8u << 20);
 }

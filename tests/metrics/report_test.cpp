@@ -7,8 +7,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/metrics/report/page.h>
-#include <sinew/metrics/table.h>
 #include <sinew/metrics/summary.h>
+#include <sinew/metrics/table.h>
 #include "world.h"
 
 namespace sinew::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What bones' motions may do to lists is bounded from above, and not by far too much.
-#include <sinew/scene/rig.h>
 #include <sinew/physics/lists/approach_bounds.h>
+#include <sinew/scene/rig.h>
 
 #include <numeric>
 

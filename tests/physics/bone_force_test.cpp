@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/physics/bone_force.h>
+#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <numeric>
 
-#include <sinew/scene/rig.h>
 #include <sinew/core/parallel.h>
 #include <sinew/physics/forces.h>
+#include <sinew/scene/rig.h>
 #include "world.h"
 
 namespace sinew {

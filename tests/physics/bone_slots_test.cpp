@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel's bone forces are those of bone_force.h, wherever particles are about their bones.
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/physics/lists/bone_slots.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 
 #include <numeric>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames between bones share out the turn of a joint, and bent flesh moves on them.
-#include <sinew/scene/rig.h>
 #include <sinew/physics/lists/comoving_frames.h>
+#include <sinew/scene/rig.h>
 
 #include <set>
 
@@ -117,7 +117,8 @@ TEST(ComovingFrames, MoveAsTheirVelocitiesSay) {
         return Vec3(pose.frame.origin + pose.frame.rotation * at);
       };
       const Vec3 velocity = (place(after[c]) - place(before[c])) / (2 * h);
-      EXPECT_LT((velocity - now[c].velocity_at(place(now[c]))).norm(), 1e-6) << "comoving_frame " << c;
+      EXPECT_LT((velocity - now[c].velocity_at(place(now[c]))).norm(), 1e-6)
+          << "comoving_frame " << c;
     }
 }
 

@@ -326,8 +326,10 @@ struct Snapshots {
 };
 
 Simulation begin(const Snapshots& snapshots) {
-  return {snapshots.body, motion_of(snapshots.settings, snapshots.body.skeleton), snapshots.particles,
-          stepping_of(snapshots.settings.solver, test::step_of(snapshots.settings, snapshots.body, 0.2))};
+  return {snapshots.body, motion_of(snapshots.settings, snapshots.body.skeleton),
+          snapshots.particles,
+          stepping_of(snapshots.settings.solver,
+                      test::step_of(snapshots.settings, snapshots.body, 0.2))};
 }
 
 void expect_pairs_through_snapshots(Precision precision, bool moving) {
@@ -341,12 +343,14 @@ void expect_pairs_through_snapshots(Precision precision, bool moving) {
 }
 
 TEST(ListsThrough, AFewParticlesThatFlyThroughAMovingScene) {
-  for (const Precision precision : test::precisions) expect_pairs_through_snapshots(precision, true);
+  for (const Precision precision : test::precisions)
+    expect_pairs_through_snapshots(precision, true);
 }
 
 // No list is made anew for the bones' sake: what meets was paired while it flew.
 TEST(ListsThrough, AFewParticlesThatFlyThroughAStillScene) {
-  for (const Precision precision : test::precisions) expect_pairs_through_snapshots(precision, false);
+  for (const Precision precision : test::precisions)
+    expect_pairs_through_snapshots(precision, false);
 }
 
 TEST(ListsThrough, LongWaysKeepTheirPlaceInBothPrecisions) {

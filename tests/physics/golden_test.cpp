@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/physics/rest_stability.h>
 #include <sinew/physics/simulation.h>
 #include <sinew/physics/time_step.h>
 #include <sinew/physics/world/world.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 #include "world.h"
 
 namespace sinew {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "expect_error.h"
 #include <sinew/physics/forces.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew {

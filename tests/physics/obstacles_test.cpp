@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/physics/world/obstacle.h>
+#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
-#include "expect_error.h"
 #include <sinew/physics/forces.h>
 #include <sinew/physics/world/world.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew {

@@ -56,7 +56,7 @@ std::vector<std::set<std::int32_t>> by_all_pairs(World<Real>& world, double rang
 
 /// The same for many points, in meters.
 std::vector<std::set<std::int32_t>> by_neighbors(const Points& points, double range,
-                                                  std::size_t block) {
+                                                 std::size_t block) {
   const NeighborLists near = neighbors_within(points, range);
   std::vector<std::set<std::int32_t>> differences((points.size() + block - 1) / block);
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation that is saved and restored goes on with the bits of one that never stopped, wherever
 // it stops and on any number of threads, while particles are sorted and measured anew.
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/core/parallel.h>
-#include "expect_error.h"
 #include <sinew/physics/world/world.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
+#include "expect_error.h"
 #include "ways.h"
 
 namespace sinew {
@@ -287,8 +287,8 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   refuse(bend("", binary64, 17), good, "particles, not");
   refuse(bend("", binary32), good, "precision");
   refuse(tearing("", MaterialModel::bonded), good, "particles, not");
-  refuse(with(bend("", binary64, 17), NeighborSearch::cells),
-         bend("", binary32, 17).begin().save(), "single precision");
+  refuse(with(bend("", binary64, 17), NeighborSearch::cells), bend("", binary32, 17).begin().save(),
+         "single precision");
   SimulationState bad = good;
   bad.order[3] = bad.order[4];
   refuse(bend("", binary64), bad, "twice");

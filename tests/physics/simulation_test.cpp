@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/physics/simulation.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 
 #include <gtest/gtest.h>
 

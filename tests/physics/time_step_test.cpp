@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Step limits from both sides: noise on a body at rest stays small just below, and grows above.
-#include <sinew/scene/setup.h>
 #include <sinew/physics/time_step.h>
+#include <sinew/scene/setup.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 // the cells they are held against.
 #pragma once
 
-#include <sinew/scene/setup.h>
 #include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 
 #include <gtest/gtest.h>
 

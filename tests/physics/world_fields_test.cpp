@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "expect_error.h"
-#include <sinew/scene/rig.h>
 #include <sinew/physics/world/force_field.h>
 #include <sinew/physics/world/pins.h>
 #include <sinew/physics/world/world.h>
+#include <sinew/scene/rig.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew {

@@ -2,10 +2,10 @@
 // Whole bodies among obstacles, pins, fields and muscles.
 #include <gtest/gtest.h>
 
-#include <sinew/scene/setup.h>
-#include <sinew/scene/rig.h>
 #include <sinew/physics/simulation.h>
 #include <sinew/physics/world/world.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 #include "world.h"
 
 namespace sinew {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/physics/world/shapes.h>
+#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "expect_error.h"
 #include <sinew/physics/world/region.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew {

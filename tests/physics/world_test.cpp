@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <sinew/core/parallel.h>
-#include "expect_error.h"
 #include <sinew/physics/world/world.h>
+#include "expect_error.h"
 
 namespace sinew {
 namespace {

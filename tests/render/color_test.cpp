@@ -25,8 +25,7 @@ TEST(ColorMap, equal_steps_look_equal) {
     double length = 0, longest = 0, shortest = 1;
     for (int i = 1; i <= whole; ++i) {
       const double step =
-          (oklab(mapped_color(i / whole, map)) - oklab(mapped_color((i - 1) / whole, map)))
-              .norm();
+          (oklab(mapped_color(i / whole, map)) - oklab(mapped_color((i - 1) / whole, map))).norm();
       length += step, longest = std::max(longest, step), shortest = std::min(shortest, step);
     }
     EXPECT_LT(longest, 1.35 * length / whole) << name;  // rounding is coarse near black

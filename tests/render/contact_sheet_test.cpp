@@ -10,7 +10,8 @@ namespace sinew {
 namespace {
 
 std::vector<Snapshot> bending() {
-  std::vector<Snapshot> snapshots{synthetic_snapshot(0, 0), synthetic_snapshot(0.8, 0), synthetic_snapshot(1.6, 0)};
+  std::vector<Snapshot> snapshots{synthetic_snapshot(0, 0), synthetic_snapshot(0.8, 0),
+                                  synthetic_snapshot(1.6, 0)};
   for (Snapshot& snapshot : snapshots) snapshot.caption = "bent\n1.00 s";
   return snapshots;
 }

@@ -14,9 +14,9 @@ std::string self() { return std::filesystem::read_symlink("/proc/self/exe").stri
 
 /// Runs this program's test of an empty snapshot in another environment.
 int draw_with(const std::string& environment, std::string* output) {
-  return run(
-      "env " + environment + " " + self() + " --gtest_filter=Picture.an_empty_snapshot_is_white 2>&1",
-      output);
+  return run("env " + environment + " " + self() +
+                 " --gtest_filter=Picture.an_empty_snapshot_is_white 2>&1",
+             output);
 }
 
 TEST(Display, none_is_replaced_by_xvfb) {

@@ -22,7 +22,8 @@ struct BentBody {
 
 TEST(Figure, shows_its_panels_side_by_side_above_the_caption_and_the_colors) {
   BentBody body;
-  const Image image = figure({body.panel(View::surface), body.panel(View::particles)}, body.options);
+  const Image image =
+      figure({body.panel(View::surface), body.panel(View::particles)}, body.options);
   EXPECT_EQ(image.width, 640);
   EXPECT_EQ(image.height, 360);
   EXPECT_GT(painted(image, 0, 0, 320, 280), 0.2);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/render/image.h>
 
-#include "helpers.h"
 #include <sinew/render/text.h>
+#include "helpers.h"
 
 namespace sinew {
 namespace {

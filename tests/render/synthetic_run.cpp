@@ -104,7 +104,7 @@ Snapshot synthetic_snapshot(double bend, double twist) {
   snapshot.surface = BoxMesh().surface;
   for (Vec3& p : snapshot.surface.points) p = deformed(p, bend, twist);
   snapshot.bones = {bone(0.02, size.z() / 2 - 0.02, 0, 0),
-                bone(size.z() * 0.7, size.z() * 0.28, bend, twist)};
+                    bone(size.z() * 0.7, size.z() * 0.28, bend, twist)};
   return snapshot;
 }
 

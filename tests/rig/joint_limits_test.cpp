@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 

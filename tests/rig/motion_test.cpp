@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/rig/motion.h>
+#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
-#include "expect_error.h"
 #include <sinew/rig/pose.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew {

@@ -3,11 +3,11 @@
 // of.
 #include <gtest/gtest.h>
 
-#include "expect_error.h"
-#include <sinew/scene/rig.h>
+#include <sinew/core/vector.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
-#include <sinew/core/vector.h>
+#include <sinew/scene/rig.h>
+#include "expect_error.h"
 #include "world.h"
 
 namespace sinew {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
 #include <sinew/rig/skin.h>
+#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include <sinew/core/particles.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
 #include "world.h"
 
 namespace sinew {

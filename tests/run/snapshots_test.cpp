@@ -34,7 +34,8 @@ TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const RunFiles files = open_run(run_at);
   for (const auto& [frame, stretch] : {std::pair(0, 1.0), {1, 1.25}, {2, 1.5}}) {
-    const Snapshot snapshot = snapshot_of(files, read_frame(files, static_cast<std::size_t>(frame)), 0);
+    const Snapshot snapshot =
+        snapshot_of(files, read_frame(files, static_cast<std::size_t>(frame)), 0);
     const SnapshotBone &lower = snapshot.bones.at(0), &upper = snapshot.bones.at(1);
     EXPECT_NEAR((lower.tail - lower.head).norm(), 0.34648, 1e-6);
     EXPECT_NEAR((upper.tail - upper.head).norm(), stretch * 0.34648, 1e-6) << frame;

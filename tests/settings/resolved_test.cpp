@@ -9,10 +9,10 @@
 
 #include <sinew/settings/checks.h>
 #include <sinew/settings/read_scene.h>
-#include "settings/small_scene.h"
-#include "settings/temp_folder.h"
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
+#include "settings/small_scene.h"
+#include "settings/temp_folder.h"
 
 namespace sinew {
 namespace {

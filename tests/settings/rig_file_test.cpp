@@ -2,12 +2,12 @@
 // A rig and a clip that stand in YAML files of their own.
 #include <gtest/gtest.h>
 
+#include <sinew/rig/motion.h>
 #include <sinew/scene/rig.h>
+#include <sinew/settings/read_scene.h>
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/write_scene.h>
-#include <sinew/settings/read_scene.h>
 #include "settings/temp_folder.h"
-#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

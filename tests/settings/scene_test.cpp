@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sinew/rig/motion.h>
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
-#include <sinew/rig/motion.h>
 
 namespace sinew {
 namespace {

@@ -49,7 +49,8 @@ TEST(ValuesText, SaysWhatMayBeGiven) {
 }
 
 TEST(Words, NearestForgivesSmallMistakes) {
-  const std::vector<std::string_view> names = {"radius", "count", "packing", "time_step", "tail", "a", "b"};
+  const std::vector<std::string_view> names = {"radius", "count", "packing", "time_step",
+                                               "tail",   "a",     "b"};
   EXPECT_EQ(nearest("raduis", names), "radius");
   EXPECT_EQ(nearest("Count", names), "count");
   EXPECT_EQ(nearest("tial", names), "tail");

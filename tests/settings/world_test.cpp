@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <sinew/settings/write_scene.h>
 #include <sinew/settings/read_scene.h>
+#include <sinew/settings/write_scene.h>
+#include "expect_error.h"
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
-#include "expect_error.h"
 
 namespace sinew {
 namespace {

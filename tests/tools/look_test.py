@@ -91,7 +91,7 @@ class ViewPreset(unittest.TestCase):
 
     def test_camera_colors_range_and_array_change_the_picture(self):
         ways = [[], ["--camera", "front"], ["--camera", "1,0,0.5"], ["--camera", "top"],
-                ["--colors", "cividis"], ["--range", "0,0.01"], ["--array", "velocity"]]
+                ["--colormap", "cividis"], ["--range", "0,0.01"], ["--array", "velocity"]]
         drawn = set()
         for way in ways:
             done = self.render("--times", "0.2", "--no-movie", *way)
@@ -107,7 +107,7 @@ class ViewPreset(unittest.TestCase):
 
     def test_mistakes_are_told_with_their_cure(self):
         for words, part in [(["--view", "secton"], "did you mean section?"),
-                            (["--colors", "jet"], "viridis"),
+                            (["--colormap", "jet"], "viridis"),
                             (["--array", "displacment"], "did you mean displacement?"),
                             (["--range", "1,0"], "--range 0,0.5"),
                             (["--camera", "0,0,0"], "--camera 1,-2,0.5"),

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include <sinew/settings/table.h>
 #include <sinew/scene/body.h>
+#include <sinew/settings/table.h>
 
 namespace sinew {
 namespace {

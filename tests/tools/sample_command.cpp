@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A command that does little more than what all commands share; command_test.cpp runs it.
+#include <sinew/core/parallel.h>
+#include <sinew/settings/read_scene.h>
 #include "command/command.h"
 #include "command/progress.h"
 #include "command/results.h"
-#include <sinew/settings/read_scene.h>
-#include <sinew/core/parallel.h>
 
 using namespace sinew;
 

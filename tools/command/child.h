@@ -7,8 +7,8 @@
 
 namespace sinew {
 
-// A user's wish to stop (SIGINT, SIGTERM, a terminal that is closed), to be looked at where stopping
-// leaves nothing torn.
+// A user's wish to stop (SIGINT, SIGTERM, a terminal that is closed), to be looked at where
+// stopping leaves nothing torn.
 
 /// Whether SIGHUP was ignored when the program began, as under nohup.
 bool survives_its_terminal();

@@ -7,10 +7,10 @@
 #include <exception>
 #include <new>
 
-#include "command/results.h"
-#include "command/settings_list.h"
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
+#include "command/results.h"
+#include "command/settings_list.h"
 
 namespace sinew {
 namespace {

@@ -11,7 +11,7 @@ namespace sinew {
 /// What the rest state fixes once: neighbors and the inverse of sum dX dX^T for each point.
 struct RestShape {
   Points points;              ///< n x 3, m
-  NeighborLists neighbors;  ///< pairs at rest closer than the range given
+  NeighborLists neighbors;    ///< pairs at rest closer than the range given
   std::vector<Mat3> inverse;  ///< (sum dX dX^T)^-1, 1/m^2; zero where the neighbors lie in a plane
 
   /// Whether point i has enough neighbors (not all in one plane) to define a gradient.

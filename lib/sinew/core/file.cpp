@@ -4,8 +4,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cerrno>
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -153,8 +153,7 @@ std::string read_file(const fs::path& path, std::uint64_t limit) {
   if (!S_ISREG(status.st_mode))
     throw bad_input({path.string()}, "is not a regular file", "name a file");
   std::string text;
-  if (status.st_size > 0)
-    text.reserve(std::min(limit, static_cast<std::uint64_t>(status.st_size)));
+  if (status.st_size > 0) text.reserve(std::min(limit, static_cast<std::uint64_t>(status.st_size)));
   std::string piece(1 << 16, '\0');
   while (const ssize_t count = ::read(file, piece.data(), piece.size())) {
     if (count < 0 && errno == EINTR) continue;

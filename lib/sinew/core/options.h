@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What describes a body, its material, its bones and their motion: plain values with their defaults,
-// as a scene holds them and the algorithms take them. SI units, angles in degrees; "radii" are
-// multiples of the particle radius. What each value means stands in the table of settings.
+// What describes a body, its material, its bones and their motion: plain values with their
+// defaults, as a scene holds them and the algorithms take them. SI units, angles in degrees;
+// "radii" are multiples of the particle radius. What each value means stands in the table of
+// settings.
 //
 //     MaterialOptions options;
 //     options.young_modulus = 5e3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All of a simulation that steps change, to the last bit: what a simulation of the same body needs
-// to go on as if it had never stopped. Partners, co-moving frames and bounds of what has moved are found
-// anew: no bit of positions or velocities depends on them.
+// to go on as if it had never stopped. Partners, co-moving frames and bounds of what has moved are
+// found anew: no bit of positions or velocities depends on them.
 #pragma once
 
 #include <array>
@@ -50,15 +50,15 @@ struct WholeNumbers {
   double length = 1;           ///< m
   Vec3 origin = Vec3::Zero();  ///< m
   Box box;                     ///< around all particles when that was looked at, m
-  double traveled = 0;        ///< at most, since then, m
+  double traveled = 0;         ///< at most, since then, m
 };
 
 struct SimulationState {
   std::int64_t steps = 0;
   LedgerEntries ledger;
-  LedgerEntries world_ledger;    ///< of obstacles, fields, muscles and pins
-  double held_at_start = 0;  ///< kinetic energy of what pins hold, J
-  bool kicked = false;       ///< velocities are half a step ahead (velocity Verlet)
+  LedgerEntries world_ledger;  ///< of obstacles, fields, muscles and pins
+  double held_at_start = 0;    ///< kinetic energy of what pins hold, J
+  bool kicked = false;         ///< velocities are half a step ahead (velocity Verlet)
   std::variant<MovingInDouble, MovingInSingle> moving;
   std::vector<std::uint32_t> order;  ///< whose they are, as places in the caller's order
   WholeNumbers whole_numbers;        ///< of single precision

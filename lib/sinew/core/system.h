@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program and the machine it runs on: its version, the memory that is free, the time that passes.
+// The program and the machine it runs on: its version, the memory that is free, the time that
+// passes.
 #pragma once
 
 #include <chrono>
@@ -11,7 +12,8 @@ namespace sinew {
 /// "0.2.0"
 std::string version();
 
-/// How much memory can be taken without swapping, bytes: the kernel's estimate (free pages and what caches give back), else the free pages alone.
+/// How much memory can be taken without swapping, bytes: the kernel's estimate (free pages and what
+/// caches give back), else the free pages alone.
 double available_memory();
 
 /// Seconds per stage, for reports.

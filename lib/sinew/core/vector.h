@@ -2,10 +2,10 @@
 // The vectors and matrices every room speaks in. Meters, seconds, kilograms unless said otherwise.
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace sinew {

@@ -39,7 +39,7 @@ struct FillReport {
   bool volume_of_mesh = true;
   Moments mesh, packed;
   Vec3 box_size = Vec3::Zero();                     ///< of the mesh, m
-  std::array<std::size_t, 13> neighbors = {};      ///< particles with 0, 1, .. 12
+  std::array<std::size_t, 13> neighbors = {};       ///< particles with 0, 1, .. 12
   double smallest_distance = 0, mean_distance = 0;  ///< to the nearest, over 2r; 0: none touch
   std::vector<BodyReport> bodies;
   int cavities = 0;

@@ -61,7 +61,7 @@ Lattice coarse_lattice(const Box& box);
 
 struct Touching {
   std::vector<std::int32_t> neighbors;  ///< per site of the runs, in their order: 0 to 12
-  std::vector<std::int32_t> group;       ///< per run: sites that hang together, by their first run
+  std::vector<std::int32_t> group;      ///< per run: sites that hang together, by their first run
   std::int32_t groups = 0;
 };
 

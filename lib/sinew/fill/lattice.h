@@ -16,9 +16,9 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/options.h>
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include <sinew/core/options.h>
 #include <sinew/core/particles.h>
 #include <sinew/fill/fill_report.h>
 #include <sinew/mesh/surface.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

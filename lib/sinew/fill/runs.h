@@ -2,11 +2,11 @@
 // Sets of lattice sites as runs of sites that follow each other in a row, and their difference.
 #pragma once
 
-#include <limits>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 

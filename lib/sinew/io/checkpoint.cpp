@@ -283,8 +283,9 @@ Checkpoint read_checkpoint(const fs::path& path, std::uint64_t particles) {
         read_file(path, particles * most_bytes_per_particle + most_bytes_beside);
     return parsed(text, particles);
   } catch (const Error& error) {
-    throw std::string_view(error.what()).starts_with(path.string()) ? error
-                                                                    : error.with_context({path.string()});
+    throw std::string_view(error.what()).starts_with(path.string())
+        ? error
+        : error.with_context({path.string()});
   }
 }
 

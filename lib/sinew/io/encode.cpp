@@ -112,7 +112,7 @@ ValueRange range_of(const FileArray& array, int components) {
 namespace {
 
 constexpr std::size_t blocks_per_piece = 16;  // enough to pay for a compressor of its own
-constexpr int fastest = 1;  // moving floats gain nothing from the slower levels
+constexpr int fastest = 1;                    // moving floats gain nothing from the slower levels
 
 class Compressor {
  public:

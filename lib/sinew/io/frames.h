@@ -21,12 +21,12 @@ struct Moment {
 
 /// What is known of the particles at one moment. All spans are as long as there are particles.
 struct ParticleFrame {
-  const Particles& now;                      ///< in any order
-  const Points& rest;                        ///< m, in the written order
-  std::span<const std::int32_t> bone;        ///< in the written order
-  std::span<const Vec3> force_pair;          ///< N; these in the order of `now`
-  std::span<const Vec3> force_damping;       ///< N
-  std::span<const Vec3> force_bone;          ///< N
+  const Particles& now;                     ///< in any order
+  const Points& rest;                       ///< m, in the written order
+  std::span<const std::int32_t> bone;       ///< in the written order
+  std::span<const Vec3> force_pair;         ///< N; these in the order of `now`
+  std::span<const Vec3> force_damping;      ///< N
+  std::span<const Vec3> force_bone;         ///< N
   std::span<const std::int32_t> neighbors;  ///< partners within b
   Energies energies;
   std::span<const double> weight;          ///< of the bone in each particle, in the written order

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <sinew/core/dataset.h>
+#include <sinew/core/options.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/frames.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -39,8 +39,8 @@ void write_blowup(const std::filesystem::path& path, const BlowupFrame& frame, M
 struct DefectsFile {
   Triangles surface;
   std::vector<std::array<std::int32_t, 2>> edges;  ///< points of each defective edge
-  std::vector<std::int32_t> defect;   ///< 0 none, 1 open, 2 crowded, 3 twisted edge; 4 turned,
-                                      ///< 5 cutting, 6 flat face
+  std::vector<std::int32_t> defect;     ///< 0 none, 1 open, 2 crowded, 3 twisted edge; 4 turned,
+                                        ///< 5 cutting, 6 flat face
   std::vector<std::int32_t> component;  ///< -1 for edges
   std::vector<std::int32_t> hole;       ///< -1 for faces and closed edges
 };
@@ -52,7 +52,7 @@ void write_defects(const std::filesystem::path& path, const DefectsFile& defects
 
 struct BodyFile {
   Particles particles;                            ///< at rest, in the written order
-  std::vector<std::int32_t> neighbors;           ///< touching particles of each
+  std::vector<std::int32_t> neighbors;            ///< touching particles of each
   std::vector<std::int32_t> component;            ///< connected piece of each, from 0
   std::optional<std::vector<std::int32_t>> bone;  ///< of each, once bound
   std::optional<std::vector<double>> weight;      ///< that bone's share in it, once bound

@@ -2,9 +2,9 @@
 // From what a file holds to a surface that can be filled.
 #pragma once
 
+#include <sinew/core/options.h>
 #include <sinew/core/triangles.h>
 #include <sinew/mesh/surface.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/mesh/repair.h>
 
-#include <CGAL/alpha_wrap_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -15,8 +15,8 @@ namespace sinew {
 
 // What closes holes.
 
-/// Faces over copies of the loop's points that go along its edges in the other direction. Each halves
-/// what is left of the loop: most of them are small and near the border. Appends to `caps`.
+/// Faces over copies of the loop's points that go along its edges in the other direction. Each
+/// halves what is left of the loop: most of them are small and near the border. Appends to `caps`.
 void add_cap(const Loop& loop, const Points& points, Triangles& caps);
 
 /// All of them, in the order of the loops.

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <sinew/metrics/table.h>
 #include <sinew/core/text.h>
+#include <sinew/metrics/table.h>
 
 namespace sinew {
 namespace {

@@ -7,11 +7,11 @@
 #include <span>
 #include <string>
 
+#include <sinew/core/text.h>
 #include <sinew/metrics/comparison.h>
 #include <sinew/metrics/frame.h>
 #include <sinew/metrics/limits.h>
 #include <sinew/metrics/summary.h>
-#include <sinew/core/text.h>
 
 namespace sinew {
 

@@ -29,7 +29,7 @@ struct FrameState {
   Points surface_points;          ///< in the order of the surface at rest, m
   std::vector<RigidFrame> bones;  ///< where each bone is
   Energies energies;
-  std::vector<double> bone_lengths;  ///< head to tail, m; empty: as at rest
+  std::vector<double> bone_lengths;             ///< head to tail, m; empty: as at rest
   std::vector<std::int32_t> broken_bonds = {};  ///< of each particle; empty: it has no bonds
 };
 

@@ -6,9 +6,9 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/text.h>
 #include <sinew/metrics/surface_distortion.h>
 #include <sinew/metrics/table.h>
-#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

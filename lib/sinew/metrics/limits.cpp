@@ -11,7 +11,6 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/metrics/table.h>
-#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/particle_values.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <Eigen/Eigenvalues>
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
@@ -86,7 +86,7 @@ Within count_within(std::size_t count, double near, double far, const Squared& s
 }
 
 void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& now,
-                      std::span<const Partner> partners, std::size_t i) {
+                     std::span<const Partner> partners, std::size_t i) {
   const double near = rest_neighbor_range(rest.radius), far = rest.interaction_range;
   const auto before = rest.shape.neighbors.of(i);
   const Within all =
@@ -183,7 +183,6 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
 }
 
 namespace {
-
 
 template <std::size_t n>
 using Values = std::array<double, n>;

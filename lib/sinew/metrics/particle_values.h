@@ -26,7 +26,7 @@ struct ParticleValues {
   std::vector<double> strain;        ///< sqrt(2/3 dev H : dev H), H = ln(F^T F) / 2 (Hencky)
   std::vector<double> stretch;       ///< the largest of U = sqrt(F^T F)
   std::vector<double> D2min;         ///< mean |dx - F dX|^2 over the rest neighbors, m^2
-  std::vector<double> neighbors;    ///< closer than b
+  std::vector<double> neighbors;     ///< closer than b
   std::vector<double> lost;          ///< neighbors at rest that are at b or farther
   std::vector<double> gained;        ///< particles closer than 2.2 r that were not at rest
   std::vector<double> turnover;      ///< (lost + gained) / neighbors at rest

@@ -200,8 +200,8 @@ std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const S
   return {
       judged("volume error", volume, with_unit(100 * volume, 2, " %"), volume_scale),
       judged("from the rigid pose, away from joints", pose, with_unit(pose, 2, " r"), pose_scale),
-      judged(bonded ? "broken bonds" : "broken neighbors", broken,
-             with_unit(100 * broken, 2, " %"), broken_scale),
+      judged(bonded ? "broken bonds" : "broken neighbors", broken, with_unit(100 * broken, 2, " %"),
+             broken_scale),
       judged("inverted particles", inverted, with_unit(inverted, 0, ""), inverted_scale),
       last_item(frames, summary, radius)};
 }

@@ -6,10 +6,10 @@
 
 #include <vector>
 
+#include <sinew/core/options.h>
 #include <sinew/physics/material.h>
 #include <sinew/rig/binding.h>
 #include <sinew/rig/pose.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

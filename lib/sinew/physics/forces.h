@@ -20,7 +20,7 @@ struct World;
 /// Forces in the order of the particles, N.
 struct Forces {
   Points pair, damping, bone;
-  Points world;                 ///< obstacles, drag, fields, muscles; empty where there is no world
+  Points world;                ///< obstacles, drag, fields, muscles; empty where there is no world
   std::vector<int> neighbors;  ///< partners nearer than b
 
   // Of bone_forces only: a simulation's own forces leave them out.

@@ -3,9 +3,9 @@
 // closest-packed bodies with bonds of stiffness k at distance d0 = 2r.
 #pragma once
 
+#include <sinew/core/options.h>
 #include <sinew/physics/elasticity.h>
 #include <sinew/physics/pair_force.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

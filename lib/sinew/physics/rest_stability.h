@@ -8,8 +8,8 @@
 // Strains, not the stiffness at rest, because eq. 1 changes its slope where its range ends.
 #pragma once
 
-#include <sinew/physics/material.h>
 #include <sinew/core/options.h>
+#include <sinew/physics/material.h>
 
 namespace sinew {
 

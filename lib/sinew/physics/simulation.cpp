@@ -25,7 +25,8 @@ const Particles& checked(const Particles& particles) {
 }
 
 bool is_finite(const LedgerEntries& ledger) {
-  return std::isfinite(ledger.work) && std::isfinite(ledger.dissipation) && std::isfinite(ledger.power);
+  return std::isfinite(ledger.work) && std::isfinite(ledger.dissipation) &&
+         std::isfinite(ledger.power);
 }
 
 }  // namespace
@@ -187,7 +188,8 @@ SimulationState Simulation::save() const {
 
 void Simulation::restore(const SimulationState& state) {
   if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
-  if (!is_finite(state.ledger) || !is_finite(state.world_ledger) || !std::isfinite(state.held_at_start))
+  if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
+      !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
   std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
   steps_ = state.steps;

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include <sinew/core/options.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/physics/forces.h>
@@ -21,7 +22,6 @@
 #include <sinew/physics/stepper.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/pose.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

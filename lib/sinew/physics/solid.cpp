@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/solid.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Eigenvalues>
 #include <utility>
 
 #include <sinew/core/particles.h>
@@ -111,8 +111,7 @@ double weight_of(const Mat3& A, double d0) {
 }  // namespace
 
 bool remembers_neighbors(const Material& material) {
-  return material.model != MaterialModel::paper ||
-         material.cohesion == Cohesion::initial_neighbors;
+  return material.model != MaterialModel::paper || material.cohesion == Cohesion::initial_neighbors;
 }
 
 Solid::Solid(const Material& material, Points rest)

@@ -26,7 +26,7 @@ namespace sinew {
 // creeps after it (plastic flow).
 
 struct Bonds {
-  NeighborLists partners;           ///< from both sides, in the order of the particles
+  NeighborLists partners;            ///< from both sides, in the order of the particles
   std::vector<double> rest_length;   ///< by entry of partners, m; 0 once broken
   std::vector<std::int32_t> broken;  ///< by particle
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <sinew/core/error.h>
+#include <sinew/core/options.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/physics/forces.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -112,7 +112,7 @@ void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particle
 /// How often lists were made, and how long they are.
 struct ListCounts {
   std::int64_t rebuilds = 0, prunings = 0, checks = 0, sorts = 0;
-  std::int64_t escaped = 0;      ///< particles that got new partners by themselves
+  std::int64_t escaped = 0;     ///< particles that got new partners by themselves
   double outer = 0, inner = 0;  ///< differences per block
   /// Wall time spent on them, s.
   double rebuilding = 0, pruning = 0, checking = 0, sorting = 0;

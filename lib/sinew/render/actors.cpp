@@ -166,7 +166,8 @@ void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& sk
   look.SetSpecular(0.02);
 }
 
-void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin, const LineStyle& style) {
+void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
+             const LineStyle& style) {
   constexpr double wide_enough = 7;  // pixels between lines, below which they gray the skin
   if (mean_length(snapshot.surface.points, skin.lines) < wide_enough * style.pixel) return;
   add_lines(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
@@ -177,7 +178,8 @@ void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading&
   add_lines(renderer, lifted(snapshot.surface, style.lift), skin.creases, 0.8, style.width);
 }
 
-void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness, const Color& color) {
+void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
+               const Color& color) {
   if (snapshot.bones.empty()) return;
   Points tubes, joints;
   std::array<Points, 3> axes;

@@ -26,10 +26,12 @@ void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading&
                  const LineStyle& style);
 
 /// Its other edges, fainter.
-void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin, const LineStyle& style);
+void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
+             const LineStyle& style);
 
 /// Tubes with joints and their axes in red, green and blue, about `thickness` (m) thick.
-void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness, const Color& color);
+void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
+               const Color& color);
 
 }  // namespace sinew
 

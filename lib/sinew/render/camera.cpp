@@ -30,7 +30,8 @@ Box seen(const Mat3& view, const Snapshot& snapshot) {
   for (const Vec3& point : snapshot.particles) add(point, snapshot.radius);
   for (const Vec3& point : snapshot.surface.points) add(point, 0);
   for (const SnapshotArrow& arrow : snapshot.arrows) add(arrow.from + arrow.along, 0);
-  for (const SnapshotBone& bone : snapshot.bones) add(bone.head, snapshot.radius), add(bone.tail, snapshot.radius);
+  for (const SnapshotBone& bone : snapshot.bones)
+    add(bone.head, snapshot.radius), add(bone.tail, snapshot.radius);
   return box;
 }
 

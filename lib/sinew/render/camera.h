@@ -22,8 +22,8 @@ struct Camera {
   Box frame;  ///< in the view's directions, m; all of it is in the picture
 };
 
-/// The box around everything in `snapshot` in the directions of `view`, m; empty for an empty snapshot.
-/// Throws bad input for positions that are not finite.
+/// The box around everything in `snapshot` in the directions of `view`, m; empty for an empty
+/// snapshot. Throws bad input for positions that are not finite.
 Box seen(const Mat3& view, const Snapshot& snapshot);
 
 /// Meters per pixel at which `frame` just fits into a picture.

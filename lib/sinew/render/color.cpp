@@ -88,12 +88,12 @@ ColorTable make_table(ColorMap map) {
 }
 
 constexpr std::array<NamedColorMap, 7> names = {{{"indigo", ColorMap::indigo},
-                                                  {"viridis", ColorMap::viridis},
-                                                  {"cividis", ColorMap::cividis},
-                                                  {"plasma", ColorMap::plasma},
-                                                  {"inferno", ColorMap::inferno},
-                                                  {"magma", ColorMap::magma},
-                                                  {"gray", ColorMap::gray}}};
+                                                 {"viridis", ColorMap::viridis},
+                                                 {"cividis", ColorMap::cividis},
+                                                 {"plasma", ColorMap::plasma},
+                                                 {"inferno", ColorMap::inferno},
+                                                 {"magma", ColorMap::magma},
+                                                 {"gray", ColorMap::gray}}};
 
 const ColorTable& table_of(ColorMap map) {
   static const std::vector<ColorTable> tables = [] {

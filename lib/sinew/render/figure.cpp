@@ -55,7 +55,7 @@ Image figure(const std::vector<Panel>& panels, const FigureOptions& options) {
     return image;
   const int bar = std::min(options.width / 3, 3 * options.height / 5);
   draw_color_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
-                  layout.foot, bar, layout.words);
+                 layout.foot, bar, layout.words);
   return image;
 }
 
@@ -155,7 +155,8 @@ void draw_row(Image& sheet, const SheetRow& row, int y, const SheetLayout& layou
   }
 }
 
-void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots, const SheetLayout& layout) {
+void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots,
+                    const SheetLayout& layout) {
   TextStyle words = layout.text;
   words.align = Align::center;
   for (std::size_t i = 0; i < snapshots.size(); ++i)
@@ -185,13 +186,15 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& optio
   words.size = std::max(10, words.size * 4 / 5);
   const int bar = layout.width / 3;
   draw_color_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
-                  words);
+                 words);
   return sheet;
 }
 
-Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots, const SheetOptions& options) {
+Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots,
+                    const SheetOptions& options) {
   return contact_sheet(
-      {{&painter, &snapshots, View::surface, ""}, {&painter, &snapshots, View::particles, ""}}, options);
+      {{&painter, &snapshots, View::surface, ""}, {&painter, &snapshots, View::particles, ""}},
+      options);
 }
 
 }  // namespace sinew

@@ -21,8 +21,8 @@ struct FigureOptions {
   Finish finish = Finish::fine;
 };
 
-/// The caption is that of the first panel's snapshot, the color scale that of its painter: all panels
-/// share it. Throws bad input without panels, and as Painter::draw does.
+/// The caption is that of the first panel's snapshot, the color scale that of its painter: all
+/// panels share it. Throws bad input without panels, and as Painter::draw does.
 Image figure(const std::vector<Panel>& panels, const FigureOptions& options);
 
 // A run in one picture: moments from left to right, ways of looking at them below each other.
@@ -42,12 +42,13 @@ struct SheetOptions {
   Finish finish = Finish::fine;
 };
 
-/// All panels to one scale; below them the captions of the first row's snapshots and the color scale
-/// of its painter. Throws bad input without rows or snapshots or with rows of different lengths, and as
-/// Painter::draw does.
+/// All panels to one scale; below them the captions of the first row's snapshots and the color
+/// scale of its painter. Throws bad input without rows or snapshots or with rows of different
+/// lengths, and as Painter::draw does.
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
 /// As in the paper's figure 4: the surface above, the particles below, over time.
-Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots, const SheetOptions& options);
+Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots,
+                    const SheetOptions& options);
 
 }  // namespace sinew

@@ -21,7 +21,8 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
     throw bad_input("a snapshot has not one value per particle", "give one each, or none");
   for (const int point : skin.source)
     if (point >= static_cast<int>(snapshot.surface.points.size()))
-      throw bad_input("a snapshot's surface has fewer points than at rest", "draw one run at a time");
+      throw bad_input("a snapshot's surface has fewer points than at rest",
+                      "draw one run at a time");
 }
 
 /// The exposure with its hollows darkened; not to black: some light always gets in.
@@ -70,7 +71,8 @@ Painter::Painter(const Triangles& rest, ColorScale scale)
 Image Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones) {
   add_particles(stage_.renderer(), snapshot, scale_);
   if (skin_and_bones) {
-    add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
+    add_creases(stage_.renderer(), snapshot, skin_,
+                {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
   Image image = with_shadows(stage_.shoot(), 2 * sizes.grain);

@@ -66,7 +66,7 @@ void write_text(Image& image, const std::string& text, int x, int y, const TextS
 int color_bar_height(const TextStyle& style) { return 3 * line_height(style); }
 
 void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
-                     const TextStyle& style) {
+                    const TextStyle& style) {
   const int line = line_height(style), thick = 3 * line / 4;
   TextStyle words = style;
   words.align = Align::center;

@@ -26,7 +26,7 @@ void write_text(Image& image, const std::string& text, int x, int y, const TextS
 /// The colors of `scale` from left to right with its ends below and its name above, in a width of
 /// `width` and a height of color_bar_height pixels.
 void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
-                     const TextStyle& style);
+                    const TextStyle& style);
 int color_bar_height(const TextStyle& style);
 
 }  // namespace sinew

@@ -18,8 +18,8 @@
 #include <limits>
 #include <vector>
 
-#include <sinew/core/vector.h>
 #include <sinew/core/options.h>
+#include <sinew/core/vector.h>
 
 namespace sinew {
 

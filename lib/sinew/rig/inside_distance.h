@@ -19,7 +19,7 @@ struct BoneDistance {
 /// A body as ways lead through it.
 struct InsideWays {
   NeighborLists links;  ///< of particles that touch, or touch one and the same
-  Points points;         ///< m
+  Points points;        ///< m
   /// Where the ways from each bone begin: particles that have it as their nearest and lie within
   /// 1.5 radii of it, or not more than half a radius farther than the nearest of them.
   std::vector<std::vector<std::uint32_t>> starts;

@@ -86,14 +86,13 @@ void check_order(const TrackDefinition& track, const std::string& place) {
                     "use xyz, xzy, yxz, yzx, zxy or zyx");
 }
 
-double time_of(std::optional<double> frame_rate, const KeyDefinition& key, const std::string& path) {
+double time_of(std::optional<double> frame_rate, const KeyDefinition& key,
+               const std::string& path) {
   if (key.time && key.frame)
-    throw bad_value(path + ".frame", "a key gives its time twice",
-                    "keep one of time and frame");
+    throw bad_value(path + ".frame", "a key gives its time twice", "keep one of time and frame");
   if (key.time) return *key.time;
   if (!key.frame)
-    throw bad_value(path, path + ".time is missing",
-                    "add time: SECONDS, or frame: NUMBER");
+    throw bad_value(path, path + ".time is missing", "add time: SECONDS, or frame: NUMBER");
   if (!frame_rate)
     throw bad_value(path + ".frame",
                     "a key in frames, and nobody says how many there are in a second",
@@ -110,13 +109,12 @@ std::vector<double> times_of(const TrackDefinition& track, std::size_t index,
     const std::string path = path_of(index, i);
     const double time = time_of(frame_rate, key, path);
     if (i > 0 && !(time > times.back()))
-      throw bad_value(path + (key.frame ? ".frame" : ".time"),
-                      "keys are not in ascending time", "sort them, each with its own time");
+      throw bad_value(path + (key.frame ? ".frame" : ".time"), "keys are not in ascending time",
+                      "sort them, each with its own time");
     times.push_back(time);
   }
   if (times.empty())
-    throw bad_value(path_of(index), "a track without keys",
-                    "give it keys, or remove it");
+    throw bad_value(path_of(index), "a track without keys", "give it keys, or remove it");
   return times;
 }
 

@@ -18,10 +18,10 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/options.h>
 #include <sinew/rig/curve.h>
 #include <sinew/rig/pose.h>
 #include <sinew/rig/skeleton.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 
@@ -85,8 +85,9 @@ Motion played(Motion clip, const MotionOptions& options);
 Motion placed(Motion motion, double scale, const Mat3& turn);
 
 /// Builds the motion of these tracks; keys in frames count at `frame_rate` (1/s). played() prepares
-/// it. Throws bad_value, with a key such as "tracks[0].keys[2].time", for an unknown bone, two tracks of one bone, keys out of order, with no or two times, in frames of no known
-/// rate, or with a rotation given in two ways, by half, or by a quaternion that is no rotation.
+/// it. Throws bad_value, with a key such as "tracks[0].keys[2].time", for an unknown bone, two
+/// tracks of one bone, keys out of order, with no or two times, in frames of no known rate, or with
+/// a rotation given in two ways, by half, or by a quaternion that is no rotation.
 Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skeleton,
                    std::optional<double> frame_rate = {});
 

@@ -31,8 +31,7 @@ int parent_of(Bones bones, std::size_t bone, const Skeleton& earlier) {
   if (name.empty()) return no_bone;
   const int parent = index_of(earlier, name);
   if (parent == no_bone)
-    throw bad_value(path_of(bone, "parent"),
-                    "no bone before this one is named '" + name + "'",
+    throw bad_value(path_of(bone, "parent"), "no bone before this one is named '" + name + "'",
                     "name the parent first, or correct the name");
   return parent;
 }
@@ -79,8 +78,7 @@ Vec3 direction_of(Bones bones, std::size_t bone, const Skeleton& earlier, int pa
   return earlier.bones[static_cast<std::size_t>(parent)].axis();
 }
 
-Vec3 tail_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent,
-             const Vec3& head) {
+Vec3 tail_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent, const Vec3& head) {
   const BoneDefinition& given = bones[bone];
   if (given.tail && (given.length || given.direction))
     throw bad_value(path_of(bone, given.length ? "length" : "direction"),
@@ -101,9 +99,8 @@ JointLimits limits_of(Bones bones, std::size_t bone) {
   const auto [least, most] = *given.twist;
   if (!(least <= most))
     throw bad_value(path_of(bone, "limits.twist"),
-                    "the twist of bone '" + bones[bone].name +
-                        "' could be no number from " + number_text(least) + " to " +
-                        number_text(most),
+                    "the twist of bone '" + bones[bone].name + "' could be no number from " +
+                        number_text(least) + " to " + number_text(most),
                     "give the smaller limit first");
   limits.least_twist = radians(least);
   limits.most_twist = radians(most);
@@ -119,8 +116,8 @@ Mat3 frame_of(const Vec3& axis, double roll) {
 Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
   const BoneDefinition& given = bones[index];
   if (index_of(earlier, given.name) != no_bone)
-    throw bad_value(path_of(index, "name"),
-                    "two bones are named '" + given.name + "'", "give each bone a name of its own");
+    throw bad_value(path_of(index, "name"), "two bones are named '" + given.name + "'",
+                    "give each bone a name of its own");
   Bone bone;
   bone.name = given.name;
   bone.parent = parent_of(bones, index, earlier);
@@ -129,8 +126,8 @@ Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
       tail_of(bones, index, earlier, bone.parent, bone.rest.origin) - bone.rest.origin;
   bone.length = along.norm();
   if (!(bone.length > 0))
-    throw bad_value(path_of(index, "tail"),
-                    "bone '" + given.name + "' has no length", "move its tail away from its head");
+    throw bad_value(path_of(index, "tail"), "bone '" + given.name + "' has no length",
+                    "move its tail away from its head");
   bone.rest.rotation = frame_of(along, radians(given.roll));
   bone.limits = limits_of(bones, index);
   bone.strength = {given.stiffness, given.twist_stiffness, given.axial_stiffness};

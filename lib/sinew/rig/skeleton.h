@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <sinew/core/vector.h>
 #include <sinew/core/options.h>
+#include <sinew/core/vector.h>
 
 namespace sinew {
 

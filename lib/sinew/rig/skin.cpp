@@ -96,7 +96,7 @@ std::vector<std::uint32_t> indices_of(const std::vector<char>& marked) {
 
 /// Marks the points closer than `range` to one that is marked.
 void mark_neighbors(const CellGrid& grid, const Points& points, double range,
-                     std::vector<char>& marked) {
+                    std::vector<char>& marked) {
   const std::vector<std::uint32_t> from = indices_of(marked);
   std::vector<std::vector<std::uint32_t>> found((from.size() + vertices_per_piece - 1) /
                                                 vertices_per_piece);

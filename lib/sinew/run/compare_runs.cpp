@@ -127,7 +127,8 @@ void add_snapshot(Side& side, std::size_t number, const FrameState& state) {
 
 /// What takes both runs at once: distances into the second one's metrics, and the playbacks.
 void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, const Alike& same) {
-  for (Side* side : {&first, &second}) side->playback = plan_playback(side->rest, pairs.size(), 0.5);
+  for (Side* side : {&first, &second})
+    side->playback = plan_playback(side->rest, pairs.size(), 0.5);
   second.playback.wanted = first.playback.wanted;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FrameState one = measured_frame(read_frame(first.run, pairs[k][0]));

@@ -16,7 +16,8 @@ std::string numbered(std::size_t frame) {
 
 }  // namespace
 
-FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset, FigureSetOptions options)
+FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset,
+                     FigureSetOptions options)
     : runs_(std::move(runs)), preset_(preset), options_(std::move(options)) {
   for (const DrawnRun* run : runs_) painters_.emplace_back(run->files().surface, scale());
 }
@@ -24,7 +25,7 @@ FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset, Figu
 ColorScale FigureSet::scale() const {
   const DrawnValues& values = drawn(0).values;
   ColorScale scale{values.name(), values.unit(), drawn(0).range.low, drawn(0).range.high,
-                    options_.colors};
+                   options_.colors};
   for (std::size_t run = 1; run < runs_.size(); ++run) {
     scale.low = std::min(scale.low, drawn(run).range.low);
     scale.high = std::max(scale.high, drawn(run).range.high);

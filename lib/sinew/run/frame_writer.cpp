@@ -87,8 +87,8 @@ struct ReactionColumns {
 }  // namespace
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
-                   const Body& body, const Triangles& surface, std::vector<Triangles> obstacles,
-                   std::span<const double> kept)
+                         const Body& body, const Triangles& surface,
+                         std::vector<Triangles> obstacles, std::span<const double> kept)
     : folder_(folder),
       interval_(output.interval),
       skeleton_(body.skeleton),
@@ -114,7 +114,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
 }
 
 void FrameWriter::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
-                             const Body& body, std::span<const double> kept) {
+                                const Body& body, std::span<const double> kept) {
   if (output.skin_lbs || output.skin_dqs) vertex_weights_ = weights_of_vertices(body, skin_.rest);
   const auto begin = [&](auto* method, const char* name) {
     skinned_.push_back({method, std::make_unique<Series>(

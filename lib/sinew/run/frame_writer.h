@@ -36,8 +36,8 @@ class FrameWriter {
   /// `kept`: times (s) of frames that are there already. Throws not written, and bad input when one
   /// of those is missing.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
-           const Triangles& surface, std::vector<Triangles> obstacles,
-           std::span<const double> kept = {});
+              const Triangles& surface, std::vector<Triangles> obstacles,
+              std::span<const double> kept = {});
 
   /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
   /// not written, of a frame before it too: then nothing more is written.

@@ -54,7 +54,7 @@ struct HowToMeasure {
   std::optional<SurfaceSeries> reference;
   std::vector<std::string_view> arrays;  ///< to be written as the series "values"
   bool ahead = true;                     ///< read the frame that comes while one is measured
-  bool playback = true;                      ///< keep one
+  bool playback = true;                  ///< keep one
 };
 
 /// The body of a run at rest.

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include <sinew/core/system.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/bone_force.h>
 #include <sinew/rig/binding.h>

@@ -4,10 +4,10 @@
 #include <memory>
 #include <sstream>
 
-#include <sinew/core/system.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 
 namespace sinew {
@@ -92,7 +92,8 @@ RunCheckpoints::RunCheckpoints(const RunFolder& folder, const Settings& settings
       interval_(settings.output.checkpoint_interval),
       limit_(settings.solver.wall_time) {}
 
-std::optional<SimulationState> RunCheckpoints::resume(const RunIdentity& run, std::string& complaint) {
+std::optional<SimulationState> RunCheckpoints::resume(const RunIdentity& run,
+                                                      std::string& complaint) {
   auto found = checkpoints_.newest(run.particles, complaint);
   if (!found) return std::nullopt;
   const RunIdentity& was = found->run;

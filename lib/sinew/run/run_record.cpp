@@ -10,9 +10,9 @@
 #include <optional>
 #include <thread>
 
-#include <sinew/core/system.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/core/system.h>
 
 namespace sinew {
 namespace {

@@ -117,8 +117,7 @@ class Run {
   void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
     schedule_ = {ready.setup.frames, ready.setup.steps.per_frame, scene_.output.interval};
     std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
-    simulation_.emplace(
-        start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
+    simulation_.emplace(start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
     ready.body = {};  // millions of numbers that nobody needs any more
     if (state) {
       simulation_->restore(*state);
@@ -142,8 +141,7 @@ class Run {
       close();
       log_.frames(writer_->written());
       write_last_state(*simulation_, folder_.blowup());
-      say(options_,
-          "the body before the step that failed is in " + folder_.blowup().string());
+      say(options_, "the body before the step that failed is in " + folder_.blowup().string());
       throw;
     } catch (...) {
       log_.frames(writer_->written());
@@ -165,8 +163,7 @@ class Run {
       if (frame > schedule_.frames) return Exit::done;
       // However little time there is, a run that is resumed again and again comes to its end.
       const bool asked = options_.stop_requested && options_.stop_requested();
-      const bool stop =
-          asked || (checkpoints_.out_of_time() && simulation_->steps() > begun);
+      const bool stop = asked || (checkpoints_.out_of_time() && simulation_->steps() > begun);
       if (!stop && !checkpoints_.due()) continue;
       log_.spend("stepping", watch.lap());
       save();
@@ -183,8 +180,8 @@ class Run {
 
   void report(int frame) const {
     if (options_.progress)
-      options_.progress({frame, schedule_.frames, frame * schedule_.interval,
-                         simulation_->steps(), writer_->waited()});
+      options_.progress({frame, schedule_.frames, frame * schedule_.interval, simulation_->steps(),
+                         writer_->waited()});
   }
 
   void save() {
@@ -248,8 +245,7 @@ void say_what_is_doubtful(const Settings& scene, const Setup& setup,
 
 }  // namespace
 
-RunResult simulate(const Settings& scene, const RunFolder& folder,
-                   const SimulateOptions& options) {
+RunResult simulate(const Settings& scene, const RunFolder& folder, const SimulateOptions& options) {
   create(folder);
   const FolderLock lock(folder);
   if (!lock.left_by().empty())
@@ -270,8 +266,7 @@ RunResult simulate(const Settings& scene, const RunFolder& folder,
   log.describe(scene, ready.setup);
   say_what_is_doubtful(scene, ready.setup, options);
   if (options.before_stepping) options.before_stepping();
-  const Exit exit =
-      Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
+  const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
   return {exit, false, log.record().dump()};
 }
 

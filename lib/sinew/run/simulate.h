@@ -26,8 +26,8 @@ struct RunProgress {
 };
 
 struct SimulateOptions {
-  bool force = false;   ///< replace an older run in the folder
-  bool resume = false;  ///< continue a run that was stopped
+  bool force = false;                            ///< replace an older run in the folder
+  bool resume = false;                           ///< continue a run that was stopped
   std::vector<std::string> command = {"sinew"};  ///< how the run was started, for its record
 
   // What a caller may listen to; each may be empty.
@@ -38,14 +38,14 @@ struct SimulateOptions {
 };
 
 struct RunResult {
-  Exit exit = Exit::done;  ///< done, or interrupted: resumable with SimulateOptions::resume
+  Exit exit = Exit::done;     ///< done, or interrupted: resumable with SimulateOptions::resume
   bool was_finished = false;  ///< resumed, and there was nothing left to do
   std::string record;         ///< run.json
 };
 
-/// Throws bad input, naming the scene's line, for what the scene gets wrong, for a folder that holds
-/// another run or another sinew works in; unstable, with the last sound state in blowup.vtu; not
-/// written. A run that stops in any way leaves its frames and can be resumed.
+/// Throws bad input, naming the scene's line, for what the scene gets wrong, for a folder that
+/// holds another run or another sinew works in; unstable, with the last sound state in blowup.vtu;
+/// not written. A run that stops in any way leaves its frames and can be resumed.
 RunResult simulate(const Settings& scene, const RunFolder& folder,
                    const SimulateOptions& options = {});
 

@@ -53,8 +53,8 @@ class DrawnValues {
 /// name.
 Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name);
 
-// A run as pictures need it: its moments as snapshots, and what must be known of all of them before the
-// first is drawn.
+// A run as pictures need it: its moments as snapshots, and what must be known of all of them before
+// the first is drawn.
 
 /// What one preset shows of a run.
 struct DrawnView {
@@ -70,10 +70,10 @@ struct Story {
 
 class DrawnRun {
  public:
-  /// Reads all frames once. `array`: in color instead of what each preset shows by itself, or empty.
-  /// Throws bad input.
-  DrawnRun(const std::string& folder, const std::vector<ViewPreset>& presets, const std::string& array,
-           const Mat3& view, bool ahead);
+  /// Reads all frames once. `array`: in color instead of what each preset shows by itself, or
+  /// empty. Throws bad input.
+  DrawnRun(const std::string& folder, const std::vector<ViewPreset>& presets,
+           const std::string& array, const Mat3& view, bool ahead);
   DrawnRun(const DrawnRun&) = delete;
   DrawnRun& operator=(const DrawnRun&) = delete;
 

@@ -55,7 +55,9 @@ Mat3 view_towards(const Vec3& viewer) {
 
 std::span<const ViewPreset> view_presets() { return all_view_presets; }
 
-const ViewPreset& view_preset_named(const std::string& name) { return entry_named(all_view_presets, name, "view"); }
+const ViewPreset& view_preset_named(const std::string& name) {
+  return entry_named(all_view_presets, name, "view");
+}
 
 ColorMap color_map_named(const std::string& name) {
   return entry_named(color_maps(), name, "color map").map;

@@ -80,7 +80,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.thickness = body.thickness;
   options.verify = verify;
   return with_context(settings, body.radius ? "body.radius" : "body.count",
-                 [&] { return pack(surface, options); });
+                      [&] { return pack(surface, options); });
 }
 
 nlohmann::ordered_json json_of(const ReportValue& value) {
@@ -113,8 +113,8 @@ BodyFile body_file(Filling filling, const std::string& origin) {
 
 std::string origin_of(const Settings& settings) {
   Hash hash;
-  hash.add(
-      with_context(settings, "body.mesh", [&] { return read_file(settings.body.mesh, largest_mesh); }));
+  hash.add(with_context(settings, "body.mesh",
+                        [&] { return read_file(settings.body.mesh, largest_mesh); }));
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');

@@ -121,7 +121,7 @@ using Warnings = std::vector<std::string>;
 
 // Beyond this the second neighbors, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
-constexpr double fastest_bone = 0.5;  // radii per step: more, and neighbors are passed, not pushed
+constexpr double fastest_bone = 0.5;   // radii per step: more, and neighbors are passed, not pushed
 constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
 constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
 // In square roots of what a bone holds of the cross-section: 0.6 is the rim of a round limb.
@@ -240,7 +240,8 @@ void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& w
   warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
   if (solver.precision == Precision::binary32) warning += ", in double precision";
   warning += ", about " + three_digits(std::round(slowness_of_cells(solver.precision))) +
-             " times slower; use " + key + ' ' + supported + " where its difference does not matter";
+             " times slower; use " + key + ' ' + supported +
+             " where its difference does not matter";
   warnings.push_back(warning);
 }
 

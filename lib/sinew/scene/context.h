@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where in a scene an error has its cause: the algorithms know values, a scene knows their lines.
 //
-//     const Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(bones); });
+//     const Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(bones);
+//     });
 #pragma once
 
 #include <string>
@@ -23,7 +24,8 @@ auto with_context(const Settings& settings, const char* key, Job&& job) {
   }
 }
 
-/// Runs `job`; a bad_value is reported at the line of the scene that gave it: its key behind `prefix`.
+/// Runs `job`; a bad_value is reported at the line of the scene that gave it: its key behind
+/// `prefix`.
 template <class Job>
 auto at_keys(const Settings& settings, const std::string& prefix, Job&& job) {
   try {

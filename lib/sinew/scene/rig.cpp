@@ -75,8 +75,8 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
 
 /// As section motion asks, in the scene's directions and lengths.
 Motion in_scene(Motion clip, const Settings& settings) {
-  Motion motion = at_keys(settings, "motion.",
-                          [&] { return played(std::move(clip), settings.motion); });
+  Motion motion =
+      at_keys(settings, "motion.", [&] { return played(std::move(clip), settings.motion); });
   return placed(std::move(motion), settings.skeleton.scale, to_scene(settings.skeleton));
 }
 
@@ -100,18 +100,15 @@ Rig read_rig(const std::filesystem::path& path, const MotionOptions& motion) {
 }
 
 Skeleton skeleton_of(const Settings& settings) {
-  Skeleton skeleton =
-      at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
+  Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
   return placed(std::move(skeleton), settings.skeleton.scale, to_scene(settings.skeleton));
 }
 
 Motion motion_of(const Settings& settings, const Skeleton& skeleton) {
-  return in_scene(at_keys(settings, "motion.",
-                          [&] {
-                            return make_motion(settings.tracks, skeleton,
-                                               settings.motion.frame_rate);
-                          }),
-                  settings);
+  return in_scene(
+      at_keys(settings, "motion.",
+              [&] { return make_motion(settings.tracks, skeleton, settings.motion.frame_rate); }),
+      settings);
 }
 
 SceneRig rig_of(const Settings& settings) {
@@ -121,7 +118,8 @@ SceneRig rig_of(const Settings& settings) {
   if (skeleton.empty()) {
     scene.skeleton = skeleton_of(settings);
   } else {
-    rig = with_context(settings, "skeleton.file", [&] { return read_rig(skeleton, settings.motion); });
+    rig = with_context(settings, "skeleton.file",
+                       [&] { return read_rig(skeleton, settings.motion); });
     scene.skeleton = placed(rig.skeleton, settings.skeleton.scale, to_scene(settings.skeleton));
   }
   if (!motion.empty()) {
@@ -130,7 +128,7 @@ SceneRig rig_of(const Settings& settings) {
     });
   } else if (settings.tracks.empty() && !rig.clips.empty()) {
     scene.motion = with_context(settings, "skeleton.file",
-                           [&] { return clip_motion(rig, scene.skeleton, settings); });
+                                [&] { return clip_motion(rig, scene.skeleton, settings); });
   } else {
     scene.motion = motion_of(settings, scene.skeleton);
   }

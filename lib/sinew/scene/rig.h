@@ -19,7 +19,8 @@ bool holds_mesh(const std::filesystem::path& path);
 /// What such a file holds, in its own directions and units. Throws bad input, with the path.
 Rig read_rig(const std::filesystem::path& path, const MotionOptions& motion);
 
-/// Of the bones and tracks that stand in the scene itself. Throws bad input, naming the scene's line.
+/// Of the bones and tracks that stand in the scene itself. Throws bad input, naming the scene's
+/// line.
 Skeleton skeleton_of(const Settings& settings);
 Motion motion_of(const Settings& settings, const Skeleton& skeleton);
 

@@ -166,8 +166,8 @@ ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body) {
   Stopwatch watch;
   ReadyScene ready;
   ready.surface = read_mesh(settings);
-  ready.body = body ? *std::move(body)
-                    : body_file(fill_body(settings, ready.surface), origin_of(settings));
+  ready.body =
+      body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
   ready.seconds_filling = watch.lap();
   ready.setup = set_up(settings, ready.body.particles);
   ready.body.bone = bones_of_particles(ready.setup.body);

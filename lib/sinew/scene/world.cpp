@@ -165,7 +165,7 @@ void add_obstacles(const Settings& settings, const Body& body, World& world,
     const std::string path = entry("obstacles", i);
     const int bone = bone_named(given.bone, path, settings, body.skeleton);
     Placed placed = with_context(settings, (path + ".mesh").c_str(),
-                            [&] { return placed_shape(given, settings.body, size); });
+                                 [&] { return placed_shape(given, settings.body, size); });
     Obstacle obstacle;
     obstacle.name = given.name;
     obstacle.shape = std::move(placed.shape);

@@ -54,7 +54,7 @@ std::span<const Field<Settings>> settings_table();
 std::span<const Field<BoneDefinition>> bone_fields();    ///< skeleton.bones[]
 std::span<const Field<LimitDefinition>> limit_fields();  ///< skeleton.bones[].limits
 std::span<const Field<TrackDefinition>> track_fields();  ///< motion.tracks[] (and its list `keys`)
-std::span<const Field<BoundSettings>> bound_fields();  ///< binding.explicit[]
+std::span<const Field<BoundSettings>> bound_fields();    ///< binding.explicit[]
 std::span<const Field<KeyDefinition>> key_fields();      ///< motion.tracks[].keys[]
 
 // Of the section world: its lists, and the keys of their entries.

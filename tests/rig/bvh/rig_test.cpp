@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "expect_error.h"
 #include <sinew/rig/bvh/bvh.h>
+#include "expect_error.h"
 #include "rig/bvh/bvh_files.h"
 
 namespace sinew {

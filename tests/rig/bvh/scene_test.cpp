@@ -5,10 +5,10 @@
 #include <map>
 #include <string>
 
-#include <sinew/scene/rig.h>
-#include <sinew/settings/read_scene.h>
 #include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/motion.h>
+#include <sinew/scene/rig.h>
+#include <sinew/settings/read_scene.h>
 
 namespace sinew {
 namespace {

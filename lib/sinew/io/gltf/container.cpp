@@ -116,7 +116,8 @@ std::string file_bytes(const std::string& uri, std::size_t size, const fs::path&
     throw bad_input("a buffer is to be found at " + shown(uri) + ", outside the file's own folder",
                     "put the .bin file beside it and export it so");
   std::string bytes = read_file(folder / below, most_gltf_bytes);
-  if (bytes.size() < size) throw too_short(size, bytes.size()).with_context({(folder / below).string()});
+  if (bytes.size() < size)
+    throw too_short(size, bytes.size()).with_context({(folder / below).string()});
   bytes.resize(size);
   return bytes;
 }

@@ -111,7 +111,8 @@ std::vector<Clip> clips_of(const CheckedGltf& gltf, const GltfBindPose& bind, do
     try {
       clips.push_back(clip_of(gltf, bind, i, rate));
     } catch (const Error& error) {
-      throw error.with_context({"animation " + std::to_string(i) + ' ' + shown(animations[i].name)});
+      throw error.with_context(
+          {"animation " + std::to_string(i) + ' ' + shown(animations[i].name)});
     }
     clips.back().name = free_name(animations[i].name, i, taken);
   }

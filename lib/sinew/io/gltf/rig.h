@@ -14,8 +14,8 @@
 #include <filesystem>
 
 #include <sinew/core/triangles.h>
-#include <sinew/rig/skinning.h>
 #include <sinew/rig/motion.h>
+#include <sinew/rig/skinning.h>
 
 namespace sinew {
 

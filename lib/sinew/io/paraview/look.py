@@ -62,9 +62,9 @@ def color_table(options, limits):
     colors.AutomaticRescaleRangeMode = "Never"
     colors.ColorSpace = "Lab"
     spread_colors(colors, *limits)
-    if options.colors:
-        if not colors.ApplyPreset(options.colors, True):
-            stop(f"ParaView has no colors '{options.colors}'; its Color Map Editor lists them")
+    if options.colormap:
+        if not colors.ApplyPreset(options.colormap, True):
+            stop(f"ParaView has no colors '{options.colormap}'; its Color Map Editor lists them")
         colors.RescaleTransferFunction(*limits)
     return colors
 

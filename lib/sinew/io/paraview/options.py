@@ -16,7 +16,7 @@ def arguments(description, *more):
     parser.add_argument("--array", default="displacement", help="what colors the particles")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="values of the lowest and highest color; all of the run's if not given")
-    parser.add_argument("--colors", help="a color map of ParaView, 'Viridis (matplotlib)'")
+    parser.add_argument("--colormap", help="a color map of ParaView, 'Viridis (matplotlib)'")
     parser.add_argument("--cut", choices=["x", "y", "z", "none"], default="y",
                         help="axis across which the body is cut open")
     parser.add_argument("--forces", nargs="?", const="force_pair", metavar="NAME",

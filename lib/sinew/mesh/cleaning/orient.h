@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/options.h>
 #include <sinew/mesh/cleaning/patches.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/core/options.h>
 
 namespace sinew {
 

@@ -19,7 +19,7 @@ struct Neighbor {
 
 /// Up to three per face.
 std::vector<std::array<Neighbor, 3>> neighbors_of(std::size_t faces,
-                                                    std::span<const EdgeUse> uses) {
+                                                  std::span<const EdgeUse> uses) {
   std::vector<std::array<Neighbor, 3>> neighbors(faces);
   const auto add = [&](int face, const Neighbor& neighbor) {
     auto* slot = neighbors[face].begin();

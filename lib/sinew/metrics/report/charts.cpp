@@ -173,7 +173,7 @@ std::span<const ChartPlan> chart_plans() {
 std::span<const std::string_view> telling_metrics() {
   static constexpr std::array<std::string_view, 8> names = {
       "pose_error_far_rms", "volume_error",     "broken_neighbors", "J_min",
-      "strain_99",          "displacement_max", "speed_max",         "twist_jump_max"};
+      "strain_99",          "displacement_max", "speed_max",        "twist_jump_max"};
   return names;
 }
 

@@ -128,8 +128,8 @@ std::string differences_table(const RunComparison& compared) {
 
 constexpr double gap = 0.15;  // between the two, of the size of the first
 
-/// From where the second playback is to where it stands beside the first. The camera looks along x or
-/// y, whichever has less: it sees both when they stand along the other.
+/// From where the second playback is to where it stands beside the first. The camera looks along x
+/// or y, whichever has less: it sees both when they stand along the other.
 Vec3 way_aside(const Playback& first, const Playback& second) {
   const Box one = box_of(first), other = box_of(second);
   if (one.isEmpty() || other.isEmpty()) return Vec3::Zero();
@@ -165,15 +165,18 @@ PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3
   return frame;
 }
 
-void join_shape(Playback& playback, const Playback& second, const std::array<std::string, 2>& prefixes) {
+void join_shape(Playback& playback, const Playback& second,
+                const std::array<std::string, 2>& prefixes) {
   const auto bones = static_cast<int>(playback.bone_names.size());
   const auto points = static_cast<int>(playback.points.size());
   for (std::string& name : playback.bone_names) name = prefixes[0] + name;
-  for (const std::string& name : second.bone_names) playback.bone_names.push_back(prefixes[1] + name);
+  for (const std::string& name : second.bone_names)
+    playback.bone_names.push_back(prefixes[1] + name);
   for (const int bone : second.bone) playback.bone.push_back(bone < 0 ? -1 : bone + bones);
   for (const auto& [a, b, c] : second.faces)
     playback.faces.push_back({a + points, b + points, c + points});
-  playback.particles.insert(playback.particles.end(), second.particles.begin(), second.particles.end());
+  playback.particles.insert(playback.particles.end(), second.particles.begin(),
+                            second.particles.end());
   playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());
   playback.points.insert(playback.points.end(), second.points.begin(), second.points.end());
   playback.run_particles += second.run_particles;
@@ -183,13 +186,14 @@ void join_shape(Playback& playback, const Playback& second, const std::array<std
 }  // namespace
 
 Playback side_by_side(const Playback& first, const Playback& second,
-                  const std::array<std::string, 2>& prefixes) {
+                      const std::array<std::string, 2>& prefixes) {
   Playback playback = first;
   const Vec3 way = way_aside(first, second);
   playback.frames.clear();
   for (const PlaybackFrame& frame : first.frames) {
-    const auto other = std::find_if(second.frames.begin(), second.frames.end(),
-                                    [&](const PlaybackFrame& one) { return one.frame == frame.frame; });
+    const auto other =
+        std::find_if(second.frames.begin(), second.frames.end(),
+                     [&](const PlaybackFrame& one) { return one.frame == frame.frame; });
     if (other != second.frames.end()) playback.frames.push_back(joined(frame, *other, way));
   }
   join_shape(playback, second, prefixes);

@@ -16,13 +16,13 @@ namespace sinew {
 /// page's camera sees them next to each other. Of frames that both have; names of bones get the
 /// prefixes.
 Playback side_by_side(const Playback& first, const Playback& second,
-                  const std::array<std::string, 2>& prefixes);
+                      const std::array<std::string, 2>& prefixes);
 
 /// Texts are plain; the page escapes them.
 struct ComparisonInput {
   std::string version;  ///< of sinew
   RunComparison comparison;
-  Playback playback;                              ///< of both, see side_by_side(); of no frames: no 3D view
+  Playback playback;                      ///< of both, see side_by_side(); of no frames: no 3D view
   std::vector<FactGroup> facts;           ///< what differs between the scenes
   std::string first_scene, second_scene;  ///< resolved
 };

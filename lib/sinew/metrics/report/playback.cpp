@@ -56,9 +56,10 @@ std::size_t most_snapshots(const Playback& playback) {
 void plan_particles(Playback& playback, const RestBody& rest, std::size_t bytes) {
   const std::size_t each = 6 + playback_fields().size();
   const std::size_t fewest = std::min(playback.run_particles, fewest_particles);
-  playback.wanted = evenly(playback.run_frames, frames_paid(playback.run_frames, bytes, each * fewest));
-  playback.particles =
-      picked(playback.run_particles, bytes / (each * std::max<std::size_t>(most_snapshots(playback), 1)));
+  playback.wanted =
+      evenly(playback.run_frames, frames_paid(playback.run_frames, bytes, each * fewest));
+  playback.particles = picked(playback.run_particles,
+                              bytes / (each * std::max<std::size_t>(most_snapshots(playback), 1)));
   for (const auto i : playback.particles) playback.bone.push_back(rest.bone_of[i]);
 }
 
@@ -136,9 +137,9 @@ std::span<const PlaybackField> playback_fields() {
       PlaybackField{"neighbors", "", "Particles within the interaction range", &V::neighbors},
       PlaybackField{"turnover", "", "Neighbors lost and won, over those at rest", &V::turnover},
       PlaybackField{"distance to rigid pose", "m", "From where its bone alone would carry it",
-                &V::pose_error},
-      PlaybackField{"weight of its bone", "", "Share the bone it follows has in it; 1: that one alone",
-                &V::weight},
+                    &V::pose_error},
+      PlaybackField{"weight of its bone", "",
+                    "Share the bone it follows has in it; 1: that one alone", &V::weight},
   };
   return fields;
 }
@@ -189,7 +190,8 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
   };
   plan_particles(playback, rest, bytes_of(particle_bytes));
   playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius)}};
-  ThinSurface skin = thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_snapshots(playback)));
+  ThinSurface skin =
+      thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_snapshots(playback)));
   playback.points = std::move(skin.points);
   playback.faces = std::move(skin.faces);
   for (const MeasuredBone& bone : rest.bones) playback.bone_names.push_back(bone.name);
@@ -199,11 +201,11 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles) {
   PlaybackFrame snapshot{frame,
-                 state.time,
-                 coordinates(state.positions, playback.particles),
-                 coordinates(state.surface_points, playback.points),
-                 {},
-                 {}};
+                         state.time,
+                         coordinates(state.positions, playback.particles),
+                         coordinates(state.surface_points, playback.points),
+                         {},
+                         {}};
   for (std::size_t b = 0; b < rest.bones.size(); ++b) {
     const RigidFrame& bone = state.bones[b];
     append(snapshot.bones, bone.origin);

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <sinew/core/triangles.h>
-#include <sinew/metrics/rest_body.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/particle_values.h>
+#include <sinew/metrics/rest_body.h>
 
 namespace sinew {
 
@@ -69,18 +69,18 @@ struct ThinSurface {
 /// At most `most` points, all of a surface that has no more; faces that collapse go.
 ThinSurface thin_surface(const Triangles& surface, std::size_t most);
 
-/// A playback of no frames, with the choice made of what will be kept: all of a small run; of a large
-/// one frames at even distances, the first and the last among them, particles picked at random (the
-/// same ones every time) and a coarser skin.
-/// `share`: of a page's bytes that it may take.
+/// A playback of no frames, with the choice made of what will be kept: all of a small run; of a
+/// large one frames at even distances, the first and the last among them, particles picked at
+/// random (the same ones every time) and a coarser skin. `share`: of a page's bytes that it may
+/// take.
 Playback plan_playback(const RestBody& rest, std::size_t frames, double share = 1);
 
 /// Adds a frame at its place in time.
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles);
 
-/// For the page's script: places as 16-bit fractions of the playback's box, values as 8-bit fractions
-/// of their range (a thousandth of the values at either end lies outside), all in base64.
+/// For the page's script: places as 16-bit fractions of the playback's box, values as 8-bit
+/// fractions of their range (a thousandth of the values at either end lies outside), all in base64.
 std::string playback_json(const Playback& playback);
 
 }  // namespace sinew

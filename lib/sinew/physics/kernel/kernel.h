@@ -172,10 +172,10 @@ struct Functions {
   void (*probe)(const Step<Real>&, std::size_t begin, std::size_t end);
   /// Copies the differences in [from, to) with a pair of the block within range; returns the end.
   std::int32_t* (*prune_range)(const PruneInput<Real>&, std::size_t block, std::int64_t from,
-                              std::int64_t to, std::int32_t* kept);
+                               std::int64_t to, std::int32_t* kept);
   /// The same of a list of differences.
   std::int32_t* (*prune)(const PruneInput<Real>&, std::size_t block, const std::int32_t* begin,
-                        const std::int32_t* end, std::int32_t* kept);
+                         const std::int32_t* end, std::int32_t* kept);
   /// Writes the reference of the blocks [begin, end).
   void (*remember)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
   /// Their largest squared distance from it.

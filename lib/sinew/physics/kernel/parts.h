@@ -135,8 +135,8 @@ SINEW_INLINE Triple<L> carried_by(const FrameNow<typename L::Real>& frame, const
 
 /// For each lane what `told` says of the frame that carries it.
 template <class L, class Tell>
-SINEW_INLINE Triple<L> by_comoving_frame(const ComovingFrames<typename L::Real>& comoving_frames, std::size_t block,
-                                  int lane, Tell tell) {
+SINEW_INLINE Triple<L> by_comoving_frame(const ComovingFrames<typename L::Real>& comoving_frames,
+                                         std::size_t block, int lane, Tell tell) {
   constexpr int size = Traits<typename L::Real>::block;
   const std::uint32_t begin = comoving_frames.first[block], end = comoving_frames.first[block + 1];
   if (end - begin == 1 && comoving_frames.slots[begin].lanes < 0) [[likely]]
@@ -144,7 +144,8 @@ SINEW_INLINE Triple<L> by_comoving_frame(const ComovingFrames<typename L::Real>&
   Triple<L> sum = none<L>();
   for (std::uint32_t s = begin; s != end; ++s) {
     const FrameSlot slot = comoving_frames.slots[s];
-    const auto* lanes = comoving_frames.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
+    const auto* lanes =
+        comoving_frames.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
     sum = sum + L::load(lanes) * tell(comoving_frames.frames[slot.frame]);
   }
   return sum;

@@ -21,7 +21,7 @@ SINEW_INLINE bool meets(const PruneInput<typename L::Real>& input, const Place<L
 
 template <class L, class Next>
 SINEW_INLINE std::int32_t* prune_all(const PruneInput<typename L::Real>& input, std::size_t block,
-                                    std::int64_t count, Next next, std::int32_t* kept) {
+                                     std::int64_t count, Next next, std::int32_t* kept) {
   constexpr int size = Traits<typename L::Real>::block;
   const auto i = static_cast<std::ptrdiff_t>(block) * size;
   Place<L> here[size / L::width];
@@ -36,8 +36,8 @@ SINEW_INLINE std::int32_t* prune_all(const PruneInput<typename L::Real>& input, 
 }
 
 template <class L>
-std::int32_t* prune_range(const PruneInput<typename L::Real>& input, std::size_t block, std::int64_t from,
-                         std::int64_t to, std::int32_t* kept) {
+std::int32_t* prune_range(const PruneInput<typename L::Real>& input, std::size_t block,
+                          std::int64_t from, std::int64_t to, std::int32_t* kept) {
   return prune_all<L>(
       input, block, to - from, [&](std::int64_t n) { return static_cast<std::int32_t>(from + n); },
       kept);
@@ -45,7 +45,7 @@ std::int32_t* prune_range(const PruneInput<typename L::Real>& input, std::size_t
 
 template <class L>
 std::int32_t* prune_list(const PruneInput<typename L::Real>& input, std::size_t block,
-                        const std::int32_t* begin, const std::int32_t* end, std::int32_t* kept) {
+                         const std::int32_t* begin, const std::int32_t* end, std::int32_t* kept) {
   return prune_all<L>(
       input, block, end - begin, [&](std::int64_t n) { return begin[n]; }, kept);
 }
@@ -58,7 +58,8 @@ namespace sinew::kernel {
 
 /// Places in the frames that carry them.
 template <class L>
-SINEW_INLINE Triple<L> ridden(const FrameDrift<typename L::Real>& drift, std::size_t block, int lane) {
+SINEW_INLINE Triple<L> ridden(const FrameDrift<typename L::Real>& drift, std::size_t block,
+                              int lane) {
   const auto i = static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(drift.state.x, i);
   return by_comoving_frame<L>(
@@ -69,7 +70,8 @@ SINEW_INLINE Triple<L> ridden(const FrameDrift<typename L::Real>& drift, std::si
 }
 
 template <class L>
-void remember_blocks(const FrameDrift<typename L::Real>& drift, std::size_t begin, std::size_t end) {
+void remember_blocks(const FrameDrift<typename L::Real>& drift, std::size_t begin,
+                     std::size_t end) {
   constexpr int size = Traits<typename L::Real>::block;
   for (std::size_t block = begin; block < end; ++block)
     for (int lane = 0; lane < size; lane += L::width) {

@@ -39,7 +39,8 @@ void GroupCells::size_cells(const Box& box, std::size_t particles) {
     low_ = box.min();
     const Vec3 size = box.sizes();
     const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
-    // A escaped particle particle must not blow the table up: wider cells stay correct, only slower.
+    // A escaped particle particle must not blow the table up: wider cells stay correct, only
+    // slower.
     const double most = static_cast<double>(particles) + 4096;
     while (along(0) * along(1) * along(2) > most) edge_ *= 1.5;
     for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(along(axis));
@@ -203,10 +204,10 @@ Contacts::Contacts(const BlockState<Real>& state, const Units& units,
     }
 }
 
-template Contacts::Contacts(const BlockState<double>&, const Units&,
-                            std::span<const std::uint32_t>, std::size_t, double);
-template Contacts::Contacts(const BlockState<float>&, const Units&,
-                            std::span<const std::uint32_t>, std::size_t, double);
+template Contacts::Contacts(const BlockState<double>&, const Units&, std::span<const std::uint32_t>,
+                            std::size_t, double);
+template Contacts::Contacts(const BlockState<float>&, const Units&, std::span<const std::uint32_t>,
+                            std::size_t, double);
 
 double Contacts::approach_near(const Pair& pair, std::span<const RigidMotion> motions, double shift,
                                double most) const {

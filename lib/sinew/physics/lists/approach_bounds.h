@@ -30,8 +30,8 @@ class Drift {
   void found(double length) { moved_ = length; }
 
   double moved() const { return moved_; }
-  /// Whether the list still holds when the co-moving frames alone have brought particles nearer by this
-  /// (m). A little of the skin is left to rounding, of floats at most.
+  /// Whether the list still holds when the co-moving frames alone have brought particles nearer by
+  /// this (m). A little of the skin is left to rounding, of floats at most.
   bool holds(double approach) const { return 2 * moved_ + approach < skin_ * (1 - 1e-5); }
   double skin() const { return skin_; }
 
@@ -102,8 +102,8 @@ std::vector<RigidMotion> motions_between(const Pose& before, const Pose& now);
 class Contacts {
  public:
   Contacts() = default;
-  /// `co-moving frame` names the group of each particle, below `groups`. Lists hold the pairs within
-  /// `range` (m).
+  /// `co-moving frame` names the group of each particle, below `groups`. Lists hold the pairs
+  /// within `range` (m).
   template <class Real>
   Contacts(const BlockState<Real>& state, const Units& units,
            std::span<const std::uint32_t> comoving_frame, std::size_t groups, double range);

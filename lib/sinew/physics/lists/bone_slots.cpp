@@ -153,8 +153,7 @@ template kernel::FrameNow<double> frame_now(const BonePose&, const Vec3&, const 
 template kernel::FrameNow<float> frame_now(const BonePose&, const Vec3&, const Units&);
 
 template <class Real>
-BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
-                           const Units& units) {
+BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id, const Units& units) {
   constexpr std::size_t block = kernel::Traits<Real>::block;
   BoneSlots<Real> slots;
   slots.center = centers(body);

@@ -26,8 +26,7 @@ struct BoneSlots {
 
 /// `id` gives the particles in the kernel's order.
 template <class Real>
-BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id,
-                           const Units& units);
+BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id, const Units& units);
 
 /// The bones at `pose` in the kernel's form, for particles of `mass` (kg).
 template <class Real>

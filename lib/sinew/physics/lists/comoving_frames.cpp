@@ -149,10 +149,9 @@ BonePose ComovingFrames::pose_of(const Between& between, const Pose& bones) cons
 }
 
 template <class Real>
-std::vector<ComovingFrames::Profile> ComovingFrames::profiles(const Body& body, const Pose& bones,
-                                                  const BlockState<Real>& state,
-                                                  const Units& units,
-                                                  std::span<const std::int32_t> id) const {
+std::vector<ComovingFrames::Profile> ComovingFrames::profiles(
+    const Body& body, const Pose& bones, const BlockState<Real>& state, const Units& units,
+    std::span<const std::int32_t> id) const {
   std::vector<Profile> sums;
   for (const Hinge& hinge : hinges_) sums.emplace_back(hinge, bones);
   const std::vector<Profile> none = sums;
@@ -174,7 +173,7 @@ std::vector<ComovingFrames::Profile> ComovingFrames::profiles(const Body& body, 
 
 template <class Real>
 void ComovingFrames::choose(const Body& body, const Pose& bones, const BlockState<Real>& state,
-                      const Units& units, std::span<const std::int32_t> id) {
+                            const Units& units, std::span<const std::int32_t> id) {
   const auto profile = profiles(body, bones, state, units, id);
   of_.resize(id.size());
   parallel_for(id.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
@@ -187,7 +186,7 @@ void ComovingFrames::choose(const Body& body, const Pose& bones, const BlockStat
 
 /// The bone's own frame, or of the frames between it and others the one farthest from it.
 std::uint32_t ComovingFrames::choice(int bone, const Vec3& rest, std::span<const Profile> profiles,
-                               std::size_t bones) const {
+                                     std::size_t bones) const {
   if (bone == no_bone) return nobody;
   auto found = static_cast<std::uint32_t>(bone);
   int farthest = 0;
@@ -206,10 +205,10 @@ std::uint32_t ComovingFrames::choice(int bone, const Vec3& rest, std::span<const
   return found;
 }
 
-template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<double>&, const Units&,
-                               std::span<const std::int32_t>);
-template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<float>&, const Units&,
-                               std::span<const std::int32_t>);
+template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<double>&,
+                                     const Units&, std::span<const std::int32_t>);
+template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<float>&,
+                                     const Units&, std::span<const std::int32_t>);
 
 void ComovingFrames::compress(std::span<const Profile> profile, std::size_t bones) {
   std::vector<std::uint32_t> place(bones + hinges_.size() * most_frames, nobody);
@@ -225,7 +224,8 @@ void ComovingFrames::compress(std::span<const Profile> profile, std::size_t bone
         {h, static_cast<double>((c - bones) % most_frames + 1) / (profile[h].frames() + 1)});
   }
   const auto scene = static_cast<std::uint32_t>(bones + between_.size());
-  for (std::uint32_t& comoving_frame : of_) comoving_frame = comoving_frame == nobody ? scene : place[comoving_frame];
+  for (std::uint32_t& comoving_frame : of_)
+    comoving_frame = comoving_frame == nobody ? scene : place[comoving_frame];
 }
 
 Pose ComovingFrames::at(const Pose& bones) const {

@@ -64,7 +64,7 @@ class ListStepper {
   double mass_;  ///< of a particle, kg
   kernel::Functions<Real> kernel_;
   Units units_;
-  Box units_box_;      ///< around the particles when the units was looked at, m
+  Box units_box_;        ///< around the particles when the units was looked at, m
   double traveled_ = 0;  ///< since then, at most, m
   BlockState<Real> state_, next_;
   std::vector<std::int32_t> id_;       ///< with pads, as the states have
@@ -83,8 +83,9 @@ class ListStepper {
       45;  ///< differences per block in the outer list; here: of a packed body
   std::int64_t order_looked_at_ = -1;  ///< before which step
   std::int64_t sorts_ = 0;
-  double sorting_ = 0;             ///< s
-  std::optional<double> fastest_;  ///< in a step not yet followed, relative to the comoving_frames, m/s
+  double sorting_ = 0;  ///< s
+  std::optional<double>
+      fastest_;  ///< in a step not yet followed, relative to the comoving_frames, m/s
 
   std::vector<kernel::Totals> totals_;
 };

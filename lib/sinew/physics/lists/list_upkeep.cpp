@@ -98,8 +98,8 @@ bool ListStepper<Real>::change_units() {
   units_box_ = box_of(state_, units_, particles_per_thread);
   traveled_ = 0;
   if (sinew::serves<Real>(units_, units_box_)) return false;
-  const Units before = std::exchange(
-      units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
+  const Units before =
+      std::exchange(units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       state_.set_velocity(k, state_.velocity(k, before), units_);

@@ -48,7 +48,8 @@ Columns columns_of(const std::array<Coord*, 3>& x, std::size_t count, double edg
   columns.along = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
   columns.across = {(columns.along + 1) % 3, (columns.along + 2) % 3};
   columns.edge = edge;
-  const double most = 2.0 * static_cast<double>(count) + 1024;  // a escaped particle particle far away
+  const double most =
+      2.0 * static_cast<double>(count) + 1024;  // a escaped particle particle far away
   const auto along = [&](int side) {
     return std::floor(size[columns.across[side]] / columns.edge) + 1;
   };
@@ -307,14 +308,14 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 
 template <class Real>
 OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                         const OffsetLists& wider, double range) {
+                          const OffsetLists& wider, double range) {
   const auto input = prune_input(state, range);
   return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
     part.value.resize(wider.first[end] - wider.first[begin] + 1);
     std::int32_t* kept = part.value.data();
     for (std::size_t block = begin; block < end; ++block) {
       kept = kernel.prune(input, block, wider.value.data() + wider.first[block],
-                         wider.value.data() + wider.first[block + 1], kept);
+                          wider.value.data() + wider.first[block + 1], kept);
       part.first.push_back(static_cast<std::uint32_t>(kept - part.value.data()));
     }
     part.value.resize(static_cast<std::size_t>(kept - part.value.data()));
@@ -326,8 +327,8 @@ template OffsetLists find_offsets(const kernel::Functions<double>&, BlockState<d
 template OffsetLists find_offsets(const kernel::Functions<float>&, BlockState<float>&,
                                   const BlockCells&, double);
 template OffsetLists prune_offsets(const kernel::Functions<double>&, BlockState<double>&,
-                                  const OffsetLists&, double);
+                                   const OffsetLists&, double);
 template OffsetLists prune_offsets(const kernel::Functions<float>&, BlockState<float>&,
-                                  const OffsetLists&, double);
+                                   const OffsetLists&, double);
 
 }  // namespace sinew

@@ -57,6 +57,6 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 /// Those among `wider` that have a pair closer than `range`.
 template <class Real>
 OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                         const OffsetLists& wider, double range);
+                          const OffsetLists& wider, double range);
 
 }  // namespace sinew

@@ -24,7 +24,7 @@ constexpr std::size_t escaped_per_piece = 8;
 
 template <class Real>
 kernel::FrameDrift<Real> frame_drift_of(const MovingParticles<Real>& particles,
-                           std::array<std::vector<float>, 3>& reference) {
+                                        std::array<std::vector<float>, 3>& reference) {
   return {particles.state.arrays(),
           particles.comoving_frames,
           {reference[0].data(), reference[1].data(), reference[2].data()}};
@@ -40,7 +40,7 @@ void for_each_part(std::size_t blocks, Visit&& visit) {
 
 template <class Real>
 VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const PairForce& pair,
-                                 double step)
+                               double step)
     : kernel_(kernel), pair_(pair), step_(step) {}
 
 /// In lengths of the kernel.
@@ -62,8 +62,8 @@ void VerletLists<Real>::make(const MovingParticles<Real>& particles) {
   const double reach = range(outer_skin, particles.units);
   cells_ = BlockCells(particles.state, reach);
   outer_ = find_offsets(kernel_, particles.state, cells_, reach);
-  contacts_ = Contacts(particles.state, particles.units, particles.comoving_frame, particles.pose.size() + 1,
-                       reach * particles.units.length);
+  contacts_ = Contacts(particles.state, particles.units, particles.comoving_frame,
+                       particles.pose.size() + 1, reach * particles.units.length);
   for (auto& axis : reference_) axis.resize(particles.state.blocks() * BlockState<Real>::block);
   const auto drift = frame_drift_of(particles, reference_);
   for_each_part(particles.state.blocks(),
@@ -142,7 +142,8 @@ std::vector<double> VerletLists<Real>::displacements(const MovingParticles<Real>
   const auto drift = frame_drift_of(particles, reference_);
   for_each_part(largest.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block)
-      largest[block] = std::sqrt(static_cast<double>(kernel_.displacement(drift, block, block + 1)));
+      largest[block] =
+          std::sqrt(static_cast<double>(kernel_.displacement(drift, block, block + 1)));
   });
   return largest;
 }
@@ -162,16 +163,15 @@ double VerletLists<Real>::escaped_beyond(const std::vector<double>& displaced,
 
 /// The particles displaced by `limit` (m) or more, ascending.
 template <class Real>
-std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(const MovingParticles<Real>& particles,
-                                                      const std::vector<double>& displaced,
-                                                      double limit) {
+std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(
+    const MovingParticles<Real>& particles, const std::vector<double>& displaced, double limit) {
   const double lengths = 0.999 * limit / particles.units.length;
   constexpr std::size_t size = BlockState<Real>::block;
   std::vector<std::uint32_t> found;
   for (std::size_t block = 0; block < displaced.size(); ++block) {
     if (displaced[block] < lengths) continue;
-    for (std::size_t k = block * size; k < std::min((block + 1) * size, particles.comoving_frame.size());
-         ++k) {
+    for (std::size_t k = block * size;
+         k < std::min((block + 1) * size, particles.comoving_frame.size()); ++k) {
       const Vec3 was(reference_[0][k], reference_[1][k], reference_[2][k]);
       if ((place(particles, k) - was).norm() >= lengths)
         found.push_back(static_cast<std::uint32_t>(k));
@@ -180,7 +180,8 @@ std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(const MovingPart
   return found;
 }
 
-/// Gives escaped particles new partners. False where there are too many, or too little is left to go on with.
+/// Gives escaped particles new partners. False where there are too many, or too little is left to
+/// go on with.
 template <class Real>
 bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
   Stopwatch watch;
@@ -200,8 +201,8 @@ bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
     reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
   outer_drift_.found(limit + 2.5e-7 * reach);
   counts_.checking += watch.lap();
-  // Escaped are found in the cells around their place; and no two of them may meet that were farther
-  // apart, when the lists were made, than the bones' contacts know.
+  // Escaped are found in the cells around their place; and no two of them may meet that were
+  // farther apart, when the lists were made, than the bones' contacts know.
   const double edge = cells_.edge() * particles.units.length;
   const double room = std::min(edge - approach - limit, edge / 2);
   return shift_ < room && outer_drift_.holds(approach + outer_drift_.skin() / 8);
@@ -210,7 +211,8 @@ bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
 /// Where the particle would have been when the lists were made, had it stood where it does in its
 /// co-moving frame's frame: m.
 template <class Real>
-Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles, std::size_t k) const {
+Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles,
+                                          std::size_t k) const {
   const Vec3 here = particles.state.position(k, particles.units);
   if (particles.comoving_frame[k] >= particles.pose.size()) return here;
   const RigidFrame &now = particles.pose[particles.comoving_frame[k]].frame,
@@ -218,15 +220,16 @@ Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles
   return then.origin + then.rotation * (now.rotation.transpose() * (here - now.origin));
 }
 
-/// The pairs of an escaped particle with all that could come near it before the next look, when others may have
-/// come nearer by `nearer` (m) than their references tell.
+/// The pairs of an escaped particle with all that could come near it before the next look, when
+/// others may have come nearer by `nearer` (m) than their references tell.
 template <class Real>
-void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uint32_t k, double nearer,
-                                 std::vector<BlockOffset>& added) const {
+void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uint32_t k,
+                                double nearer, std::vector<BlockOffset>& added) const {
   const auto arrays = particles.state.arrays();
   const std::size_t size = BlockState<Real>::block;
   const double reach = range(outer_skin, particles.units) + nearer / particles.units.length;
-  const Vec3 at = (place_when_listed(particles, k) - particles.units.origin) / particles.units.length;
+  const Vec3 at =
+      (place_when_listed(particles, k) - particles.units.origin) / particles.units.length;
   std::vector<std::uint32_t> blocks;
   cells_.for_each_block_near(at, [&](std::uint32_t block) { blocks.push_back(block); });
   std::sort(blocks.begin(), blocks.end());
@@ -236,8 +239,8 @@ void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uin
     if (!outer_.has(one)) added.push_back(one);
   };
   for (const std::uint32_t block : blocks)
-    for (std::size_t j = block * size; j < std::min((block + 1) * size, particles.comoving_frame.size());
-         ++j) {
+    for (std::size_t j = block * size;
+         j < std::min((block + 1) * size, particles.comoving_frame.size()); ++j) {
       double squared = 0;
       for (int axis = 0; axis < 3; ++axis) {
         const auto apart = static_cast<double>(difference_of(arrays.x[axis][k], arrays.x[axis][j]));
@@ -252,8 +255,8 @@ void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uin
 
 template <class Real>
 std::vector<BlockOffset> VerletLists<Real>::partners_of(const MovingParticles<Real>& particles,
-                                                         const std::vector<std::uint32_t>& found,
-                                                         double nearer) const {
+                                                        const std::vector<std::uint32_t>& found,
+                                                        double nearer) const {
   std::vector<std::vector<BlockOffset>> parts(found.size() / escaped_per_piece + 1);
   parallel_for(found.size(), escaped_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)

@@ -3,9 +3,9 @@
 //
 // A outer list, found with the cells, lasts long; a narrow one, pruned from it, is what the kernel
 // works through. Both hold until particles have approached by their skins, judged by what the
-// co-moving frames' motions and the fastest particle allow, step by step, and by a look at all particles
-// when that is used up. A look that finds a few particles escaped, as in a body that flows, gives
-// those alone new partners; when there are many, all lists are made anew.
+// co-moving frames' motions and the fastest particle allow, step by step, and by a look at all
+// particles when that is used up. A look that finds a few particles escaped, as in a body that
+// flows, gives those alone new partners; when there are many, all lists are made anew.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct MovingParticles {
   const Units& units;
   kernel::ComovingFrames<Real> comoving_frames;
   std::span<const std::uint32_t> comoving_frame;  ///< by particle; pose.size(): the scene
-  const Pose& pose;                        ///< of the comoving_frames
+  const Pose& pose;                               ///< of the comoving_frames
 };
 
 template <class Real>
@@ -63,7 +63,7 @@ class VerletLists {
   std::vector<double> displacements(const MovingParticles<Real>& particles);
   double escaped_beyond(const std::vector<double>& displaced, const Units& units) const;
   std::vector<std::uint32_t> escaped_particles(const MovingParticles<Real>& particles,
-                                    const std::vector<double>& displaced, double limit);
+                                               const std::vector<double>& displaced, double limit);
   Vec3 place(const MovingParticles<Real>& particles, std::size_t k) const;
   Vec3 place_when_listed(const MovingParticles<Real>& particles, std::size_t k) const;
   void pair_up(const MovingParticles<Real>& particles, std::uint32_t k, double nearer,
@@ -81,11 +81,13 @@ class VerletLists {
   BlockCells cells_;
   Contacts contacts_;
   Drift outer_drift_, inner_drift_;
-  std::array<std::vector<float>, 3> reference_;  ///< places in the comoving_frames' frames, in lengths
+  std::array<std::vector<float>, 3>
+      reference_;  ///< places in the comoving_frames' frames, in lengths
   Pose listed_pose_, last_pose_;
   std::vector<RigidMotion> pruned_motions_;
   double moved_when_pruned_ = 0;
-  std::unordered_map<std::uint32_t, Vec3> escaped_;  ///< where escaped were when the lists were made
+  std::unordered_map<std::uint32_t, Vec3>
+      escaped_;       ///< where escaped were when the lists were made
   double shift_ = 0;  ///< how far the farthest of them has been anchored from there, m
 
   ListCounts counts_;

@@ -28,7 +28,7 @@ void resize(WorldForces& forces, std::size_t n) {
 
 /// Ledgers a force on particle i whose source moves at `velocity` there; `losing` is part of it.
 void ledger(WorldForces& forces, std::size_t i, const Vec3& force, const Vec3& losing,
-          const Vec3& velocity) {
+            const Vec3& velocity) {
   forces.losing[i] += losing;
   forces.power[i] += force.dot(velocity);
   forces.losing_power[i] += losing.dot(velocity);

@@ -67,9 +67,9 @@ struct WorldPowers {
 };
 
 /// Powers of `forces` while the particles move at `velocities` (n x 3, m/s, in the order of the
-/// particles; a ledger passes those of mid-step, which differ from those the forces had). Kinetic and
-/// contact energy grow by obstacles + fields + muscles - lost. Who counts muscle_energy.stored as
-/// energy of the body counts muscle_energy.power instead of muscles.
+/// particles; a ledger passes those of mid-step, which differ from those the forces had). Kinetic
+/// and contact energy grow by obstacles + fields + muscles - lost. Who counts muscle_energy.stored
+/// as energy of the body counts muscle_energy.power instead of muscles.
 WorldPowers world_powers(const WorldForces& forces, const Points& velocities);
 
 /// A bound on the stiffness that the world adds to a particle of `particles`' radius and mass, N/m:

@@ -6,7 +6,6 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/core/text.h>
 #include <sinew/rig/bvh/text.h>
 
 namespace sinew {

@@ -4,7 +4,6 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/core/text.h>
 #include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/skeleton.h>
 
