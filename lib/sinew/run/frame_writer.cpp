@@ -139,6 +139,11 @@ void FrameWriter::begin_arrays(const OutputSettings& output, const Body& body) {
   measured_ = rest_body(std::move(input));
 }
 
+FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
+                         const ReadyScene& ready)
+    : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles,
+                  ready.setup.obstacles) {}
+
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {
     // There is room, so the frame that was here before is written: one job at most is under way,

@@ -38,6 +38,9 @@ class FrameWriter {
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
               const Triangles& surface, std::vector<Triangles> obstacles,
               std::span<const double> kept = {});
+  /// The same of a scene that begins.
+  FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
+              const ReadyScene& ready);
 
   /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
   /// not written, of a frame before it too: then nothing more is written.

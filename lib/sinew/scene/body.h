@@ -43,7 +43,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify 
 nlohmann::ordered_json json_of(const ReportValue& value);
 
 /// What body.vtu holds of a filling; `origin` tells from what it was made.
-BodyFile body_file(Filling filling, const std::string& origin);
+BodyFile body_file(Filling filling, const std::string& origin = "");
 
 /// A text that is the same for the same mesh file and the same way of filling it.
 std::string origin_of(const Settings& settings);
