@@ -2,7 +2,7 @@
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; or what two runs have in common, and what not.
 #include <sinew/core/file.h>
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/core/system.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <sinew/core/parallel.h>
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/run_files.h>
