@@ -103,12 +103,12 @@ constexpr std::size_t points_per_piece = 4096;
 
 /// Adds the partners of point i, ascending.
 void add_row(const CellGrid& grid, const Points& points, std::size_t i, double range,
-             std::vector<std::uint32_t>& partner) {
-  const std::size_t begin = partner.size();
+             std::vector<std::uint32_t>& neighbor) {
+  const std::size_t begin = neighbor.size();
   grid.for_each_near(points[i], [&](std::uint32_t j) {
-    if (j != i && (points[j] - points[i]).squaredNorm() < range * range) partner.push_back(j);
+    if (j != i && (points[j] - points[i]).squaredNorm() < range * range) neighbor.push_back(j);
   });
-  std::sort(partner.begin() + static_cast<std::ptrdiff_t>(begin), partner.end());
+  std::sort(neighbor.begin() + static_cast<std::ptrdiff_t>(begin), neighbor.end());
 }
 
 }  // namespace
@@ -120,10 +120,10 @@ NeighborLists neighbors_within(const Points& points, double range) {
   std::vector<std::vector<std::uint32_t>> pieces((points.size() + points_per_piece - 1) /
                                                  points_per_piece);
   parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
-    auto& partner = pieces[begin / points_per_piece];
+    auto& neighbor = pieces[begin / points_per_piece];
     for (std::size_t i = begin; i < end; ++i) {
-      add_row(grid, points, i, range, partner);
-      lists.first[i + 1] = static_cast<std::uint32_t>(partner.size());  // within the piece
+      add_row(grid, points, i, range, neighbor);
+      lists.first[i + 1] = static_cast<std::uint32_t>(neighbor.size());  // within the piece
     }
   });
   std::uint64_t all = 0;
@@ -133,11 +133,11 @@ NeighborLists neighbors_within(const Points& points, double range) {
   for (std::size_t begin = points_per_piece; begin < points.size(); begin += points_per_piece)
     for (std::size_t i = begin; i < std::min(begin + points_per_piece, points.size()); ++i)
       lists.first[i + 1] += lists.first[begin];
-  lists.partner.resize(lists.first.back());
+  lists.neighbor.resize(lists.first.back());
   parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t) {
-    auto& partner = pieces[begin / points_per_piece];
-    std::copy(partner.begin(), partner.end(), lists.partner.begin() + lists.first[begin]);
-    partner = {};
+    auto& neighbor = pieces[begin / points_per_piece];
+    std::copy(neighbor.begin(), neighbor.end(), lists.neighbor.begin() + lists.first[begin]);
+    neighbor = {};
   });
   return lists;
 }

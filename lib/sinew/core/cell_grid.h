@@ -52,12 +52,12 @@ class CellGrid {
 
 /// Row i of a list of lists: the partners of point i, ascending.
 struct NeighborLists {
-  std::vector<std::uint32_t> first;    ///< n + 1 long; row i is [first[i], first[i + 1])
-  std::vector<std::uint32_t> partner;  ///< indices of points
+  std::vector<std::uint32_t> first;     ///< n + 1 long; row i is [first[i], first[i + 1])
+  std::vector<std::uint32_t> neighbor;  ///< indices of points
 
   std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
   std::span<const std::uint32_t> of(std::size_t i) const {
-    return {partner.data() + first[i], first[i + 1] - first[i]};
+    return {neighbor.data() + first[i], first[i + 1] - first[i]};
   }
 };
 

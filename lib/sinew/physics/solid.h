@@ -26,11 +26,11 @@ namespace sinew {
 // creeps after it (plastic flow).
 
 struct Bonds {
-  NeighborLists partners;            ///< from both sides, in the order of the particles
-  std::vector<double> rest_length;   ///< by entry of partners, m; 0 once broken
+  NeighborLists neighbors;           ///< from both sides, in the order of the particles
+  std::vector<double> rest_length;   ///< by entry of neighbors, m; 0 once broken
   std::vector<std::int32_t> broken;  ///< by particle
 
-  std::size_t size() const { return partners.partner.size() / 2; }
+  std::size_t size() const { return neighbors.neighbor.size() / 2; }
   bool whole(std::size_t entry) const { return rest_length[entry] > 0; }
   /// Whether i and j were neighbors at rest.
   bool were_neighbors(std::size_t i, std::uint32_t j) const;
@@ -44,9 +44,9 @@ Bonds make_bonds(const Points& rest, double r);
 /// Calls visit(j, offset, d, rest length) for the whole bonds of particle i: x_i - x_j, its length.
 template <class Visit>
 void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i, Visit&& visit) {
-  for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e) {
+  for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
     if (!bonds.whole(e)) continue;
-    const std::uint32_t j = bonds.partners.partner[e];
+    const std::uint32_t j = bonds.neighbors.neighbor[e];
     const Vec3 offset = particles.position(i) - particles.position(j);
     visit(j, offset, offset.norm(), bonds.rest_length[e]);
   }

@@ -69,11 +69,11 @@ struct Choice {
   }
 };
 
-/// The nearest bones by the ways inside; the particles no way reaches have the nearest of all.
+/// The nearest bones by the paths inside; the particles no path reaches have the nearest of all.
 std::size_t choose_inside(Choice& choice, double particle_volume) {
-  const InsideWays ways = inside_ways(choice.rest, choice.skeleton, choice.options.radius);
-  choice.inside = near_inside(ways, choice.skeleton, 0);
-  choice.nearest = ways.straight_nearest;
+  const InsidePaths paths = inside_paths(choice.rest, choice.skeleton, choice.options.radius);
+  choice.inside = near_inside(paths, choice.skeleton, 0);
+  choice.nearest = paths.straight_nearest;
   std::size_t unreached = 0;
   for (std::size_t i = 0; i < choice.inside.size(); ++i) {
     const int bone = nearest_of(choice.inside[i]).bone;
@@ -84,7 +84,7 @@ std::size_t choose_inside(Choice& choice, double particle_volume) {
                              sections_by_nearest(choice.nearest, choice.skeleton, particle_volume),
                              choice.options.joint_zone);
   if (const double reach = choice.zones.longest(); reach > 0)
-    choice.inside = near_inside(ways, choice.skeleton, reach);
+    choice.inside = near_inside(paths, choice.skeleton, reach);
   return unreached;
 }
 

@@ -53,7 +53,7 @@ std::optional<Hold> hold_at(const std::vector<double>& times, double time) {
 }
 
 /// The way from one key to the next, 0 to 1, as a polynomial without a constant; not of cubic.
-std::array<double, 3> way_of(Interpolation interpolation) {
+std::array<double, 3> progress_of(Interpolation interpolation) {
   if (interpolation == Interpolation::step) return {0, 0, 0};
   if (interpolation == Interpolation::smooth) return {0, 3, -2};
   return {1, 0, 0};
@@ -63,8 +63,8 @@ std::array<double, 3> way_of(Interpolation interpolation) {
 template <class Value>
 std::array<Value, 4> hermite(const Value& from, const Value& leave, const Value& to,
                              const Value& arrive) {
-  const Value way = to - from;
-  return {from, leave, 3 * way - 2 * leave - arrive, leave + arrive - 2 * way};
+  const Value change = to - from;
+  return {from, leave, 3 * change - 2 * leave - arrive, leave + arrive - 2 * change};
 }
 
 /// The slope at a key of the parabola through it and its neighbors, from the slopes of the ways to
@@ -87,27 +87,27 @@ Vec3 zero_of<Vec3>() {
 
 /// The ways that meet at a key: from the key before and to the key after, by the number of the key
 /// each leads to. The ends have none but where the curve is cyclic.
-struct Ways {
+struct Segments {
   std::size_t to_it, from_it;
 };
 
 template <class AnyCurve>
-std::optional<Ways> ways_at(const AnyCurve& curve, std::size_t key) {
+std::optional<Segments> segments_at(const AnyCurve& curve, std::size_t key) {
   const std::size_t last = curve.times.size() - 1;
-  if (key > 0 && key < last) return Ways{key, key + 1};
-  return curve.cyclic ? std::optional(Ways{last, 1}) : std::nullopt;
+  if (key > 0 && key < last) return Segments{key, key + 1};
+  return curve.cyclic ? std::optional(Segments{last, 1}) : std::nullopt;
 }
 
 template <class Value>
 Value made_tangent(const Curve<Value>& curve, std::size_t key) {
-  const auto ways = ways_at(curve, key);
-  if (!ways) return zero_of<Value>();
+  const auto segments = segments_at(curve, key);
+  if (!segments) return zero_of<Value>();
   const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
   const auto slope = [&](std::size_t k) -> Value {
     return (curve.values[k] - curve.values[k - 1]) / duration(k);
   };
-  return slope_between<Value>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
-                              duration(ways->from_it));
+  return slope_between<Value>(slope(segments->to_it), duration(segments->to_it),
+                              slope(segments->from_it), duration(segments->from_it));
 }
 
 template <class Value>
@@ -126,12 +126,12 @@ Vec3 turn_to(const RotationCurve& curve, std::size_t key) {
 }
 
 Vec3 made_velocity(const RotationCurve& curve, std::size_t key) {
-  const auto ways = ways_at(curve, key);
-  if (!ways) return Vec3::Zero();
+  const auto segments = segments_at(curve, key);
+  if (!segments) return Vec3::Zero();
   const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
   const auto slope = [&](std::size_t k) -> Vec3 { return turn_to(curve, k) / duration(k); };
-  return slope_between<Vec3>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
-                             duration(ways->from_it));
+  return slope_between<Vec3>(slope(segments->to_it), duration(segments->to_it),
+                             slope(segments->from_it), duration(segments->from_it));
 }
 
 /// The vector of `rotation` that is nearest to `wanted`, which may be longer than pi.
@@ -179,7 +179,7 @@ CurvePiece<Value> Curve<Value>::piece_at(double time) const {
     return {hold->time, {values[hold->key], zero, zero, zero}};
   const Span span = span_at(times, time);
   if (interpolation == Interpolation::cubic) return {span.time, cubic(*this, span)};
-  const auto [linear, square, cube] = way_of(interpolation);
+  const auto [linear, square, cube] = progress_of(interpolation);
   const Value &from = values[span.key], difference = values[span.key + 1] - from;
   return {span.time, {from, linear * difference, square * difference, cube * difference}};
 }
@@ -197,7 +197,7 @@ RotationPiece RotationCurve::piece_at(double time) const {
   const Span span = span_at(times, time);
   piece.time = span.time;
   if (interpolation != Interpolation::cubic) {
-    piece.way = way_of(interpolation);
+    piece.progress = progress_of(interpolation);
     piece.c = {values[span.key].coeffs(), as_4(turn_to(*this, span.key + 1))};
   } else if (in.empty() || out.empty()) {
     put_turns(*this, span, piece);
@@ -212,11 +212,11 @@ namespace {
 using Vec4 = Eigen::Vector4d;
 
 RotationSample by_turn(const RotationPiece& piece, double s) {
-  const auto& [linear, square, cube] = piece.way;
+  const auto& [linear, square, cube] = piece.progress;
   const Vec3 turn = piece.c[1].head<3>();
-  const double way = s * (linear + s * (square + s * cube));
+  const double share = s * (linear + s * (square + s * cube));
   const double rate = piece.time.speed * (linear + s * (2 * square + s * (3 * cube)));
-  return {rotation_by(way * turn) * Quat(piece.c[0]), rate * turn};
+  return {rotation_by(share * turn) * Quat(piece.c[0]), rate * turn};
 }
 
 RotationSample by_turns(const RotationPiece& piece, double s) {

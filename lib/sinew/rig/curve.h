@@ -61,14 +61,15 @@ struct CurvePiece {
 
 struct RotationPiece {
   enum class Form {
-    turn,     ///< c0 a quaternion, c1 the vector by which it turns: by way(s) of it
+    turn,     ///< c0 a quaternion, c1 the vector by which it turns: by progress(s) of it
     turns,    ///< c0 a quaternion, c1, c2, c3 vectors of turns, one after the other (Kim et al.)
     tangents  ///< c0 + c1 s + c2 s^2 + c3 s^3, made a unit quaternion (glTF)
   };
   PieceTime time;
   Form form = Form::turn;
-  std::array<double, 3> way = {0, 0, 0};  ///< way[0] s + way[1] s^2 + way[2] s^3
-  std::array<Eigen::Vector4d, 4> c;       ///< quaternions as x y z w
+  std::array<double, 3> progress = {0, 0,
+                                    0};  ///< progress[0] s + progress[1] s^2 + progress[2] s^3
+  std::array<Eigen::Vector4d, 4> c;      ///< quaternions as x y z w
 
   RotationSample at(double moment) const;
 };

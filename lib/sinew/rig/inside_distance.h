@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far particles are from bones by the way inside the body: along chains of particles that touch
-// at rest (or touch one and the same), so that no way leads across a gap. In the open such ways are
-// up to 6 % longer than straight ones; so much of a detour counts as none.
+// How far particles are from bones by the path inside the body: along chains of particles that
+// touch at rest (or touch one and the same), so that no path leads across a gap. In the open such
+// paths are up to 6 % longer than straight ones; so much of a detour counts as none.
 #pragma once
 
 #include <vector>
@@ -16,22 +16,22 @@ struct BoneDistance {
   double distance = 0;  ///< m
 };
 
-/// A body as ways lead through it.
-struct InsideWays {
+/// A body as paths lead through it.
+struct InsidePaths {
   NeighborLists links;  ///< of particles that touch, or touch one and the same
   Points points;        ///< m
-  /// Where the ways from each bone begin: particles that have it as their nearest and lie within
+  /// Where the paths from each bone begin: particles that have it as their nearest and lie within
   /// 1.5 radii of it, or not more than half a radius farther than the nearest of them.
   std::vector<std::vector<std::uint32_t>> starts;
   std::vector<int> straight_nearest;  ///< bone of each particle through the air
 };
 
-InsideWays inside_ways(const Points& rest, const Skeleton& skeleton, double radius);
+InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius);
 
-/// Per particle, by bone: the nearest bone by the ways inside and all others not more than `reach`
-/// (m) farther. Empty where no way leads.
-std::vector<std::vector<BoneDistance>> near_inside(const InsideWays& ways, const Skeleton& skeleton,
-                                                   double reach);
+/// Per particle, by bone: the nearest bone by the paths inside and all others not more than `reach`
+/// (m) farther. Empty where no path leads.
+std::vector<std::vector<BoneDistance>> near_inside(const InsidePaths& paths,
+                                                   const Skeleton& skeleton, double reach);
 
 /// The nearest of one particle's; the lower bone on ties, no_bone of none.
 BoneDistance nearest_of(const std::vector<BoneDistance>& near);

@@ -38,8 +38,9 @@ Quat from_quaternion(const std::array<double, 4>& given, const std::string& plac
 }
 
 Quat rotation_of(const KeyDefinition& key, const std::string& order, const std::string& place) {
-  const int ways = (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
-  if (ways > 1)
+  const int forms =
+      (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
+  if (forms > 1)
     throw bad_value(place, "a key gives its rotation twice",
                     "keep one of euler, quaternion, and axis and angle");
   if (key.euler) return from_euler(*key.euler, order);

@@ -29,9 +29,9 @@ ClipTime clip_time(const Motion& motion, double passed) {
     return {motion.start + std::min(passed, length), within ? 1.0 : 0.0};
   if (motion.extrapolation == Extrapolation::loop)
     return {motion.start + std::fmod(passed, length), 1};
-  const double way = std::fmod(passed, 2 * length);
-  if (way < length) return {motion.start + way, 1};
-  return {motion.start + 2 * length - way, -1};
+  const double position = std::fmod(passed, 2 * length);
+  if (position < length) return {motion.start + position, 1};
+  return {motion.start + 2 * length - position, -1};
 }
 
 void slow_down(LocalMotion& motion, double speed) {
@@ -42,17 +42,17 @@ void slow_down(LocalMotion& motion, double speed) {
   motion.stretch_rate *= speed;
 }
 
-/// On the way from rest to `goal`: a share `way` of it, which grows by `rate` per second.
-LocalMotion ramped(const LocalMotion& goal, double way, double rate) {
+/// On the way from rest to `goal`: a share `reached` of it, which grows by `rate` per second.
+LocalMotion ramped(const LocalMotion& goal, double reached, double rate) {
   const Vec3 turn = rotation_vector(goal.rotation);
   LocalMotion motion;
-  motion.rotation = rotation_by(way * turn);
+  motion.rotation = rotation_by(reached * turn);
   motion.angular_velocity = rate * turn;
-  motion.twist = way * goal.twist;
+  motion.twist = reached * goal.twist;
   motion.twist_rate = rate * goal.twist;
-  motion.translation = way * goal.translation;
+  motion.translation = reached * goal.translation;
   motion.velocity = rate * goal.translation;
-  motion.stretch = 1 + way * (goal.stretch - 1);
+  motion.stretch = 1 + reached * (goal.stretch - 1);
   motion.stretch_rate = rate * (goal.stretch - 1);
   return motion;
 }
@@ -187,7 +187,7 @@ ClipMoment clip_moment(const Motion& motion, double time) {
 
 LocalMotion local_motion(const Track& track, const ClipMoment& moment, TrackCursor& cursor) {
   LocalMotion local = track.at(moment.time, cursor);
-  if (moment.ramps) return ramped(local, moment.way, moment.rate);
+  if (moment.ramps) return ramped(local, moment.reached, moment.rate);
   slow_down(local, moment.speed);
   return local;
 }

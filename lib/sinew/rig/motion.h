@@ -93,10 +93,10 @@ Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skel
 
 /// What a time of the scene is for a clip.
 struct ClipMoment {
-  double time = 0;           ///< of the clip, s
-  double speed = 1;          ///< s of the clip per s; 0 where it holds, -1 on the way back
-  bool ramps = false;        ///< within the preroll:
-  double way = 1, rate = 0;  ///< how much of the pose is reached, and its growth, 1/s
+  double time = 0;               ///< of the clip, s
+  double speed = 1;              ///< s of the clip per s; 0 where it holds, -1 on the way back
+  bool ramps = false;            ///< within the preroll:
+  double reached = 1, rate = 0;  ///< how much of the pose is reached, and its growth, 1/s
 };
 
 ClipMoment clip_moment(const Motion& motion, double time);

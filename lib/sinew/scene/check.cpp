@@ -39,9 +39,10 @@ constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 113
 constexpr double memory_with_cells = 1500;
 constexpr double memory_per_point = 600, memory_beside = 30e6;
 
-double memory_per_particle(const StepperChoice& way) {
-  if (way.search == NeighborSearch::cells) return memory_with_cells;
-  return way.precision == Precision::binary64 ? memory_with_lists_double : memory_with_lists_single;
+double memory_per_particle(const StepperChoice& choice) {
+  if (choice.search == NeighborSearch::cells) return memory_with_cells;
+  return choice.precision == Precision::binary64 ? memory_with_lists_double
+                                                 : memory_with_lists_single;
 }
 
 /// Numbers of a particle in the arrays that the scene asks for.
@@ -80,8 +81,8 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   Needs needs;
   needs.disk = static_cast<std::uint64_t>(
       (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
-  const StepperChoice way = stepper_choice(settings.solver, setup.body, setup.motion);
-  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
+  const StepperChoice choice = stepper_choice(settings.solver, setup.body, setup.motion);
+  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(choice) +
                                             points * memory_per_point + memory_beside);
   return needs;
 }
@@ -233,9 +234,9 @@ void warn_of_unreached(const Binding& binding, Warnings& warnings) {
 }
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
-  const StepperChoice way = stepper_choice(solver, setup.body, setup.motion);
-  if (!way.unsupported || setup.body.material.model != MaterialModel::paper) return;
-  const auto& [key, value, supported] = *way.unsupported;
+  const StepperChoice choice = stepper_choice(solver, setup.body, setup.motion);
+  if (!choice.unsupported || setup.body.material.model != MaterialModel::paper) return;
+  const auto& [key, value, supported] = *choice.unsupported;
   std::string warning = key;
   warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
   if (solver.precision == Precision::binary32) warning += ", in double precision";

@@ -41,16 +41,16 @@ Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
 }  // namespace
 
 StepperChoice stepper_choice(const SolverSettings& solver, const Body& body, const Motion& motion) {
-  StepperChoice way{solver.neighbor_search, solver.precision};
-  if (way.search == NeighborSearch::lists && !lists_support(body, motion)) {
-    way.search = NeighborSearch::cells;
-    way.unsupported = unsupported_by_lists(body, motion);
+  StepperChoice choice{solver.neighbor_search, solver.precision};
+  if (choice.search == NeighborSearch::lists && !lists_support(body, motion)) {
+    choice.search = NeighborSearch::cells;
+    choice.unsupported = unsupported_by_lists(body, motion);
   }
-  if (way.search == NeighborSearch::cells) {
-    way.precision = Precision::binary64;
-    way.instructions = InstructionSet::plain;
+  if (choice.search == NeighborSearch::cells) {
+    choice.precision = Precision::binary64;
+    choice.instructions = InstructionSet::plain;
   }
-  return way;
+  return choice;
 }
 
 const char* name_of(NeighborSearch search) {
@@ -61,11 +61,11 @@ const char* name_of(Precision precision) {
   return precision == Precision::binary64 ? "double" : "single";
 }
 
-double usual_speed(const StepperChoice& way) {
-  if (way.search == NeighborSearch::cells) return speed_with_cells;
+double usual_speed(const StepperChoice& choice) {
+  if (choice.search == NeighborSearch::cells) return speed_with_cells;
   for (const Speed& speed : speeds_with_lists)
-    if (speed.set == way.instructions)
-      return way.precision == Precision::binary64 ? speed.in_double : speed.in_single;
+    if (speed.set == choice.instructions)
+      return choice.precision == Precision::binary64 ? speed.in_double : speed.in_single;
   return speed_with_cells;
 }
 

@@ -32,7 +32,7 @@ const char* name_of(NeighborSearch search);
 const char* name_of(Precision precision);
 
 /// Particle-steps per second that one core is usually seen to make.
-double usual_speed(const StepperChoice& way);
+double usual_speed(const StepperChoice& choice);
 
 /// How many times slower than lists in the scene's precision cells usually are.
 double slowness_of_cells(Precision precision);

@@ -152,7 +152,7 @@ ObstacleMotion motion_of(const ObstacleSettings& given, const Vec3& middle, int 
                          const Skeleton& skeleton) {
   if (!given.keys.empty()) return keyed(given, middle);
   const RigidFrame frame = {middle, Mat3::Identity()};
-  return bone == no_bone ? still(frame) : riding(bone, skeleton.bones[bone], frame);
+  return bone == no_bone ? still(frame) : attached_to_bone(bone, skeleton.bones[bone], frame);
 }
 
 void add_obstacles(const Settings& settings, const Body& body, World& world,

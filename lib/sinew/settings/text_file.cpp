@@ -137,9 +137,9 @@ namespace sinew {
 fs::path seen_from(const fs::path& folder, const fs::path& path) {
   const fs::path here = ".";
   std::error_code error;
-  const fs::path way = fs::proximate(here / path.parent_path(), here / folder, error);
+  const fs::path route = fs::proximate(here / path.parent_path(), here / folder, error);
   if (error) return path;
-  return way == here ? path.filename() : way / path.filename();
+  return route == here ? path.filename() : route / path.filename();
 }
 
 std::string path_in(const fs::path& folder, const std::string& path) {

@@ -175,9 +175,9 @@ Failure CellStepper::take_back(const Pose& pose) {
     const Particle before{{before_.x[0][i], before_.x[1][i], before_.x[2][i]},
                           {before_.v[0][i], before_.v[1][i], before_.v[2][i]}};
     if (sound(i, before, pose)) continue;
-    const Vec3 way = moved(i, before, pose);
-    failure.all.push_back({i, way.allFinite() && particles_.position(i).allFinite(),
-                           way.allFinite() ? way.norm() : 0});
+    const Vec3 displacement = moved(i, before, pose);
+    failure.all.push_back({i, displacement.allFinite() && particles_.position(i).allFinite(),
+                           displacement.allFinite() ? displacement.norm() : 0});
   }
   failure.first = failure.all.front();
   Particles& now = particles_;

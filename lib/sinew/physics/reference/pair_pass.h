@@ -27,8 +27,8 @@ inline Vec3 direction_from(const Particles& particles, const Vec3& offset, doubl
 
 /// Calls visit(j, offset, d) for every partner j of particle i: x_i - x_j and its length d < b.
 template <class Visit>
-void for_each_partner(const Particles& particles, const CellGrid& cells, double b, std::size_t i,
-                      Visit&& visit) {
+void for_each_neighbor(const Particles& particles, const CellGrid& cells, double b, std::size_t i,
+                       Visit&& visit) {
   const Vec3 here = particles.position(i);
   cells.for_each_near(here, [&](std::uint32_t j) {
     if (j == i) return;
@@ -77,12 +77,12 @@ void pair_pass(const Particles& particles, const Material& material, const Push&
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 force = Vec3::Zero(), velocities = Vec3::Zero();
     int count = 0;
-    for_each_partner(particles, cells, material.pair.b, i,
-                     [&](std::uint32_t j, const Vec3& offset, double d) {
-                       force += push(i, j, d) * direction_from(particles, offset, d, i, j);
-                       velocities += particles.velocity(j);
-                       ++count;
-                     });
+    for_each_neighbor(particles, cells, material.pair.b, i,
+                      [&](std::uint32_t j, const Vec3& offset, double d) {
+                        force += push(i, j, d) * direction_from(particles, offset, d, i, j);
+                        velocities += particles.velocity(j);
+                        ++count;
+                      });
     forces.pair[i] = force;
     forces.neighbors[i] = count;
     forces.damping[i] = Vec3::Zero();

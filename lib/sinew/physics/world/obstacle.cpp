@@ -37,7 +37,7 @@ ObstacleMotion still(const RigidFrame& frame) {
   };
 }
 
-ObstacleMotion riding(int bone, const Bone& rest, const RigidFrame& frame) {
+ObstacleMotion attached_to_bone(int bone, const Bone& rest, const RigidFrame& frame) {
   return [bone, rest = rest.rest, frame](double, const Pose& bones) {
     const BonePose& comoving_frame = bones.at(static_cast<std::size_t>(bone));
     ObstaclePose pose;

@@ -54,7 +54,7 @@ ObstacleMotion still(const RigidFrame& frame);
 
 /// Rides on a bone: `frame` is where the obstacle is while bone number `bone` of a skeleton rests
 /// as `rest` does.
-ObstacleMotion riding(int bone, const Bone& rest, const RigidFrame& frame);
+ObstacleMotion attached_to_bone(int bone, const Bone& rest, const RigidFrame& frame);
 
 /// What an obstacle does to one particle, N, and the energy k (r - d)^2 / 2 it stores, J.
 struct Contact {

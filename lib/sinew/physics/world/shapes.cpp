@@ -139,8 +139,8 @@ Triangles surface_of(const PlaneShape& plane, double size) {
 
 /// A ball pulled apart along an axis: rings of points from the pole at b to the one at a.
 Triangles rounded(const Vec3& a, const Vec3& b, double radius) {
-  const Vec3 way = b - a;
-  const Mat3 frame = frame_along(way.norm() > 0 ? way : Vec3::UnitZ());
+  const Vec3 axis = b - a;
+  const Mat3 frame = frame_along(axis.norm() > 0 ? axis : Vec3::UnitZ());
   Triangles surface;
   surface.points.push_back(b + radius * frame.col(0));
   for (int ring = 1; ring <= 2 * parallels; ++ring) {  // the equator twice: once at either end

@@ -85,14 +85,14 @@ class Reading {
   Vec3 translation(const BvhJoint& joint, std::size_t column, int frame) const {
     const double* values = bvh_.values.data() + frame * width_ + column;
     const bool replace = options_.positions == BvhPositions::replace;
-    Vec3 way = Vec3::Zero();
+    Vec3 shift = Vec3::Zero();
     for (const BvhChannel channel : joint.channels) {
       const double value = *values++;
       if (!is_position(channel)) continue;
       const int axis = axis_of(channel);
-      way[axis] = replace ? value - joint.offset[axis] : value;
+      shift[axis] = replace ? value - joint.offset[axis] : value;
     }
-    return vector(way);
+    return vector(shift);
   }
 
   static bool is_position(BvhChannel channel) { return channel <= BvhChannel::z_position; }
@@ -117,7 +117,7 @@ std::vector<Joint> joints_of(const Bvh& bvh, const Reading& reading) {
 }
 
 /// Neighbors on the same side of the sphere: q and -q are one rotation, and two ways to it.
-void choose_short_ways(std::vector<Quat>& rotations) {
+void choose_shortest_turns(std::vector<Quat>& rotations) {
   for (std::size_t i = 1; i < rotations.size(); ++i)
     if (rotations[i].dot(rotations[i - 1]) < 0) rotations[i].coeffs() *= -1;
 }
@@ -183,7 +183,7 @@ class ClipMaker {
     const std::vector<double> times = times_every(1 / options_.rate, count_);
     resample(track.rotation, times);
     resample(track.translation, times);
-    choose_short_ways(track.rotation.values);
+    choose_shortest_turns(track.rotation.values);
     return track;
   }
 
@@ -196,7 +196,7 @@ class ClipMaker {
     curve.values.reserve(frames_.count);
     for (int i = 0; i < frames_.count; ++i)
       curve.values.push_back(reading_.rotation(joint, column, frames_.first + i));
-    choose_short_ways(curve.values);
+    choose_shortest_turns(curve.values);
     return curve;
   }
 
@@ -209,7 +209,7 @@ class ClipMaker {
     for (int i = 0; i < frames_.count; ++i)
       curve.values.push_back(reading_.translation(joint, column, frames_.first + i));
     if (std::all_of(curve.values.begin(), curve.values.end(),
-                    [](const Vec3& way) { return way.isZero(0); }))
+                    [](const Vec3& shift) { return shift.isZero(0); }))
       curve.values.clear();
     else
       curve.times = times_every(bvh_.frame_time, frames_.count);
