@@ -56,7 +56,7 @@ std::vector<Reaction> reactions(const Particles& particles, const Body& body, co
       });
   });
   std::vector<Reaction> on(pose.size());
-  for (const auto& part : parts)  // in the order of the pieces, whichever thread made them
+  for (const auto& part : parts)  // in the order of the pieces, whichever thread computed them
     for (std::size_t b = 0; b < on.size(); ++b) {
       on[b].force += part[b].force;
       on[b].moment += part[b].moment;

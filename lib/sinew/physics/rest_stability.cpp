@@ -83,7 +83,7 @@ double least_rise(const Material& material, Packing packing) {
   const Points rest = cluster(packing, r);
   const auto energy = energy_of(material, rest);
   const double at_rest = energy(rest);
-  std::mt19937_64 random(5);  // any seed: a check must say the same each time
+  std::mt19937_64 random(5);  // any seed: the check must give the same result each time
   double least = std::numeric_limits<double>::infinity();
   for (const double strain : strains) {
     const double amplitude = strain * r;

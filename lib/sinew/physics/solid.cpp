@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-/// Where j stands among the partners of i.
+/// Index of j among the neighbors of i.
 std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
   const auto begin = bonds.neighbors.neighbor.begin();
   const auto last = begin + bonds.neighbors.first[i + 1];
@@ -24,7 +24,7 @@ std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
   return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
 }
 
-/// The rest length after a time: what exceeds the yield strain decays; 0 for a bond that breaks.
+/// The rest length after a time: strain beyond the yield strain decays; 0 for a bond that breaks.
 double next_length(const BondStrength& strength, double length, double d, double time) {
   if (strength.breaking_strain > 0 && d > length * (1 + strength.breaking_strain)) return 0;
   if (strength.yield_strain <= 0) return length;
@@ -65,7 +65,7 @@ Bonds make_bonds(const Points& rest, double r) {
 double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
               const Particles& particles, double time) {
   if (strength.breaking_strain <= 0 && strength.yield_strain <= 0) return 0;
-  // Both sides of a bond see the same distance to the last bit, and do the same with it.
+  // Both directions of a bond see the same distance to the last bit, and change alike.
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double released = 0;
     for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
@@ -145,8 +145,8 @@ double Solid::potential(std::size_t i, std::uint32_t j, double d) const {
   return bonds_.bonded(i, j) ? 0 : repulsion;
 }
 
-/// F_i, and from it J_i and what its volume pushes with. Where a bond broke, flesh has come apart
-/// and keeps no volume.
+/// F_i, J_i and the stress that keeps the volume. Where a bond broke, the body is severed and keeps
+/// no volume.
 void Solid::find_volumes(const Particles& particles) {
   if (material_.volume_stiffness <= 0) return;
   const double V0 = volume_per_particle(material_.pair.r);
@@ -174,7 +174,7 @@ Vec3 Solid::bond_force(const Particles& particles, std::size_t i) const {
   return force;
 }
 
-/// Of its own volume and those it helps to span.
+/// Of its own volume and those of its neighbors.
 Vec3 Solid::volume_force(std::size_t i) const {
   Vec3 force = Vec3::Zero();
   for (const std::uint32_t j : bonds_.neighbors.of(i))

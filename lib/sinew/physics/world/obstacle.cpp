@@ -16,7 +16,7 @@ void check_constant(const Obstacle& obstacle, const std::string& key, double val
                   "give 0 or a positive number");
 }
 
-/// Coulomb's law, no steeper in the velocity than `stick`.
+/// Coulomb's law, with a slope in the velocity of at most `stick`.
 Vec3 rub(double most_force, double stick, const Vec3& sliding) {
   const double speed = sliding.norm();
   if (!(speed > 0)) return Vec3::Zero();
