@@ -6,8 +6,8 @@
 // with J_i of the least-squares deformation gradient F_i over its neighbors at rest, F_i = sum dx
 // dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weight w_i =
 // min(1, lambda_min(A_i) / (4 d0^2))^2 vanishes where neighbors are few: without it the particles
-// of a surface would halve the step. paper with cohesion initial_neighbors: eq. 1, but only
-// neighbors at rest attract each other.
+// of a surface would halve the step.
+// paper with cohesion initial_neighbors: eq. 1, but only neighbors at rest attract each other.
 //
 //     Solid solid(material, rest);
 //     solid.forces(particles, forces);

@@ -13,8 +13,8 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;
 
-/// The last key not after `time`, which lies between the first and the last. Most clips have even
-/// times: the guess then is right.
+/// The last key not after `time`, which is between the first and the last. Most clips have equal
+/// intervals: then the guess is right.
 std::size_t key_before(const std::vector<double>& times, double time) {
   const std::size_t last = times.size() - 2;
   const double share = (time - times.front()) / (times.back() - times.front());
@@ -26,7 +26,7 @@ std::size_t key_before(const std::vector<double>& times, double time) {
          1;
 }
 
-/// A place between two keys.
+/// A time between two keys.
 struct Span {
   std::size_t key;  ///< the earlier one; the later is key + 1
   double duration;  ///< s
@@ -39,7 +39,7 @@ Span span_at(const std::vector<double>& times, double time) {
   return {key, end - begin, {begin, end, begin, 1 / (end - begin)}};
 }
 
-/// Where a curve holds: before its first key and after its last.
+/// The constant part of a curve: before its first key and after its last.
 struct Hold {
   std::size_t key;
   PieceTime time;
@@ -52,7 +52,7 @@ std::optional<Hold> hold_at(const std::vector<double>& times, double time) {
   return std::nullopt;
 }
 
-/// The way from one key to the next, 0 to 1, as a polynomial without a constant; not of cubic.
+/// Progress from one key to the next, 0 to 1, as a polynomial without a constant; not for cubic.
 std::array<double, 3> progress_of(Interpolation interpolation) {
   if (interpolation == Interpolation::step) return {0, 0, 0};
   if (interpolation == Interpolation::smooth) return {0, 3, -2};
@@ -67,8 +67,8 @@ std::array<Value, 4> hermite(const Value& from, const Value& leave, const Value&
   return {from, leave, 3 * change - 2 * leave - arrive, leave + arrive - 2 * change};
 }
 
-/// The slope at a key of the parabola through it and its neighbors, from the slopes of the ways to
-/// it and from it, which last `before` and `after`.
+/// The slope at a key of the parabola through it and its neighbors, from the slopes of the segments
+/// to and from it, with durations `before` and `after`.
 template <class Value>
 Value slope_between(const Value& to_it, double before, const Value& from_it, double after) {
   return (after * to_it + before * from_it) / (before + after);
@@ -85,8 +85,8 @@ Vec3 zero_of<Vec3>() {
   return Vec3::Zero();
 }
 
-/// The ways that meet at a key: from the key before and to the key after, by the number of the key
-/// each leads to. The ends have none but where the curve is cyclic.
+/// The segments that meet at a key, from the key before and to the key after, each by the number of
+/// the key at its end. The first and last key have none unless the curve is cyclic.
 struct Segments {
   std::size_t to_it, from_it;
 };
@@ -149,7 +149,7 @@ bool parallel(const Vec3& a, const Vec3& b) {
 
 Vec4 as_4(const Vec3& v) { return {v.x(), v.y(), v.z(), 0}; }
 
-/// The way between two keys as three turns, one after the other, each along its own polynomial.
+/// The rotation between two keys as three rotations in sequence, each with its own polynomial.
 void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const Vec3 turn = turn_to(curve, span.key + 1);
   const Vec3 first = span.duration / 3 * made_velocity(curve, span.key);
@@ -162,7 +162,7 @@ void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piec
   piece.c = {curve.values[span.key].coeffs(), as_4(first), as_4(second), as_4(third)};
 }
 
-/// glTF's: components one by one.
+/// As in glTF: component by component.
 void put_tangents(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const std::size_t k = span.key;
   piece.form = RotationPiece::Form::tangents;

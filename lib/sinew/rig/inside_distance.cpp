@@ -15,16 +15,16 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t particles_per_piece = 4096;
-// The widest hole of closest packing leaves sqrt(2) radii to the next particle.
+// The largest void of closest packing is sqrt(2) radii from the next particle.
 constexpr double around_bone = 1.5, beyond_nearest = 0.5;  // radii
-// Paths along the lattice over straight ones: sqrt(9 / 8) at most, along [111] of FCC.
+// Lattice paths over straight ones: at most sqrt(9 / 8), along [111] of FCC.
 constexpr double detour_of_lattice = 1.061;
 
 struct Step {
   double distance;
   int bone;
   std::uint32_t particle;
-  /// Later steps first: the nearest, then the lower bone, then the lower particle is on top.
+  /// Reversed: the nearest, then the lower bone, then the lower particle is on top.
   bool operator<(const Step& other) const {
     return std::tie(distance, bone, particle) >
            std::tie(other.distance, other.bone, other.particle);
@@ -38,7 +38,7 @@ void begin_at(const InsidePaths& paths, const Skeleton& skeleton, int bone, Queu
     queue.push({distance_to(skeleton.bones[bone], paths.points[i]), bone, i});
 }
 
-/// Dijkstra: what leaves the queue first is the nearest. Paths end at `limit` (m).
+/// Dijkstra's algorithm; paths end at `limit` (m).
 std::vector<BoneDistance> walk(const InsidePaths& paths, Queue queue, double limit) {
   std::vector<BoneDistance> found(paths.points.size(), {no_bone, infinite});
   while (!queue.empty()) {
@@ -79,14 +79,14 @@ NeighborLists links_of(const Points& rest, double radius) {
   return links;
 }
 
-/// Through the air, or by the path inside where that is a true detour.
+/// The straight distance, or that of the path inside where it is a detour.
 BoneDistance without_lattice(const InsidePaths& paths, const Skeleton& skeleton, std::uint32_t i,
                              const BoneDistance& path) {
   const double straight = distance_to(skeleton.bones[path.bone], paths.points[i]);
   return {path.bone, std::max(straight, path.distance / detour_of_lattice)};
 }
 
-/// Paths from one bone, all up to `limit` (m).
+/// Paths from one bone, up to `limit` (m).
 std::vector<BoneDistance> paths_from(const InsidePaths& paths, const Skeleton& skeleton, int bone,
                                      double limit) {
   Queue queue;

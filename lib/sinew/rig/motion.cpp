@@ -13,14 +13,15 @@ namespace sinew {
 
 namespace {
 
-constexpr double least_stretch = 0.01;  // what a cubic between positive keys may go below
+constexpr double least_stretch = 0.01;  // a cubic between positive keys may be below
 
-/// A moment of the clip, and how fast it passes there: 1, 0 where it holds, -1 on the way back.
+/// A moment of the clip, and the clip's speed there: 1, 0 where it holds, -1 where it plays
+/// backwards.
 struct ClipTime {
   double time, speed;
 };
 
-/// `passed` s after the clip has begun; before that it holds its beginning.
+/// `passed` s after the clip began; before that it holds its beginning.
 ClipTime clip_time(const Motion& motion, double passed) {
   if (passed < 0) return {motion.start, 0};
   const double length = clip_length(motion);
@@ -42,7 +43,7 @@ void slow_down(LocalMotion& motion, double speed) {
   motion.stretch_rate *= speed;
 }
 
-/// On the way from rest to `goal`: a share `reached` of it, which grows by `rate` per second.
+/// During the preroll: a share `reached` of `goal`, which grows by `rate` per second.
 LocalMotion ramped(const LocalMotion& goal, double reached, double rate) {
   const Vec3 turn = rotation_vector(goal.rotation);
   LocalMotion motion;
@@ -69,7 +70,7 @@ void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
     for (Vec3& value : *values) value = scale * (turn * value);
 }
 
-/// Writes down the short ways from key to key, which the pieces of the curve else find anew.
+/// Stores the shortest rotation from key to key, which each piece would otherwise compute again.
 void find_turns(RotationCurve& curve) {
   if (curve.empty() || !curve.turns.empty()) return;
   std::vector<Vec3> turns = {Vec3::Zero()};
@@ -233,7 +234,7 @@ PoseCursor::PoseCursor(const Skeleton& skeleton, const Motion& motion)
   }
 }
 
-/// A bone that does nothing by itself goes with its parent.
+/// A bone without motion of its own follows its parent.
 void PoseCursor::carry(const Link& link, const BonePose& parent, BonePose& pose) {
   const Vec3 offset = parent.turn * (link.offset + (parent.stretch - 1) * link.along);
   pose.turn = parent.turn;

@@ -2,8 +2,8 @@
 // Muscles: fibers in the body that pull along their own direction, as an active stress.
 //
 //     const Muscles muscles = make_muscles(rest, radius, {muscle});
-//     const FiberEnergy energy = muscle_forces(muscles, activations_at(muscles, time), particles,
-//     forces);
+//     const Activations now = activations_at(muscles, time);
+//     const FiberEnergy energy = muscle_forces(muscles, now, particles, forces);
 //
 // A fiber lies along t0 (unit) at rest and along F t0 in the deformed body, F the least-squares
 // deformation gradient over the rest neighbors. At activation a in [0, 1] and strength S (Pa) the

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double most_keys = 20e6;  // about 1 GB
 constexpr double largest_scale = 1e9;
-// In steps of a key that may lie after the last frame: files write 1/30 s as 0.033333, and a rate
-// of 30 must not lose the last frame of a thousand.
+// In key intervals; a key may be this much after the last frame: files write 1/30 s as 0.033333,
+// and a rate of 30 must not lose the last frame of a thousand.
 constexpr double slack = 0.05;
 
 /// "x", "+x" or "-x" as a vector of the file.
@@ -26,7 +26,7 @@ Vec3 direction(const std::string& name, const std::string& option) {
   return (name[0] == '-' ? -1 : 1) * Vec3::Unit(axis[0] - 'x');
 }
 
-/// Turns the file's directions into the scene's: forward into x, up into z.
+/// Rotates the file's directions into the scene's: forward into x, up into z.
 Mat3 axes_of(const BvhOptions& options) {
   const Vec3 up = direction(options.up, "up"), forward = direction(options.forward, "forward");
   if (up.dot(forward) != 0)
@@ -58,7 +58,7 @@ Frames frames_of(const Bvh& bvh, const BvhOptions& options) {
   return {options.start, last - options.start + 1};
 }
 
-/// The file's numbers as the scene's: meters, its directions, quaternions.
+/// The file's numbers in the scene's units: meters, its directions, quaternions.
 class Reading {
  public:
   Reading(const Bvh& bvh, const BvhOptions& options)
@@ -66,7 +66,7 @@ class Reading {
 
   Vec3 vector(const Vec3& given) const { return options_.scale * (axes_ * given); }
 
-  /// Of a joint whose channels begin in `column` of the frame.
+  /// Of a joint whose channels begin at `column` of the frame.
   Quat rotation(const BvhJoint& joint, std::size_t column, int frame) const {
     const double* values = bvh_.values.data() + frame * width_ + column;
     Quat rotation = Quat::Identity();
@@ -81,7 +81,7 @@ class Reading {
     return rotation;
   }
 
-  /// How far the joint is from its place at rest.
+  /// The joint's displacement from its place at rest.
   Vec3 translation(const BvhJoint& joint, std::size_t column, int frame) const {
     const double* values = bvh_.values.data() + frame * width_ + column;
     const bool replace = options_.positions == BvhPositions::replace;
@@ -116,7 +116,7 @@ std::vector<Joint> joints_of(const Bvh& bvh, const Reading& reading) {
   return joints;
 }
 
-/// Neighbors on the same side of the sphere: q and -q are one rotation, and two ways to it.
+/// Consecutive quaternions on the same side of the sphere: q and -q are one rotation.
 void choose_shortest_turns(std::vector<Quat>& rotations) {
   for (std::size_t i = 1; i < rotations.size(); ++i)
     if (rotations[i].dot(rotations[i - 1]) < 0) rotations[i].coeffs() *= -1;
@@ -200,7 +200,7 @@ class ClipMaker {
     return curve;
   }
 
-  /// No curve for a joint that stays at its offset, as in files that give every joint positions.
+  /// No curve for a joint that stays at its offset, as in files with positions for every joint.
   Curve<Vec3> translations(const BvhJoint& joint, std::size_t column) const {
     Curve<Vec3> curve;
     curve.interpolation = Interpolation::linear;
