@@ -11,7 +11,7 @@ namespace sinew {
 
 namespace {
 
-// Rounding must not put partners just within the range two cells apart.
+// Rounding must not put particles just within the range two cells apart.
 constexpr double slack = 1 + 1e-9;
 
 std::array<std::vector<double>, 3> split(const Points& points) {
@@ -45,7 +45,7 @@ void CellGrid::size_cells(const Box& box, std::size_t count, double range) {
   edge_ = range * slack;
   if (box.isEmpty()) return;
   low_ = box.min();
-  // A stray particle must not blow the table up: wider cells stay correct, only slower.
+  // A particle far away must not make the table huge: larger cells are correct, only slower.
   const double most = 8.0 * static_cast<double>(count) + 4096;
   const Vec3 size = box.sizes();
   const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
@@ -56,7 +56,7 @@ void CellGrid::size_cells(const Box& box, std::size_t count, double range) {
 std::array<std::int64_t, 3> CellGrid::cell_of(const Vec3& p) const {
   std::array<std::int64_t, 3> cell;
   for (int axis = 0; axis < 3; ++axis) {
-    // Points outside the box have no partners beyond one cell of it: clamp before the cast.
+    // Points outside the box have no neighbors beyond one cell of it: clamp before the cast.
     const double at = std::floor((p[axis] - low_[axis]) / edge_);
     cell[axis] =
         static_cast<std::int64_t>(std::clamp(at, -2.0, static_cast<double>(cells_[axis]) + 1));
@@ -101,7 +101,7 @@ namespace {
 
 constexpr std::size_t points_per_piece = 4096;
 
-/// Adds the partners of point i, ascending.
+/// Adds the neighbors of point i, ascending.
 void add_row(const CellGrid& grid, const Points& points, std::size_t i, double range,
              std::vector<std::uint32_t>& neighbor) {
   const std::size_t begin = neighbor.size();
@@ -123,7 +123,7 @@ NeighborLists neighbors_within(const Points& points, double range) {
     auto& neighbor = pieces[begin / points_per_piece];
     for (std::size_t i = begin; i < end; ++i) {
       add_row(grid, points, i, range, neighbor);
-      lists.first[i + 1] = static_cast<std::uint32_t>(neighbor.size());  // within the piece
+      lists.first[i + 1] = static_cast<std::uint32_t>(neighbor.size());  // in the piece
     }
   });
   std::uint64_t all = 0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The arrays of particles that are written only when somebody asks for them.
+// The arrays of particles that are written only on request.
+//
+//     for (const std::string_view name : requested_arrays("stretch, strain")) write(name);
 #pragma once
 
 #include <span>
@@ -11,8 +13,8 @@ namespace sinew {
 /// All of them: F, J, stretch, strain, ...
 std::span<const std::string_view> requestable_arrays();
 
-/// Those that a text names, in the order of the table, each once: names with commas or spaces
-/// between them, or "all". Throws bad input for any other, with the nearest name.
+/// The names in a text, in the order of the table, each once: separated by commas or spaces, or
+/// "all". Throws bad input for any other name, with the nearest one.
 std::vector<std::string_view> requested_arrays(std::string_view words);
 
 }  // namespace sinew

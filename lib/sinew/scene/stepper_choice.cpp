@@ -8,9 +8,9 @@ namespace {
 
 using kernel::InstructionSet;
 
-// Measured with a bent body of 1e5 particles, whole steps, on a server's core of about 2.5 GHz.
-// Vectors half as long do not take twice as long: loads and the making of lists stay the same. What
-// has no fused multiply-add of its own calls a function for each.
+// Measured with a bent body of 1e5 particles, whole steps, on a server core of about 2.5 GHz.
+// Vectors of half the width do not take twice as long: loads and list construction stay the same.
+// Without fused multiply-add instructions each one is a function call.
 struct Speed {
   InstructionSet set;
   double in_double, in_single;  // particle-steps per second
@@ -19,7 +19,7 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
                                        {InstructionSet::avx2, 23e6, 50e6},
                                        {InstructionSet::sse2, 1.6e6, 3.4e6},
                                        {InstructionSet::plain, 1.7e6, 3.0e6}};
-// Whatever the instruction set: cells are sorted anew, and pairs worked through one by one.
+// Whatever the instruction set: cells are sorted again, and pairs processed one by one.
 constexpr double speed_with_cells = 2e6;
 
 Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {

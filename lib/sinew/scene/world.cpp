@@ -63,7 +63,7 @@ FieldForm form_of(const FieldSettings& given) {
   return UniformAcceleration{};
 }
 
-/// A shape about its own middle, and where that is in the scene.
+/// A shape about its own center, and the center's place in the scene.
 struct Placed {
   Shape shape;
   Vec3 middle = Vec3::Zero();
@@ -126,7 +126,7 @@ Placed placed_shape(const ObstacleSettings& given, const BodyOptions& body, doub
   return placed;
 }
 
-/// The motion that the keys of an obstacle give: that of a bone with its head in the middle.
+/// The motion that the keys of an obstacle give: that of a bone with its head at the center.
 ObstacleMotion keyed(const ObstacleSettings& given, const Vec3& middle) {
   const std::vector<BoneDefinition> bones = {
       {given.name, "", middle, Vec3(middle + Vec3::UnitX())}};

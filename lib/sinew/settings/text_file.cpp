@@ -79,7 +79,7 @@ std::string read_text(const std::filesystem::path& path) {
     throw bad_input(file, "cannot be read (" + reason() + ")", "check the path of the scene");
   std::string text;
   std::array<char, 1 << 14> piece;
-  while (text.size() <= longest_scene && in) {  // the size of a pipe is not known before
+  while (text.size() <= longest_scene && in) {  // the size of a pipe is not known beforehand
     in.read(piece.data(), piece.size());
     text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
   }

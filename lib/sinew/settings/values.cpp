@@ -14,7 +14,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// A value together with all that a message about it says.
+/// A value together with what messages about it need.
 struct Given {
   const YamlNode& node;
   const std::string& path;
@@ -119,7 +119,7 @@ FieldValue read_choice(const Given& given) {
   return word;
 }
 
-/// `count` numbers, or any but none for 0; `words` names that count.
+/// `count` numbers, or any number of them but none for 0; `words` names that count.
 std::vector<double> read_list(const Given& given, std::size_t count, const std::string& words) {
   const YamlNode& node = given.node;
   if (node.kind == Kind::empty) throw wrong(given, "");
@@ -211,7 +211,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// Every place in a scene where the table knows a key of this name.
+/// Every place in a scene where the table has a key of this name.
 std::vector<std::string> homes_of(std::string_view name) {
   std::vector<std::string> homes;
   const auto search = [&](const auto& rows, const std::string& path) {
