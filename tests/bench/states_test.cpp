@@ -34,7 +34,7 @@ Bonds bonds_of(const Scene& scene, const Points& now) {
       bonds.longest = std::max(bonds.longest, length / d0);
       bonds.parted += length >= b;
     }
-  bonds.parted /= static_cast<double>(lists.partner.size());
+  bonds.parted /= static_cast<double>(lists.neighbor.size());
   return bonds;
 }
 

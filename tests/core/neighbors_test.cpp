@@ -42,7 +42,7 @@ TEST(NeighborsWithin, AreTheSameForEveryThreadCount) {
     with_threads(threads, [&] {
       const NeighborLists found = neighbors_within(points, 0.06);
       EXPECT_EQ(found.first, expected.first);
-      EXPECT_EQ(found.partner, expected.partner);
+      EXPECT_EQ(found.neighbor, expected.neighbor);
     });
 }
 

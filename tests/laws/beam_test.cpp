@@ -96,7 +96,7 @@ class Beam {
         for (int b = 0; b < 3; ++b) entries.emplace_back(3 * row + a, 3 * column + b, block(a, b));
     };
     for (std::size_t i = 0; i < rest_.size(); ++i)
-      for (const std::uint32_t j : bonds.partners.of(i)) {
+      for (const std::uint32_t j : bonds.neighbors.of(i)) {
         const Vec3 e = (rest_[i] - rest_[j]).normalized();
         const Mat3 block = stiffness * e * e.transpose();
         add(free_[i], free_[i], block);

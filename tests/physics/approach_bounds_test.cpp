@@ -215,7 +215,7 @@ TEST(Drift, HoldsWhileTwiceTheWayAndTheApproachStayWithinTheSkin) {
   EXPECT_DOUBLE_EQ(drift.moved(), 4);
   EXPECT_TRUE(drift.holds(1.9));
   EXPECT_FALSE(drift.holds(2));
-  drift.found(1);
+  drift.reset(1);
   EXPECT_TRUE(drift.holds(7.9));
   EXPECT_FALSE(drift.holds(8));
   EXPECT_FALSE(Drift().holds(0));

@@ -194,7 +194,7 @@ TEST(Golden, WorldsPushAsTheyDid) {
   };
   Obstacle rider = obstacle(walls, "rider",
                             CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
-  rider.motion = riding(1, skeleton_of(walls.settings).bones[1], {});
+  rider.motion = attached_to_bone(1, skeleton_of(walls.settings).bones[1], {});
   walls.world.obstacles = {
       obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, rider,
       obstacle(

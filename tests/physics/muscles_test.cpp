@@ -25,7 +25,7 @@ Muscle everywhere(const Points& rest, const Vec3& direction) {
 /// What all muscles do to a body at `now` at one level of activation.
 struct Pulled {
   Points forces;
-  FibreEnergy energy;
+  FiberEnergy energy;
 
   Pulled(const Muscles& muscles, const Points& now, double level = 1, double rate = 0) {
     const std::size_t count = muscles.muscles.size();
@@ -60,7 +60,7 @@ std::uint32_t nearest_the_middle(const Points& points) {
 }
 
 // Of one particle alone, so that it holds for each: inner ones and those at the surface.
-TEST(Muscles, TheVirialStressOfAnAffineBodyIsTheActiveStressAlongTheTurnedFibre) {
+TEST(Muscles, TheVirialStressOfAnAffineBodyIsTheActiveStressAlongTheTurnedFiber) {
   std::mt19937 random(1);
   for (const Points& rest : {test::fcc_ball(6, r), test::hcp_ball(6, r)})
     for (const std::uint32_t i : {nearest_the_middle(rest), std::uint32_t{0}}) {
@@ -254,7 +254,7 @@ TEST(Muscles, TheirStiffnessAtRestIsBounded) {
   }
 }
 
-TEST(Muscles, ParticlesWithoutAGradientHaveNoFibres) {
+TEST(Muscles, ParticlesWithoutAGradientHaveNoFibers) {
   const Points row = {{0, 0, 0}, {2 * r, 0, 0}, {4 * r, 0, 0}};
   const Muscles muscles = make_muscles(row, r, {everywhere(row, Vec3::UnitX())});
   EXPECT_TRUE(muscles.active.empty());

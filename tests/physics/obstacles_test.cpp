@@ -327,7 +327,7 @@ TEST(Obstacles, OneThatRidesMovesWithItsBone) {
   const Skeleton skeleton = skeleton_of(scene);
   const Motion motion = motion_of(scene, skeleton);
   const RigidFrame frame = {{0.1, 0.05, 0.6}, test::turned({1, 2, 0}, 20)};
-  const ObstacleMotion drift = riding(1, skeleton.bones[1], frame);
+  const ObstacleMotion drift = attached_to_bone(1, skeleton.bones[1], frame);
   const auto at = [&](double time) { return drift(time, pose_at(skeleton, motion, time)); };
   EXPECT_NEAR((at(0).frame.origin - frame.origin).norm(), 0, 1e-15);
   const Vec3 head = skeleton.bones[1].head();

@@ -106,11 +106,11 @@ TEST(InsideDistance, IsTheStraightOneInTheOpen) {
     const Points rest = test::affine(test::fcc_box(15, 15, 31, r), turned);
     Skeleton skeleton = skeleton_of(test::box_scene(31));
     skeleton = placed(skeleton, 1, turned);
-    const auto near = near_inside(inside_ways(rest, skeleton, r), skeleton, r);
+    const auto near = near_inside(inside_paths(rest, skeleton, r), skeleton, r);
     for (std::size_t i = 0; i < rest.size(); ++i)
       for (const BoneDistance& one : near[i]) {
         const double straight = distance_to(skeleton.bones[one.bone], rest[i]);
-        // Ways begin at particles, not on the bone itself; along the surface they lack a side.
+        // Paths begin at particles, not on the bone itself; along the surface they lack a side.
         EXPECT_GE(one.distance, straight);
         EXPECT_LE(one.distance, 1.08 * straight + 0.5 * r);
       }
@@ -120,7 +120,7 @@ TEST(InsideDistance, IsTheStraightOneInTheOpen) {
 TEST(InsideDistance, GoesAroundAGap) {
   const Hand hand;
   const Skeleton skeleton = bones();
-  const auto near = near_inside(inside_ways(hand.rest, skeleton, r), skeleton, 1);
+  const auto near = near_inside(inside_paths(hand.rest, skeleton, r), skeleton, 1);
   for (std::size_t i = hand.left; i < hand.right; ++i)
     for (const BoneDistance& one : near[i])
       if (one.bone == 2) {
@@ -131,7 +131,7 @@ TEST(InsideDistance, GoesAroundAGap) {
 TEST(InsideDistance, NearOnesAreThoseWithinReach) {
   const Hand hand;
   const Skeleton skeleton = bones();
-  const auto near = near_inside(inside_ways(hand.rest, skeleton, r), skeleton, 4 * r);
+  const auto near = near_inside(inside_paths(hand.rest, skeleton, r), skeleton, 4 * r);
   for (std::size_t i = 0; i < hand.crumb; ++i) {
     const BoneDistance nearest = nearest_of(near[i]);
     ASSERT_NE(nearest.bone, no_bone);

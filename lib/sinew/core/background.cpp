@@ -25,7 +25,7 @@ void Background::hand(const std::function<Job()>& make) {
     wait_for_fewer(lock, most_);
   }
   waited_ += watch.lap();
-  Job job = make();  // only this thread adds: the room found above stays
+  Job job = make();  // only this thread adds jobs: there is still room
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(job));
@@ -59,7 +59,7 @@ void Background::work() {
       } catch (...) {
         failure = std::current_exception();
       }
-      job = nullptr;  // what it holds is given back before there is room for another
+      job = nullptr;  // frees its data before there is room for another
       lock.lock();
       busy_ = false;
       if (failure) failure_ = failure, waiting_.clear();

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Jobs done one after the other by a thread of their own, while the caller goes on.
+// Jobs executed one after the other by a thread of their own, while the caller continues.
+//
+//     Background writer(2);
+//     writer.hand([&] { return [frame = frame_now()] { write(frame); }; });
 #pragma once
 
 #include <condition_variable>
@@ -12,31 +15,30 @@
 
 namespace sinew {
 
-/// Does jobs in the order in which they are handed over. After one that throws, those that wait are
-/// dropped and no more are done: what they build upon is not there.
+/// Executes jobs in the order in which they are handed over. After one throws, those that wait are
+/// dropped and no more are executed: later jobs build upon earlier ones.
 class Background {
  public:
   using Job = std::function<void()>;
 
-  /// At most `most` (> 0) jobs are under way at a time, those that wait included.
+  /// At most `most` (> 0) jobs exist at a time, including those that wait.
   explicit Background(std::size_t most);
-  /// Finishes what was handed over; what is thrown meanwhile is lost: call finish() to hear of it.
+  /// Finishes all jobs; errors are lost: call finish() to get them.
   ~Background();
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  /// Waits for room and hands over what make() returns; make() is called here, with the room at
-  /// hand, so that what a job holds exists at most `most` times. Throws what a job before has
-  /// thrown.
+  /// Waits for room and hands over what make() returns; make() is called here, after the wait, so
+  /// that the data of at most `most` jobs exist. Throws what an earlier job has thrown.
   void hand(const std::function<Job()>& make);
-  /// Waits until all is done. Throws what a job has thrown, each time it is called.
+  /// Waits until all jobs are done. Throws what a job has thrown, each time it is called.
   void finish();
-  /// How long hand() has waited for room in all, s: what the jobs have held up the caller.
+  /// Total time hand() has waited for room, s: how long the jobs have delayed the caller.
   double waited() const { return waited_; }
 
  private:
   void work();
-  /// Waits, with the lock held, until fewer than `most` jobs are under way or one has failed.
+  /// Waits, with the lock held, until fewer than `most` jobs exist or one has failed.
   void wait_for_fewer(std::unique_lock<std::mutex>& lock, std::size_t most);
 
   std::size_t most_;

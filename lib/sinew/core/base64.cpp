@@ -47,7 +47,7 @@ constexpr Places places_of_digits() {
 
 constexpr Places places = places_of_digits();
 
-/// The 24 bits of four digits; above them what is none.
+/// The 24 bits of four digits; higher bits mark characters that are no digits.
 std::uint32_t bits_of_group(const char* from) {
   std::uint32_t bits = 0;
   for (std::size_t place = 0; place < 4; ++place)

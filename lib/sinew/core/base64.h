@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes as text and back: base64 (RFC 4648, padded, nothing between the digits), in parallel.
+// Bytes as text and back: base64 (RFC 4648, padded, no characters between the digits), in parallel.
+//
+//     const std::string text = base64(bytes);
+//     const bool valid = from_base64(text, bytes.size(), to);
 #pragma once
 
 #include <cstddef>
@@ -8,18 +11,18 @@
 
 namespace sinew {
 
-/// The characters that so many bytes become.
+/// Characters that encode so many bytes.
 constexpr std::size_t base64_size(std::size_t bytes) {
   return bytes / 3 * 4 + (bytes % 3 > 0 ? 4 : 0);
 }
 
-/// The bytes that a text holds, going by its length and its padding.
+/// Bytes that a text encodes, by its length and its padding.
 std::size_t bytes_in_base64(std::string_view text);
 
 /// The same text for any number of threads.
 std::string base64(std::string_view bytes);
 
-/// Puts `count` bytes at `to`; whether `text` is just what base64() makes of them.
+/// Writes `count` bytes to `to`; whether `text` is exactly what base64() makes of them.
 bool from_base64(std::string_view text, std::size_t count, unsigned char* to);
 
 }  // namespace sinew

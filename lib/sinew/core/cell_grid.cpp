@@ -11,7 +11,7 @@ namespace sinew {
 
 namespace {
 
-// Rounding must not put partners just within the range two cells apart.
+// Rounding must not put particles just within the range two cells apart.
 constexpr double slack = 1 + 1e-9;
 
 std::array<std::vector<double>, 3> split(const Points& points) {
@@ -45,7 +45,7 @@ void CellGrid::size_cells(const Box& box, std::size_t count, double range) {
   edge_ = range * slack;
   if (box.isEmpty()) return;
   low_ = box.min();
-  // A stray particle must not blow the table up: wider cells stay correct, only slower.
+  // A particle far away must not make the table huge: larger cells are correct, only slower.
   const double most = 8.0 * static_cast<double>(count) + 4096;
   const Vec3 size = box.sizes();
   const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
@@ -56,7 +56,7 @@ void CellGrid::size_cells(const Box& box, std::size_t count, double range) {
 std::array<std::int64_t, 3> CellGrid::cell_of(const Vec3& p) const {
   std::array<std::int64_t, 3> cell;
   for (int axis = 0; axis < 3; ++axis) {
-    // Points outside the box have no partners beyond one cell of it: clamp before the cast.
+    // Points outside the box have no neighbors beyond one cell of it: clamp before the cast.
     const double at = std::floor((p[axis] - low_[axis]) / edge_);
     cell[axis] =
         static_cast<std::int64_t>(std::clamp(at, -2.0, static_cast<double>(cells_[axis]) + 1));
@@ -101,14 +101,14 @@ namespace {
 
 constexpr std::size_t points_per_piece = 4096;
 
-/// Adds the partners of point i, ascending.
+/// Adds the neighbors of point i, ascending.
 void add_row(const CellGrid& grid, const Points& points, std::size_t i, double range,
-             std::vector<std::uint32_t>& partner) {
-  const std::size_t begin = partner.size();
+             std::vector<std::uint32_t>& neighbor) {
+  const std::size_t begin = neighbor.size();
   grid.for_each_near(points[i], [&](std::uint32_t j) {
-    if (j != i && (points[j] - points[i]).squaredNorm() < range * range) partner.push_back(j);
+    if (j != i && (points[j] - points[i]).squaredNorm() < range * range) neighbor.push_back(j);
   });
-  std::sort(partner.begin() + static_cast<std::ptrdiff_t>(begin), partner.end());
+  std::sort(neighbor.begin() + static_cast<std::ptrdiff_t>(begin), neighbor.end());
 }
 
 }  // namespace
@@ -120,10 +120,10 @@ NeighborLists neighbors_within(const Points& points, double range) {
   std::vector<std::vector<std::uint32_t>> pieces((points.size() + points_per_piece - 1) /
                                                  points_per_piece);
   parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
-    auto& partner = pieces[begin / points_per_piece];
+    auto& neighbor = pieces[begin / points_per_piece];
     for (std::size_t i = begin; i < end; ++i) {
-      add_row(grid, points, i, range, partner);
-      lists.first[i + 1] = static_cast<std::uint32_t>(partner.size());  // within the piece
+      add_row(grid, points, i, range, neighbor);
+      lists.first[i + 1] = static_cast<std::uint32_t>(neighbor.size());  // in the piece
     }
   });
   std::uint64_t all = 0;
@@ -133,11 +133,11 @@ NeighborLists neighbors_within(const Points& points, double range) {
   for (std::size_t begin = points_per_piece; begin < points.size(); begin += points_per_piece)
     for (std::size_t i = begin; i < std::min(begin + points_per_piece, points.size()); ++i)
       lists.first[i + 1] += lists.first[begin];
-  lists.partner.resize(lists.first.back());
+  lists.neighbor.resize(lists.first.back());
   parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t) {
-    auto& partner = pieces[begin / points_per_piece];
-    std::copy(partner.begin(), partner.end(), lists.partner.begin() + lists.first[begin]);
-    partner = {};
+    auto& neighbor = pieces[begin / points_per_piece];
+    std::copy(neighbor.begin(), neighbor.end(), lists.neighbor.begin() + lists.first[begin]);
+    neighbor = {};
   });
   return lists;
 }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cell grid of Komiya and Tokoi: space is cut into cells whose edge is the interaction range,
-// so that all partners of a particle lie in its own and the 26 adjacent cells. Nothing is capped.
+// so that all neighbors of a particle are in its own and the 26 adjacent cells. The number of
+// particles per cell is not limited.
+//
+//     const NeighborLists lists = neighbors_within(points, range);
+//     for (const std::uint32_t j : lists.of(i)) visit(points[j]);
 #pragma once
 
 #include <array>
@@ -36,7 +40,7 @@ class CellGrid {
 
   std::array<std::int64_t, 3> cell_of(const Vec3& p) const;
   std::uint32_t index_of(double x, double y, double z) const;
-  /// Cells that follow each other along x hold their points in one run: 9 runs are 27 cells.
+  /// Cells adjacent along x hold their points in one run: 9 runs are 27 cells.
   int runs_around(const Vec3& p, std::array<Run, 9>& runs) const;
   void size_cells(const Box& box, std::size_t count, double range);
   void sort(std::span<const double> x, std::span<const double> y, std::span<const double> z);
@@ -48,20 +52,20 @@ class CellGrid {
   std::vector<std::uint32_t> order_;  ///< points sorted by cell; ascending within a cell
 };
 
-// Lists of the points within a distance of each point, all in one array, of any length.
+// Lists of the points within a distance of each point, all in one array.
 
-/// Row i of a list of lists: the partners of point i, ascending.
+/// Row i of a list of lists: the neighbors of point i, ascending.
 struct NeighborLists {
-  std::vector<std::uint32_t> first;    ///< n + 1 long; row i is [first[i], first[i + 1])
-  std::vector<std::uint32_t> partner;  ///< indices of points
+  std::vector<std::uint32_t> first;     ///< n + 1 long; row i is [first[i], first[i + 1])
+  std::vector<std::uint32_t> neighbor;  ///< indices of points
 
   std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
   std::span<const std::uint32_t> of(std::size_t i) const {
-    return {partner.data() + first[i], first[i + 1] - first[i]};
+    return {neighbor.data() + first[i], first[i + 1] - first[i]};
   }
 };
 
-/// Every pair closer than `range` (m), from both sides. Same answer as brute force. Throws bad
+/// Every pair closer than `range` (m), in both directions. Same result as brute force. Throws bad
 /// input for more than 2^32 of them. In parallel.
 NeighborLists neighbors_within(const Points& points, double range);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one file of a series holds, as plain arrays: the common tongue of writer, reader, pictures
-// and metrics. How it is encoded is io's affair.
+// The contents of one file of a series as plain arrays: what writer, reader, renderer and metrics
+// exchange. The room io encodes them.
+//
+//     Dataset data{.points = points};
+//     data.point_columns.push_back(column("velocity", velocities));
 #pragma once
 
 #include <cstdint>
@@ -32,10 +35,10 @@ struct Dataset {
   Points points;           ///< n x 3, m
   CellKind kind = CellKind::vertex;
   std::vector<std::int32_t> connectivity;  ///< points of each cell, one cell after the other
-  std::vector<std::int32_t> lines;         ///< ends of line cells that follow those cells
+  std::vector<std::int32_t> lines;         ///< ends of line cells, which follow those cells
   std::vector<Column> point_columns;
   std::vector<Column> cell_columns;
-  std::vector<Column> field_columns;  ///< one row each: what holds for the whole file
+  std::vector<Column> field_columns;  ///< one row each: values for the whole file
   std::string meta;                   ///< UTF-8 JSON, or empty
 
   std::size_t cells() const {
@@ -49,7 +52,8 @@ std::vector<std::int32_t> vertex_cells(std::size_t points);
 /// The column of that name, or nullptr.
 const Column* find(const std::vector<Column>& columns, std::string_view name);
 
-/// Typed access; throws Error (bad input) naming the column when it is missing or of another shape.
+/// Typed access; throws Error (bad input) that names the column when it is missing or of another
+/// shape.
 const std::vector<std::int32_t>& integers(const std::vector<Column>& columns,
                                           std::string_view name);
 const std::vector<double>& numbers(const std::vector<Column>& columns, std::string_view name);

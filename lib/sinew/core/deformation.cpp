@@ -64,12 +64,13 @@ std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now
 Mat3 rotation_part(const Mat3& F) {
   const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vec3 sizes = svd.singularValues();
-  if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest turn; of a point: none
+  if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest rotation; of a point: none
     return sizes[0] > 0
                ? Quat::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix()
                : Mat3(Mat3::Identity());
   Mat3 U = svd.matrixU();
-  if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;  // the weakest direction
+  if ((U * svd.matrixV().transpose()).determinant() < 0)
+    U.col(2) *= -1;  // the least stretched direction
   return U * svd.matrixV().transpose();
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least-squares deformation gradient of a cloud of points over its neighbors at rest:
-// F = (sum dx dX^T) (sum dX dX^T)^-1. Exact for affine motion.
+// The least-squares deformation gradient of a cloud of points over its neighbors at rest: F = (sum
+// dx dX^T) (sum dX dX^T)^-1. Exact for affine motion.
+//
+//     const RestShape rest = rest_shape(points, range);
+//     const Mat3 F = deformation_gradient(rest, now, i);
 #pragma once
 
 #include <sinew/core/cell_grid.h>
@@ -8,7 +11,7 @@
 
 namespace sinew {
 
-/// What the rest state fixes once: neighbors and the inverse of sum dX dX^T for each point.
+/// Determined once by the rest state: neighbors and the inverse of sum dX dX^T for each point.
 struct RestShape {
   Points points;              ///< n x 3, m
   NeighborLists neighbors;    ///< pairs at rest closer than the range given
@@ -21,7 +24,7 @@ struct RestShape {
 /// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbors. In parallel.
 RestShape rest_shape(Points points, double range);
 
-/// sum dx dX^T over the neighbors of point i (m^2): all that is known where F is undefined.
+/// sum dx dX^T over the neighbors of point i (m^2): the only information where F is undefined.
 Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i);
 
 /// F of point i when the points have moved to `now` (n x 3, m); identity where it is undefined.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed list of what can go wrong, and the exit code each of them has.
+// The closed list of errors, and their exit codes.
+//
+//     throw bad_input(place, "the radius is negative", "give a radius > 0");
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +9,7 @@
 
 namespace sinew {
 
-/// What a command ends with. Scripts rely on these numbers.
+/// The exit code of a command. Scripts rely on these numbers.
 enum class Exit {
   done = 0,
   limit_passed = 1,   ///< a --fail-on limit was passed
@@ -34,10 +36,10 @@ class Error : public std::runtime_error {
 
   Exit exit() const { return exit_; }
 
-  /// The same error, reached through `place` (a scene's line that names a bad mesh).
+  /// The same error with a `place` before it (a scene's line that names a bad mesh).
   Error with_context(const Place& place) const;
 
-  /// Which value of a description is wrong, such as "bones[1].tail"; "" where it is none.
+  /// The key of the invalid value of a description, such as "bones[1].tail"; "" without one.
   const std::string& key() const { return key_; }
   Error about(std::string key) const;
 
@@ -50,7 +52,7 @@ class Error : public std::runtime_error {
 Error bad_input(const Place& place, const std::string& what, const std::string& cure);
 Error bad_input(const std::string& what, const std::string& cure);
 
-/// Of a value that a description gives, named by its key: "what; cure", exit code 2.
+/// An invalid value of a description, by its key: "what; cure", exit code 2.
 Error bad_value(const std::string& key, const std::string& what, const std::string& cure);
 
 /// "PATH: what; cure", exit code 4.

@@ -35,22 +35,22 @@ Error unreadable(const fs::path& path, int error) {
                    "check the path and the permissions");
 }
 
-/// Calls sync (fsync, syncfs) on a folder. A file system that does not know it is no failure.
+/// Calls sync (fsync, syncfs) on a folder. A file system that does not support it is no failure.
 void sync_folder(const fs::path& folder, int (*sync)(int)) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;  // a folder that may be written but not read: there is no more to be done
+  if (file < 0) return;  // a folder that can be written but not read cannot be synced
   const int error = sync(file) == 0 ? 0 : errno;
   ::close(file);
   if (error != 0 && error != EINVAL && error != ENOSYS && error != EOPNOTSUPP)
     throw refused(folder, error);
 }
 
-/// The new name is an entry of its folder, which is written by itself.
+/// The new name is an entry of its folder, which is synced separately.
 void sync_folder_of(const fs::path& path) {
   sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."), ::fsync);
 }
 
-/// At the file's own place, or `place` bytes from its beginning.
+/// At the file position, or `place` bytes from the beginning.
 void write_all(int file, const fs::path& path, const void* bytes, std::size_t count,
                std::optional<std::uint64_t> place = std::nullopt) {
   const char* next = static_cast<const char*>(bytes);
@@ -120,7 +120,7 @@ void GrowingFile::add(const void* bytes, std::size_t count) {
   try {
     write_all(file_, path_, bytes, count, size_);
   } catch (const Error&) {
-    // No torn record stays. A file that becomes shorter needs no space.
+    // No incomplete record stays. A file that becomes shorter needs no space.
     [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(size_));
     throw;
   }
@@ -144,7 +144,7 @@ void write_file(const fs::path& path, std::string_view text) {
 }
 
 std::string read_file(const fs::path& path, std::uint64_t limit) {
-  // Not blocking: a pipe without a writer would hold us at the door for ever.
+  // Not blocking: a pipe without a writer would block forever.
   const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) throw unreadable(path, errno);
   const std::unique_ptr<const int, decltype(&close_file)> closed_at_the_end(&file, close_file);

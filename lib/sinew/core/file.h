@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that are there whole or not at all: written beside their place, checked and renamed, so
-// that no reader ever sees a torn one and a program that dies leaves the older one untouched.
+// Files that appear atomically: written beside their place, checked and renamed, so that no reader
+// ever sees an incomplete one and a program that dies leaves the older one untouched.
+//
+//     NewFile file("run/summary.json");
+//     file.write(text.data(), text.size()), file.finish();
 #pragma once
 
 #include <cstddef>
@@ -11,10 +14,10 @@
 
 namespace sinew {
 
-/// Whether a finished file is there even after the machine's power fails.
+/// Whether a finished file survives a power failure.
 enum class Durability { cached, synced };
 
-/// A file in the making. What is not finished disappears.
+/// A file in preparation. Without finish() it is removed.
 class NewFile {
  public:
   /// Creates the temporary file, ".NAME.tmp" in the same folder. Throws not written.
@@ -23,10 +26,10 @@ class NewFile {
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  /// Where to write: by write(), or by others under this name.
+  /// Where to write: with write(), or through this name.
   const std::filesystem::path& temporary() const { return temporary_; }
   void write(const void* bytes, std::size_t count);  ///< throws not written
-  /// Puts it in place. Throws not written.
+  /// Moves it to its place. Throws not written.
   void finish(Durability durability = Durability::cached);
 
  private:
@@ -34,20 +37,20 @@ class NewFile {
   int file_ = -1;
 };
 
-/// A file that grows record by record and can be read at any moment. What a program that dies, or a
-/// full disk, leaves is a beginning of it.
+/// A file that grows record by record and can be read at any moment. If the program dies or the
+/// disk fills up, what is left is a prefix of it.
 class GrowingFile {
  public:
-  /// Opens the file and keeps the first `kept` bytes of what is there. Throws not written, and bad
-  /// input when there are fewer.
+  /// Opens the file and keeps the first `kept` bytes of it. Throws not written, and bad input when
+  /// it has fewer.
   GrowingFile(std::filesystem::path path, std::uint64_t kept);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
-  /// Adds a record: the whole of it or nothing. Throws not written.
+  /// Appends a record atomically. Throws not written.
   void add(const void* bytes, std::size_t count);
-  /// Over what is there, `place` bytes from the beginning. Throws not written.
+  /// Overwrites what is `place` bytes from the beginning. Throws not written.
   void write_at(std::uint64_t place, const void* bytes, std::size_t count);
   void close();  ///< throws not written
 
@@ -57,8 +60,8 @@ class GrowingFile {
   std::uint64_t size_ = 0;
 };
 
-/// Waits until all that was written so far on the folder's disk is there even after the machine's
-/// power fails, as far as the file system can. Throws not written.
+/// Waits until everything written so far to the folder's disk survives a power failure, as far as
+/// the file system can guarantee it. Throws not written.
 void sync_all(const std::filesystem::path& folder);
 
 /// Writes `text` as the file `path`. Throws not written.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FNV-1a, 64 bits: tells two states or two texts apart; no defence against malice.
+// FNV-1a, 64 bits: distinguishes states and texts; no defense against malice.
+//
+//     Hash hash;
+//     hash.add(text), print(hash_text(hash.value()));
 #pragma once
 
 #include <cstddef>

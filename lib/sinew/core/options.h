@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What describes a body, its material, its bones and their motion: plain values with their
-// defaults, as a scene holds them and the algorithms take them. SI units, angles in degrees;
-// "radii" are multiples of the particle radius. What each value means stands in the table of
-// settings.
+// Descriptions of a body, its material, its bones and their motion: plain values with their
+// defaults, as scenes hold them and algorithms take them. SI units, angles in degrees; "radii" are
+// multiples of the particle radius. The table of settings (settings/table.h) documents each value.
 //
 //     MaterialOptions options;
 //     options.young_modulus = 5e3;
@@ -75,19 +74,19 @@ struct MaterialOptions {
   double creep_rate = 1;
 };
 
-// Materials by name: what material.preset stands for, each with its source.
+// Materials by name: the values of material.preset, each with its source.
 
 struct MaterialPreset {
   MaterialPresetName name;
   double density;        ///< kg/m^3
   double young_modulus;  ///< Pa
-  double poisson_ratio;  ///< within what bonded_volume reaches
-  double damping_ratio;  ///< of the first bending: our choice, such bodies swing once or twice
-  std::optional<double> yield_strain;  ///< of one that flows
+  double poisson_ratio;  ///< in the range of bonded_volume
+  double damping_ratio;  ///< of the first bending mode: our choice, such bodies swing once or twice
+  std::optional<double> yield_strain;  ///< of a material that flows
   std::string_view what, source;
 };
 
-/// In the order of the names, without none.
+/// In the order of the names, without "none".
 std::span<const MaterialPreset> material_presets();
 
 /// nullptr for none.
@@ -100,7 +99,7 @@ struct SkeletonOptions {
   std::optional<Axis> forward;
 };
 
-/// Turns the own directions of a mesh or a rig into the scene's: up becomes z, forward x. Exact.
+/// Rotates the directions of a mesh or a rig into the scene's: up becomes z, forward x. Exact.
 Mat3 to_scene(const BodyOptions& settings);
 Mat3 to_scene(const SkeletonOptions& settings);
 

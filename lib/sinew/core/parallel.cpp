@@ -37,7 +37,7 @@ double parallel_sum(std::size_t count, std::size_t grain,
   parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
     sums[begin / grain] = piece(begin, end);
   });
-  double sum = 0;  // in the order of the pieces, whichever thread made them
+  double sum = 0;  // in the order of the pieces, whichever thread computed them
   for (const double part : sums) sum += part;
   return sum;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parallel loops whose results do not depend on the number of threads: the split of the work is
-// fixed by its size alone, and sums are added in the order of the pieces.
+// Parallel loops whose results do not depend on the number of threads: the split of the work
+// depends on its size alone, and sums are added in the order of the pieces.
+//
+//     parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) { ... });
 #pragma once
 
 #include <cstddef>
@@ -8,10 +10,11 @@
 
 namespace sinew {
 
-/// Runs `job` with at most `threads` threads (0: one per core) for the parallel loops within.
+/// Runs `job` with at most `threads` threads (0: one per core) for its parallel loops.
 void with_threads(int threads, const std::function<void()>& job);
 
-/// Calls body(begin, end) for pieces of [0, count) of `grain` items; one piece runs in the caller.
+/// Calls body(begin, end) for pieces of [0, count) of `grain` items; a single piece runs in the
+/// caller.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Equal particles as a structure of arrays. The order may change while the physics works; `id` ties
-// each particle to the order in which files are written, which never changes.
+// Equal particles as a structure of arrays. The order may change during a simulation; `id` is each
+// particle's place in the order in which files are written, which never changes.
+//
+//     Particles particles = particles_at(positions, radius, mass);
+//     particles.set_velocity(i, velocity);
 #pragma once
 
 #include <cstddef>
@@ -12,7 +15,7 @@
 
 namespace sinew {
 
-// Closest packing of equal spheres (FCC and HCP): what holds for both, for spheres of radius r.
+// Closest packing of equal spheres of radius r: what FCC and HCP have in common.
 
 /// Distance of nearest neighbors, d0 = 2r. Each inner particle has 12 of them.
 constexpr double nearest_distance(double r) { return 2 * r; }
@@ -23,10 +26,10 @@ constexpr double second_distance(double r) { return 2 * std::numbers::sqrt2 * r;
 /// Distance between the half-planes of FCC along a cube axis, sqrt(2) r.
 constexpr double half_plane_spacing(double r) { return std::numbers::sqrt2 * r; }
 
-/// Volume per particle, V0 = 4 sqrt(2) r^3: the cell's, not the sphere's, which is 26 % less.
+/// Volume per particle, V0 = 4 sqrt(2) r^3: of the lattice cell; the sphere's is 26 % less.
 constexpr double volume_per_particle(double r) { return 4 * std::numbers::sqrt2 * r * r * r; }
 
-/// A slab this thick holds particles wherever it lies: no place is farther than sqrt(2) r from the
+/// A slab this thick contains particles wherever it is: no point is farther than sqrt(2) r from the
 /// nearest site.
 constexpr double surely_filled_thickness(double r) { return 2 * std::numbers::sqrt2 * r; }
 
@@ -57,7 +60,7 @@ Particles particles_at(const Points& positions, double radius, double mass);
 /// Positions (n x 3, m) in the order of `particles`, not the written one.
 Points positions_of(const Particles& particles);
 
-/// A hash of every bit of positions and velocities in the written order: equal states, equal hash.
+/// A hash of every bit of positions and velocities in the written order.
 std::uint64_t state_hash(const Particles& particles);
 
 }  // namespace sinew

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program and the machine it runs on: its version, the memory that is free, the time that
-// passes.
+// The program and its machine: version, available memory, elapsed time.
+//
+//     Stopwatch watch;
+//     seconds += watch.lap();
 #pragma once
 
 #include <chrono>
@@ -12,8 +14,8 @@ namespace sinew {
 /// "0.2.0"
 std::string version();
 
-/// How much memory can be taken without swapping, bytes: the kernel's estimate (free pages and what
-/// caches give back), else the free pages alone.
+/// Memory that can be allocated without swapping, bytes: the kernel's estimate (free pages and
+/// reclaimable caches), else the free pages alone.
 double available_memory();
 
 /// Seconds per stage, for reports.
@@ -21,7 +23,7 @@ class Stopwatch {
  public:
   /// Seconds since the last lap, or the start, without a new lap.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - last_).count(); }
-  /// The same, and a lap begins.
+  /// The same, and starts a lap.
   double lap() {
     const auto last = std::exchange(last_, Clock::now());
     return std::chrono::duration<double>(last_ - last).count();

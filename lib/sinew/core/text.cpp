@@ -20,7 +20,7 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-/// Letters to insert, leave out, replace or swap with their neighbor to turn `a` into `b`.
+/// Letters to insert, delete, replace or swap with their neighbor to turn `a` into `b`.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -36,7 +36,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
-/// As distance(), but a part of a name is close to the whole: step, time_step.
+/// Like distance(), but a part of a name is close to the whole: step, time_step.
 std::size_t strangeness(const std::string& word, const std::string& name) {
   const bool part = word.size() >= 3 && name.find(word) != std::string::npos;
   return part ? std::min<std::size_t>(1, distance(word, name)) : distance(word, name);
@@ -55,7 +55,7 @@ std::size_t letter_size(std::string_view text) {
   if (size == 0 || text.size() < size) return 0;
   for (std::size_t i = 1; i < size; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
-  // Control characters, letters written too long, surrogates, beyond the last letter.
+  // Control characters, overlong encodings, surrogates, beyond the last code point.
   const bool low = (first == 0xC2 && byte(1) < 0xA0) || (first == 0xE0 && byte(1) < 0xA0) ||
                    (first == 0xF0 && byte(1) < 0x90);
   const bool high = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);

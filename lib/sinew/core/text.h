@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words for messages: the name somebody meant, and foreign text made safe to show.
+// Texts for messages: the name that was probably meant, and foreign text made safe to print.
+//
+//     throw bad_input(shown(word) + " is no packing", suggestion(word, names));
 #pragma once
 
 #include <span>
@@ -9,8 +11,8 @@
 
 namespace sinew {
 
-/// The candidate closest to `word` (fewest letters inserted, left out, replaced or swapped,
-/// whatever their case), or "" when none is close: more than a third of the letters differ.
+/// The candidate closest to `word` (fewest letters inserted, deleted, replaced or swapped, ignoring
+/// case), or "" when none is close: more than a third of the letters differ.
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 /// "did you mean NEAREST?", or "use one of a, b, c" when none is close.
@@ -19,7 +21,7 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 /// 'text' in quotes on one line, unprintable characters replaced, cut after 40 characters.
 std::string shown(std::string_view text);
 
-/// Capital letters of ASCII made small.
+/// ASCII capital letters become lower case.
 std::string lower(std::string_view text);
 
 /// "a, b, c"

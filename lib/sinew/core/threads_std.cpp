@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads that live as long as one loop: slow, and free of anything a sanitizer could mistake.
+// Threads that exist for one loop: slow, but a sanitizer can follow them.
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -46,7 +46,7 @@ class Pieces {
   std::exception_ptr failure_;
 };
 
-/// Sets how many threads this thread may use, for a while.
+/// Sets how many threads this thread may use, temporarily.
 class Allowance {
  public:
   explicit Allowance(int threads) : before_(std::exchange(allowed, threads)) {}
@@ -80,7 +80,7 @@ void run_pieces(std::size_t count, Deal, const std::function<void(std::size_t)>&
       pieces.work();
     });
   pieces.work();
-  threads.clear();  // waits for them
+  threads.clear();  // joins them
   pieces.report();
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A triangle surface: the body's skin. Triangles are counter-clockwise seen from outside.
+//
+//     const double enclosed = volume(surface), skin = area(surface);
 #pragma once
 
 #include <array>
@@ -26,7 +28,7 @@ Box bounds(const Points& points);
 /// Unit normals at the points (n x 3), faces weighted by area; zero where no face has an area.
 Points point_normals(const Triangles& surface);
 
-// What a mesh file holds before anyone has looked at it: points, and polygons over them.
+// The unchecked contents of a mesh file: points, and polygons over them.
 
 struct PolygonSoup {
   Points points;                           ///< n x 3, m

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Things that are joined to groups.
+// Disjoint sets of the numbers 0 to n - 1, for connected components.
+//
+//     UnionFind groups(n);
+//     groups.join(a, b);
 #pragma once
 
 #include <cstddef>
@@ -14,7 +17,7 @@ class UnionFind {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
-  /// The lowest of a thing's group.
+  /// The lowest number of the set of `i`.
   int first_of(int i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

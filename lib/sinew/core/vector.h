@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The vectors and matrices every room speaks in. Meters, seconds, kilograms unless said otherwise.
+// Vectors, matrices, rigid frames and rotations. Meters, seconds, kilograms unless stated
+// otherwise.
+//
+//     const Vec3 now = carried(point, rest_frame, present_frame);
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +26,7 @@ inline double degrees(double radians) { return radians * (180 / pi); }
 /// An axis-aligned box; empty (low > high) until a point is added.
 using Box = Eigen::AlignedBox3d;
 
-// A rigid frame: where something is and how it is turned.
+// A rigid frame: a place and an orientation.
 
 /// Maps local x to origin + rotation x.
 struct RigidFrame {
@@ -31,14 +34,14 @@ struct RigidFrame {
   Mat3 rotation = Mat3::Identity();  ///< columns are the frame's axes
 };
 
-/// A point fixed to a frame: where it is now when it was at `point` as the frame was at `rest`.
+/// The present position of a point fixed to a frame, at `point` when the frame was at `rest`.
 inline Vec3 carried(const Vec3& point, const RigidFrame& rest, const RigidFrame& now) {
   return now.origin + now.rotation * (rest.rotation.transpose() * (point - rest.origin));
 }
 
-// Rotations as vectors: the axis times the angle, rad. A vector may be longer than pi.
+// Rotation vectors: axis times angle, rad. A vector may be longer than pi.
 
-/// Of the two vectors of a rotation the shorter one, up to pi long.
+/// The shorter of the two vectors of a rotation, up to pi long.
 inline Vec3 rotation_vector(Quat rotation) {
   if (rotation.w() < 0) rotation.coeffs() *= -1;
   const double sine = rotation.vec().norm();
@@ -46,7 +49,8 @@ inline Vec3 rotation_vector(Quat rotation) {
   return rotation.vec() * (2 * std::atan2(sine, rotation.w()) / sine);
 }
 
-/// Between near keys angles are small, where a few terms of the series say all to the last digit.
+/// Angles between close keys are small, where a few terms of the series are exact to the last
+/// digit.
 inline Quat rotation_by(const Vec3& vector) {
   const double x2 = vector.squaredNorm() / 4;  // half the angle, squared
   if (x2 < 1.0 / 64) {

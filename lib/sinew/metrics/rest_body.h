@@ -68,7 +68,7 @@ struct RestBody {
   double mass = not_measured;  ///< of a particle, kg
 
   std::size_t particles() const { return shape.points.size(); }
-  double rest_pairs() const { return static_cast<double>(shape.neighbors.partner.size()) / 2; }
+  double rest_pairs() const { return static_cast<double>(shape.neighbors.neighbor.size()) / 2; }
 };
 
 /// Checks the input and works out the rest. Throws bad input for sizes that do not fit, indices out

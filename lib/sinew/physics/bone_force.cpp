@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-// Below this share of a radius a distance from the bone has no direction worth the name.
+// Closer to the bone than this share of a radius, a particle has no direction from it.
 constexpr double on_axis = 1e-6;
 
 struct Spring {
@@ -17,7 +17,7 @@ struct Spring {
   double energy;
 };
 
-/// Where the bone has carried the particle's foot and its place at rest.
+/// Where the bone has moved the particle's foot and its place at rest.
 struct Carried {
   Vec3 foot, target;
 };
@@ -115,7 +115,7 @@ BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const
   const Carried carried = carry(influence, bone, pose, particle.rest);
   const double level = bone.axis().dot(particle.rest - bone.head());
   BonePull pull;
-  double stretching = 0;  // N m: what the springs take from the bone as it grows
+  double stretching = 0;  // N m: power that the springs take from the bone as it grows
   const auto add = [&](const Spring& spring, double along) {
     pull.spring += influence.weight * spring.force;
     pull.energy += influence.weight * spring.energy;
@@ -136,7 +136,7 @@ BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const
   const Vec3 bone_velocity = pose.velocity_at(particle.position);
   pull.power = pull.force().dot(bone_velocity);
   pull.damping_power = pull.damping.dot(bone_velocity);
-  if (pose.stretch_rate != 0)  // springs hang where they did at rest, not where the particle is
+  if (pose.stretch_rate != 0)  // springs are fixed at the foot at rest, not at the particle
     pull.power += pose.stretch_rate * stretching +
                   pull.spring.dot(pose.rigid_velocity_at(particle.position) - bone_velocity);
   return pull;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a bone pulls a particle bound to it (Komiya and Tokoi, made well-posed): a radial spring that
-// keeps its distance from the bone, a twist spring that turns it with the bone, an axial spring
-// against sliding along it, and damping of the motion relative to the bone.
+// keeps its distance from the bone, a twist spring that rotates it with the bone, an axial spring
+// against sliding along the bone, and damping of the motion relative to the bone.
+//
+//     const BonePull pull = bone_pull(springs[b], influence, bone, pose[b], particle);
+//     force += pull.force();
 #pragma once
 
 #include <vector>
@@ -30,28 +33,28 @@ struct BoneSprings {
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding);
 
-/// The same, times each bone's own strength.
+/// The same, multiplied by each bone's own factors.
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton);
 
-/// What one bone does to one particle.
+/// The force of one bone on one particle.
 struct BonePull {
   Vec3 spring = Vec3::Zero();   ///< N
   Vec3 damping = Vec3::Zero();  ///< N
   double energy = 0;            ///< stored in the springs, J; 0 for open_loop's twist
-  double power = 0;             ///< that the bone puts in: force times its own velocity there, W
+  double power = 0;             ///< from the bone: force times the bone's own velocity there, W
   double damping_power = 0;     ///< the damping's part of power, W
 
   Vec3 force() const { return spring + damping; }
 };
 
-/// A particle at rest and now, and how it is held.
+/// A particle at rest and at present.
 struct HeldParticle {
   Vec3 rest, position, velocity;  ///< m, m, m/s
   double radius;                  ///< m
 };
 
-/// The pull, weight included, of the bone at `pose` (at rest `bone`) through `influence`.
+/// The pull, including the weight, of the bone at `pose` (at rest `bone`) through `influence`.
 BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
                    const BonePose& pose, const HeldParticle& particle);
 

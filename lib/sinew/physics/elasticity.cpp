@@ -49,7 +49,7 @@ double CubicConstants::young_modulus(const Vec3& direction) const {
 }
 
 double CubicConstants::poisson_ratio(const Vec3& direction) const {
-  // Under a tension along n the strains sum to S11 + 2 S12: what is not along n is across it.
+  // Under a tension along n the strains sum to S11 + 2 S12; the contraction across n is the rest.
   const Compliances S(*this);
   const double along = 1 / young_modulus(direction);
   return (along - (S.S11 + 2 * S.S12)) / (2 * along);

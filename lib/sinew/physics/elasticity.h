@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elastic constants of a closest packing whose bonds of length d0 have the stiffness k, and of one
-// that resists changes of volume besides. Everything is in units of k / d0 unless said otherwise.
+// Elastic constants of a closest packing with bonds of length d0 and stiffness k, and of one that
+// also resists changes of volume. Everything is in units of k / d0 unless stated otherwise.
+//
+//     const double E = fcc_constants().young_modulus(Vec3::UnitX());
+//     const double K_v = volume_stiffness_for(0.4);
 #pragma once
 
 #include <numbers>
@@ -9,7 +12,7 @@
 
 namespace sinew {
 
-/// Of a cubic crystal, FCC, in any one unit of stress.
+/// Of a cubic (FCC) crystal, in any unit of stress.
 struct CubicConstants {
   double C11, C12, C44;
 
@@ -20,11 +23,11 @@ struct CubicConstants {
   double hill_poisson_ratio() const;
   /// Along `direction` (any length but 0), in the crystal's axes.
   double young_modulus(const Vec3& direction) const;
-  /// Mean of the contractions across `direction` over its stretch.
+  /// Mean contraction across `direction` over the stretch along it.
   double poisson_ratio(const Vec3& direction) const;
 };
 
-/// Central bonds alone, and with a stiffness K_v against changes of volume.
+/// For central bonds alone, and with a stiffness K_v against changes of volume.
 constexpr CubicConstants fcc_constants(double volume_stiffness = 0) {
   constexpr double shear = 1 / std::numbers::sqrt2;
   return {2 * shear + volume_stiffness, shear + volume_stiffness, shear};
@@ -34,16 +37,16 @@ constexpr CubicConstants fcc_constants(double volume_stiffness = 0) {
 inline constexpr double hill_young = 1.3505, hill_shear = 0.5354, hill_poisson = 0.261,
                         bulk_of_bonds = 2 * std::numbers::sqrt2 / 3;
 
-/// The stiffness against changes of volume that gives a Poisson's ratio (Hill): 0 at the bonds'
-/// own, 0.261; more is not to be had by less.
+/// The stiffness against changes of volume that gives a Poisson's ratio (Hill): 0 at 0.261, that of
+/// the bonds alone; lower ratios cannot be reached.
 double volume_stiffness_for(double poisson_ratio);
 
-/// The share of its bending stiffness, E I of the shape filled, that a body lacks for being only
-/// `planes` half-planes of particles across: springs end at the outermost particles, not at the
-/// surface. Measured on square FCC beams of 5 to 17 planes, within 0.03; at most 1.
+/// The share of its bending stiffness (E I of the filled shape) that a body lacks because it is
+/// only `planes` half-planes of particles across: springs end at the outermost particles, not at
+/// the surface. Measured on square FCC beams of 5 to 17 planes, to 0.03; at most 1.
 double lack_of_bending_stiffness(double planes);
 
-/// How much the highest frequency of the lattice rises: w^2 = this k / m (8 for bonds alone).
+/// Factor of the highest lattice frequency: w^2 = this k / m (8 for bonds alone).
 double highest_frequency_factor(double volume_stiffness);
 
 }  // namespace sinew

@@ -56,7 +56,7 @@ std::vector<Reaction> reactions(const Particles& particles, const Body& body, co
       });
   });
   std::vector<Reaction> on(pose.size());
-  for (const auto& part : parts)  // in the order of the pieces, whichever thread made them
+  for (const auto& part : parts)  // in the order of the pieces, whichever thread computed them
     for (std::size_t b = 0; b < on.size(); ++b) {
       on[b].force += part[b].force;
       on[b].moment += part[b].moment;
@@ -81,7 +81,7 @@ void pairwise_damping(const Particles& particles, const CellGrid& cells, const M
   const bool central = material.damping_form == DampingForm::central;
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
-    for_each_partner(
+    for_each_neighbor(
         particles, cells, material.pair.b, i, [&](std::uint32_t j, const Vec3& offset, double d) {
           const double share = (1.0 / forces.neighbors[i] + 1.0 / forces.neighbors[j]) / 2;
           const Vec3 approach = particles.velocity(i) - particles.velocity(j);
@@ -102,7 +102,7 @@ double pair_energy(const Particles& particles, const PairForce& pair) {
   const CellGrid cells = cells_of(particles, pair.b);
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double sum = 0;
-    for_each_partner(particles, cells, pair.b, i, [&](std::uint32_t, const Vec3&, double d) {
+    for_each_neighbor(particles, cells, pair.b, i, [&](std::uint32_t, const Vec3&, double d) {
       sum += pair.potential(d) / 2;  // half for each of the two
     });
     return sum;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All forces on all particles at one moment: pairs (eq. 1), damping (eq. 2), bones. Each particle's
-// sums are made by one thread in a fixed order: the bits do not depend on the number of threads.
+// All forces on all particles at one moment: pairs (eq. 1), damping (eq. 2), bones. One thread
+// computes each particle's sums in a fixed order: the bits do not depend on the number of threads.
+//
+//     Forces forces;
+//     pair_forces(particles, body.material, forces);
+//     bone_forces(particles, body, pose, forces);
 #pragma once
 
 #include <memory>
@@ -20,12 +24,12 @@ struct World;
 /// Forces in the order of the particles, N.
 struct Forces {
   Points pair, damping, bone;
-  Points world;                ///< obstacles, drag, fields, muscles; empty where there is no world
-  std::vector<int> neighbors;  ///< partners nearer than b
+  Points world;                ///< obstacles, drag, fields, muscles; empty without a world
+  std::vector<int> neighbors;  ///< neighbors closer than b
 
-  // Of bone_forces only: a simulation's own forces leave them out.
-  Points bone_damping;                     ///< the part of bone that damps
-  std::vector<double> bone_power;          ///< that the bones put in, W
+  // Filled by bone_forces() only; a simulation's own forces leave them empty.
+  Points bone_damping;                     ///< the damping's part of `bone`
+  std::vector<double> bone_power;          ///< from the bones, W
   std::vector<double> bone_damping_power;  ///< the damping's part of it, W
 
   Vec3 total(std::size_t i) const {
@@ -34,14 +38,14 @@ struct Forces {
   }
 };
 
-/// A body, how it is held and what it is made of: all that stays the same during a run.
+/// A body, its material and its binding: all that is constant during a run.
 struct Body {
   Points rest;  ///< positions at rest by particle id, m
   Skeleton skeleton;
   Binding binding;  ///< by particle id
   Material material;
   std::vector<BoneSprings> springs;         ///< per bone
-  std::shared_ptr<const World> world = {};  ///< none: nothing is around it
+  std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
 };
 
 /// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbors.
@@ -54,7 +58,7 @@ void bone_forces(const Particles& particles, const Body& body, const Pose& pose,
 struct Reaction {
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N m
-  double power = 0;            ///< that the bone puts into the body, W
+  double power = 0;            ///< from the bone into the body, W
 };
 
 /// Per bone: F = -sum f, M = -sum (x - head) x f; the power of a rigid bone is -(F.o' + M.omega).

@@ -65,7 +65,7 @@ BodyShape shape_of(const Points& rest, double radius, double mass) {
   const Vec3 moments =
       Eigen::SelfAdjointEigenSolver<Mat3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
   BodyShape shape{radius, mass, 0, 0, Mat3::Identity()};
-  // A particle alone is as long and as thick as itself.
+  // A single particle is as long and as thick as itself.
   shape.length = std::max(2 * radius, std::sqrt(12 * std::max(0.0, moments[2])));
   shape.gyration = std::max(radius / std::sqrt(3.0), std::sqrt(std::max(0.0, moments[0])));
   return shape;
@@ -103,12 +103,12 @@ double first_bending_frequency(const Material& material, const BodyShape& shape)
   const double E = constants.hill_young_modulus(), G = constants.hill_shear_modulus();
   const double bending =
       free_bar_frequency * std::sqrt(E / density) * shape.gyration / (shape.length * shape.length);
-  // Compact bodies shear rather than bend: the same shape with the stiffness against shear alone.
+  // Compact bodies shear rather than bend: the same mode with the shear stiffness alone.
   const double shear = std::sqrt(free_bar_slope * shear_coefficient * G / density) / shape.length;
   return 1 / std::sqrt(1 / (bending * bending) + 1 / (shear * shear));
 }
 
-/// The rate of eq. 2 for a field of velocity v is C / m d0^2 / 6 |grad v|^2 / v^2.
+/// The damping rate of eq. 2 for a velocity field v is C / m d0^2 / 6 |grad v|^2 / v^2.
 double damping_ratio(const Material& material, const BodyShape& shape) {
   const double d0 = 2 * shape.radius;
   const double rate = material.damping / material.mass * d0 * d0 / 6 * free_bar_slope /

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From what a user knows (Young's modulus, density, damping) to the constants of the particles, for
-// closest-packed bodies with bonds of stiffness k at distance d0 = 2r.
+// From engineering values (Young's modulus, density, damping) to the constants of the particles,
+// for closest-packed bodies with bonds of stiffness k at distance d0 = 2r.
+//
+//     const Material material = make_material(options, shape_of(rest, radius, mass));
 #pragma once
 
 #include <sinew/core/options.h>
@@ -9,11 +11,11 @@
 
 namespace sinew {
 
-/// What the bonds of a solid bear. Strains are of a bond's length against its rest length.
+/// Strength of the bonds of a solid. Strains are changes of a bond's length over its rest length.
 struct BondStrength {
   double stiffness = 0;        ///< N/m
   double breaking_strain = 0;  ///< in tension; 0: never breaks
-  double yield_strain = 0;     ///< either way; 0: never creeps
+  double yield_strain = 0;     ///< in tension and compression; 0: never creeps
   double creep_rate = 0;       ///< of what exceeds the yield strain, 1/s
 };
 
@@ -29,11 +31,11 @@ struct Material {
 
   double young_modulus() const;  ///< Pa, Hill average over directions
   double stiffness() const;      ///< the stiffest of contact, tension and bonds, N/m
-  /// Of the packing, in its own axes: Pa.
+  /// Of the packing, in its own axes, Pa.
   CubicConstants constants() const;
 };
 
-/// What of a body its material has to know.
+/// The properties of a body that its material depends on.
 struct BodyShape {
   double radius = 0;                ///< of a particle, m
   double mass = 0;                  ///< of a particle, kg
@@ -42,7 +44,7 @@ struct BodyShape {
   Mat3 lattice = Mat3::Identity();  ///< columns: the packing's axes
 };
 
-/// As of a bar of the same moments as the particles at `rest` (m).
+/// That of a bar with the same moments as the particles at `rest` (m).
 BodyShape shape_of(const Points& rest, double radius, double mass);
 
 /// The constants for particles of `radius` (m) and `mass` (kg).

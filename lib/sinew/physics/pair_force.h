@@ -7,6 +7,8 @@
 //            0                      b <= d
 //
 // and its potential, f = -dphi/dd with phi = 0 beyond b.
+//
+//     const double f = pair.force(d), phi = pair.potential(d);
 #pragma once
 
 namespace sinew {

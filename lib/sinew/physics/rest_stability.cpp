@@ -83,13 +83,14 @@ double least_rise(const Material& material, Packing packing) {
   const Points rest = cluster(packing, r);
   const auto energy = energy_of(material, rest);
   const double at_rest = energy(rest);
-  std::mt19937_64 random(5);  // any seed: a check must say the same each time
+  std::mt19937_64 random(5);  // any seed: the check must give the same result each time
   double least = std::numeric_limits<double>::infinity();
   for (const double strain : strains) {
-    const double way = strain * r;
-    const double unit = static_cast<double>(rest.size()) * material.stiffness() * way * way / 2;
+    const double amplitude = strain * r;
+    const double unit =
+        static_cast<double>(rest.size()) * material.stiffness() * amplitude * amplitude / 2;
     for (int trial = 0; trial < trials; ++trial)
-      for (const Points& moved : {strained(rest, strain, random), shaken(rest, way, random)})
+      for (const Points& moved : {strained(rest, strain, random), shaken(rest, amplitude, random)})
         least = std::min(least, (energy(moved) - at_rest) / unit);
   }
   return least;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a packing keeps its shape by itself under a law of force: small strains must raise the
+// Whether a packing keeps its shape at rest under a law of force: small strains must raise the
 // energy of a free cluster.
 //
-// A ball of 5 r is strained at random, as a whole and each particle by itself, by 1e-3 to 1e-2. A
-// law fails where partners come within reach that pull with a falling force, as second neighbors
-// at 2 sqrt(2) r do from that b on, or where stretched pairs do not pull at all (a above 2 r).
-// Strains, not the stiffness at rest, because eq. 1 changes its slope where its range ends.
+// A ball of radius 5 r is strained at random, as a whole and particle by particle, by 1e-3 to 1e-2.
+// A law fails where further neighbors come into range and pull with a decreasing force, as the
+// second neighbors at 2 sqrt(2) r do from that b on, or where stretched pairs do not pull at all (a
+// above 2 r). Strains, not the stiffness at rest, because the slope of eq. 1 is discontinuous where
+// its range ends.
+//
+//     const bool stable = rests_stably(material);
 #pragma once
 
 #include <sinew/core/options.h>
@@ -13,11 +16,11 @@
 
 namespace sinew {
 
-/// The least that a strain raises the energy of the cluster, per particle over
-/// k (strain r)^2 / 2; below 0 the packing collapses or swells.
+/// The least rise of the cluster's energy by a strain, per particle, over k (strain r)^2 / 2; below
+/// 0 the packing collapses or swells.
 double least_rise(const Material& material, Packing packing);
 
-/// Whether the law holds FCC and HCP.
+/// Whether FCC and HCP are stable at rest.
 bool rests_stably(const Material& material);
 
 }  // namespace sinew

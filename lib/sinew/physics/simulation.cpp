@@ -79,12 +79,12 @@ void Simulation::step() {
   if (read_) forget_read();
 }
 
-/// Only cells know of surroundings that change with time.
+/// Only the cell stepper supports surroundings that change with time.
 void Simulation::print_time() const {
   if (auto* cells = std::get_if<CellStepper>(&stepper_)) cells->set_time(time());
 }
 
-/// What was read last is of no use any more, and takes as much memory as half of the state.
+/// The particles read last are obsolete, and take half as much memory as the state.
 void Simulation::forget_read() {
   for (auto* values :
        {&particles_.x, &particles_.y, &particles_.z, &particles_.u, &particles_.v, &particles_.w})
@@ -133,8 +133,7 @@ const Forces& Simulation::forces() {
 Energies Simulation::energies() {
   evaluate();
   const Particles& now = particles();
-  // Velocities are half a step behind the positions but for velocity Verlet, which tells them
-  // at the same moment.
+  // Velocities are half a step behind the positions, except in velocity Verlet.
   const double behind =
       stepping_.integrator == Integrator::velocity_verlet ? 0 : stepping_.step / 2;
   Energies energies;
@@ -159,7 +158,7 @@ Energies Simulation::energies() {
   energies.work_of_bones = ledger_.work_until(balance_.power);
   energies.dissipation = ledger_.dissipation_until(balance_.lost);
   energies.contact = balance_.contact_energy;
-  // What pins hold moves as it is told: they give it its kinetic energy.
+  // Pinned particles move as prescribed: the pins supply their kinetic energy.
   energies.work_of_world = world_ledger_.work_until(balance_.world_power) + balance_.held_kinetic -
                            (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
   return energies;

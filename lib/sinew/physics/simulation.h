@@ -4,7 +4,7 @@
 //     Simulation simulation(body, motion, particles, stepping);
 //     while (simulation.time() < end) simulation.step();
 //
-// What it tells is in the order of the particles it was given.
+// Results are in the order of the particles it was given.
 #pragma once
 
 #include <cstdint>
@@ -25,24 +25,23 @@
 
 namespace sinew {
 
-/// Whether steps with lists of partners know all that the body is subject to; those with the
-/// paper's cells always do.
+/// Whether the list stepper supports all that the body is subject to; the cell stepper always does.
 bool lists_support(const Body& body, const Motion& motion);
 
 class Simulation {
  public:
-  /// `particles` in any order, their id telling their place in body.rest. The kernel is compiled
-  /// for several instruction sets; all of them give the same bits. Throws bad input for a position
-  /// that is not finite.
+  /// `particles` in any order; their id is their place in body.rest. The kernel is compiled for
+  /// several instruction sets; all of them give the same bits. Throws bad input for a position that
+  /// is not finite.
   Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
              kernel::InstructionSet instructions = kernel::best_instruction_set());
 
-  /// Advances by one step. Throws Error (unstable) naming step, particle, cause and a cure when a
-  /// value is not finite or a particle moves over 0.25 r relative to its bone within the step (one
-  /// without a bone: relative to its motion before). The particles stay where they were before it;
-  /// bonds that broke in it stay broken.
+  /// Advances by one step. Throws Error (unstable) that names step, particle, cause and a cure when
+  /// a value is not finite or a particle moves over 0.25 r relative to its bone in the step (one
+  /// without a bone: relative to its previous motion). The particles stay where they were before
+  /// the step; bonds that broke in it stay broken.
   void step();
-  /// Of the step that threw, in the order of the particles.
+  /// Of the step that failed, in the order of the particles.
   const std::vector<Offender>& offenders() const { return offenders_; }
 
   double time() const { return static_cast<double>(steps_) * stepping_.step; }  ///< s
@@ -53,24 +52,24 @@ class Simulation {
 
   /// At the present moment.
   const Forces& forces();
-  /// Kinetic energy and dissipation are taken at the moment of the positions, so that the balance
-  /// closes to second order in the step.
+  /// Kinetic energy and dissipation are evaluated at the moment of the positions, so that the
+  /// balance closes to second order in the step.
   Energies energies();
 
-  /// Bonds of each particle that are broken, in the order of the particles; none for the paper's
-  /// model, which has no bonds.
+  /// Broken bonds of each particle, in the order of the particles; none for the paper's model,
+  /// which has no bonds.
   std::span<const std::int32_t> broken_bonds() const;
 
-  /// What the body does to each obstacle of its world at the present moment, about its frame.
+  /// The force of the body on each obstacle of its world at the present moment, about its frame.
   std::span<const Reaction> reactions_of_obstacles();
 
-  /// What is needed to go on later from this moment with the same bits, on any number of threads.
+  /// The state from which a simulation continues with the same bits, on any number of threads.
   SimulationState save() const;
-  /// Goes to that moment of a simulation of the same body, motion and stepping. Throws bad input
-  /// for a state that cannot be one.
+  /// Continues from that moment of a simulation of the same body, motion and stepping. Throws bad
+  /// input for a state that does not fit.
   void restore(const SimulationState& state);
 
-  /// How often lists of partners were made; none for cells.
+  /// How often neighbor lists were built; zeros for the cell stepper.
   ListCounts list_counts() const;
 
  private:
@@ -94,7 +93,7 @@ class Simulation {
   double held_at_start_ = 0;  ///< kinetic energy of what pins hold, J
 
   std::vector<Offender> offenders_;
-  mutable Particles particles_;  ///< as read last; radius, mass and ids always
+  mutable Particles particles_;  ///< as read last; radius, mass and ids are always valid
   mutable bool read_ = false;    ///< whether they are those of the present moment
   Forces forces_;
   Balance balance_;

@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-/// Where j stands among the partners of i.
+/// Index of j among the neighbors of i.
 std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
-  const auto begin = bonds.partners.partner.begin();
-  const auto last = begin + bonds.partners.first[i + 1];
-  const auto found = std::lower_bound(begin + bonds.partners.first[i], last, j);
+  const auto begin = bonds.neighbors.neighbor.begin();
+  const auto last = begin + bonds.neighbors.first[i + 1];
+  const auto found = std::lower_bound(begin + bonds.neighbors.first[i], last, j);
   return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
 }
 
-/// The rest length after a time: what exceeds the yield strain decays; 0 for a bond that breaks.
+/// The rest length after a time: strain beyond the yield strain decays; 0 for a bond that breaks.
 double next_length(const BondStrength& strength, double length, double d, double time) {
   if (strength.breaking_strain > 0 && d > length * (1 + strength.breaking_strain)) return 0;
   if (strength.yield_strain <= 0) return length;
@@ -52,12 +52,12 @@ bool Bonds::bonded(std::size_t i, std::uint32_t j) const {
 
 Bonds make_bonds(const Points& rest, double r) {
   Bonds bonds;
-  bonds.partners = neighbors_within(rest, rest_neighbor_range(r));
-  bonds.rest_length.resize(bonds.partners.partner.size());
+  bonds.neighbors = neighbors_within(rest, rest_neighbor_range(r));
+  bonds.rest_length.resize(bonds.neighbors.neighbor.size());
   bonds.broken.assign(rest.size(), 0);
   for_each_particle(rest.size(), [&](std::size_t i) {
-    for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e)
-      bonds.rest_length[e] = (rest[i] - rest[bonds.partners.partner[e]]).norm();
+    for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e)
+      bonds.rest_length[e] = (rest[i] - rest[bonds.neighbors.neighbor[e]]).norm();
   });
   return bonds;
 }
@@ -65,13 +65,13 @@ Bonds make_bonds(const Points& rest, double r) {
 double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
               const Particles& particles, double time) {
   if (strength.breaking_strain <= 0 && strength.yield_strain <= 0) return 0;
-  // Both sides of a bond see the same distance to the last bit, and do the same with it.
+  // Both directions of a bond see the same distance to the last bit, and change alike.
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double released = 0;
-    for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e) {
+    for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
       if (!bonds.whole(e)) continue;
       const double d =
-          (particles.position(i) - particles.position(bonds.partners.partner[e])).norm();
+          (particles.position(i) - particles.position(bonds.neighbors.neighbor[e])).norm();
       const double before = bonds.rest_length[e];
       const double after = next_length(strength, before, d, time);
       bonds.rest_length[e] = after;
@@ -92,9 +92,9 @@ Mat3 cofactors(const Mat3& F) {
   return cof;
 }
 
-Mat3 spread_at_rest(const Points& rest, const NeighborLists& partners, std::size_t i) {
+Mat3 spread_at_rest(const Points& rest, const NeighborLists& neighbors, std::size_t i) {
   Mat3 A = Mat3::Zero();
-  for (const std::uint32_t j : partners.of(i)) {
+  for (const std::uint32_t j : neighbors.of(i)) {
     const Vec3 X = rest[j] - rest[i];
     A += X * X.transpose();
   }
@@ -124,7 +124,7 @@ Solid::Solid(const Material& material, Points rest)
   volume_.assign(n, 0);
   thrust_.assign(n, Mat3::Zero());
   for_each_particle(n, [&](std::size_t i) {
-    const Mat3 A = spread_at_rest(rest_, bonds_.partners, i);
+    const Mat3 A = spread_at_rest(rest_, bonds_.neighbors, i);
     weight_[i] = weight_of(A, 2 * material_.pair.r);
     if (weight_[i] > 0) inverse_[i] = A.inverse();
   });
@@ -144,8 +144,8 @@ double Solid::potential(std::size_t i, std::uint32_t j, double d) const {
                                      : law_->energy(material_, d);
 }
 
-/// F_i, and from it J_i and what its volume pushes with. Where a bond broke, flesh has come apart
-/// and keeps no volume.
+/// F_i, J_i and the stress that keeps the volume. Where a bond broke, the body is severed and keeps
+/// no volume.
 void Solid::find_volumes(const Particles& particles) {
   if (material_.volume_stiffness <= 0) return;
   const double V0 = volume_per_particle(material_.pair.r);
@@ -154,7 +154,7 @@ void Solid::find_volumes(const Particles& particles) {
     volume_[i] = 0;
     if (weight_[i] == 0 || bonds_.broken[i] > 0) return;
     Mat3 moved = Mat3::Zero();
-    for (const std::uint32_t j : bonds_.partners.of(i))
+    for (const std::uint32_t j : bonds_.neighbors.of(i))
       moved += (particles.position(j) - particles.position(i)) * (rest_[j] - rest_[i]).transpose();
     const Mat3 F = moved * inverse_[i];
     volume_[i] = F.determinant() - 1;
@@ -173,10 +173,10 @@ Vec3 Solid::bond_force(const Particles& particles, std::size_t i) const {
   return force;
 }
 
-/// Of its own volume and those it helps to span.
+/// Of its own volume and those of its neighbors.
 Vec3 Solid::volume_force(std::size_t i) const {
   Vec3 force = Vec3::Zero();
-  for (const std::uint32_t j : bonds_.partners.of(i))
+  for (const std::uint32_t j : bonds_.neighbors.of(i))
     force += (thrust_[i] + thrust_[j]) * (rest_[j] - rest_[i]);
   return force;
 }
@@ -203,7 +203,7 @@ double Solid::energy(const Particles& particles) {
   find_volumes(particles);
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double sum = 0;
-    for_each_partner(
+    for_each_neighbor(
         particles, cells, material_.pair.b, i,
         [&](std::uint32_t j, const Vec3&, double d) { sum += potential(i, j, d) / 2; });
     if (law_->has_bonds)

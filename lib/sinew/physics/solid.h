@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What keeps its shape, beside the paper's body, which flows.
+// Pair forces of solids, which keep their shape; the paper's body flows.
 //
 // bonded: neighbors at rest are bonds, f = -k (d - l) e; all other pairs repel by eq. 1.
-// bonded_volume: and each particle keeps its volume, U_i = (K_v / 2) V0 w_i (J_i - 1)^2 with J_i of
-// the least-squares deformation gradient F_i over its neighbors at rest,
-// F_i = sum dx dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The
-// weight w_i = min(1, lambda_min(A_i) / (4 d0^2))^2 fades out where neighbors are few: without it
-// the particles of a surface would halve the step.
-// paper with cohesion of initial neighbors: eq. 1, but only neighbors at rest attract each other.
+// bonded_volume: in addition, each particle keeps its volume, U_i = (K_v / 2) V0 w_i (J_i - 1)^2
+// with J_i of the least-squares deformation gradient F_i over its neighbors at rest, F_i = sum dx
+// dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weight w_i =
+// min(1, lambda_min(A_i) / (4 d0^2))^2 vanishes where neighbors are few: without it the particles
+// of a surface would halve the step.
+// paper with cohesion initial_neighbors: eq. 1, but only neighbors at rest attract each other.
+//
+//     Solid solid(material, rest);
+//     solid.forces(particles, forces);
 #pragma once
 
 #include <cstdint>
@@ -22,43 +25,43 @@
 
 namespace sinew {
 
-// The bonds of a solid: what were neighbors at rest stay partners wherever they go. A bond is a
-// spring from its rest length; beyond a strain it breaks, and beyond another one its rest length
-// creeps after it (plastic flow).
+// The bonds of a solid: neighbors at rest stay bonded wherever they move. A bond is a spring;
+// beyond a strain it breaks, and beyond a smaller one its rest length creeps (plastic flow).
 
 struct Bonds {
-  NeighborLists partners;            ///< from both sides, in the order of the particles
-  std::vector<double> rest_length;   ///< by entry of partners, m; 0 once broken
+  NeighborLists neighbors;           ///< in both directions, in the order of the particles
+  std::vector<double> rest_length;   ///< by entry of neighbors, m; 0 once broken
   std::vector<std::int32_t> broken;  ///< by particle
 
-  std::size_t size() const { return partners.partner.size() / 2; }
+  std::size_t size() const { return neighbors.neighbor.size() / 2; }
   bool whole(std::size_t entry) const { return rest_length[entry] > 0; }
   /// Whether i and j were neighbors at rest.
   bool were_neighbors(std::size_t i, std::uint32_t j) const;
-  /// Whether a bond holds them together.
+  /// Whether an unbroken bond connects them.
   bool bonded(std::size_t i, std::uint32_t j) const;
 };
 
 /// Between all particles of radius `r` (m) that are neighbors at `rest` (m).
 Bonds make_bonds(const Points& rest, double r);
 
-/// Calls visit(j, offset, d, rest length) for the whole bonds of particle i: x_i - x_j, its length.
+/// Calls visit(j, offset, d, rest length) for the unbroken bonds of particle i: x_i - x_j, its
+/// length.
 template <class Visit>
 void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i, Visit&& visit) {
-  for (std::uint32_t e = bonds.partners.first[i]; e < bonds.partners.first[i + 1]; ++e) {
+  for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
     if (!bonds.whole(e)) continue;
-    const std::uint32_t j = bonds.partners.partner[e];
+    const std::uint32_t j = bonds.neighbors.neighbor[e];
     const Vec3 offset = particles.position(i) - particles.position(j);
     visit(j, offset, offset.norm(), bonds.rest_length[e]);
   }
 }
 
-/// Lets bonds creep and break over a time (s). A broken pair repels in contact as any other.
-/// Returns the energy that is lost, J.
+/// Lets bonds creep and break over a time (s). A pair whose bond broke repels in contact like any
+/// other. Returns the energy lost, J.
 double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
               const Particles& particles, double time);
 
-/// Whether a material's forces know who was whose neighbor at rest.
+/// Whether a material's forces depend on the neighbors at rest.
 bool remembers_neighbors(const Material& material);
 
 class Solid {
@@ -66,16 +69,16 @@ class Solid {
   /// `rest` in the order of the particles, m.
   Solid(const Material& material, Points rest);
 
-  /// Pair forces, and eq. 2 between partners nearer than b. Fills pair, damping and neighbors.
+  /// Pair forces, and eq. 2 between neighbors closer than b. Fills pair, damping and neighbors.
   void forces(const Particles& particles, Forces& forces);
   /// Stored in bonds, contacts and volumes, J.
   double energy(const Particles& particles);
-  /// Creep and fracture over a step (s), at the positions that forces were asked for last. Returns
-  /// the energy that is lost to them, J.
+  /// Creep and fracture over a step (s), at the positions of the last call of forces(). Returns the
+  /// energy lost, J.
   double evolve(const Particles& particles, double step);
 
   const Bonds& bonds() const { return bonds_; }
-  /// Bonds as they were at another moment. Throws bad input where they are not this solid's.
+  /// Restores saved bonds. Throws bad input where they are not this solid's.
   void restore(const std::vector<double>& rest_length, const std::vector<std::int32_t>& broken);
 
  private:
@@ -92,7 +95,7 @@ class Solid {
   Bonds bonds_;
   std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept
   std::vector<double> weight_;  ///< w_i
-  std::vector<double> volume_;  ///< J_i - 1 at the positions seen last
+  std::vector<double> volume_;  ///< J_i - 1 at the positions of the last call of forces()
   std::vector<Mat3> thrust_;    ///< K_v V0 w_i (J_i - 1) cof(F_i) A_i^-1, N/m
 };
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every way of stepping offers the simulation: see list_stepper.h and cell_stepper.h.
+// What every stepper offers to Simulation: see lists/list_stepper.h and reference/cell_stepper.h.
+//
+//     const StepSums sums = stepper.step(pose);
+//     ledger.add_step(sums.power, sums.lost);
 #pragma once
 
 #include <cmath>
@@ -17,13 +20,14 @@
 
 namespace sinew {
 
-// What the bones have put in and what was lost since the start, step by step.
+// Work of the bones and losses since the start, step by step.
 
 class EnergyLedger {
  public:
   explicit EnergyLedger(double step) : step_(step) {}
 
-  /// A step that began with this power of the bones and loss (W): trapezoid of the power.
+  /// Adds a step that began with this power of the bones and this loss (W); trapezoidal rule for
+  /// the power.
   void add_step(double power, double lost) {
     now_.work = work_until(power);
     now_.power = power;
@@ -31,11 +35,11 @@ class EnergyLedger {
     now_.dissipation += step_ * lost;
   }
 
-  /// Up to a moment with that power, J.
+  /// Until a moment with that power, J.
   double work_until(double power) const {
     return now_.begun ? now_.work + step_ * (now_.power + power) / 2 : now_.work;
   }
-  /// Half of the step that begins with that loss included, for the moment of the positions, J.
+  /// Including half of the step that begins with that loss, for the moment of the positions, J.
   double dissipation_until(double lost) const { return now_.dissipation + step_ * lost / 2; }
 
   const LedgerEntries& entries() const { return now_; }
@@ -55,23 +59,23 @@ struct Stepping {
 };
 
 // A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
-// only a run that has left the range of every limit is faster than several bonds at once.
+// faster than several bonds at once is only an unstable run.
 inline constexpr double most_radii_per_step = 0.25;
 
-/// A particle that left what is sane in a step, by its place in the caller's order.
+/// A particle whose motion in a step is invalid, by its place in the caller's order.
 struct Offender {
   std::size_t particle = 0;
   bool finite = true;
   double moved = 0;  ///< relative to its bone, m; 0 where that is not finite
 };
 
-/// A step that was not taken.
+/// A step that was rejected.
 struct Failure {
-  Offender first;  ///< of the lowest place
+  Offender first;  ///< the one with the lowest place
   std::vector<Offender> all;
 };
 
-/// What a step adds to the ledger, at the moment of the positions it began with.
+/// Contributions of a step to the ledger, at the moment of the positions it began with.
 struct StepSums {
   double power = 0;  ///< of the bones, W
   double lost = 0;   ///< to damping, drag and friction, W
@@ -89,7 +93,7 @@ struct Balance {
   double held_kinetic = 0;                  ///< of particles that pins hold, J
 };
 
-/// Of a saved state that does not belong to a stepper, or that nothing has saved.
+/// The saved state is not one of this stepper, or not valid.
 inline Error not_a_state(const std::string& why) {
   return bad_input("the saved state does not fit this body: " + why,
                    "begin again without --resume");
@@ -109,12 +113,12 @@ void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particle
   }
 }
 
-/// How often lists were made, and how long they are.
+/// How often neighbor lists were built, and how long they are.
 struct ListCounts {
   std::int64_t rebuilds = 0, prunings = 0, checks = 0, sorts = 0;
-  std::int64_t escaped = 0;     ///< particles that got new partners by themselves
+  std::int64_t escaped = 0;     ///< particles that got new neighbors without a rebuild
   double outer = 0, inner = 0;  ///< differences per block
-  /// Wall time spent on them, s.
+  /// Wall time, s.
   double rebuilding = 0, pruning = 0, checking = 0, sorting = 0;
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 bool is_central(const Material& material) { return material.damping_form == DampingForm::central; }
 
-/// A kind of mode that may become unstable first: decay rate by eq. 2, and frequency squared.
+/// A kind of mode that may become unstable first: decay rate by eq. 2, and squared frequency.
 struct Mode {
   double rate;  // C / m
   double w2;    // k / m
@@ -32,8 +32,8 @@ double lattice_factor(const Material& material) {
   return highest_frequency_factor(material.volume_stiffness / (2 * material.pair.k1));
 }
 
-/// Within the packing (exact), and at its surface, where few partners make the damping of eq. 2
-/// stronger and the springs softer (the most found by power iteration on boxes and balls).
+/// Inside the packing (exact), and at its surface, where fewer neighbors make the damping of eq. 2
+/// stronger and the springs softer (the extremes found by power iteration on boxes and balls).
 std::array<Mode, 2> worst_modes(const Material& material) {
   const double w2 = lattice_factor(material);
   if (is_central(material)) return {Mode{2.0 / 3, w2}, Mode{0.87, w2 * 5 / 8}};
@@ -100,7 +100,7 @@ StepChoice choose_step(std::optional<double> step, double factor, double limit, 
         "explicit_euler has no stable time step without damping",
         "set material.damping and binding.bone_damping above 0, or use symplectic_euler");
   const double wanted = step.value_or(factor * limit);
-  // The tolerance keeps a step that divides the interval from becoming one shorter by rounding.
+  // The tolerance keeps a step that divides the interval exactly.
   const double steps = std::ceil(interval / wanted * (1 - 1e-12));
   if (!(steps < 1e9))
     throw bad_input("a frame would take " + three_digits(steps) + " steps",
@@ -115,15 +115,15 @@ StepChoice choose_step(std::optional<double> step, double factor, double limit, 
 namespace {
 
 constexpr std::size_t neighbors_inside = 12;
-constexpr int rounds = 3, iterations = 120;      // the step is made better after each round
-constexpr double margin = 0.99;                  // the iteration comes from below
+constexpr int rounds = 3, iterations = 120;      // the step is improved after each round
+constexpr double margin = 0.99;                  // the iteration converges from below
 constexpr double small = 1e-6;                   // of displacements, in radii
-constexpr std::size_t most_particles = 100'000;  // beyond, a start would take many seconds
+constexpr std::size_t most_particles = 100'000;  // beyond, starting would take many seconds
 
 /// Of all particles, a column each.
 using Vector = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-/// What the forces about rest do to small motions.
+/// The forces about rest, linearized for small motions.
 class NearRest {
  public:
   NearRest(const Body& body, const WorldLoad& world)

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 4096;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Of a bone's length: how far feet of given weights lie beyond its ends. Bones of files share
-// particles around joints, and a foot that stops at the joint would swing about it.
+// Of a bone's length: how far feet of given weights may be beyond its ends. Bones of files share
+// particles around joints, and a foot that stopped at the joint would rotate about it.
 constexpr double beyond_ends = 0.5;
 
 double along(const Bone& bone, const Vec3& point) { return (point - bone.head()).dot(bone.axis()); }
@@ -52,14 +52,14 @@ std::vector<double> sections_by_nearest(const std::vector<int>& nearest, const S
   return cross_sections(skeleton, volumes);
 }
 
-/// What decides which bones hold a particle.
+/// What determines the bones of a particle.
 struct Choice {
   const Points& rest;
   const Skeleton& skeleton;
   const BindOptions& options;
   std::vector<int> nearest;
   JointZones zones;
-  std::vector<std::vector<BoneDistance>> inside;  ///< bones near each; empty: through the air
+  std::vector<std::vector<BoneDistance>> inside;  ///< bones near each; empty: by straight distance
 
   double distance(std::size_t i, int bone) const {
     if (inside.empty()) return distance_to(skeleton.bones[bone], rest[i]);
@@ -69,11 +69,12 @@ struct Choice {
   }
 };
 
-/// The nearest bones by the ways inside; the particles no way reaches have the nearest of all.
+/// The nearest bones by paths inside; particles without a path get the nearest by straight
+/// distance.
 std::size_t choose_inside(Choice& choice, double particle_volume) {
-  const InsideWays ways = inside_ways(choice.rest, choice.skeleton, choice.options.radius);
-  choice.inside = near_inside(ways, choice.skeleton, 0);
-  choice.nearest = ways.straight_nearest;
+  const InsidePaths paths = inside_paths(choice.rest, choice.skeleton, choice.options.radius);
+  choice.inside = near_inside(paths, choice.skeleton, 0);
+  choice.nearest = paths.straight_nearest;
   std::size_t unreached = 0;
   for (std::size_t i = 0; i < choice.inside.size(); ++i) {
     const int bone = nearest_of(choice.inside[i]).bone;
@@ -84,7 +85,7 @@ std::size_t choose_inside(Choice& choice, double particle_volume) {
                              sections_by_nearest(choice.nearest, choice.skeleton, particle_volume),
                              choice.options.joint_zone);
   if (const double reach = choice.zones.longest(); reach > 0)
-    choice.inside = near_inside(ways, choice.skeleton, reach);
+    choice.inside = near_inside(paths, choice.skeleton, reach);
   return unreached;
 }
 
@@ -118,7 +119,7 @@ const BoundRegion* region_of(const std::vector<BoundRegion>& regions, std::size_
   return last == regions.rend() ? nullptr : &*last;
 }
 
-/// What binds one particle, its feet and distances included.
+/// The influences on one particle, including feet and distances.
 std::vector<Influence> influences_on(const Choice& choice, std::size_t i) {
   const Vec3& point = choice.rest[i];
   std::vector<BoneWeight> weights;
@@ -135,7 +136,7 @@ std::vector<Influence> influences_on(const Choice& choice, std::size_t i) {
   return held;
 }
 
-/// Puts the influences of consecutive pieces of particles together; `first` counts them.
+/// Joins the influences of consecutive pieces of particles; `first` counts them.
 std::vector<Influence> joined(std::vector<std::vector<Influence>> pieces,
                               const std::vector<std::uint32_t>& first) {
   std::vector<Influence> all(first.back());

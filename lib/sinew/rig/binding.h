@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which bones pull each particle, with what weight, and from where: fixed once, in the rest pose.
+// Which bones pull each particle, with what weight, and from where: determined once, in the rest
+// pose.
 //
-// A particle belongs to the bone whose segment is nearest (Komiya and Tokoi), through the air or
-// inside the body (inside_distance.h), or to the bones that given weights name. Within a joint zone
-// it belongs to all bones that meet there, with weights that pass smoothly from one to the other
-// (joint_zones.h): without a zone a twist falls between two lattice planes and cuts the body.
+//     const Binding binding = bind_to_bones(rest, skeleton, options);
+//     for (const Influence& influence : binding.of(i)) use(influence.bone, influence.weight);
+//
+// A particle belongs to the bone whose segment is nearest (Komiya and Tokoi), by straight distance
+// or inside the body (inside_distance.h), or to the bones that given weights name. In a joint zone
+// it belongs to all bones that meet there, with weights that change smoothly from one to the other
+// (joint_zones.h): without a zone, a twist falls between two lattice planes and cuts the body.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +22,7 @@
 
 namespace sinew {
 
-/// One bone's hold on one particle.
+/// The influence of one bone on one particle.
 struct Influence {
   int bone = no_bone;
   double weight = 0;  ///< the weights of a particle sum to 1
@@ -33,23 +37,24 @@ struct Binding {
   std::vector<std::uint32_t> first;   ///< n + 1 long; particle i has [first[i], first[i + 1])
   std::vector<Influence> influences;  ///< the heaviest of a particle comes first
   std::vector<double> cross_section;  ///< per bone: volume bound to it over its length, m^2
-  std::size_t unreached = 0;  ///< particles no bone reaches inside the body: bound to the nearest
+  std::size_t unreached =
+      0;  ///< particles that no path inside the body connects to a bone: bound to the nearest
 
   std::span<const Influence> of(std::size_t i) const {
     return {influences.data() + first[i], first[i + 1] - first[i]};
   }
-  /// The bone that holds particle i most; no_bone where none does.
+  /// The bone with the largest weight for particle i; no_bone for a particle without bones.
   int bone(std::size_t i) const {
     return first[i] == first[i + 1] ? no_bone : influences[first[i]].bone;
   }
-  /// Of that bone; 0 where none holds it.
+  /// The weight of that bone; 0 without one.
   double weight(std::size_t i) const {
     return first[i] == first[i + 1] ? 0 : influences[first[i]].weight;
   }
 };
 
-/// Particles that belong to one bone, or to none, whatever is near: those of the numbers, and those
-/// in the box and the ball.
+/// Particles that belong to one bone, or to none, whatever is nearest: those with the given
+/// numbers, and those in the box or the ball.
 struct BoundRegion {
   int bone = no_bone;
   std::vector<std::uint32_t> ids;  ///< ascending
@@ -62,18 +67,20 @@ struct BoundRegion {
 
 struct BindOptions {
   double radius = 0;      ///< of the particles, m; their volume is that of closest packing
-  bool inside = false;    ///< nearest by the way inside the body
+  bool inside = false;    ///< nearest by the path inside the body
   double joint_zone = 0;  ///< length of the zones in square roots of the bones' cross-section
-  double core_radius = std::numeric_limits<double>::infinity();  ///< farther ones have no bone, m
-  std::vector<BoundRegion> regions = {};  ///< over all else; the last that holds a particle counts
-  /// Per particle: these instead of the nearest bone. A particle without any has the nearest.
+  double core_radius =
+      std::numeric_limits<double>::infinity();  ///< particles farther away have no bone, m
+  std::vector<BoundRegion> regions =
+      {};  ///< override all else; of several that contain a particle the last one applies
+  /// Per particle: used instead of the nearest bone. A particle without weights gets the nearest.
   std::optional<BoneWeights> weights = {};
 };
 
-/// Binds particles at `rest` (n x 3, m). In parallel, the ways inside excepted.
+/// Binds particles at `rest` (n x 3, m). In parallel, except for the paths inside.
 Binding bind_to_bones(const Points& rest, const Skeleton& skeleton, const BindOptions& options);
 
-/// By the nearest segment, for particles of the volume `particle_volume` (m^3).
+/// To the nearest segment, for particles of volume `particle_volume` (m^3).
 Binding bind_to_bones(const Points& rest, const Skeleton& skeleton, double particle_volume,
                       double joint_zone);
 

@@ -13,8 +13,8 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;
 
-/// The last key not after `time`, which lies between the first and the last. Most clips have even
-/// times: the guess then is right.
+/// The last key not after `time`, which is between the first and the last. Most clips have equal
+/// intervals: then the guess is right.
 std::size_t key_before(const std::vector<double>& times, double time) {
   const std::size_t last = times.size() - 2;
   const double share = (time - times.front()) / (times.back() - times.front());
@@ -26,7 +26,7 @@ std::size_t key_before(const std::vector<double>& times, double time) {
          1;
 }
 
-/// A place between two keys.
+/// A time between two keys.
 struct Span {
   std::size_t key;  ///< the earlier one; the later is key + 1
   double duration;  ///< s
@@ -39,7 +39,7 @@ Span span_at(const std::vector<double>& times, double time) {
   return {key, end - begin, {begin, end, begin, 1 / (end - begin)}};
 }
 
-/// Where a curve holds: before its first key and after its last.
+/// The constant part of a curve: before its first key and after its last.
 struct Hold {
   std::size_t key;
   PieceTime time;
@@ -52,8 +52,8 @@ std::optional<Hold> hold_at(const std::vector<double>& times, double time) {
   return std::nullopt;
 }
 
-/// The way from one key to the next, 0 to 1, as a polynomial without a constant; not of cubic.
-std::array<double, 3> way_of(Interpolation interpolation) {
+/// Progress from one key to the next, 0 to 1, as a polynomial without a constant; not for cubic.
+std::array<double, 3> progress_of(Interpolation interpolation) {
   if (interpolation == Interpolation::step) return {0, 0, 0};
   if (interpolation == Interpolation::smooth) return {0, 3, -2};
   return {1, 0, 0};
@@ -63,12 +63,12 @@ std::array<double, 3> way_of(Interpolation interpolation) {
 template <class Value>
 std::array<Value, 4> hermite(const Value& from, const Value& leave, const Value& to,
                              const Value& arrive) {
-  const Value way = to - from;
-  return {from, leave, 3 * way - 2 * leave - arrive, leave + arrive - 2 * way};
+  const Value change = to - from;
+  return {from, leave, 3 * change - 2 * leave - arrive, leave + arrive - 2 * change};
 }
 
-/// The slope at a key of the parabola through it and its neighbors, from the slopes of the ways to
-/// it and from it, which last `before` and `after`.
+/// The slope at a key of the parabola through it and its neighbors, from the slopes of the segments
+/// to and from it, with durations `before` and `after`.
 template <class Value>
 Value slope_between(const Value& to_it, double before, const Value& from_it, double after) {
   return (after * to_it + before * from_it) / (before + after);
@@ -85,29 +85,29 @@ Vec3 zero_of<Vec3>() {
   return Vec3::Zero();
 }
 
-/// The ways that meet at a key: from the key before and to the key after, by the number of the key
-/// each leads to. The ends have none but where the curve is cyclic.
-struct Ways {
+/// The segments that meet at a key, from the key before and to the key after, each by the number of
+/// the key at its end. The first and last key have none unless the curve is cyclic.
+struct Segments {
   std::size_t to_it, from_it;
 };
 
 template <class AnyCurve>
-std::optional<Ways> ways_at(const AnyCurve& curve, std::size_t key) {
+std::optional<Segments> segments_at(const AnyCurve& curve, std::size_t key) {
   const std::size_t last = curve.times.size() - 1;
-  if (key > 0 && key < last) return Ways{key, key + 1};
-  return curve.cyclic ? std::optional(Ways{last, 1}) : std::nullopt;
+  if (key > 0 && key < last) return Segments{key, key + 1};
+  return curve.cyclic ? std::optional(Segments{last, 1}) : std::nullopt;
 }
 
 template <class Value>
 Value made_tangent(const Curve<Value>& curve, std::size_t key) {
-  const auto ways = ways_at(curve, key);
-  if (!ways) return zero_of<Value>();
+  const auto segments = segments_at(curve, key);
+  if (!segments) return zero_of<Value>();
   const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
   const auto slope = [&](std::size_t k) -> Value {
     return (curve.values[k] - curve.values[k - 1]) / duration(k);
   };
-  return slope_between<Value>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
-                              duration(ways->from_it));
+  return slope_between<Value>(slope(segments->to_it), duration(segments->to_it),
+                              slope(segments->from_it), duration(segments->from_it));
 }
 
 template <class Value>
@@ -126,12 +126,12 @@ Vec3 turn_to(const RotationCurve& curve, std::size_t key) {
 }
 
 Vec3 made_velocity(const RotationCurve& curve, std::size_t key) {
-  const auto ways = ways_at(curve, key);
-  if (!ways) return Vec3::Zero();
+  const auto segments = segments_at(curve, key);
+  if (!segments) return Vec3::Zero();
   const auto duration = [&](std::size_t k) { return curve.times[k] - curve.times[k - 1]; };
   const auto slope = [&](std::size_t k) -> Vec3 { return turn_to(curve, k) / duration(k); };
-  return slope_between<Vec3>(slope(ways->to_it), duration(ways->to_it), slope(ways->from_it),
-                             duration(ways->from_it));
+  return slope_between<Vec3>(slope(segments->to_it), duration(segments->to_it),
+                             slope(segments->from_it), duration(segments->from_it));
 }
 
 /// The vector of `rotation` that is nearest to `wanted`, which may be longer than pi.
@@ -149,7 +149,7 @@ bool parallel(const Vec3& a, const Vec3& b) {
 
 Vec4 as_4(const Vec3& v) { return {v.x(), v.y(), v.z(), 0}; }
 
-/// The way between two keys as three turns, one after the other, each along its own polynomial.
+/// The rotation between two keys as three rotations in sequence, each with its own polynomial.
 void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const Vec3 turn = turn_to(curve, span.key + 1);
   const Vec3 first = span.duration / 3 * made_velocity(curve, span.key);
@@ -162,7 +162,7 @@ void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piec
   piece.c = {curve.values[span.key].coeffs(), as_4(first), as_4(second), as_4(third)};
 }
 
-/// glTF's: components one by one.
+/// As in glTF: component by component.
 void put_tangents(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const std::size_t k = span.key;
   piece.form = RotationPiece::Form::tangents;
@@ -179,7 +179,7 @@ CurvePiece<Value> Curve<Value>::piece_at(double time) const {
     return {hold->time, {values[hold->key], zero, zero, zero}};
   const Span span = span_at(times, time);
   if (interpolation == Interpolation::cubic) return {span.time, cubic(*this, span)};
-  const auto [linear, square, cube] = way_of(interpolation);
+  const auto [linear, square, cube] = progress_of(interpolation);
   const Value &from = values[span.key], difference = values[span.key + 1] - from;
   return {span.time, {from, linear * difference, square * difference, cube * difference}};
 }
@@ -197,7 +197,7 @@ RotationPiece RotationCurve::piece_at(double time) const {
   const Span span = span_at(times, time);
   piece.time = span.time;
   if (interpolation != Interpolation::cubic) {
-    piece.way = way_of(interpolation);
+    piece.progress = progress_of(interpolation);
     piece.c = {values[span.key].coeffs(), as_4(turn_to(*this, span.key + 1))};
   } else if (in.empty() || out.empty()) {
     put_turns(*this, span, piece);
@@ -212,11 +212,11 @@ namespace {
 using Vec4 = Eigen::Vector4d;
 
 RotationSample by_turn(const RotationPiece& piece, double s) {
-  const auto& [linear, square, cube] = piece.way;
+  const auto& [linear, square, cube] = piece.progress;
   const Vec3 turn = piece.c[1].head<3>();
-  const double way = s * (linear + s * (square + s * cube));
+  const double share = s * (linear + s * (square + s * cube));
   const double rate = piece.time.speed * (linear + s * (2 * square + s * (3 * cube)));
-  return {rotation_by(way * turn) * Quat(piece.c[0]), rate * turn};
+  return {rotation_by(share * turn) * Quat(piece.c[0]), rate * turn};
 }
 
 RotationSample by_turns(const RotationPiece& piece, double s) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values that change over time: keys, and the way from each to the next.
+// Values that change over time: keys, and the interpolation between them.
 //
-// step holds a key until the next; linear goes straight on (slerp for rotations); smooth rests at
-// every key (smoothstep); cubic passes the keys without a jump of speed: Hermite's polynomial.
-// Where no tangents are given they follow from the neighbors (the parabola through three keys, as
-// Catmull and Rom's for even times) and are zero at the first and the last key, where the curve
-// begins and ends to hold; a cyclic curve takes its last key for its first one and goes on. Cubic
-// rotations without tangents: Kim, Kim and Shin, "A general construction scheme for unit quaternion
-// curves" (SIGGRAPH 1995), with angular velocities at the keys. With tangents: glTF 2.0, appendix
-// C.
+//     const CurveSample<double> twist = curve.at(time);  // twist.value, twist.rate
 //
-// Times are in seconds and ascend; before the first key and after the last a curve holds. A curve
-// without keys is no curve: it must not be asked.
+// step holds a key until the next; linear interpolates (slerp for rotations); smooth stops at every
+// key (smoothstep); cubic passes the keys with continuous speed: Hermite's polynomial. Tangents
+// that are not given follow from the adjacent keys (the parabola through three keys, as Catmull and
+// Rom's for equal intervals) and are zero at the first and the last key; in a cyclic curve the last
+// key is the first one again. Cubic rotations without tangents: Kim, Kim and Shin, "A general
+// construction scheme for unit quaternion curves" (SIGGRAPH 1995), with angular velocities at the
+// keys. With tangents: glTF 2.0, appendix C.
+//
+// Times are in seconds and ascend; a curve is constant before the first key and after the last. A
+// curve without keys must not be evaluated.
 #pragma once
 
 #include <array>
@@ -23,8 +24,8 @@
 
 namespace sinew {
 
-// A curve from one key to the next, ready to be asked often: what does not change between two keys
-// is found once. Before the first key and after the last a piece holds.
+// A curve between two keys, prepared for many evaluations: what is the same for all of them is
+// computed once. Before the first key and after the last a piece is constant.
 
 template <class Value>
 struct CurveSample {
@@ -33,10 +34,10 @@ struct CurveSample {
 
 struct RotationSample {
   Quat value;             ///< a unit quaternion
-  Vec3 angular_velocity;  ///< in the directions the rotations are given in, rad/s
+  Vec3 angular_velocity;  ///< in the coordinates in which the rotations are given, rad/s
 };
 
-/// When a piece is to be used, and how far on it is: s grows from 0 to 1 between its keys.
+/// When a piece is valid, and its parameter: s grows from 0 to 1 between its keys.
 struct PieceTime {
   static constexpr double never = std::numeric_limits<double>::infinity();
   double begin = never, end = -never;  ///< s: for begin <= time < end
@@ -46,7 +47,7 @@ struct PieceTime {
   double s(double time) const { return (time - start) * speed; }
 };
 
-/// Every interpolation of numbers is a polynomial. Value: double or Vec3.
+/// All numbers are interpolated by polynomials. Value: double or Vec3.
 template <class Value>
 struct CurvePiece {
   PieceTime time;
@@ -61,14 +62,15 @@ struct CurvePiece {
 
 struct RotationPiece {
   enum class Form {
-    turn,     ///< c0 a quaternion, c1 the vector by which it turns: by way(s) of it
-    turns,    ///< c0 a quaternion, c1, c2, c3 vectors of turns, one after the other (Kim et al.)
-    tangents  ///< c0 + c1 s + c2 s^2 + c3 s^3, made a unit quaternion (glTF)
+    turn,     ///< c0 a quaternion, c1 a rotation vector: c0, then progress(s) c1
+    turns,    ///< c0 a quaternion, c1, c2, c3 rotation vectors, one after the other (Kim et al.)
+    tangents  ///< c0 + c1 s + c2 s^2 + c3 s^3, normalized (glTF)
   };
   PieceTime time;
   Form form = Form::turn;
-  std::array<double, 3> way = {0, 0, 0};  ///< way[0] s + way[1] s^2 + way[2] s^3
-  std::array<Eigen::Vector4d, 4> c;       ///< quaternions as x y z w
+  /// progress[0] s + progress[1] s^2 + progress[2] s^3.
+  std::array<double, 3> progress = {0, 0, 0};
+  std::array<Eigen::Vector4d, 4> c;  ///< quaternions as x y z w
 
   RotationSample at(double moment) const;
 };
@@ -94,8 +96,8 @@ struct RotationCurve {
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> times;  ///< s, ascending
   std::vector<Quat> values;   ///< unit quaternions of either sign
-  /// turns[k]: the rotation vector that leads to key k from key k - 1, rad, of any size; its first
-  /// is not used. Empty: the short way.
+  /// turns[k]: the rotation vector from key k - 1 to key k, rad, of any length; the first is
+  /// unused. Empty: the shortest rotations.
   std::vector<Vec3> turns;
   std::vector<Quat> in, out;  ///< cubic: tangents of the quaternion, 1/s; or empty
   bool cyclic = false;

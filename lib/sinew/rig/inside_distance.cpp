@@ -15,16 +15,16 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t particles_per_piece = 4096;
-// The widest hole of closest packing leaves sqrt(2) radii to the next particle.
+// The largest void of closest packing is sqrt(2) radii from the next particle.
 constexpr double around_bone = 1.5, beyond_nearest = 0.5;  // radii
-// Ways along the lattice over straight ones: sqrt(9 / 8) at most, along [111] of FCC.
+// Lattice paths over straight ones: at most sqrt(9 / 8), along [111] of FCC.
 constexpr double detour_of_lattice = 1.061;
 
 struct Step {
   double distance;
   int bone;
   std::uint32_t particle;
-  /// Later steps first: the nearest, then the lower bone, then the lower particle is on top.
+  /// Reversed: the nearest, then the lower bone, then the lower particle is on top.
   bool operator<(const Step& other) const {
     return std::tie(distance, bone, particle) >
            std::tie(other.distance, other.bone, other.particle);
@@ -33,23 +33,23 @@ struct Step {
 
 using Queue = std::priority_queue<Step>;
 
-void begin_at(const InsideWays& ways, const Skeleton& skeleton, int bone, Queue& queue) {
-  for (const std::uint32_t i : ways.starts[bone])
-    queue.push({distance_to(skeleton.bones[bone], ways.points[i]), bone, i});
+void begin_at(const InsidePaths& paths, const Skeleton& skeleton, int bone, Queue& queue) {
+  for (const std::uint32_t i : paths.starts[bone])
+    queue.push({distance_to(skeleton.bones[bone], paths.points[i]), bone, i});
 }
 
-/// Dijkstra: what leaves the queue first is the nearest. Ways end at `limit` (m).
-std::vector<BoneDistance> walk(const InsideWays& ways, Queue queue, double limit) {
-  std::vector<BoneDistance> found(ways.points.size(), {no_bone, infinite});
+/// Dijkstra's algorithm; paths end at `limit` (m).
+std::vector<BoneDistance> walk(const InsidePaths& paths, Queue queue, double limit) {
+  std::vector<BoneDistance> found(paths.points.size(), {no_bone, infinite});
   while (!queue.empty()) {
     const Step step = queue.top();
     queue.pop();
     if (found[step.particle].bone != no_bone || step.distance > limit) continue;
     found[step.particle] = {step.bone, step.distance};
-    for (const std::uint32_t j : ways.links.of(step.particle))
+    for (const std::uint32_t j : paths.links.of(step.particle))
       if (found[j].bone == no_bone)
         queue.push(
-            {step.distance + (ways.points[j] - ways.points[step.particle]).norm(), step.bone, j});
+            {step.distance + (paths.points[j] - paths.points[step.particle]).norm(), step.bone, j});
   }
   return found;
 }
@@ -73,69 +73,69 @@ NeighborLists links_of(const Points& rest, double radius) {
   NeighborLists links;
   links.first.push_back(0);
   for (const auto& row : rows) {
-    links.partner.insert(links.partner.end(), row.begin(), row.end());
-    links.first.push_back(static_cast<std::uint32_t>(links.partner.size()));
+    links.neighbor.insert(links.neighbor.end(), row.begin(), row.end());
+    links.first.push_back(static_cast<std::uint32_t>(links.neighbor.size()));
   }
   return links;
 }
 
-/// Through the air, or by the way inside where that is a true detour.
-BoneDistance without_lattice(const InsideWays& ways, const Skeleton& skeleton, std::uint32_t i,
-                             const BoneDistance& way) {
-  const double straight = distance_to(skeleton.bones[way.bone], ways.points[i]);
-  return {way.bone, std::max(straight, way.distance / detour_of_lattice)};
+/// The straight distance, or that of the path inside where it is a detour.
+BoneDistance without_lattice(const InsidePaths& paths, const Skeleton& skeleton, std::uint32_t i,
+                             const BoneDistance& path) {
+  const double straight = distance_to(skeleton.bones[path.bone], paths.points[i]);
+  return {path.bone, std::max(straight, path.distance / detour_of_lattice)};
 }
 
-/// Ways from one bone, all up to `limit` (m).
-std::vector<BoneDistance> ways_from(const InsideWays& ways, const Skeleton& skeleton, int bone,
-                                    double limit) {
+/// Paths from one bone, up to `limit` (m).
+std::vector<BoneDistance> paths_from(const InsidePaths& paths, const Skeleton& skeleton, int bone,
+                                     double limit) {
   Queue queue;
-  begin_at(ways, skeleton, bone, queue);
-  return walk(ways, std::move(queue), limit);
+  begin_at(paths, skeleton, bone, queue);
+  return walk(paths, std::move(queue), limit);
 }
 
 }  // namespace
 
-InsideWays inside_ways(const Points& rest, const Skeleton& skeleton, double radius) {
-  InsideWays ways{links_of(rest, radius), rest, {}, {}};
+InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius) {
+  InsidePaths paths{links_of(rest, radius), rest, {}, {}};
   std::vector<double> distance(rest.size());
-  ways.straight_nearest.resize(rest.size());
+  paths.straight_nearest.resize(rest.size());
   parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      ways.straight_nearest[i] = nearest_bone(skeleton, rest[i]);
-      distance[i] = distance_to(skeleton.bones[ways.straight_nearest[i]], rest[i]);
+      paths.straight_nearest[i] = nearest_bone(skeleton, rest[i]);
+      distance[i] = distance_to(skeleton.bones[paths.straight_nearest[i]], rest[i]);
     }
   });
   std::vector<double> least(skeleton.size(), infinite);
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    double& nearest = least[ways.straight_nearest[i]];
+    double& nearest = least[paths.straight_nearest[i]];
     nearest = std::min(nearest, distance[i]);
   }
-  ways.starts.resize(skeleton.size());
+  paths.starts.resize(skeleton.size());
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    const int bone = ways.straight_nearest[i];
+    const int bone = paths.straight_nearest[i];
     if (distance[i] <= std::max(around_bone * radius, least[bone] + beyond_nearest * radius))
-      ways.starts[bone].push_back(static_cast<std::uint32_t>(i));
+      paths.starts[bone].push_back(static_cast<std::uint32_t>(i));
   }
-  return ways;
+  return paths;
 }
 
-std::vector<std::vector<BoneDistance>> near_inside(const InsideWays& ways, const Skeleton& skeleton,
-                                                   double reach) {
+std::vector<std::vector<BoneDistance>> near_inside(const InsidePaths& paths,
+                                                   const Skeleton& skeleton, double reach) {
   Queue queue;
   for (std::size_t b = 0; b < skeleton.size(); ++b)
-    begin_at(ways, skeleton, static_cast<int>(b), queue);
-  const std::vector<BoneDistance> nearest = walk(ways, std::move(queue), infinite);
-  const auto limit = [&](double way) { return detour_of_lattice * (way + reach); };
+    begin_at(paths, skeleton, static_cast<int>(b), queue);
+  const std::vector<BoneDistance> nearest = walk(paths, std::move(queue), infinite);
+  const auto limit = [&](double path) { return detour_of_lattice * (path + reach); };
   double longest = 0;
   for (const BoneDistance& one : nearest)
     if (one.bone != no_bone) longest = std::max(longest, one.distance);
-  std::vector<std::vector<BoneDistance>> near(ways.points.size());
+  std::vector<std::vector<BoneDistance>> near(paths.points.size());
   for (std::size_t b = 0; b < skeleton.size(); ++b) {
-    const auto found = ways_from(ways, skeleton, static_cast<int>(b), limit(longest));
+    const auto found = paths_from(paths, skeleton, static_cast<int>(b), limit(longest));
     for (std::uint32_t i = 0; i < found.size(); ++i)
       if (found[i].bone != no_bone && found[i].distance <= limit(nearest[i].distance))
-        near[i].push_back(without_lattice(ways, skeleton, i, found[i]));
+        near[i].push_back(without_lattice(paths, skeleton, i, found[i]));
   }
   return near;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far particles are from bones by the way inside the body: along chains of particles that touch
-// at rest (or touch one and the same), so that no way leads across a gap. In the open such ways are
-// up to 6 % longer than straight ones; so much of a detour counts as none.
+// Distances of particles from bones by paths inside the body: along chains of particles that touch
+// at rest (or touch a common one), so that no path crosses a gap. Such paths are up to 6 % longer
+// than straight lines; up to that a path counts as straight.
+//
+//     const auto near = near_inside(inside_paths(rest, skeleton, radius), skeleton, reach);
+//     const int bone = nearest_of(near[i]).bone;
 #pragma once
 
 #include <vector>
@@ -16,24 +19,24 @@ struct BoneDistance {
   double distance = 0;  ///< m
 };
 
-/// A body as ways lead through it.
-struct InsideWays {
-  NeighborLists links;  ///< of particles that touch, or touch one and the same
+/// The graph of a body's particles.
+struct InsidePaths {
+  NeighborLists links;  ///< between particles that touch, or touch a common one
   Points points;        ///< m
-  /// Where the ways from each bone begin: particles that have it as their nearest and lie within
-  /// 1.5 radii of it, or not more than half a radius farther than the nearest of them.
+  /// Where the paths from each bone begin: particles for which it is the nearest bone and that lie
+  /// within 1.5 radii of it, or at most half a radius farther away than the nearest of them.
   std::vector<std::vector<std::uint32_t>> starts;
-  std::vector<int> straight_nearest;  ///< bone of each particle through the air
+  std::vector<int> straight_nearest;  ///< nearest bone of each particle by straight distance
 };
 
-InsideWays inside_ways(const Points& rest, const Skeleton& skeleton, double radius);
+InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius);
 
-/// Per particle, by bone: the nearest bone by the ways inside and all others not more than `reach`
-/// (m) farther. Empty where no way leads.
-std::vector<std::vector<BoneDistance>> near_inside(const InsideWays& ways, const Skeleton& skeleton,
-                                                   double reach);
+/// Per particle, ascending by bone: the nearest bone by the paths inside, and all others at most
+/// `reach` (m) farther. Empty for particles without a path.
+std::vector<std::vector<BoneDistance>> near_inside(const InsidePaths& paths,
+                                                   const Skeleton& skeleton, double reach);
 
-/// The nearest of one particle's; the lower bone on ties, no_bone of none.
+/// The nearest bone of one particle; the lower one on ties, no_bone without any.
 BoneDistance nearest_of(const std::vector<BoneDistance>& near);
 
 }  // namespace sinew

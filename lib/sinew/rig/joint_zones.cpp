@@ -9,9 +9,9 @@ namespace {
 
 // A head within this share of the parent's length from its tail is a joint at the tail.
 constexpr double near_tail = 0.25;
-constexpr double no_width = 1e-9;  // of a zone: less, and nearness alone decides
+constexpr double no_width = 1e-9;  // of a zone: below it, only the distances decide
 
-/// Both bones have joints at their other end: so long may a zone be, m.
+/// Limit of a zone's length, m: both bones have joints at their other end.
 double longest_between(const JointZones& zones, const Skeleton& skeleton, int child) {
   double longest = std::numeric_limits<double>::infinity();
   const int parent = zones.parent[child];
@@ -54,7 +54,7 @@ double share_of_child(const JointZones& zones, int child, const Vec3& point,
   return share_of_nearer(distance(child), distance(zones.parent[child]), zone.length);
 }
 
-/// How children part what is theirs, by their distances; `width` is a factor on their zones.
+/// How children divide their common share, by their distances; `width` is a factor on their zones.
 std::vector<double> parted(const JointZones& zones, const std::vector<int>& children,
                            const std::vector<double>& distances, double width) {
   std::vector<double> parts(children.size(), 1.0);
@@ -71,7 +71,7 @@ std::vector<double> parted(const JointZones& zones, const std::vector<int>& chil
   return parts;
 }
 
-/// Weights of the children of one bone; what is left of 1 is the parent's.
+/// Weights of the children of one bone; the rest of 1 is the parent's.
 std::vector<BoneWeight> children_weights(const JointZones& zones, int parent, const Vec3& point,
                                          const Distance& distance) {
   const std::vector<int>& children = zones.children[parent];
@@ -90,7 +90,7 @@ std::vector<BoneWeight> children_weights(const JointZones& zones, int parent, co
   return weights;
 }
 
-/// Adds the bones that meet at the joints below `parent`; `lead` keeps what the others leave of it.
+/// Adds the bones that meet at the joints below `parent`; `lead` keeps the remaining weight.
 void add_family(const JointZones& zones, int parent, const Vec3& point, const Distance& distance,
                 std::vector<BoneWeight>& held) {
   if (zones.children[parent].empty()) return;

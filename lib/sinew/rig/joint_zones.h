@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where bones meet, and how weights pass from a parent to its children there.
+// Where bones meet, and how weights change from a parent to its children there.
+//
+//     const JointZones zones = joint_zones(skeleton, section, 1.0);
+//     const std::vector<BoneWeight> weights = shares_in_zones(zones, lead, point, distance);
 //
 // A joint lies at the child's head. Near the parent's tail the child's share rises linearly along
-// the joint's axis (the mean direction of both bones); elsewhere on the parent it rises with how
-// much nearer the child is. Children that share a joint zone part it by their distances, over a
-// width that shrinks to nothing at the zone's end: beyond it each has its own. All shares are
-// continuous in the body, but where bones that are neither parent and child nor in one joint zone
-// lie side by side. A zone is never longer than a bone with joints at both its ends.
+// the joint's axis (the mean direction of both bones); elsewhere on the parent it depends on how
+// much nearer the child is. Children in one joint zone divide it by their distances, over a width
+// that vanishes at the zone's end: beyond it each has its own particles. All shares are continuous
+// in the body, except where bones that are neither parent and child nor in one joint zone are side
+// by side. A zone is never longer than a bone with joints at both ends.
 #pragma once
 
 #include <functional>
@@ -17,7 +20,7 @@
 
 namespace sinew {
 
-/// Between a bone and its parent. Without length: none.
+/// Between a bone and its parent; none if its length is 0.
 struct JointZone {
   double length = 0;          ///< m
   bool across_axis = false;   ///< shares rise along `axis`, not with the difference of distances
@@ -29,7 +32,7 @@ struct JointZones {
   std::vector<int> parent;                 ///< of each bone
   std::vector<JointZone> above;            ///< of each bone, to its parent
   std::vector<std::vector<int>> children;  ///< of each bone, those with a zone
-  std::vector<double> before, beyond;      ///< how far feet may lie beyond head and tail, m
+  std::vector<double> before, beyond;      ///< how far feet may be beyond head and tail, m
 
   double longest() const;
 };
@@ -38,8 +41,8 @@ struct JointZones {
 JointZones joint_zones(const Skeleton& skeleton, const std::vector<double>& section,
                        double joint_zone);
 
-/// The bones that hold a point whose bone is `lead`, with weights of sum 1, the heaviest first.
-/// `distance(bone)`: from the point, m; infinite where the bone is out of reach.
+/// The bones that hold a point whose nearest bone is `lead`, with weights of sum 1, the heaviest
+/// first. `distance(bone)`: from the point, m; infinite where the bone is out of reach.
 std::vector<BoneWeight> shares_in_zones(const JointZones& zones, int lead, const Vec3& point,
                                         const std::function<double(int)>& distance);
 

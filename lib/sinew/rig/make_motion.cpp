@@ -26,7 +26,7 @@ Quat from_euler(const Vec3& angles, const std::string& order) {
   return rotation;
 }
 
-constexpr double largest_rounding = 1e-3;  // of a quaternion's length: more is no rounding
+constexpr double largest_rounding = 1e-3;  // of a quaternion's length: more is not rounding
 
 Quat from_quaternion(const std::array<double, 4>& given, const std::string& place) {
   const Quat rotation(given[0], given[1], given[2], given[3]);
@@ -38,8 +38,9 @@ Quat from_quaternion(const std::array<double, 4>& given, const std::string& plac
 }
 
 Quat rotation_of(const KeyDefinition& key, const std::string& order, const std::string& place) {
-  const int ways = (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
-  if (ways > 1)
+  const int forms =
+      (key.euler ? 1 : 0) + (key.quaternion ? 1 : 0) + (key.axis || key.angle ? 1 : 0);
+  if (forms > 1)
     throw bad_value(place, "a key gives its rotation twice",
                     "keep one of euler, quaternion, and axis and angle");
   if (key.euler) return from_euler(*key.euler, order);
@@ -52,21 +53,21 @@ Quat rotation_of(const KeyDefinition& key, const std::string& order, const std::
   return Quat(Eigen::AngleAxisd(radians(*key.angle), key.axis->normalized()));
 }
 
-/// Whether a key asks for any rotation; euler angles of 0 do not.
+/// Whether a key has a rotation; euler angles of 0 are none.
 bool is_turned(const KeyDefinition& key) {
   const bool by_quaternion = key.quaternion && *key.quaternion != std::array<double, 4>{1, 0, 0, 0};
   return key.angle || by_quaternion || (key.euler && !key.euler->isZero(0));
 }
 
-/// The angle of a key about `axis`, if that is how it is given; no rotation is no angle.
+/// The angle of a key about `axis`, if given in that form; no rotation is no angle.
 std::optional<double> angle_about(const Vec3& axis, const KeyDefinition& key) {
   if (!is_turned(key)) return 0;
   if (!key.axis || (key.axis->normalized() - axis).norm() > 1e-12) return std::nullopt;
   return radians(*key.angle);
 }
 
-/// From one key to the next: angles about one axis as they are given, of any size; else the short
-/// way.
+/// From one key to the next: angles about one axis as given, of any size; otherwise the shortest
+/// rotation.
 Vec3 turn_between(const KeyDefinition& from, const KeyDefinition& to, const Quat& start,
                   const Quat& end) {
   const auto given = to.axis ? to.axis : from.axis;
@@ -152,7 +153,7 @@ int bone_of(const TrackDefinition& track, std::size_t index, const Skeleton& ske
   return bone;
 }
 
-/// Twist, translation and stretch are curves only where a key asks for some.
+/// Twist, translation and stretch are curves only where a key gives them.
 Track make_track(const TrackDefinition& given, std::size_t index,
                  std::optional<double> frame_rate) {
   const std::vector<double> times = times_of(given, index, frame_rate);

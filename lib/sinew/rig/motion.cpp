@@ -13,14 +13,15 @@ namespace sinew {
 
 namespace {
 
-constexpr double least_stretch = 0.01;  // what a cubic between positive keys may go below
+constexpr double least_stretch = 0.01;  // a cubic between positive keys may be below
 
-/// A moment of the clip, and how fast it passes there: 1, 0 where it holds, -1 on the way back.
+/// A moment of the clip, and the clip's speed there: 1, 0 where it holds, -1 where it plays
+/// backwards.
 struct ClipTime {
   double time, speed;
 };
 
-/// `passed` s after the clip has begun; before that it holds its beginning.
+/// `passed` s after the clip began; before that it holds its beginning.
 ClipTime clip_time(const Motion& motion, double passed) {
   if (passed < 0) return {motion.start, 0};
   const double length = clip_length(motion);
@@ -29,9 +30,9 @@ ClipTime clip_time(const Motion& motion, double passed) {
     return {motion.start + std::min(passed, length), within ? 1.0 : 0.0};
   if (motion.extrapolation == Extrapolation::loop)
     return {motion.start + std::fmod(passed, length), 1};
-  const double way = std::fmod(passed, 2 * length);
-  if (way < length) return {motion.start + way, 1};
-  return {motion.start + 2 * length - way, -1};
+  const double position = std::fmod(passed, 2 * length);
+  if (position < length) return {motion.start + position, 1};
+  return {motion.start + 2 * length - position, -1};
 }
 
 void slow_down(LocalMotion& motion, double speed) {
@@ -42,17 +43,17 @@ void slow_down(LocalMotion& motion, double speed) {
   motion.stretch_rate *= speed;
 }
 
-/// On the way from rest to `goal`: a share `way` of it, which grows by `rate` per second.
-LocalMotion ramped(const LocalMotion& goal, double way, double rate) {
+/// During the preroll: a share `reached` of `goal`, which grows by `rate` per second.
+LocalMotion ramped(const LocalMotion& goal, double reached, double rate) {
   const Vec3 turn = rotation_vector(goal.rotation);
   LocalMotion motion;
-  motion.rotation = rotation_by(way * turn);
+  motion.rotation = rotation_by(reached * turn);
   motion.angular_velocity = rate * turn;
-  motion.twist = way * goal.twist;
+  motion.twist = reached * goal.twist;
   motion.twist_rate = rate * goal.twist;
-  motion.translation = way * goal.translation;
+  motion.translation = reached * goal.translation;
   motion.velocity = rate * goal.translation;
-  motion.stretch = 1 + way * (goal.stretch - 1);
+  motion.stretch = 1 + reached * (goal.stretch - 1);
   motion.stretch_rate = rate * (goal.stretch - 1);
   return motion;
 }
@@ -69,7 +70,7 @@ void place(Curve<Vec3>& curve, double scale, const Mat3& turn) {
     for (Vec3& value : *values) value = scale * (turn * value);
 }
 
-/// Writes down the short ways from key to key, which the pieces of the curve else find anew.
+/// Stores the shortest rotation from key to key, which each piece would otherwise compute again.
 void find_turns(RotationCurve& curve) {
   if (curve.empty() || !curve.turns.empty()) return;
   std::vector<Vec3> turns = {Vec3::Zero()};
@@ -187,7 +188,7 @@ ClipMoment clip_moment(const Motion& motion, double time) {
 
 LocalMotion local_motion(const Track& track, const ClipMoment& moment, TrackCursor& cursor) {
   LocalMotion local = track.at(moment.time, cursor);
-  if (moment.ramps) return ramped(local, moment.way, moment.rate);
+  if (moment.ramps) return ramped(local, moment.reached, moment.rate);
   slow_down(local, moment.speed);
   return local;
 }
@@ -233,7 +234,7 @@ PoseCursor::PoseCursor(const Skeleton& skeleton, const Motion& motion)
   }
 }
 
-/// A bone that does nothing by itself goes with its parent.
+/// A bone without motion of its own follows its parent.
 void PoseCursor::carry(const Link& link, const BonePose& parent, BonePose& pose) {
   const Vec3 offset = parent.turn * (link.offset + (parent.stretch - 1) * link.along);
   pose.turn = parent.turn;

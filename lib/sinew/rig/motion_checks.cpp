@@ -33,7 +33,7 @@ Parts parts_of(const Quat& rotation, const Vec3& axis) {
   return parts;
 }
 
-/// How fast the parts change: lean, the way the bone leans (round its axis at rest), twist; rad/s.
+/// Rates of the parts: lean, the direction of the lean (about the axis at rest), twist; rad/s.
 struct Rates {
   double lean, round, twist;
 };
@@ -68,14 +68,14 @@ Excess limit(const Bone& bone, LocalMotion& motion) {
   if (excess.swing > 0) limit_swing(bone, parts, rates, motion);
   if (excess.twist > 0) {
     motion.twist += allowed - twist;
-    motion.twist_rate = -rates.twist;  // takes back what the rotation turns about the bone
+    motion.twist_rate = -rates.twist;  // compensates the rotation about the bone
   }
   return excess;
 }
 
 namespace {
 
-/// Moments of the scene at which to look at a track: its keys and three more between each two.
+/// Moments of the scene at which a track is sampled: its keys and three more between each two.
 std::vector<double> moments_of(const Track& track, const Motion& motion) {
   const double length = clip_length(motion);
   std::vector<double> keys = {0, length};
@@ -115,7 +115,7 @@ namespace {
 
 constexpr double least_turn = pi / 180;
 
-/// How far a bone's motion is from another of the same bone.
+/// The difference between two motions of a bone.
 struct Gap {
   double turn = 0;   ///< rad
   double shift = 0;  ///< m, of head or tail
@@ -128,7 +128,7 @@ Gap gap_between(const Bone& bone, const LocalMotion& one, const LocalMotion& oth
               bone.length * std::abs(one.stretch - other.stretch)};
 }
 
-/// The bones whose gap is worth a word, told by the one that turns furthest.
+/// Bones whose gap exceeds the threshold, represented by the one that rotates most.
 struct Worst {
   std::size_t count = 0;
   std::string name;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where every bone is at one moment, and how it moves.
+//
+//     const Vec3 now = pose[b].carried(point, skeleton.bones[b]);
+//     const Vec3 velocity = pose[b].velocity_at(now);
 #pragma once
 
 #include <vector>
@@ -13,18 +16,19 @@ struct BonePose {
   Mat3 turn = Mat3::Identity();          ///< rotation since rest, frame.rotation rest.rotation^T
   Vec3 velocity = Vec3::Zero();          ///< of the head, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  double twist = 0;                      ///< turn about the bone itself asked by the motion, rad
-  double stretch = 1;                    ///< of the length: what was s along the axis is stretch s
-  double stretch_rate = 0;               ///< 1/s
+  double twist = 0;         ///< rotation about the bone itself as the motion gives it, rad
+  double stretch = 1;       ///< factor of the length: s along the axis becomes stretch s
+  double stretch_rate = 0;  ///< 1/s
 
   Vec3 axis() const { return frame.rotation.col(0); }
-  /// Where the bone has carried a point that was at `point` when the bone was `bone` at rest.
+  /// The present position of a point of the bone that was at `point` when the bone was `bone` at
+  /// rest.
   Vec3 carried(const Vec3& point, const Bone& bone) const {
     const Vec3 offset = point - bone.head();
     const double longer = (stretch - 1) * bone.axis().dot(offset);
     return frame.origin + turn * (offset + longer * bone.axis());
   }
-  /// Velocity of the point of this bone that is at `p` now, m/s; rigid: without its stretching.
+  /// Velocity of the point of this bone that is at `p`, m/s; rigid: without its stretching.
   Vec3 rigid_velocity_at(const Vec3& p) const {
     return velocity + angular_velocity.cross(p - frame.origin);
   }

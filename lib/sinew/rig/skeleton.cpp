@@ -134,8 +134,8 @@ Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
   return bone;
 }
 
-/// Which of x, y, z a unit vector has least of. Rounding must not choose between equals: their
-/// cross products with it are far apart.
+/// The one of x, y, z along which a unit vector is least. Rounding must not choose between equals:
+/// their cross products with it are far apart.
 int least_along(const Vec3& unit) {
   constexpr double equal = 1e-6;
   const Vec3 sizes = unit.cwiseAbs();
@@ -176,7 +176,7 @@ Mat3 frame_along(const Vec3& axis) {
 
 namespace {
 
-constexpr double least_length = 1e-6;  // of the skeleton's size; directions of less are rounding
+constexpr double least_length = 1e-6;  // of the skeleton's size; shorter directions are rounding
 
 struct Children {
   Vec3 sum = Vec3::Zero(), farthest = Vec3::Zero();  // of their offsets from the joint
@@ -205,7 +205,7 @@ double size_of(const std::vector<Joint>& joints) {
   return box.diagonal().norm();
 }
 
-/// From head to tail; `unknown` where neither the joint nor its children tell.
+/// From head to tail; `unknown` where neither the joint nor its children give it.
 Vec3 along(const Joint& joint, const Children& children, double least, const Vec3& unknown) {
   if (joint.end && (*joint.end - joint.place).norm() > least) return *joint.end - joint.place;
   if (children.count > 0) {
@@ -221,7 +221,7 @@ Vec3 unknown_along(const Joint& joint, const Skeleton& earlier, double size) {
   return std::max(parent.length / 10, least_length * size) * parent.axis();
 }
 
-/// Gives every joint a name of its own.
+/// Gives every joint a unique name.
 class Names {
  public:
   explicit Names(const std::vector<Joint>& joints) {
@@ -246,7 +246,7 @@ class Names {
   }
 
   std::unordered_set<std::string> given_, taken_;
-  std::unordered_map<std::string, int> counts_;  // suffixes tried, so that many alike cost little
+  std::unordered_map<std::string, int> counts_;  // suffixes tried: many equal names cost little
 };
 
 void check(const std::vector<Joint>& joints) {

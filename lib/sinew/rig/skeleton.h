@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The structure of a skeleton at rest. How it moves is motion.h, where it is now is pose.h.
+// The structure of a skeleton at rest. motion.h moves it; pose.h is its state at one moment.
+//
+//     const Skeleton skeleton = make_skeleton(definitions);
+//     const Vec3 tail = skeleton.bones[0].tail();
 #pragma once
 
 #include <cmath>
@@ -16,7 +19,7 @@ namespace sinew {
 
 inline constexpr int no_bone = -1;
 
-/// How far a bone may turn on its parent, rad; see joint_limits.h.
+/// How far a bone may rotate on its parent, rad; see motion_checks.h.
 struct JointLimits {
   double swing = pi;
   double least_twist = -std::numeric_limits<double>::infinity();
@@ -25,7 +28,7 @@ struct JointLimits {
   bool any() const { return swing < pi || std::isfinite(least_twist) || std::isfinite(most_twist); }
 };
 
-/// Of one bone's springs, as factors on the binding's.
+/// Spring constants of one bone, as factors of the binding's.
 struct BoneStrength {
   double radial = 1, twist = 1, axial = 1;
 };
@@ -52,38 +55,38 @@ struct Skeleton {
 
 /// Builds the skeleton of these bones. Throws bad_value, with a key such as "bones[1].tail", for no
 /// bones, a name used twice, an unknown or later parent, a root without head, a bone without length
-/// or with two, connected to nothing, or with limits that allow nothing.
+/// or with two, connected to nothing, or with limits that exclude every rotation.
 Skeleton make_skeleton(std::span<const BoneDefinition> bones);
 
-/// The rig in a scene's directions and lengths: turned about the origin, then times `scale`. The
-/// sides of its bones are those of a rig that has always stood so: all formats give the same.
+/// The rig in a scene's directions and lengths: rotated about the origin, then scaled. The sides of
+/// its bones are those of a rig built in these directions: all formats give the same.
 Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn);
 
-/// A right-handed frame whose first column is `axis` (need not be unit, must not be zero). Its
-/// second is across the axis and that one of x, y, z which is least along it, the first of those
-/// that are equal to 1e-6: rounding swaps no sides.
+/// A right-handed frame whose first column is along `axis` (any length but 0). Its second is across
+/// the axis and that one of x, y, z which is least along it, the first of those that are equal to
+/// 1e-6: rounding does not change the sides.
 Mat3 frame_along(const Vec3& axis);
 
-// A skeleton from joints: files for animation (BVH, glTF) know places that turn, and no lengths.
+// A skeleton from joints: animation files (BVH, glTF) have rotating joints, and no bone lengths.
 //
-// One bone per joint. Its head is the joint's place; its tail is, in this order:
-//   the end the file states (a BVH's End Site),
+// One bone per joint. Its head is the joint's place; its tail is the first of these that exists:
+//   the end that the file gives (End Site of BVH),
 //   the place of its only child, or the mean of its children's places,
-//   the farthest of its children, where the mean lies in the joint itself,
+//   the farthest of its children, where the mean is in the joint itself,
 //   a tenth of its parent's length along its parent (a tenth of the skeleton's size up, for a
 //   root).
-// A tail nearer than 1e-6 of the skeleton's size (the diagonal of its box) is none.
+// A tail nearer than 1e-6 of the skeleton's size (the diagonal of its box) does not count.
 
 struct Joint {
   std::string name;
   int parent = no_bone;     ///< index of an earlier joint; no_bone for a root
   Vec3 place;               ///< at rest, m, in the scene's directions
-  std::optional<Vec3> end;  ///< where the bone ends, if the file says so; as place
+  std::optional<Vec3> end;  ///< where the bone ends, if the file gives it; like place
 };
 
-/// Bone i is joint i. A name that is taken gets a suffix, "_2", "_3"; an empty one becomes
+/// Bone i is joint i. A name already used gets a suffix, "_2", "_3"; an empty one becomes
 /// "joint_INDEX". Throws bad input for no joints, a parent that does not come first, places that
-/// are not finite, or joints that all lie in one point.
+/// are not finite, or joints that are all in one point.
 Skeleton skeleton_of(const std::vector<Joint>& joints);
 
 }  // namespace sinew

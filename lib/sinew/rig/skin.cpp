@@ -14,8 +14,8 @@ namespace sinew {
 namespace {
 
 constexpr double reach_in_radii = 6;
-constexpr std::size_t least_particles = 20;  // fewer would let single particles show in the skin
-constexpr double margin = 1.05;  // h beyond the last of them, which counts a little then
+constexpr std::size_t least_particles = 20;  // fewer would make single particles visible
+constexpr double margin = 1.05;  // h relative to the last of them, so that it has some weight
 constexpr std::size_t vertices_per_piece = 512;  // and particles
 
 struct Near {
@@ -43,7 +43,7 @@ struct Support {
   double h = 0;
 };
 
-/// Empty where fewer than `wanted` particles lie within `wide`.
+/// Empty where fewer than `wanted` particles are closer than `wide`.
 std::optional<Support> support_within(const CellGrid& grid, const Points& points,
                                       const Vec3& vertex, double range, double wide,
                                       std::size_t wanted) {
@@ -54,7 +54,7 @@ std::optional<Support> support_within(const CellGrid& grid, const Points& points
   return Support{std::move(near), h};
 }
 
-/// Of each vertex; looked for twice as far for the few that have found too little.
+/// Of each vertex; the search is repeated twice as far for the few with too few particles.
 std::vector<Support> supports_of(const Points& vertices, const Points& points, double range) {
   std::vector<Support> supports(vertices.size());
   if (points.empty()) return supports;
@@ -111,7 +111,7 @@ void mark_neighbors(const CellGrid& grid, const Points& points, double range,
     for (const std::uint32_t j : some) marked[j] = 1;
 }
 
-/// Keeps of the body what the skin needs.
+/// Keeps only what the skin needs of the body.
 void add_body(Skin& skin, const Points& points, double radius) {
   const double range = rest_neighbor_range(radius);
   std::vector<char> marked(points.size());
@@ -131,7 +131,8 @@ void add_body(Skin& skin, const Points& points, double radius) {
   skin.shape = rest_shape(std::move(near), range);
 }
 
-/// How particle j turns, seen with its neighbors' neighbors: alone it may be the end of a line.
+/// Rotation of particle j, from its neighbors' neighbors as well: alone it may be the end of a
+/// line.
 Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
   Mat3 spread = moved_spread(body, now, j);
   for (const auto k : body.neighbors.of(j)) spread += moved_spread(body, now, k);
@@ -148,14 +149,14 @@ Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
   return reliable ? F : rotation_part(F);
 }
 
-/// Whether two particles follow bones that share no joint.
+/// Whether two particles follow bones without a common joint.
 bool strangers(const Skeleton& skeleton, const Binding& binding, std::uint32_t i, std::uint32_t j) {
   const int a = binding.bone(i), b = binding.bone(j);
   if (a == no_bone || b == no_bone || a == b) return false;
   return skeleton.bones[a].parent != b && skeleton.bones[b].parent != a;
 }
 
-/// Which of the particles around a vertex touching ones lead to from the nearest.
+/// The particles around a vertex that chains of touching ones connect to the nearest.
 std::vector<char> reached_from_nearest(const Support& support, const Points& points, double range) {
   const std::vector<Near>& near = support.near;
   std::vector<char> reached(near.size());

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surface follows the particles: each vertex X is carried by the affine motions of the
-// particles near it, x = sum_j w_j (x_j + F_j (X - X_j)), with w_j = (1 - (s / h)^2)^3 normalized,
-// s = |X - X_j|. Exact for affine motion of the body.
+// The surface follows the particles: each vertex X moves with the affine motions of the particles
+// near it, x = sum_j w_j (x_j + F_j (X - X_j)), with w_j = (1 - (s / h)^2)^3 normalized, s = |X -
+// X_j|. Exact for affine motion of the body.
+//
+//     const Skin skin = make_skin(vertices, rest, radius);
+//     const Points moved = follow(skin, now);
 #pragma once
 
 #include <cstdint>
@@ -19,20 +22,21 @@ struct Skin {
   std::vector<std::uint32_t> particle;  ///< places in `near`
   std::vector<double> weight;           ///< sums to 1 for each vertex
 
-  /// The particles that matter, ascending indices into the body's rest points: those that carry
-  /// vertices, and their neighbors and theirs, which tell how they deform.
+  /// The particles that matter, ascending indices into the body's rest points: those with weights
+  /// for vertices, their neighbors, and the neighbors of those, from which their deformation
+  /// follows.
   std::vector<std::uint32_t> near;
-  std::vector<char> carries;  ///< whether each of them carries a vertex
-  RestShape shape;            ///< of these alone; whole for those that carry and their neighbors
+  std::vector<char> carries;  ///< whether each of them has weights for vertices
+  RestShape shape;  ///< of these alone; complete for those with weights and their neighbors
 };
 
-/// Ties vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m) within
-/// h = max(6 radius, 1.05 times the distance of the 20th particle). In parallel.
+/// Binds vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m)
+/// closer than h = max(6 radius, 1.05 times the distance of the 20th particle). In parallel.
 Skin make_skin(const Points& vertices, const Points& points, double radius);
 
-/// The same, but a vertex follows no particles of bones that are strangers to that of its nearest
-/// particle (neither the same nor parent and child), where no way of touching particles within h
-/// leads to them: fingers do not bleed into each other.
+/// The same, but a vertex follows particles of an unrelated bone (neither that of its nearest
+/// particle nor its parent or child) only where a chain of touching particles within h connects
+/// them: fingers do not follow each other.
 Skin make_skin(const Points& vertices, const Points& points, double radius,
                const Skeleton& skeleton, const Binding& binding);
 

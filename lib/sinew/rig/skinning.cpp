@@ -22,7 +22,7 @@ struct Near {
   }
 };
 
-/// The nearest vertices of those within `range`; empty where there are not enough.
+/// The nearest vertices closer than `range`; empty where there are not enough.
 std::vector<Near> nearest_within(const CellGrid& grid, const Points& vertices, const Vec3& point,
                                  double range) {
   std::vector<Near> near;
@@ -37,7 +37,7 @@ std::vector<Near> nearest_within(const CellGrid& grid, const Points& vertices, c
   return near;
 }
 
-/// Of each point; looked for twice as far for those that have found too few.
+/// Of each point; the search is repeated twice as far for those with too few.
 std::vector<std::vector<Near>> nearest_of(const Points& vertices, const Points& points) {
   std::vector<std::vector<Near>> near(points.size());
   Box box;
@@ -99,7 +99,7 @@ BoneWeights carried_weights(const Points& vertices, const BoneWeights& weights,
   BoneWeights carried;
   carried.first.assign(points.size() + 1, 0);
   if (weighted.empty()) return carried;
-  // A point on a vertex has that vertex's weights; nearer than this it is on it.
+  // A point this close to a vertex has that vertex's weights.
   const double least = 1e-9 * box.diagonal().norm() + 1e-300;
   const auto near = nearest_of(places, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -126,7 +126,7 @@ Points each_moved(const Points& rest, const BoneWeights& weights, const Move& mo
   return moved;
 }
 
-/// A rigid motion: turn by `real`, then shift; dual = shift real / 2.
+/// A rigid motion: rotation `real`, then a shift; dual = shift real / 2.
 struct DualQuaternion {
   Quat real, dual;
 };

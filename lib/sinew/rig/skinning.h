@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Skinning as animation systems do it, without any physics: what an elastic body is compared with.
+// Skinning as animation systems do it, without physics: the baseline for an elastic body.
 //
-// Linear-blend: each vertex is the mean of where its bones carry it (Magnenat-Thalmann et al.
-// 1988); joints that turn lose volume. Dual-quaternion: the mean of the rigid motions themselves
-// (Kavan et al. 2007); volume stays, joints bulge.
+//     const BoneWeights weights = carried_weights(mesh_vertices, mesh_weights, rest);
+//     const Points moved = linear_blend_skinned(rest, weights, skeleton, pose);
+//
+// Linear-blend: each vertex is the mean of its positions on its bones (Magnenat-Thalmann et al.
+// 1988); bent joints lose volume. Dual-quaternion: the mean of the rigid motions themselves (Kavan
+// et al. 2007); volume is kept, joints bulge.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +18,7 @@
 
 namespace sinew {
 
-// How much each bone moves each point: what files say of vertices, carried to other points.
+// How much each bone moves each point: weights of a file's vertices, interpolated to other points.
 
 struct BoneWeight {
   int bone = -1;
@@ -34,8 +37,8 @@ struct BoneWeights {
 };
 
 /// The weights of `vertices` (n x 3, m) at other points (m): the mean over the eight nearest
-/// vertices that have weights, each by the inverse of its distance; the four heaviest bones remain.
-/// A point has none where no vertex has any. In parallel.
+/// vertices that have weights, weighted by inverse distance; the four heaviest bones remain. A
+/// point has none where no vertex has any. In parallel.
 BoneWeights carried_weights(const Points& vertices, const BoneWeights& weights,
                             const Points& points);
 
@@ -43,8 +46,8 @@ BoneWeights carried_weights(const Points& vertices, const BoneWeights& weights,
 Points linear_blend_skinned(const Points& rest, const BoneWeights& weights,
                             const Skeleton& skeleton, const Pose& pose);
 
-/// The same by dual quaternions. Of two ways to turn a vertex's bones into each other the shorter
-/// one from its heaviest bone is taken. Stretch is blended linearly, before the motion.
+/// The same with dual quaternions. Of the two rotations between a vertex's bones the shorter one
+/// from its heaviest bone is used. Stretch is blended linearly, before the motion.
 Points dual_quaternion_skinned(const Points& rest, const BoneWeights& weights,
                                const Skeleton& skeleton, const Pose& pose);
 

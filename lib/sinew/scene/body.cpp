@@ -22,7 +22,7 @@ namespace {
 
 PolygonSoup read_gltf_file(const std::string& path) { return read_gltf(path); }
 
-/// Beside those of the room mesh, which knows nothing of io.
+/// In addition to those of the room mesh, which does not depend on io.
 constexpr std::array<MeshFormat, 2> gltf_formats = {
     {{"glTF", ".gltf", read_gltf_file}, {"GLB", ".glb", read_gltf_file}}};
 
@@ -52,7 +52,7 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
                       "give another name with -o");
 }
 
-/// About x, then y, then z; degrees. Exactly the axes where nothing is turned.
+/// About x, then y, then z; degrees. Exactly the axes without rotation.
 Mat3 lattice_axes(const BodyOptions& body) {
   const Vec3& angles = body.lattice_rotation;
   if (angles.isZero(0)) return Mat3::Identity();
@@ -130,7 +130,7 @@ std::optional<BodyFile> body_of_scene(const std::filesystem::path& path,
     const auto meta = nlohmann::json::parse(body.meta, nullptr, false);
     if (meta.is_object() && meta.value("origin", "") == origin) return body;
   } catch (const Error&) {
-    // Not a body, or a torn one: it is made again.
+    // Not a body, or an incomplete one: it is filled again.
   }
   return std::nullopt;
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The body of a scene: its mesh read, filled and ready to be written or moved.
+// The body of a scene: its mesh read, filled and ready to be written or simulated.
+//
+//     const Surface surface = read_mesh(settings);
+//     const Filling filling = fill_body(settings, surface);
 #pragma once
 
 #include <filesystem>
@@ -15,40 +18,42 @@
 
 namespace sinew {
 
-// The mesh of a scene, or on the command line, ready to be filled: read by the room that knows its
-// format, repaired where that was asked for, cleaned.
+// The mesh of a scene or of the command line, ready to be filled: read by the room for its format,
+// repaired if requested, cleaned.
 
 /// The formats, as help texts list them: "OBJ, OFF, STL, PLY, glTF, GLB".
 std::string mesh_formats();
 
-/// Reads body.mesh with the options of the section body. Throws Error (bad input) naming the file.
+/// Reads body.mesh with the options of the section body. Throws Error (bad input) that names the
+/// file.
 Surface read_body_mesh(const BodyOptions& body);
 
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
 
-/// Throws Error (bad input) where an output is no .vtu, or one of the inputs.
+/// Throws Error (bad input) for an output that is not .vtu or is one of the inputs.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);
 
-/// The directions of the packing, as columns.
+/// The axes of the packing, as columns.
 Mat3 lattice_axes(const BodyOptions& body);
 
 /// Reads the mesh that a scene names. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);
 
-/// Fills it as the scene says. Errors name the scene's line. `verify`: every site is asked of CGAL.
+/// Fills it as the scene specifies. Errors name the scene's line. `verify`: checks every site
+/// against CGAL.
 Filling fill_body(const Settings& settings, const Surface& surface, bool verify = false);
 
 /// A value of the fill's report as JSON, which has null for numbers that are not finite.
 nlohmann::ordered_json json_of(const ReportValue& value);
 
-/// What body.vtu holds of a filling; `origin` tells from what it was made.
+/// The contents of body.vtu for a filling; `origin` identifies its source.
 BodyFile body_file(Filling filling, const std::string& origin = "");
 
-/// A text that is the same for the same mesh file and the same way of filling it.
+/// A text that is equal for the same mesh file filled with the same settings.
 std::string origin_of(const Settings& settings);
 
-/// The body of this very scene, if `path` holds it.
+/// The body of this scene, if `path` contains it.
 std::optional<BodyFile> body_of_scene(const std::filesystem::path& path, const std::string& origin);
 
 }  // namespace sinew

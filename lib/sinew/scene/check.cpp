@@ -22,28 +22,29 @@ namespace {
 namespace fs = std::filesystem;
 
 // Real numbers per particle (position, displacement, velocity, four forces, radius, weight) and per
-// point of the surface (position, displacement, normal), and whole numbers beside them.
+// point of the surface (position, displacement, normal), and integers in addition.
 constexpr double reals_per_particle = 23, wholes_per_particle = 6;
 constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
-// Positions, velocities and order of three checkpoints, one of them in the making; and their bonds.
+// Positions, velocities and order of three checkpoints, one of them being written; and their bonds.
 constexpr double checkpoints_per_particle = 3 * 52, bonds_per_particle = 3 * (12 * 8 + 4);
 constexpr double exported_per_point = 24;        // bytes in surface.pc2 and surface.glb
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
-// Peaks of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames on their way to the
-// disk (two copies, and one as numbers in double) with the rest shape and its binding; lists take
-// about 280 in double and 160 in single precision.
+// Peak memory of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames being written
+// (two copies, and one as doubles) with the rest shape and its binding; lists take about 280 in
+// double and 160 in single precision.
 constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 1130;
 constexpr double memory_with_cells = 1500;
 constexpr double memory_per_point = 600, memory_beside = 30e6;
 
-double memory_per_particle(const StepperChoice& way) {
-  if (way.search == NeighborSearch::cells) return memory_with_cells;
-  return way.precision == Precision::binary64 ? memory_with_lists_double : memory_with_lists_single;
+double memory_per_particle(const StepperChoice& choice) {
+  if (choice.search == NeighborSearch::cells) return memory_with_cells;
+  return choice.precision == Precision::binary64 ? memory_with_lists_double
+                                                 : memory_with_lists_single;
 }
 
-/// Numbers of a particle in the arrays that the scene asks for.
+/// Numbers per particle in the arrays that the scene requests.
 double requested_numbers(const OutputSettings& output) {
   double numbers = 0;
   for (const std::string_view name : requested_arrays(output.arrays)) {
@@ -62,7 +63,7 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const auto points = static_cast<double>(surface_points);
   const auto faces = static_cast<double>(surface_faces);
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
-  const double reals_of_world = setup.body.world ? 3 : 0;  // one more force
+  const double reals_of_world = setup.body.world ? 3 : 0;  // the force of the world
   const double reals =
       particles * (reals_per_particle + reals_of_world + requested_numbers(output)) +
       surfaces * points * reals_per_point;
@@ -79,8 +80,8 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   Needs needs;
   needs.disk = static_cast<std::uint64_t>(
       (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
-  const StepperChoice way = stepper_choice(settings.solver, setup.body, setup.motion);
-  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(way) +
+  const StepperChoice choice = stepper_choice(settings.solver, setup.body, setup.motion);
+  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(choice) +
                                             points * memory_per_point + memory_beside);
   return needs;
 }
@@ -120,12 +121,13 @@ using Warnings = std::vector<std::string>;
 
 // Beyond this the second neighbors, at 2.83 r, weaken the packing at rest: noise grows.
 constexpr double largest_stable_b = 2.75;
-constexpr double fastest_bone = 0.5;   // radii per step: more, and neighbors are passed, not pushed
-constexpr double deepest_start = 0.1;  // radii within an obstacle: more is seen as a kick
-constexpr double least_shift = 0.1;    // radii that a bone may jump unnoticed
-// In square roots of what a bone holds of the cross-section: 0.6 is the rim of a round limb.
+constexpr double fastest_bone =
+    0.5;  // radii per step: faster bones pass neighbors instead of pushing them
+constexpr double deepest_start = 0.1;  // radii inside an obstacle: more is visible as a kick
+constexpr double least_shift = 0.1;    // radii: a smaller jump of a bone is invisible
+// In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
 constexpr double far_from_bone = 3;
-constexpr double steepest_joint = 5;  // degrees between two planes: more, and bonds break
+constexpr double steepest_joint = 5;  // degrees between two planes: more breaks bonds
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
   if (pair.b > largest_stable_b * pair.r)
@@ -159,7 +161,7 @@ std::string bone_of(const Setup& setup, const Track& track) {
   return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
 }
 
-/// How far the track turns the bone about itself at most, by its rotations and its twist, rad.
+/// The largest rotation of the bone about itself in the track, by rotations and twist, rad.
 double turn_about_bone(const Bone& bone, const Track& track) {
   double turned = 0, twisted = 0;
   for (const Quat& rotation : track.rotation.values) {
@@ -170,7 +172,7 @@ double turn_about_bone(const Bone& bone, const Track& track) {
   return turned + twisted;
 }
 
-/// Planes of particles over which a turn about the bone is spread.
+/// Planes of particles over which a rotation about the bone is distributed.
 double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
   const double length = joint_zone * std::sqrt(setup.body.binding.cross_section[bone]);
   return std::max(1.0, length / half_plane_spacing(setup.body.material.pair.r));
@@ -195,7 +197,7 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
                          "'; move it into the body");
 }
 
-/// Particles farther from their bone than this are held by a long arm, m.
+/// Distance from the bone, m, beyond which a particle's lever arm is too long.
 double longest_arm(const Body& body, int bone) {
   Box box;
   for (const Vec3& point : body.rest) box.extend(point);
@@ -232,9 +234,9 @@ void warn_of_unreached(const Binding& binding, Warnings& warnings) {
 }
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
-  const StepperChoice way = stepper_choice(solver, setup.body, setup.motion);
-  if (!way.unsupported || setup.body.material.model != MaterialModel::paper) return;
-  const auto& [key, value, supported] = *way.unsupported;
+  const StepperChoice choice = stepper_choice(solver, setup.body, setup.motion);
+  if (!choice.unsupported || setup.body.material.model != MaterialModel::paper) return;
+  const auto& [key, value, supported] = *choice.unsupported;
   std::string warning = key;
   warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
   if (solver.precision == Precision::binary32) warning += ", in double precision";
@@ -244,7 +246,7 @@ void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& w
   warnings.push_back(warning);
 }
 
-/// A body that begins within an obstacle is thrown out of it.
+/// A body that begins inside an obstacle is pushed out of it violently.
 void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
   if (!setup.body.world) return;
   const World& world = *setup.body.world;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run will need before it needs it.
+// The resources that a run will need, and warnings about its scene.
+//
+//     const Needs needs = needs_of(settings, setup, points, faces);
+//     check_space(folder, needs, 0);
 #pragma once
 
 #include <cstdint>
@@ -21,19 +24,19 @@ struct Needs {
 Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
                std::size_t surface_faces);
 
-/// Bytes a user may still write where `folder` lies or will lie.
+/// Bytes a user may still write where `folder` is or will be.
 std::uint64_t free_space(const std::filesystem::path& folder);
 
-/// Throws not written when the disk has less room than the run needs; `freed` bytes will be given
-/// back before it begins.
+/// Throws not written when the disk has less space than the run needs; `freed` bytes will be freed
+/// before it begins.
 void check_space(const std::filesystem::path& folder, const Needs& needs, std::uint64_t freed);
 
 /// "12.3 MB"
 std::string bytes_text(std::uint64_t bytes);
 
-// What is doubtful in a scene that may be run all the same.
+// What is doubtful in a scene that can be run all the same.
 
-/// Each a line with the number, the reason and the cure. `bone_speed` in radii per step.
+/// One line each, with the number, the reason and the cure. `bone_speed` in radii per step.
 std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
                                      double bone_speed);
 

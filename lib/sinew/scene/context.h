@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where in a scene an error has its cause: the algorithms know values, a scene knows their lines.
+// Adds the scene's line to errors: algorithms report values, a scene has their lines.
 //
 //     const Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(bones);
 //     });
@@ -12,20 +12,20 @@
 
 namespace sinew {
 
-/// Runs `job`; what it throws is reported as reached through a line of the scene.
+/// Runs `job`; adds the place of the scene's `key` to its errors.
 template <class Job>
 auto with_context(const Settings& settings, const char* key, Job&& job) {
   try {
     return job();
   } catch (const Error& error) {
     const Place place = settings.place(key);
-    if (place.file == settings.body.mesh) throw;  // a mesh without a scene: it names itself
+    if (place.file == settings.body.mesh)
+      throw;  // a mesh without a scene: the error names it already
     throw error.with_context(place);
   }
 }
 
-/// Runs `job`; a bad_value is reported at the line of the scene that gave it: its key behind
-/// `prefix`.
+/// Runs `job`; adds to a bad_value the place of its key in the scene, after `prefix`.
 template <class Job>
 auto at_keys(const Settings& settings, const std::string& prefix, Job&& job) {
   try {

@@ -22,7 +22,7 @@ bool is_gltf(const std::filesystem::path& path) {
   return type == ".gltf" || type == ".glb";
 }
 
-/// In the file's own directions and units: placed() turns and scales it afterwards.
+/// In the file's own directions and units: placed() rotates and scales it afterwards.
 Rig read_bvh_rig(const std::filesystem::path& path, const MotionOptions& motion) {
   BvhOptions options;
   options.name = path.stem().string();
@@ -73,7 +73,7 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
   return motion;
 }
 
-/// As section motion asks, in the scene's directions and lengths.
+/// As section motion specifies, in the scene's directions and lengths.
 Motion in_scene(Motion clip, const Settings& settings) {
   Motion motion =
       at_keys(settings, "motion.", [&] { return played(std::move(clip), settings.motion); });

@@ -18,7 +18,7 @@ namespace sinew {
 
 namespace {
 
-/// The weights of the mesh in skeleton.file, as the rig stands in the scene.
+/// The weights of the mesh in skeleton.file, in the scene's directions and lengths.
 BoneWeights weights_of_file(const Settings& settings, const Points& rest) {
   const std::filesystem::path file = settings.skeleton.file;
   const std::string type = lower(file.extension().string());

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a scene and its filled body to a simulation that can be stepped.
+//
+//     const ReadyScene ready = prepare(settings);
+//     Simulation simulation = start(settings, ready);
 #pragma once
 
 #include <optional>
@@ -16,9 +19,9 @@ namespace sinew {
 
 // How a scene binds its particles to its bones.
 
-/// Binds particles of `radius` (m) at `rest` as section binding says. Throws bad input, naming the
-/// scene's line: for weights of a file without any, a bone without a name of the skeleton, numbers
-/// of particles that are not there, and half a box or ball.
+/// Binds particles of `radius` (m) at `rest` as section binding specifies. Throws bad input, with
+/// the scene's line: for a file without weights, an unknown bone, numbers of particles that do not
+/// exist, and an incomplete box or ball.
 Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Points& rest,
                    double radius);
 
@@ -26,13 +29,13 @@ struct Setup {
   Body body;
   Motion motion;
   StepChoice steps;
-  std::vector<Triangles> obstacles;  ///< of the world, as surfaces about their own middle
+  std::vector<Triangles> obstacles;  ///< of the world, as surfaces in coordinates of their shapes
   double joint_zone = 0;             ///< in square roots of the bones' cross-section
-  bool weights_given = false;        ///< by a file: they spread turns as it pleases
+  bool weights_given = false;        ///< by a file: they distribute rotations in their own manner
   int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
 
-/// What the section solver says of stepping, with the step chosen for it, s.
+/// The settings of section solver for stepping, with the chosen step, s.
 Stepping stepping_of(const SolverSettings& solver, double step);
 StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
 
@@ -47,22 +50,22 @@ struct ReadyScene {
   double seconds_filling = 0, seconds_binding = 0;
 };
 
-/// Reads the scene's mesh, fills it (or takes the `body` that an earlier fill has left), binds the
-/// particles and chooses the step. Errors name the scene's line.
+/// Reads the scene's mesh, fills it (or takes the `body` of an earlier fill), binds the particles
+/// and chooses the step. Errors name the scene's line.
 ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body = {});
 
 /// The simulation of a scene, at its start.
 Simulation start(const Settings& settings, const ReadyScene& ready);
 
-/// The simulation of a setup, at its start. What is given away is not copied.
+/// The simulation of a setup, at its start. Moved arguments are not copied.
 Simulation start(const Settings& settings, Setup setup, Particles particles);
 
-/// A bound of how far the bones move any particle's place in one step, in radii.
+/// An upper bound of how far the bones move any particle in one step, in radii.
 double bone_speed(const Setup& setup, double interval);
 
-/// The bone that holds each particle most, in the written order.
+/// The bone with the largest weight for each particle, in the written order.
 std::vector<std::int32_t> bones_of_particles(const Body& body);
-/// That bone's share in it.
+/// The weight of that bone.
 std::vector<double> weights_of_particles(const Body& body);
 
 }  // namespace sinew

@@ -9,9 +9,9 @@ namespace {
 
 using kernel::InstructionSet;
 
-// Measured with a bent body of 1e5 particles, whole steps, on a server's core of about 2.5 GHz.
-// Vectors half as long do not take twice as long: loads and the making of lists stay the same. What
-// has no fused multiply-add of its own calls a function for each.
+// Measured with a bent body of 1e5 particles, whole steps, on a server core of about 2.5 GHz.
+// Vectors of half the width do not take twice as long: loads and list construction stay the same.
+// Without fused multiply-add instructions each one is a function call.
 struct Speed {
   InstructionSet set;
   double in_double, in_single;  // particle-steps per second
@@ -20,7 +20,7 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
                                        {InstructionSet::avx2, 23e6, 50e6},
                                        {InstructionSet::sse2, 1.6e6, 3.4e6},
                                        {InstructionSet::plain, 1.7e6, 3.0e6}};
-// Whatever the instruction set: cells are sorted anew, and pairs worked through one by one.
+// Whatever the instruction set: cells are sorted again, and pairs processed one by one.
 constexpr double speed_with_cells = 2e6;
 
 Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
@@ -41,16 +41,16 @@ Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
 }  // namespace
 
 StepperChoice stepper_choice(const SolverSettings& solver, const Body& body, const Motion& motion) {
-  StepperChoice way{solver.neighbor_search, solver.precision};
-  if (way.search == NeighborSearch::lists && !lists_support(body, motion)) {
-    way.search = NeighborSearch::cells;
-    way.unsupported = unsupported_by_lists(body, motion);
+  StepperChoice choice{solver.neighbor_search, solver.precision};
+  if (choice.search == NeighborSearch::lists && !lists_support(body, motion)) {
+    choice.search = NeighborSearch::cells;
+    choice.unsupported = unsupported_by_lists(body, motion);
   }
-  if (way.search == NeighborSearch::cells) {
-    way.precision = Precision::binary64;
-    way.instructions = InstructionSet::plain;
+  if (choice.search == NeighborSearch::cells) {
+    choice.precision = Precision::binary64;
+    choice.instructions = InstructionSet::plain;
   }
-  return way;
+  return choice;
 }
 
 const char* name_of(NeighborSearch search) {
@@ -61,11 +61,11 @@ const char* name_of(Precision precision) {
   return precision == Precision::binary64 ? "double" : "single";
 }
 
-double usual_speed(const StepperChoice& way) {
-  if (way.search == NeighborSearch::cells) return speed_with_cells;
+double usual_speed(const StepperChoice& choice) {
+  if (choice.search == NeighborSearch::cells) return speed_with_cells;
   for (const Speed& speed : speeds_with_lists)
-    if (speed.set == way.instructions)
-      return way.precision == Precision::binary64 ? speed.in_double : speed.in_single;
+    if (speed.set == choice.instructions)
+      return choice.precision == Precision::binary64 ? speed.in_double : speed.in_single;
   return speed_with_cells;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the steps of a run are really done, which a scene's solver section decides only in part.
+// The stepper that a run uses; a scene's solver section decides it only in part.
+//
+//     const StepperChoice choice = stepper_choice(settings.solver, body, motion);
 #pragma once
 
 #include <optional>
@@ -12,7 +14,7 @@
 
 namespace sinew {
 
-/// A setting that the lists know nothing of, and the choice of it that they know.
+/// A setting that the list stepper does not support, and the value that it does.
 struct Unsupported {
   std::string key, value, supported;
 };
@@ -21,20 +23,20 @@ struct StepperChoice {
   NeighborSearch search = NeighborSearch::lists;
   Precision precision = Precision::binary64;
   kernel::InstructionSet instructions = kernel::best_instruction_set();
-  std::optional<Unsupported> unsupported{};  ///< why cells take the place of the lists asked for
+  std::optional<Unsupported> unsupported{};  ///< why cells replace the requested lists
 };
 
-/// Cells know one precision, double, and no instruction set but the plain one.
+/// The cell stepper has one precision, double, and no vector instructions.
 StepperChoice stepper_choice(const SolverSettings& solver, const Body& body, const Motion& motion);
 
 /// As the scene's keys spell them.
 const char* name_of(NeighborSearch search);
 const char* name_of(Precision precision);
 
-/// Particle-steps per second that one core is usually seen to make.
-double usual_speed(const StepperChoice& way);
+/// Typical particle-steps per second on one core.
+double usual_speed(const StepperChoice& choice);
 
-/// How many times slower than lists in the scene's precision cells usually are.
+/// How many times slower than lists in the scene's precision cells typically are.
 double slowness_of_cells(Precision precision);
 
 }  // namespace sinew

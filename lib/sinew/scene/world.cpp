@@ -63,7 +63,7 @@ FieldForm form_of(const FieldSettings& given) {
   return UniformAcceleration{};
 }
 
-/// A shape about its own middle, and where that is in the scene.
+/// A shape about its own center, and the center's place in the scene.
 struct Placed {
   Shape shape;
   Vec3 middle = Vec3::Zero();
@@ -126,7 +126,7 @@ Placed placed_shape(const ObstacleSettings& given, const BodyOptions& body, doub
   return placed;
 }
 
-/// The motion that the keys of an obstacle give: that of a bone with its head in the middle.
+/// The motion that the keys of an obstacle give: that of a bone with its head at the center.
 ObstacleMotion keyed(const ObstacleSettings& given, const Vec3& middle) {
   const std::vector<BoneDefinition> bones = {
       {given.name, "", middle, Vec3(middle + Vec3::UnitX())}};
@@ -152,7 +152,7 @@ ObstacleMotion motion_of(const ObstacleSettings& given, const Vec3& middle, int 
                          const Skeleton& skeleton) {
   if (!given.keys.empty()) return keyed(given, middle);
   const RigidFrame frame = {middle, Mat3::Identity()};
-  return bone == no_bone ? still(frame) : riding(bone, skeleton.bones[bone], frame);
+  return bone == no_bone ? still(frame) : attached_to_bone(bone, skeleton.bones[bone], frame);
 }
 
 void add_obstacles(const Settings& settings, const Body& body, World& world,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What surrounds the body of a scene: the section world, made for its particles and bones.
+// The surroundings of a scene's body: the section world, made for its particles and bones.
+//
+//     body.world = world_of(settings, body).world;
 #pragma once
 
 #include <memory>
@@ -17,11 +19,11 @@ struct SceneWorld {
   std::vector<Triangles> obstacles;    ///< each as a surface, in coordinates of its shape
 };
 
-/// `body` is complete but for its world. Throws bad input, naming the scene's line, for unknown
-/// bones, meshes that are open or cannot be read, and pins or muscles that have no particles.
+/// `body` is complete except for its world. Throws bad input, with the scene's line, for unknown
+/// bones, meshes that are open or cannot be read, and pins or muscles without particles.
 SceneWorld world_of(const Settings& settings, const Body& body);
 
-/// What the world of a body adds to what its step must resolve.
+/// The stiffness and damping of a body's world, which its step must resolve.
 WorldLoad load_of(const Body& body);
 
 }  // namespace sinew

@@ -63,7 +63,7 @@ void check_material(const Settings& settings) {
                     "set body.packing to fcc, or remove it");
 }
 
-/// Tells of a name that is none by the scene's line.
+/// Reports an unknown name at the scene's line.
 void check_arrays(const Settings& settings) {
   try {
     requested_arrays(settings.output.arrays);
@@ -117,7 +117,7 @@ void apply_preset(Settings& settings) {
   if (preset == nullptr) return;
   const auto free = [&](std::string_view key) {
     const std::string_view rival = rival_of(key);
-    const bool written = settings.places.find(key) != settings.places.end();  // as none, too
+    const bool written = settings.places.find(key) != settings.places.end();  // even as none
     return !written && (rival.empty() || !is_given(settings, rival));
   };
   if (free("material.density")) material.density = preset->density;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What settings ask of each other.
+// Relations between settings that no single value can violate.
+//
+//     apply_preset(settings);
+//     check_together(settings);
 #pragma once
 
 #include <span>
@@ -9,7 +12,7 @@
 
 namespace sinew {
 
-/// Two keys that say the same in two ways: at most one of them is given.
+/// Two keys that specify the same thing: at most one of them may be given.
 struct EitherOr {
   std::string_view first, second;
   bool needed;  ///< one of them must be given
@@ -20,11 +23,11 @@ std::span<const EitherOr> either_or();
 /// The other key of a pair, or "".
 std::string_view rival_of(std::string_view path);
 
-/// Gives the keys that a named material stands for their values, where the scene gives none.
+/// Sets the values of a named material, for keys that the scene does not give.
 void apply_preset(Settings& settings);
 
-/// Throws bad input, naming the scene's line, for two rivals or none of a needed pair, a >= b,
-/// frames further apart than the run is long, up along forward, and a clip that ends before it
+/// Throws bad input, with the scene's line, for both or neither of a pair of keys, a >= b, frames
+/// further apart than the duration of the run, up along forward, and a clip that ends before it
 /// begins.
 void check_together(const Settings& settings);
 

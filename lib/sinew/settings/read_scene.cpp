@@ -17,7 +17,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// The value below `key`, which is put into the mapping when it lacks it.
+/// The value of `key`, added to the mapping when missing.
 YamlNode& child(YamlNode& map, const std::string& key, const Place& place) {
   for (std::size_t i = 0; i < map.keys.size(); ++i)
     if (map.keys[i].name == key) return map.items[i];
@@ -39,7 +39,7 @@ void remove(YamlNode& scene, std::string_view path) {
   }
 }
 
-/// Whether the text takes its key back, as in body.count=auto; all rivals have this word for it.
+/// Whether the text unsets its key, as in body.count=auto; all paired keys use this word.
 bool is_absent_word(const YamlNode& value) { return !value.quoted && value.text == "auto"; }
 
 void place_all(YamlNode& node, const Place& place) {
@@ -94,7 +94,7 @@ std::span<const std::string_view> lists_of(std::string_view section) {
   return {};
 }
 
-/// A section that is not there has all its defaults, and is missed where it must not be.
+/// A missing section has all its defaults; it is an error where keys are required.
 YamlNode section_of(const YamlNode& scene, std::string_view name, Settings& settings) {
   YamlNode section;
   section.place = settings.place("");

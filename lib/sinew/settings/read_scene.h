@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A setting given on the command line: --set body.radius=0.01.
+// Scene files as settings: one YAML mapping with the sections and keys of settings/table.h.
+//
+//     const Settings settings = read_scene("scene.yaml");
+//
+// Numbers may be fractions (1/30). Every value keeps its line, so that later errors can name it
+// (Settings::place).
 #pragma once
 
 #include <filesystem>
@@ -14,31 +19,26 @@ namespace sinew {
 struct Override {
   std::string path;   ///< section.key
   std::string value;  ///< YAML: a word, a number, [x, y, z]
-  std::string given;  ///< how it stood on the command line: errors name it
+  std::string given;  ///< as on the command line: errors quote it
 };
 
-/// Splits "section.key=value". Throws bad input for another shape.
+/// Splits "section.key=value". Throws bad input for another form.
 Override parse_override(const std::string& text);
 
-/// Puts the value into the tree of a scene and takes out its rival (body.radius that of
-/// body.count). A tree that is no mapping of mappings stays as it is: its reader says what is wrong
-/// with it. Throws bad input, as "--set KEY=VALUE: ...", for wrong YAML.
+/// Sets the value in the tree of a scene and removes the other key of a pair (body.radius for
+/// body.count). A tree that is no mapping of mappings is unchanged: its reader reports what is
+/// wrong. Throws bad input, as "--set KEY=VALUE: ...", for invalid YAML.
 void apply_override(const Override& given, YamlNode& scene);
 
-// A scene file as settings: one YAML mapping with the sections and keys of core/settings_table.h.
-//
-// Numbers may be written as fractions (1/30). Every value knows its line, so that whoever finds it
-// wrong later can name it (Settings::place).
-
-/// Reads and checks a scene. An override stands in place of the scene's own value, and removes its
-/// rival (body.radius that of body.count); of two for the same key the last holds.
-/// Paths are relative to the scene, in overrides to the current directory; in the result they can
-/// be opened from the current directory. Throws bad input, "FILE:LINE:COLUMN: what is wrong; what
-/// to do" or "--set KEY=VALUE: ...".
+/// Reads and checks a scene. An override replaces the scene's own value and removes the other key
+/// of a pair (body.radius for body.count); of two overrides for one key the last applies. Paths are
+/// relative to the scene, in overrides to the current directory; in the result they can be opened
+/// from the current directory. Throws bad input, "FILE:LINE:COLUMN: what is wrong; what to do" or
+/// "--set KEY=VALUE: ...".
 Settings read_scene(const std::filesystem::path& path, std::span<const Override> overrides = {});
 
-/// The settings of a body alone: a mesh that is to be filled, with overrides for the sections body
-/// and material; all else has its defaults. Throws bad input as read_scene does.
+/// The settings of a body alone: a mesh to be filled, with overrides for the sections body and
+/// material; all else has its defaults. Throws bad input as read_scene() does.
 Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides);
 
 }  // namespace sinew

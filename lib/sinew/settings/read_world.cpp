@@ -31,7 +31,7 @@ void read_entries(const YamlNode& node, const std::string& path, std::string_vie
     read(items[i], entry(path, list, i), owners.emplace_back());
 }
 
-/// Keys below an entry, each later than the one before.
+/// Keys of an entry, with ascending times.
 template <class Key>
 void read_keys(const YamlNode& node, const std::string& path, std::span<const Field<Key>> rows,
                std::vector<Key>& keys, Settings& settings) {
@@ -45,7 +45,7 @@ void read_keys(const YamlNode& node, const std::string& path, std::span<const Fi
                });
 }
 
-/// The name of an entry, or what stands in its place.
+/// The name of an entry, or a placeholder for it.
 template <class Owner>
 void check_names(const std::vector<Owner>& owners, std::string_view list,
                  const Settings& settings) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values as a scene writes them, so that YAML reads the same values back.
+// Rows of the settings tables: how to read and write a member of a settings struct.
+//
+//     choice<Settings>("body", "packing", SINEW_AT(Settings, body.packing), {"fcc", "hcp"}, help)
 #pragma once
 
 #include <algorithm>
@@ -13,13 +15,13 @@
 
 namespace sinew {
 
-/// Numbers by number_text, true, [1, 2, 3]; texts quoted where YAML would take them for something
-/// else; `absent` for a value that is not given.
+/// A value as YAML: numbers by number_text, true, [1, 2, 3]; texts quoted where YAML would read
+/// them as something else; `absent` for a value that is not given.
 std::string scene_text(const FieldValue& value, std::string_view absent);
 
 }  // namespace sinew
 
-// How a row of the settings tables is made: what reads and writes a member of a settings struct.
+// How a row is made.
 
 namespace sinew::rows {
 
@@ -48,7 +50,7 @@ constexpr std::size_t count_of<std::array<double, n>> = n;
 template <class T>
 constexpr bool is_list = count_of<T> > 0 || std::is_same_v<T, std::vector<double>>;
 
-/// Members as they lie in a FieldValue: arrays become lists.
+/// Members as a FieldValue stores them: arrays become lists.
 template <class T>
 FieldValue stored_as_field(const T& value) {
   if constexpr (count_of < T >> 0)
@@ -85,7 +87,7 @@ constexpr FieldKind kind_of() {
     return FieldKind::text;
 }
 
-/// A field for the member that `member(owner)` refers to; optional members may be absent.
+/// A row for the member that `member(owner)` refers to; optional members may be absent.
 template <class Owner, class Member>
 Field<Owner> field(std::string_view section, std::string_view name, Member member,
                    std::string_view unit, std::string_view help, Range range = any,
@@ -116,7 +118,7 @@ Field<Owner> field(std::string_view section, std::string_view name, Member membe
   return row;
 }
 
-/// A field for an enum; `choices` in the order of its values. An optional one may be auto.
+/// A row for an enum; `choices` in the order of its values. An optional one may be auto.
 template <class Owner, class Member>
 Field<Owner> choice(std::string_view section, std::string_view name, Member member,
                     std::vector<std::string_view> choices, std::string_view help) {
@@ -155,7 +157,7 @@ Field<Owner> path(Field<Owner> row) {
   return row;
 }
 
-/// A text that may be left out: the empty text is written as `word`.
+/// An optional text: the empty text is written as `word`.
 template <class Owner>
 Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
   row.absent = word;

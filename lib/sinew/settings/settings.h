@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything a scene says: the options of core/options.h, its world, its solver and its output, and
-// where in the file each value stands. SI units, angles in degrees.
+// The contents of a scene: the options of core/options.h, its world, solver and output, and the
+// place of each value in the file. SI units, angles in degrees.
+//
+//     const double duration = settings.solver.duration;
+//     throw bad_input(settings.place("solver.duration"), what, cure);
 #pragma once
 
 #include <map>
@@ -90,13 +93,13 @@ struct WorldSettings {
   std::vector<FieldSettings> fields = {};
   std::vector<MuscleSettings> muscles = {};
 
-  /// Whether nothing is in it.
+  /// Whether it has no entries.
   bool empty() const {
     return drag == 0 && obstacles.empty() && pins.empty() && fields.empty() && muscles.empty();
   }
 };
 
-/// Particles that belong to a bone, whatever is near: by number, in a box, or in a ball.
+/// Particles that belong to a bone, whatever is nearest: by number, in a box, or in a ball.
 struct BoundSettings {
   std::string bone;  ///< "": to none
   std::optional<std::vector<double>> ids = {};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one table of settings. The scene's parser, the resolved scene, --set, --help and the README's
-// table all come from it: to add a setting, add its member in settings.h and its row here.
+// table are generated from it: to add a setting, add its member in settings.h and its row in
+// table.cpp.
+//
+//     for (const Field<Settings>& row : settings_table()) print(row.section, row.name, row.help);
 #pragma once
 
 #include <functional>
@@ -18,7 +21,7 @@ namespace sinew {
 
 enum class FieldKind { number, whole, text, path, choice, flag, vector, numbers };
 
-/// A value on its way in or out. monostate: not given, written as the field's `absent` word.
+/// The value of a field. monostate: not given, written as the field's `absent` word.
 using FieldValue =
     std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>>;
 
@@ -42,12 +45,13 @@ struct Field {
   std::string_view unit;  ///< "" for pure numbers
   std::string_view help;  ///< one line
   std::function<FieldValue(const Owner&)> get;
-  std::function<void(Owner&, const FieldValue&)> set;  ///< the value is of `kind` and in range
+  std::function<void(Owner&, const FieldValue&)>
+      set;  ///< the value has kind `kind` and is in range
   Range range = {};
   std::vector<std::string_view> choices = {};
   std::string_view absent = {};  ///< the word for "not given" where that is allowed: "auto", "none"
   bool required = false;
-  std::size_t count = 0;  ///< of a list of numbers; 0: any but none
+  std::size_t count = 0;  ///< length of a list of numbers; 0: any but none
 };
 
 std::span<const Field<Settings>> settings_table();
@@ -57,7 +61,7 @@ std::span<const Field<TrackDefinition>> track_fields();  ///< motion.tracks[] (a
 std::span<const Field<BoundSettings>> bound_fields();    ///< binding.explicit[]
 std::span<const Field<KeyDefinition>> key_fields();      ///< motion.tracks[].keys[]
 
-// Of the section world: its lists, and the keys of their entries.
+// Lists of the section world, and the keys of their entries.
 std::span<const Field<ObstacleSettings>> obstacle_fields();    ///< world.obstacles[]
 std::span<const Field<PlaceKeySettings>> place_key_fields();   ///< world.obstacles[].keys[]
 std::span<const Field<PinSettings>> pin_fields();              ///< world.pins[]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene says of bones, their bindings and their motion.
+// The rows of bones, their binding and their motion.
 #include <sinew/settings/row.h>
 
 namespace sinew {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene says of the world around the body.
+// The rows of the world around the body.
 #include <sinew/settings/row.h>
 
 namespace sinew {
@@ -57,7 +57,7 @@ std::vector<Field<PlaceKeySettings>> make_place_keys() {
   };
 }
 
-/// The keys of the region that an entry of a list has in its member `region`; `what` is in it.
+/// The keys of the region in the member `region` of a list's entry; `what` is in it.
 template <class Owner>
 std::vector<Field<Owner>> make_region(std::string_view box, std::string_view ball) {
   return {

@@ -79,7 +79,7 @@ std::string read_text(const std::filesystem::path& path) {
     throw bad_input(file, "cannot be read (" + reason() + ")", "check the path of the scene");
   std::string text;
   std::array<char, 1 << 14> piece;
-  while (text.size() <= longest_scene && in) {  // the size of a pipe is not known before
+  while (text.size() <= longest_scene && in) {  // the size of a pipe is not known beforehand
     in.read(piece.data(), piece.size());
     text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
   }
@@ -137,9 +137,9 @@ namespace sinew {
 fs::path seen_from(const fs::path& folder, const fs::path& path) {
   const fs::path here = ".";
   std::error_code error;
-  const fs::path way = fs::proximate(here / path.parent_path(), here / folder, error);
+  const fs::path route = fs::proximate(here / path.parent_path(), here / folder, error);
   if (error) return path;
-  return way == here ? path.filename() : way / path.filename();
+  return route == here ? path.filename() : route / path.filename();
 }
 
 std::string path_in(const fs::path& folder, const std::string& path) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene's text, before anybody asks what it means.
+// A scene's text before it is parsed, and the paths in it.
+//
+//     const std::string text = read_text(path);
+//     check_text(text, path.string());
 #pragma once
 
 #include <cstddef>
@@ -18,8 +21,8 @@ inline constexpr std::size_t longest_scene = std::size_t{4} << 20;  // bytes; 10
 /// more than longest_scene bytes.
 std::string read_text(const std::filesystem::path& path);
 
-/// Throws bad input, naming line and column, for text that is not UTF-8, holds control characters,
-/// or is indented with tabs.
+/// Throws bad input, with line and column, for text that is not UTF-8, has control characters, or
+/// is indented with tabs.
 void check_text(std::string_view text, const std::string& file);
 
 /// Where `offset` (bytes) lies in `text`; columns count characters.
@@ -28,18 +31,18 @@ Place place_of(std::string_view text, std::size_t offset, const std::string& fil
 /// The reverse: the offset of a place, or text.size() when it has none.
 std::size_t offset_of(std::string_view text, const Place& place);
 
-// Files named in a scene, seen from its folder and from the current directory.
+// Files named in a scene, relative to its folder and to the current directory.
 
-/// The way from `folder` to `path`. Links to folders on the way are followed, a link to the file
-/// itself is not.
+/// The path from `folder` to `path`. Links to folders are followed, a link to the file itself is
+/// not.
 std::filesystem::path seen_from(const std::filesystem::path& folder,
                                 const std::filesystem::path& path);
 
 /// A path as the scene in `folder` writes it: relative ones from there. "" stays.
 std::string path_in(const std::filesystem::path& folder, const std::string& path);
 
-/// Turns the relative paths that the scene in `folder` gives into paths from the current directory.
-/// Those given elsewhere (on the command line) are such paths already.
+/// Makes the scene's paths, relative to `folder`, relative to the current directory. Those given on
+/// the command line already are.
 void open_paths_from_here(Settings& settings, const std::filesystem::path& folder);
 
 }  // namespace sinew

@@ -14,7 +14,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// A value together with all that a message about it says.
+/// A value together with what messages about it need.
 struct Given {
   const YamlNode& node;
   const std::string& path;
@@ -119,7 +119,7 @@ FieldValue read_choice(const Given& given) {
   return word;
 }
 
-/// `count` numbers, or any but none for 0; `words` names that count.
+/// `count` numbers, or any number of them but none for 0; `words` names that count.
 std::vector<double> read_list(const Given& given, std::size_t count, const std::string& words) {
   const YamlNode& node = given.node;
   if (node.kind == Kind::empty) throw wrong(given, "");
@@ -211,25 +211,25 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// Every place in a scene where the table knows a key of this name.
+/// Every place in a scene where the table has a key of this name.
 std::vector<std::string> homes_of(std::string_view name) {
   std::vector<std::string> homes;
-  const auto look = [&](const auto& rows, const std::string& path) {
+  const auto search = [&](const auto& rows, const std::string& path) {
     for (const auto& row : rows)
       if (row.name == name) homes.push_back(path.empty() ? std::string(row.section) : path);
   };
-  look(settings_table(), "");
-  look(bone_fields(), "skeleton.bones");
-  look(limit_fields(), "skeleton.bones[].limits");
-  look(bound_fields(), "binding.explicit");
-  look(track_fields(), "motion.tracks");
-  look(key_fields(), "motion.tracks[].keys");
-  look(obstacle_fields(), "world.obstacles");
-  look(pin_fields(), "world.pins");
-  look(field_fields(), "world.fields");
-  look(strength_fields(), "world.fields[].keys");
-  look(muscle_fields(), "world.muscles");
-  look(activation_fields(), "world.muscles[].keys");
+  search(settings_table(), "");
+  search(bone_fields(), "skeleton.bones");
+  search(limit_fields(), "skeleton.bones[].limits");
+  search(bound_fields(), "binding.explicit");
+  search(track_fields(), "motion.tracks");
+  search(key_fields(), "motion.tracks[].keys");
+  search(obstacle_fields(), "world.obstacles");
+  search(pin_fields(), "world.pins");
+  search(field_fields(), "world.fields");
+  search(strength_fields(), "world.fields[].keys");
+  search(muscle_fields(), "world.muscles");
+  search(activation_fields(), "world.muscles[].keys");
   return homes;
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One value of a scene, checked against its row in the table of settings.
+// Values of a scene, checked against their rows in the table of settings.
+//
+//     const FieldValue value = read_value(node, "body.radius", rules_of(row));
+//     read_fields(node, "body", rows, "", owner, places);
 #pragma once
 
 #include <array>
@@ -14,7 +17,7 @@
 
 namespace sinew {
 
-/// What a row of the table asks of its value, whoever owns it.
+/// What a row of the table requires of its value, for any owner.
 struct Rules {
   FieldKind kind;
   std::string_view unit;
@@ -29,19 +32,19 @@ Rules rules_of(const Field<Owner>& row) {
   return {row.kind, row.unit, row.range, row.choices, row.absent, row.count};
 }
 
-/// "a number > 0 (m), or auto": what may be given.
+/// "a number > 0 (m), or auto": the permitted values.
 std::string values_text(const Rules& rules);
 
-/// The value of `node`, or monostate for the absent word. Throws bad input, naming the value's
-/// place and `path` ("body.radius"), for another type, a number out of range or not finite, an
-/// unknown choice, an empty text.
+/// The value of `node`, or monostate for the absent word. Throws bad input, with the value's place
+/// and `path` ("body.radius"), for another type, a number out of range or not finite, an unknown
+/// choice, an empty text.
 FieldValue read_value(const YamlNode& node, const std::string& path, const Rules& rules);
 
 /// A decimal number or a fraction such as 1/30; nothing when the text is neither. Infinite or not a
-/// number where the text says so, is too large for a double, or divides by zero.
+/// number where the text is that, is too large for a double, or divides by zero.
 std::optional<double> parse_number(std::string_view text);
 
-// Reads the keys of one mapping into the value they describe, by the rows of the table of settings.
+// Reads the keys of one mapping into an owner, by the rows of the table of settings.
 
 using Places = std::map<std::string, Place, std::less<>>;
 
@@ -49,19 +52,19 @@ using Places = std::map<std::string, Place, std::less<>>;
 std::string path_below(const std::string& path, std::string_view key);
 
 /// Throws bad input unless `node` is a mapping (or empty) and each of its keys is `known`; the cure
-/// is the nearest one, or the section to which the key belongs.
+/// is the nearest known key, or the section to which the key belongs.
 void check_keys(const YamlNode& node, const std::string& path,
                 std::span<const std::string_view> known);
 
-/// The items of the list below `key`. Throws bad input when it is missing, empty or no list.
-/// Records the places of the list and its entries.
+/// The items of the list at `key`. Throws bad input when it is missing, empty or no list. Records
+/// the places of the list and its entries.
 std::span<const YamlNode> list_below(const YamlNode& node, const std::string& path,
                                      std::string_view key, Places& places);
 
 /// "PATH is missing; add KEY: VALUES"
 Error missing_key(const YamlNode& node, const std::string& path, const Rules& rules);
 
-/// Sets what `rows` describe in `owner`; other keys are left alone.
+/// Sets the members of `owner` that `rows` describe; other keys are ignored.
 template <class Owner>
 void read_rows(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
                Owner& owner, Places& places) {
@@ -75,7 +78,7 @@ void read_rows(const YamlNode& node, const std::string& path, std::span<const Fi
   }
 }
 
-/// The same where no keys are allowed but the rows' and `own`, keys of lists in the same mapping.
+/// The same, but only the rows' keys and `own`, keys of lists in the same mapping, are allowed.
 template <class Owner>
 void read_fields(const YamlNode& node, const std::string& path, std::span<const Field<Owner>> rows,
                  std::span<const std::string_view> own, Owner& owner, Places& places) {

@@ -9,7 +9,7 @@ namespace sinew {
 namespace {
 
 std::string bones_text(const Settings& settings) {
-  if (settings.bones.empty()) return "";  // they stand in skeleton.file
+  if (settings.bones.empty()) return "";  // they are in skeleton.file
   std::string text = "  bones:\n";
   for (const BoneDefinition& bone : settings.bones) {
     const bool first = &bone == &settings.bones.front();
@@ -40,7 +40,7 @@ std::string bound_text(const Settings& settings) {
   return text;
 }
 
-/// Whether a key with a default must stay out because its rival is given.
+/// Whether a key with a default must be left out because the other key of its pair is given.
 bool is_replaced(const Settings& settings, const Field<Settings>& row) {
   const std::string name = std::string(row.section) + '.' + std::string(row.name);
   for (const auto& other : settings_table())
@@ -50,7 +50,7 @@ bool is_replaced(const Settings& settings, const Field<Settings>& row) {
   return false;
 }
 
-/// Relative paths as the scene in `folder` sees them.
+/// Paths relative to `folder`, where the scene will be.
 FieldValue value_in(const std::filesystem::path& folder, const Settings& settings,
                     const Field<Settings>& row) {
   const FieldValue value = row.get(settings);

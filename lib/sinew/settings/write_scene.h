@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of the table of settings as lines of a scene, with their comments.
+// Scenes as text, with a comment for each key.
+//
+//     write_file(folder / "scene.yaml", resolved_scene(settings, folder));
 #pragma once
 
 #include <filesystem>
@@ -13,7 +15,7 @@
 
 namespace sinew {
 
-/// "  # [unit] help (what may be given)"
+/// "  # [unit] help (permitted values)"
 template <class Owner>
 std::string comment_of(const Field<Owner>& row) {
   std::string text = "  # ";
@@ -23,14 +25,14 @@ std::string comment_of(const Field<Owner>& row) {
   return text;
 }
 
-/// "name: value", with a comment where it is to be explained.
+/// "name: value", with the comment where `explained`.
 template <class Owner>
 std::string line_text(const Field<Owner>& row, const FieldValue& value, bool explained) {
   const std::string text = std::string(row.name) + ": " + scene_text(value, row.absent);
   return text + (explained ? comment_of(row) : "") + '\n';
 }
 
-/// The keys of a list's entry, `indent` spaces in.
+/// The keys of a list's entry, indented by `indent` spaces.
 template <class Owner>
 std::string entry_text(std::span<const Field<Owner>> rows, const Owner& owner, std::size_t indent,
                        bool explained) {
@@ -44,8 +46,8 @@ std::string entry_text(std::span<const Field<Owner>> rows, const Owner& owner, s
 
 // The scene that a run writes beside its results.
 
-/// Every setting with its default filled in, as a scene with a line and a comment for each. Paths
-/// are relative to `folder`, where the scene will lie; read_scene gives the same settings back.
+/// Every setting, defaults included, as a scene with a line and a comment for each. Paths are
+/// relative to `folder`, where the scene will be; read_scene() gives the same settings.
 std::string resolved_scene(const Settings& settings, const std::filesystem::path& folder);
 
 }  // namespace sinew

@@ -29,7 +29,7 @@ class Builder : public YAML::EventHandler {
   explicit Builder(std::string file) : file_(std::move(file)) {}
 
   YamlNode root;
-  Place last_quote;  ///< of the last scalar that was no plain word
+  Place last_quote;  ///< of the last scalar that was not a plain word
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (std::exchange(begun_, true))
@@ -114,7 +114,7 @@ class Builder : public YAML::EventHandler {
     add(std::move(done.node), done.anchor);
   }
 
-  /// A finished value that stands in the text itself.
+  /// A complete value in the text itself, not an alias.
   void add(YamlNode node, YAML::anchor_t anchor) {
     count_nodes(1, node.place);
     if (anchor != 0) anchored_[anchor] = node;
@@ -129,7 +129,8 @@ class Builder : public YAML::EventHandler {
       add_key(parent, node);
     } else {
       if (parent.node.kind == YamlNode::Kind::map && node.kind == YamlNode::Kind::empty)
-        node.place = parent.node.keys.back().place;  // the parser names the next token
+        node.place =
+            parent.node.keys.back().place;  // the parser reports the place of the next token
       parent.node.items.push_back(std::move(node));
     }
   }
@@ -149,10 +150,10 @@ class Builder : public YAML::EventHandler {
   bool begun_ = false;
   std::size_t count_ = 0;
   std::vector<Open> open_;
-  std::map<YAML::anchor_t, YamlNode> anchored_;  ///< values with a name, once they are complete
+  std::map<YAML::anchor_t, YamlNode> anchored_;  ///< complete values with an anchor
 };
 
-/// yaml-cpp keeps everything in brackets in memory before it says a word about it.
+/// yaml-cpp keeps everything in brackets in memory before it reports anything.
 void check_brackets(std::string_view text, const std::string& file) {
   const auto parts = std::count_if(text.begin(), text.end(),
                                    [](char c) { return c == '[' || c == '{' || c == ','; });
@@ -160,11 +161,10 @@ void check_brackets(std::string_view text, const std::string& file) {
     throw bad_input({file}, "more than 200000 brackets and commas", "shorten the scene");
 }
 
-/// yaml-cpp lets quotes run to the end of the file. If the last ones do, they have no closing mark.
+/// yaml-cpp lets quotes run to the end of the file; then they have no closing mark.
 void check_closing_quote(std::string_view text, const Place& place) {
   std::size_t i = offset_of(text, place);
-  while (i < text.size() &&
-         (text[i] == '&' || text[i] == '!'))  // an anchor stands before the value
+  while (i < text.size() && (text[i] == '&' || text[i] == '!'))  // an anchor precedes the value
     i = text.find_first_not_of(" \t\r\n", std::min(text.find_first_of(" \t\r\n", i), text.size()));
   if (i >= text.size() || (text[i] != '"' && text[i] != '\'')) return;  // a block of text
   const char quote = text[i];

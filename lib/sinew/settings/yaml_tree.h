@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// YAML text as a plain tree in which every value knows where it stands.
+// YAML text as a plain tree in which every value has its place in the text.
 //
-// Stricter than YAML: no key twice, no tags, one document, and bounds that keep hostile text from
-// taking the machine's memory (aliases of aliases, lists of lists).
+//     const YamlNode scene = parse_yaml(text, "scene.yaml");
+//     const YamlNode* body = scene.find("body");
+//
+// Stricter than YAML: no duplicate keys, no tags, one document, and limits that keep hostile text
+// (aliases of aliases, lists of lists) from exhausting memory.
 #pragma once
 
 #include <string>
@@ -25,9 +28,9 @@ struct YamlNode {
   enum class Kind { empty, scalar, list, map };
 
   Kind kind = Kind::empty;
-  Place place;                  ///< where the value begins; for an empty one its key
+  Place place;                  ///< beginning of the value; for an empty one its key
   std::string text;             ///< of a scalar
-  bool quoted = false;          ///< the scalar stands in quotes, or is a block of text
+  bool quoted = false;          ///< the scalar is quoted, or is a block of text
   std::vector<YamlNode> items;  ///< of a list, or the values of a map
   std::vector<YamlKey> keys;    ///< of a map, one per item
 
@@ -35,8 +38,8 @@ struct YamlNode {
   const YamlNode* find(std::string_view key) const;
 };
 
-/// Reads one document; empty text gives an empty node. Throws bad input, naming `file`, line and
-/// column, for wrong YAML and for what the head of this page excludes.
+/// Reads one document; empty text gives an empty node. Throws bad input, with `file`, line and
+/// column, for invalid YAML and for what is excluded above.
 YamlNode parse_yaml(std::string_view text, const std::string& file);
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the bones do to a vector of particles: bone_force.h says it particle by particle.
+// Forces of the bones on a vector of particles; ../bone_force.h gives them for one particle.
 #pragma once
 
 #include <sinew/physics/kernel/parts.h>
@@ -9,13 +9,14 @@ namespace sinew::kernel {
 template <class L>
 struct BoneSums {
   Triple<L> spring = none<L>(), damping = none<L>();
-  typename L::V power = L::all(0);          ///< that the bones put in
+  typename L::V power = L::all(0);          ///< from the bones
   typename L::V damping_power = L::all(0);  ///< the damping's part of it
-  typename L::V energy = L::all(0);         ///< in the springs; only when asked for
-  Triple<L> carried = none<L>();            ///< velocity of the leading bone here, its own without
+  typename L::V energy = L::all(0);         ///< in the springs; only where requested
+  /// Velocity of the leading bone at this place; the particle's own without one.
+  Triple<L> carried = none<L>();
 };
 
-/// A particle's numbers in the frame of one bone.
+/// A particle's coordinates in the frame of one bone.
 template <class L>
 struct Held {
   typename L::V foot, along, across_1, across_2, distance;
@@ -51,8 +52,8 @@ SINEW_INLINE Pull<L> radial_pull(typename L::V k, const Triple<L>& at, const Hel
   return pull;
 }
 
-/// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, where lanes are so near: `share`
-/// is s, and `inward` the pull along rho, by rho^2, that the slope of s adds.
+/// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, in lanes that close to it: `share`
+/// is s, and `inward` the force along rho, by rho^2, that the slope of s adds.
 template <class L>
 SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V drive_alpha,
                         typename L::V& share, typename L::V& inward) {
@@ -63,7 +64,7 @@ SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V d
   inward = L::keep(tight, drive_alpha * s2 / rho2);
 }
 
-/// Turns with the bone: U = k rho0^2 alpha^2 s^2 / 2.
+/// Rotates the particle with the bone: U = k rho0^2 alpha^2 s^2 / 2.
 template <class L, bool energy>
 SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held<L>& held) {
   using V = typename L::V;
@@ -84,7 +85,7 @@ SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held
   return pull;
 }
 
-/// Against sliding along the bone.
+/// Resists sliding along the bone.
 template <class L, bool energy>
 SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held<L>& held) {
   const typename L::V slide = at.x - held.along;
@@ -93,7 +94,7 @@ SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held
   return pull;
 }
 
-/// What one bone does with a weight of 1.
+/// The forces of one bone with a weight of 1.
 template <class L, bool energy>
 SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const Held<L>& held,
                                     const Place<L>& here, const Triple<L>& velocity) {
@@ -126,7 +127,7 @@ SINEW_INLINE void add(const BoneSums<L>& pull, const Shares<L>& shares, BoneSums
   sums.carried = fused<L>(shares.lead, pull.carried, sums.carried);
 }
 
-/// All the bones of a vector. One bone alone, as nearly everywhere, needs no weights.
+/// All bones of a vector. A single bone, by far the most frequent case, needs no weights.
 template <class L, bool energy>
 SINEW_INLINE BoneSums<L> bone_sums(const Step<typename L::Real>& step, std::size_t block, int lane,
                                    const Place<L>& here, const Triple<L>& velocity) {

@@ -11,8 +11,8 @@
 
 namespace sinew::kernel {
 
-/// While it lives, numbers too small for full precision count as zero: velocities that die out
-/// would otherwise make every operation a hundred times slower.
+/// While it exists, denormal numbers count as zero: velocities that decay would otherwise make
+/// every operation a hundred times slower.
 template <class L>
 class FlushedToZero {
  public:

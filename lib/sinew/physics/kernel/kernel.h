@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The work of a time step on plain arrays, compiled once per instruction set and chosen when the
-// program runs: the same bits for all of them and for any split of the blocks among threads.
+// The work of a time step on plain arrays, compiled once per instruction set and chosen at run
+// time: the same bits for all of them and for any split of the blocks among threads.
 //
-// Particles stand in blocks of as many as a 64-byte vector holds. A block's list names the distinct
-// differences j - i of all its pairs within reach: the partners of its lanes for one difference lie
-// side by side in memory, so they are loaded without an index, and their distance tells which of
-// them count. Each pair (i, j) has one difference, hence every pair within the range counts once,
-// partners in ascending order. Pads of one block at both ends hold particles that are nobody's.
+// Particles are stored in blocks of as many as a 64-byte vector holds. A block's list has the
+// distinct differences j - i of all its pairs within range: for one difference, the neighbors of
+// its lanes are contiguous in memory, so they are loaded without an index, and their distance
+// decides which of them count. Each pair (i, j) has one difference, hence every pair within the
+// range counts once, neighbors in ascending order. A block of padding particles at each end may be
+// read.
 //
-// Plain pointers and no library's types: the sources that include this are compiled with flags of
-// their own, under which an inline function of another header would be a trap for the linker.
+// Plain pointers and no library types: the sources that include this are compiled with flags of
+// their own, and the linker might pick their version of another header's inline function.
 // Quantities are per unit of mass.
 #pragma once
 
@@ -31,10 +32,10 @@ struct Traits<float> {
   static constexpr int block = 16;
 };
 
-/// Blocks whose sums are kept together, and that one thread takes.
+/// Blocks whose sums are accumulated together, by one thread.
 inline constexpr std::size_t blocks_per_piece = 32;
 
-/// Positions and velocities, to be read one block beyond both ends. One unit of coordinates is the
+/// Positions and velocities, readable one block beyond both ends. Coordinates are in units of the
 /// kernel's length.
 template <class Real>
 struct State {
@@ -49,7 +50,7 @@ struct Lists {
   const std::int32_t* value;
 };
 
-/// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, by the distance.
+/// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, over the distance.
 template <class Real>
 struct Law {
   Real r, a, b, b2;  ///< lengths; b squared
@@ -57,30 +58,30 @@ struct Law {
   Real damping;
 };
 
-/// A rigid frame: in it a particle has the coordinates axes (x - center).
+/// A rigid frame: a particle at x has the coordinates axes (x - center) in it.
 template <class Real>
 struct FrameNow {
   typename Traits<Real>::Coord center[3];
-  Real rest_of_center[3];  ///< what whole numbers leave of it
+  Real rest_of_center[3];  ///< remainder of the fixed-point center
   Real axes[9];
   Real velocity[3], spin[3];  ///< of the center; angular
 };
 
-/// A bone, where it is, and its springs. The first axis of its frame points along it.
+/// A bone at the present moment, and its springs. The first axis of its frame points along it.
 template <class Real>
 struct BoneNow {
   FrameNow<Real> frame;
   Real radial, twist, axial, damping;
 };
 
-/// A bone's hold on a block. Its lanes' numbers stand in `held`, field after field.
+/// A bone that holds particles of a block. Its lanes' fields are in `held`, field after field.
 struct Slot {
   std::int32_t bone;
-  std::int32_t shares;  ///< whose weights, or -1: all lanes are held by this bone alone
+  std::int32_t shares;  ///< place of its weights, or -1: all lanes are held by this bone alone
 };
 
-/// Fields of `held`, in the bone's frame at rest: foot and place along the bone, place across it
-/// (0 for a particle on the axis), distance from the foot.
+/// Fields of `held`, in the bone's frame at rest: foot and position along the bone, position across
+/// it (0 for a particle on the axis), distance from the foot.
 enum HeldField { foot, along, across_1, across_2, distance, held_fields };
 /// Fields of `shares`: weight of the bone; 1 where no bone weighs more, else 0.
 enum ShareField { weight, lead, share_fields };
@@ -94,27 +95,27 @@ struct Holds {
   const BoneNow<Real>* bones;
 };
 
-/// The frames that carry a block's particles along, each particle by one.
+/// A co-moving frame of a block's particles; each particle has one.
 struct FrameSlot {
   std::int32_t frame;
-  std::int32_t lanes;  ///< whose ones, or -1: all lanes are this frame's
+  std::int32_t lanes;  ///< place of its mask, or -1: all lanes follow this frame
 };
 
 template <class Real>
 struct ComovingFrames {
   const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
   const FrameSlot* slots;
-  const Real* lanes;  ///< x block; 1 where the frame carries the particle, else 0
+  const Real* lanes;  ///< x block; 1 where the particle follows the frame, else 0
   const FrameNow<Real>* frames;
 };
 
-/// What a piece adds up to.
+/// Sums of a piece.
 struct Totals {
   double power;        ///< of the bones
   double lost;         ///< what the step dissipates per time
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
-  double fastest;      ///< largest squared speed relative to the comoving_frame
+  double fastest;      ///< largest squared speed relative to the co-moving frame
   bool sound;          ///< none too fast (see most_radii_per_step), all values finite
 };
 
@@ -124,7 +125,7 @@ struct Probed {
   Real* pair[3];
   Real* damping[3];
   Real* bone[3];
-  std::int32_t* partners;
+  std::int32_t* neighbors;
 };
 
 template <class Real>
@@ -140,15 +141,15 @@ struct Step {
   Real gravity[3];   ///< per time squared
   Real kick;         ///< v += kick a
   Real drift;        ///< x += drift v, in units of coordinates
-  Real middle;       ///< velocities are told at v + middle a
+  Real middle;       ///< the ledger uses the velocity v + middle a
   bool drift_first;  ///< x moves with the old velocity (explicit Euler)
-  Real most;         ///< squared speed relative to the leading bone that is still sound
+  Real most;         ///< largest valid squared speed relative to the leading bone
   Totals* totals;    ///< by piece
   Probed<Real> probed;
 };
 
-/// Where particles are in the frames that carry them, beside where they were at a moment of
-/// reference: a body that moves along with them stands still there.
+/// Positions in the co-moving frames, and the same at a reference moment: the difference is zero
+/// for a body that moves with its frames.
 template <class Real>
 struct FrameDrift {
   State<Real> state;
@@ -168,25 +169,25 @@ template <class Real>
 struct Functions {
   /// Advances the blocks of the pieces [begin, end).
   void (*step)(const Step<Real>&, std::size_t begin, std::size_t end);
-  /// Fills `probed` and all of `totals`, moves nothing.
+  /// Fills `probed` and all of `totals`; moves nothing.
   void (*probe)(const Step<Real>&, std::size_t begin, std::size_t end);
   /// Copies the differences in [from, to) with a pair of the block within range; returns the end.
   std::int32_t* (*prune_range)(const PruneInput<Real>&, std::size_t block, std::int64_t from,
                                std::int64_t to, std::int32_t* kept);
-  /// The same of a list of differences.
+  /// The same for a list of differences.
   std::int32_t* (*prune)(const PruneInput<Real>&, std::size_t block, const std::int32_t* begin,
                          const std::int32_t* end, std::int32_t* kept);
   /// Writes the reference of the blocks [begin, end).
   void (*remember)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
-  /// Their largest squared distance from it.
+  /// The largest squared distance from it.
   Real (*displacement)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
 };
 
 enum class InstructionSet { plain, sse2, avx2, avx512 };
 
-/// The best this processor has.
+/// The best one this processor supports.
 InstructionSet best_instruction_set();
-/// Whether this processor and this build have it.
+/// Whether this processor and this build support it.
 bool has(InstructionSet set);
 const char* name_of(InstructionSet set);
 

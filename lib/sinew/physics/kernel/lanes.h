@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The widest vectors that the flags of this source file allow, in one manner for all: the kernel is
-// written once over them, and every lane gets the same bits whatever the width.
+// The widest vectors that the flags of this source file allow, behind one interface: the kernel is
+// written once over it, and every lane gets the same bits whatever the width.
 //
-// Doubles keeps coordinates as they are. Floats keeps them as whole numbers of a small unit, so
-// that differences are exact and as fine at the far end of a body as in its middle.
+// Doubles stores coordinates as they are. Floats stores them in fixed-point units, so that
+// differences are exact and as fine at the far end of a body as in its middle.
 //
-//     V, M, C                 numbers, truth values, coordinates; one per lane
+// V, M, C                 numbers, masks, coordinates; one per lane
 //     all, load, store, _coord  one value in all lanes; from and to memory, unaligned
 //     root, size              square root, absolute value
 //     larger, smaller         of two; the second where either is not a number

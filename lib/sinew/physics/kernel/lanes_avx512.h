@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors of 64 bytes. See lanes.h for what each name means.
+// Vectors of 64 bytes. lanes.h explains the names.
 #pragma once
 
 #include <immintrin.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One lane, for processors without vectors of ours, and to hold the vectors against. See lanes.h.
+// One lane, for other processors and as a reference for the vectors. lanes.h explains the names.
 #pragma once
 
 #include <cmath>
@@ -44,13 +44,13 @@ struct Doubles : One<double> {
 
 struct Floats : One<float> {
   using Coord = std::int32_t;
-  using C = std::uint32_t;  // wraps round, as the vectors do
+  using C = std::uint32_t;  // wraps around, like the vectors
   static C load_coord(const std::int32_t* p) { return static_cast<C>(*p); }
   static void store_coord(std::int32_t* p, C c) { *p = static_cast<Coord>(c); }
   static C all_coord(std::int32_t value) { return static_cast<C>(value); }
   static V difference(C a, C b) { return static_cast<float>(static_cast<Coord>(a - b)); }
   static C moved(C c, V by) {
-    // What whole numbers cannot hold becomes the least of them, as it does in vectors.
+    // What 32 bits cannot hold becomes the least integer, as in the vectors.
     const bool held = std::fabs(by) < 2147483648.0F;
     return c + (held ? static_cast<C>(static_cast<Coord>(std::nearbyint(by))) : C{1} << 31);
   }

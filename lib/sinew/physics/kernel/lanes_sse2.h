@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors of 16 bytes, which every x86-64 has. See lanes.h for what each name means.
+// Vectors of 16 bytes, which every x86-64 has. lanes.h explains the names.
 #pragma once
 
 #include <emmintrin.h>

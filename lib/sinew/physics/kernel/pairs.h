@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the partners of a vector of particles do to them: eq. 1, and what eq. 2 needs to know.
+// Forces of the neighbors of a vector of particles: eq. 1, and the sums that eq. 2 needs.
 #pragma once
 
 #include <sinew/physics/kernel/parts.h>
@@ -9,7 +9,7 @@ namespace sinew::kernel {
 template <class L>
 struct PairSums {
   Triple<L> force = none<L>();       ///< eq. 1
-  Triple<L> velocities = none<L>();  ///< of the partners
+  Triple<L> velocities = none<L>();  ///< of the neighbors
   typename L::V count = L::all(0);
   typename L::V energy = L::all(0);  ///< half of each pair's; only when asked for
 };
@@ -31,7 +31,7 @@ class PullLaw<L, float> {
         k2_(L::all(law.k2 / law.r)),
         k2_a_(L::all(-law.k2 / law.r * law.a)) {}
 
-  /// Of the two terms one is zero. `d` is exact; at 0 it gives no number.
+  /// One of the two terms is zero. `d` is exact; at 0 the result is not a number.
   template <bool careful>
   SINEW_INLINE V pull(V squared, V& d) const {
     d = L::root(squared);
@@ -39,18 +39,18 @@ class PullLaw<L, float> {
     const V stretch = L::larger(L::fused(k2_, d, k2_a_), L::all(0));
     return L::less_fused(stretch, b_ - d, repulsion) / d;
   }
-  /// Whether sums of a vector, of which one axis, want the careful way: after a distance of 0.
-  SINEW_INLINE bool asks_for_care(V, V force) const { return !L::every(L::at_most(force, force)); }
+  /// Whether a vector's sums must be repeated with `careful`: after a distance of 0.
+  SINEW_INLINE bool needs_care(V, V force) const { return !L::every(L::at_most(force, force)); }
 
  private:
   V k1_, touching_, b_, k2_, k2_a_;
 };
 
 /// Double precision, in whose vectors root and division are slow. Nearly all pairs are between 1.5
-/// and 2.83 radii; there 1 / d is found in half the time as a minimax polynomial in s = d^2 with a
+/// and 2.83 radii; there 1 / d takes half the time as a minimax polynomial in s = d^2 with a
 /// relative error of 1.4e-3, improved by the series of 1 / sqrt(1 - h) up to h^5: an error of 2 in
 /// the last place, the same everywhere. Attraction, (d - a) (b - d) / d = a + b - (s + a b) / d, is
-/// written so that little is left to do once 1 / d is known: the loop waits for it.
+/// written so that little depends on 1 / d, for which the loop waits.
 template <class L>
 class PullLaw<L, double> {
  public:
@@ -83,7 +83,7 @@ class PullLaw<L, double> {
     const V factor = L::pick(attracted, L::fused(k2_, s, k2_ab_), repulsion);
     return L::fused(factor, inverse, L::keep(attracted, k2_a_b_));
   }
-  SINEW_INLINE bool asks_for_care(V least, V) const { return L::any(L::less(least, usual_)); }
+  SINEW_INLINE bool needs_care(V least, V) const { return L::any(L::less(least, usual_)); }
 
  private:
   SINEW_INLINE V inverse_root(V s) const {
@@ -110,16 +110,17 @@ SINEW_INLINE typename L::V potential(const Law<typename L::Real>& law, typename 
   return L::all(law.k1) * (overlap * overlap) * (L::all(4) * r + d) / (L::all(3) * r) - deep;
 }
 
-/// +1 or -1: two particles in one place part along x, the lower id to the left.
+/// +1 or -1: two coincident particles separate along x, the lower id to the left.
 template <class L>
-SINEW_INLINE typename L::V way_out(const std::int32_t* id, std::ptrdiff_t i, std::ptrdiff_t j) {
-  typename L::Real way[L::width];
+SINEW_INLINE typename L::V separation_sign(const std::int32_t* id, std::ptrdiff_t i,
+                                           std::ptrdiff_t j) {
+  typename L::Real sign[L::width];
   for (int k = 0; k < L::width; ++k)
-    way[k] = id[i + k] < id[j + k] ? typename L::Real(-1) : typename L::Real(1);
-  return L::load(way);
+    sign[k] = id[i + k] < id[j + k] ? typename L::Real(-1) : typename L::Real(1);
+  return L::load(sign);
 }
 
-/// Eq. 1 at d = 0 has a size and no direction.
+/// Eq. 1 at d = 0 has a magnitude and no direction.
 template <class L>
 SINEW_INLINE void part(const Step<typename L::Real>& step, std::ptrdiff_t i, std::ptrdiff_t j,
                        typename L::V squared, typename L::V& pull, typename L::V& d,
@@ -129,11 +130,11 @@ SINEW_INLINE void part(const Step<typename L::Real>& step, std::ptrdiff_t i, std
   const typename L::Real push = 4 * step.law.k1 * step.law.r;
   pull = L::pick(together, L::all(push), pull);
   d = L::pick(together, L::all(0), d);
-  apart_x = L::pick(together, way_out<L>(step.id, i, j), apart_x);
+  apart_x = L::pick(together, separation_sign<L>(step.id, i, j), apart_x);
 }
 
-/// The sums over the differences [begin, end); `least` tells the least squared distance met. What
-/// is `careful` treats all distances, what is not those that `law` does not ask care for.
+/// The sums over the differences [begin, end); `least` becomes the least squared distance.
+/// `careful` handles all distances; without it, those for which `law` needs no care.
 template <class L, bool energy, bool careful>
 SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const PullLaw<L>& law,
                                    std::ptrdiff_t i, const std::int32_t* begin,
@@ -141,7 +142,7 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
   using V = typename L::V;
   const Place<L> here = load_place<L>(step.before.x, i);
   const V b2 = L::all(step.law.b2);
-  // By themselves, not in a PairSums: so the compiler keeps them in registers.
+  // Separate variables, not a PairSums: the compiler keeps them in registers.
   V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
   V closest = b2;
   for (const std::int32_t* difference = begin; difference != end; ++difference) {
@@ -170,7 +171,7 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
   return {{fx, fy, fz}, {su, sv, sw}, count, stored};
 }
 
-/// Apart from the others, so that they need not keep their values in memory for it.
+/// A function of its own, so that the fast path keeps its values in registers.
 template <class L, bool energy>
 [[gnu::noinline, gnu::cold]] void sum_pairs_carefully(const Step<typename L::Real>& step,
                                                       std::ptrdiff_t i, const std::int32_t* begin,
@@ -185,7 +186,7 @@ SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const Pul
                                    const std::int32_t* end) {
   typename L::V least;
   PairSums<L> sums = sum_pairs<L, energy, false>(step, law, i, begin, end, least);
-  if (law.asks_for_care(least, sums.force.x)) [[unlikely]] {
+  if (law.needs_care(least, sums.force.x)) [[unlikely]] {
     PairSums<L> careful;
     sum_pairs_carefully<L, energy>(step, i, begin, end, careful);
     sums.force = {careful.force.x, careful.force.y, careful.force.z};
@@ -194,7 +195,7 @@ SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const Pul
   return sums;
 }
 
-/// Eq. 2: towards the mean velocity of the partners.
+/// Eq. 2: towards the mean velocity of the neighbors.
 template <class L>
 SINEW_INLINE Triple<L> damping_of(const PairSums<L>& sums, typename L::V rate,
                                   const Triple<L>& velocity) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small things that the parts of the kernel share: three vectors, masks, frames of bones.
+// What the parts of the kernel share: 3-vectors over lanes, masks, rigid frames, the arctangent.
 #pragma once
 
 #include <sinew/physics/kernel/kernel.h>
@@ -40,7 +40,7 @@ SINEW_INLINE typename L::V dot(const Triple<L>& a, const Triple<L>& b) {
   return L::fused(a.x, b.x, L::fused(a.y, b.y, a.z * b.z));
 }
 
-/// Rounded as everywhere outside of the kernel: what decides about a pair is the same there.
+/// Rounded as outside the kernel: both select the same pairs.
 template <class L>
 SINEW_INLINE typename L::V squared_distance(const Triple<L>& a) {
   return a.x * a.x + (a.y * a.y + a.z * a.z);
@@ -68,7 +68,7 @@ SINEW_INLINE Triple<L> all(const typename L::Real v[3]) {
   return {L::all(v[0]), L::all(v[1]), L::all(v[2])};
 }
 
-/// Coordinates of a vector's particles.
+/// Coordinates of a vector of particles.
 template <class L>
 struct Place {
   typename L::C x, y, z;
@@ -84,7 +84,7 @@ SINEW_INLINE Triple<L> offset(const Place<L>& a, const Place<L>& b) {
   return {L::difference(a.x, b.x), L::difference(a.y, b.y), L::difference(a.z, b.z)};
 }
 
-/// From a frame's center to the particles, in the directions of the scene.
+/// From a frame's center to the particles, in scene coordinates.
 template <class L>
 SINEW_INLINE Triple<L> from_center(const FrameNow<typename L::Real>& frame, const Place<L>& at) {
   const Place<L> center{L::all_coord(frame.center[0]), L::all_coord(frame.center[1]),
@@ -92,14 +92,14 @@ SINEW_INLINE Triple<L> from_center(const FrameNow<typename L::Real>& frame, cons
   return offset<L>(at, center) - all<L>(frame.rest_of_center);
 }
 
-/// The coordinates in a frame of a vector in the scene.
+/// Components of a scene vector in a frame.
 template <class L>
 SINEW_INLINE Triple<L> into_frame(const FrameNow<typename L::Real>& frame, const Triple<L>& a) {
   return {dot<L>(all<L>(frame.axes), a), dot<L>(all<L>(frame.axes + 3), a),
           dot<L>(all<L>(frame.axes + 6), a)};
 }
 
-/// And back.
+/// The reverse.
 template <class L>
 SINEW_INLINE Triple<L> from_frame(const FrameNow<typename L::Real>& frame, const Triple<L>& a) {
   return fused<L>(a.x, all<L>(frame.axes),
@@ -112,7 +112,7 @@ SINEW_INLINE Triple<L> cross(const Triple<L>& a, const Triple<L>& b) {
           L::less_fused(a.y, b.x, a.x * b.y)};
 }
 
-/// Weights and leads of a slot's lanes; a bone alone on its block has all of both.
+/// Weights and leads of a slot's lanes; a bone alone on its block has both equal to 1.
 template <class L>
 struct Shares {
   typename L::V weight, lead;
@@ -127,33 +127,33 @@ SINEW_INLINE Shares<L> shares_of(const Holds<typename L::Real>& holds, const Slo
   return {L::load(fields + weight * block), L::load(fields + lead * block)};
 }
 
-/// The velocity, at a distance from its center, of what a frame carries.
+/// Velocity of a point of the frame at `arm` from its center.
 template <class L>
 SINEW_INLINE Triple<L> carried_by(const FrameNow<typename L::Real>& frame, const Triple<L>& arm) {
   return all<L>(frame.velocity) + cross<L>(all<L>(frame.spin), arm);
 }
 
-/// For each lane what `told` says of the frame that carries it.
-template <class L, class Tell>
+/// For each lane value_of(its co-moving frame).
+template <class L, class ValueOf>
 SINEW_INLINE Triple<L> by_comoving_frame(const ComovingFrames<typename L::Real>& comoving_frames,
-                                         std::size_t block, int lane, Tell tell) {
+                                         std::size_t block, int lane, ValueOf value_of) {
   constexpr int size = Traits<typename L::Real>::block;
   const std::uint32_t begin = comoving_frames.first[block], end = comoving_frames.first[block + 1];
   if (end - begin == 1 && comoving_frames.slots[begin].lanes < 0) [[likely]]
-    return tell(comoving_frames.frames[comoving_frames.slots[begin].frame]);
+    return value_of(comoving_frames.frames[comoving_frames.slots[begin].frame]);
   Triple<L> sum = none<L>();
   for (std::uint32_t s = begin; s != end; ++s) {
     const FrameSlot slot = comoving_frames.slots[s];
     const auto* lanes =
         comoving_frames.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
-    sum = sum + L::load(lanes) * tell(comoving_frames.frames[slot.frame]);
+    sum = sum + L::load(lanes) * value_of(comoving_frames.frames[slot.frame]);
   }
   return sum;
 }
 
 }  // namespace sinew::kernel
 
-// The angle from (1, 0) to (x, y), of every lane.
+// The angle from (1, 0) to (x, y), in every lane.
 
 namespace sinew::kernel {
 
@@ -165,7 +165,7 @@ SINEW_INLINE typename L::V short_arctangent(typename L::V t) {
   using Real = typename L::Real;
   const auto all = [](double c) { return L::all(static_cast<Real>(c)); };
   const V s = t * t, s2 = s * s;
-  // In pairs of terms, which do not wait for each other.
+  // In pairs of terms that do not depend on each other.
   const auto two = [&](double c0, double c1) { return L::fused(all(c1), s, all(c0)); };
   if constexpr (sizeof(Real) == 4) {
     const V low = two(-0.33333331761161, 0.19999540481962);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which differences of a block belong in its list: those with a pair within range.
+// Selects the differences of a block that belong in its list: those with a pair within range.
 #pragma once
 
 #include <sinew/physics/kernel/parts.h>
@@ -52,14 +52,14 @@ std::int32_t* prune_list(const PruneInput<typename L::Real>& input, std::size_t 
 
 }  // namespace sinew::kernel
 
-// How far particles have moved in the frames that carry them.
+// Displacements of particles in their co-moving frames.
 
 namespace sinew::kernel {
 
-/// Places in the frames that carry them.
+/// Coordinates in the co-moving frames.
 template <class L>
-SINEW_INLINE Triple<L> ridden(const FrameDrift<typename L::Real>& drift, std::size_t block,
-                              int lane) {
+SINEW_INLINE Triple<L> place_in_frame(const FrameDrift<typename L::Real>& drift, std::size_t block,
+                                      int lane) {
   const auto i = static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(drift.state.x, i);
   return by_comoving_frame<L>(
@@ -75,7 +75,7 @@ void remember_blocks(const FrameDrift<typename L::Real>& drift, std::size_t begi
   constexpr int size = Traits<typename L::Real>::block;
   for (std::size_t block = begin; block < end; ++block)
     for (int lane = 0; lane < size; lane += L::width) {
-      const Triple<L> at = ridden<L>(drift, block, lane);
+      const Triple<L> at = place_in_frame<L>(drift, block, lane);
       typename L::Real one[L::width];
       const typename L::V axes[3] = {at.x, at.y, at.z};
       for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +87,7 @@ void remember_blocks(const FrameDrift<typename L::Real>& drift, std::size_t begi
 }
 
 template <class L>
-SINEW_INLINE typename L::V widened(const float* p) {
+SINEW_INLINE typename L::V load_floats(const float* p) {
   typename L::Real one[L::width];
   for (int k = 0; k < L::width; ++k) one[k] = static_cast<typename L::Real>(p[k]);
   return L::load(one);
@@ -101,9 +101,10 @@ typename L::Real largest_displacement(const FrameDrift<typename L::Real>& drift,
   for (std::size_t block = begin; block < end; ++block)
     for (int lane = 0; lane < size; lane += L::width) {
       const std::size_t i = block * size + lane;
-      const Triple<L> was{widened<L>(drift.reference[0] + i), widened<L>(drift.reference[1] + i),
-                          widened<L>(drift.reference[2] + i)};
-      const Triple<L> moved = ridden<L>(drift, block, lane) - was;
+      const Triple<L> was{load_floats<L>(drift.reference[0] + i),
+                          load_floats<L>(drift.reference[1] + i),
+                          load_floats<L>(drift.reference[2] + i)};
+      const Triple<L> moved = place_in_frame<L>(drift, block, lane) - was;
       most = L::larger(dot<L>(moved, moved), most);
     }
   typename L::Real one[L::width], largest = 0;

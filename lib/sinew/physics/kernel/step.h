@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole step of a vector of particles, from the state before to the state after, and the sums
-// of a piece of blocks. Lanes are summed in their order within the block, whatever the width.
+// A whole step of a vector of particles, from the state before to the state after, and the sums of
+// a piece of blocks. Lanes are summed in their order within the block, whatever the width.
 #pragma once
 
 #include <sinew/physics/kernel/bones.h>
@@ -38,7 +38,7 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullL
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   Forces<L> forces;
-  // First: this long chain of operations ends while those of the pairs go on.
+  // First: this long chain of operations completes while those of the pairs run.
   forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
   forces.pairs = pair_sums<L, energy>(step, law, i, step.lists.value + step.lists.first[block],
                                       step.lists.value + step.lists.first[block + 1]);
@@ -48,7 +48,7 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullL
   return forces;
 }
 
-/// The ledger: power of the bones, and what is lost at the velocity in the middle of the step.
+/// The ledger: power of the bones, and losses at the velocity in the middle of the step.
 template <class L>
 SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
                           const Triple<L>& velocity, int lane, Sums<L>& sums) {
@@ -59,10 +59,10 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
   add_to<L>(sums.lost + lane, lost);
 }
 
-/// The fastest in the frames that carry them.
+/// The largest speed relative to the co-moving frames.
 template <class L>
-SINEW_INLINE void watch(const Step<typename L::Real>& step, std::size_t block, int lane,
-                        const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
+SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t block, int lane,
+                                const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
   const Triple<L> carried = by_comoving_frame<L>(
       step.comoving_frames, block,
       lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
@@ -74,8 +74,8 @@ SINEW_INLINE void watch(const Step<typename L::Real>& step, std::size_t block, i
 }
 
 template <class L>
-SINEW_INLINE void guard(const Step<typename L::Real>& step, const Triple<L>& kicked,
-                        const Triple<L>& carried, Sums<L>& sums) {
+SINEW_INLINE void check_speed(const Step<typename L::Real>& step, const Triple<L>& kicked,
+                              const Triple<L>& carried, Sums<L>& sums) {
   const Triple<L> relative = kicked - carried;
   const typename L::V speed2 = dot<L>(relative, relative);
   sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
@@ -97,13 +97,13 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& 
   L::store_coord(step.after.x[1] + i, L::moved(here.y, by.y));
   L::store_coord(step.after.x[2] + i, L::moved(here.z, by.z));
   account<L>(step, forces, velocity, lane, sums);
-  guard<L>(step, kicked, forces.bones.carried, sums);
-  watch<L>(step, block, lane, here, drifting, sums);
+  check_speed<L>(step, kicked, forces.bones.carried, sums);
+  track_fastest<L>(step, block, lane, here, drifting, sums);
 }
 
 template <class L>
-SINEW_INLINE void tell(const Step<typename L::Real>& step, const PullLaw<L>& law, std::size_t block,
-                       int lane, Sums<L>& sums) {
+SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const PullLaw<L>& law,
+                               std::size_t block, int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
@@ -115,7 +115,7 @@ SINEW_INLINE void tell(const Step<typename L::Real>& step, const PullLaw<L>& law
   typename L::Real count[L::width];
   L::store(count, forces.pairs.count);
   for (int k = 0; k < L::width; ++k)
-    step.probed.partners[i + k] = static_cast<std::int32_t>(count[k]);
+    step.probed.neighbors[i + k] = static_cast<std::int32_t>(count[k]);
   add_to<L>(sums.pair_energy + lane, forces.pairs.energy);
   add_to<L>(sums.bone_energy + lane, forces.bones.energy);
   account<L>(step, forces, velocity, lane, sums);
@@ -136,7 +136,7 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
           sum_of<L>(sums.bone_energy), static_cast<double>(fastest), sums.sound};
 }
 
-/// Calls visit(block, lane, sums) for every vector of the pieces, and keeps their totals.
+/// Calls visit(block, lane, sums) for every vector of the pieces, and stores their totals.
 template <class L, class Visit>
 SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_t begin,
                                   std::size_t end, Visit visit) {
@@ -166,7 +166,7 @@ void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
-        tell<L>(step, law, block, lane, sums);
+        probe_vector<L>(step, law, block, lane, sums);
       });
 }
 

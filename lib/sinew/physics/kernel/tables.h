@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kernel's functions for each set of instructions, each made in a source file of its own.
+// The kernel's functions for each instruction set, each compiled in a source file of its own.
 #pragma once
 
 #include <sinew/physics/kernel/kernel.h>

@@ -34,13 +34,12 @@ template GroupCells::GroupCells(const BlockState<float>&, const Units&,
                                 std::span<const std::uint32_t>, double);
 
 void GroupCells::size_cells(const Box& box, std::size_t particles) {
-  edge_ = reach_ * (1 + 1e-5);  // rounding must not put partners two cells apart
+  edge_ = reach_ * (1 + 1e-5);  // rounding must not put neighbors two cells apart
   if (!box.isEmpty()) {
     low_ = box.min();
     const Vec3 size = box.sizes();
     const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
-    // A escaped particle particle must not blow the table up: wider cells stay correct, only
-    // slower.
+    // A particle far away must not make the table huge: larger cells are correct, only slower.
     const double most = static_cast<double>(particles) + 4096;
     while (along(0) * along(1) * along(2) > most) edge_ *= 1.5;
     for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(along(axis));
@@ -79,12 +78,12 @@ void GroupCells::meet(const Part& one, const Part& other, std::map<Pair, Meeting
   meeting.gap = std::min(meeting.gap, gap);
 }
 
-/// The parts of a cell with each other, and with those of the cells around that come after it.
+/// The parts of a cell with each other, and with those of the later half of the cells around it.
 void GroupCells::meet_around(std::size_t cell, std::map<Pair, Meeting>& met) const {
   const auto c = static_cast<std::int64_t>(cell);
   const std::array<std::int64_t, 3> at{c % counts_[0], c / counts_[0] % counts_[1],
                                        c / (counts_[0] * counts_[1])};
-  for (int n = 13; n < 27; ++n) {  // of the 27 cells around, the later half
+  for (int n = 13; n < 27; ++n) {  // the later half of the 27 cells
     const std::int64_t i = at[0] + n % 3 - 1, j = at[1] + n / 3 % 3 - 1, k = at[2] + n / 9 - 1;
     if (i < 0 || i >= counts_[0] || j < 0 || j >= counts_[1] || k >= counts_[2]) continue;
     const std::int64_t other = (k * counts_[1] + j) * counts_[0] + i;
@@ -107,14 +106,14 @@ namespace {
 constexpr double ranges_of_reach = 2;
 constexpr std::size_t most_slices = 8;
 
-Box wider(Box box, double by) {
+Box expanded(Box box, double by) {
   box.min().array() -= by;
   box.max().array() += by;
   return box;
 }
 
 /// The largest |(A - B) x| over a box: convex, so at a corner.
-double difference_within(const RigidMotion& a, const RigidMotion& b, const Box& box) {
+double largest_difference(const RigidMotion& a, const RigidMotion& b, const Box& box) {
   if (box.isEmpty()) return 0;
   const Mat3 turn = a.turn - b.turn;
   const Vec3 shift = a.shift - b.shift;
@@ -126,29 +125,28 @@ double difference_within(const RigidMotion& a, const RigidMotion& b, const Box& 
   return std::sqrt(most);
 }
 
-/// Cheaply, no less than that.
+/// An upper bound of the same, cheaper.
 double rough_difference(const RigidMotion& a, const RigidMotion& b, const Box& box) {
   if (box.isEmpty()) return 0;
   const Mat3 turn = a.turn - b.turn;
   return (turn * box.center() + a.shift - b.shift).norm() + turn.norm() * box.diagonal().norm() / 2;
 }
 
-/// How far a point of one box and one of the other may have come nearer. What does not exceed
-/// `most` is not looked at closely.
+/// How much nearer a point of one box and one of the other may have come, if more than `most`.
 double approach_of(const RigidMotion& a, const RigidMotion& b, const Box& box_a, const Box& box_b,
                    double spare, double most) {
   if (std::min(rough_difference(a, b, box_a), rough_difference(a, b, box_b)) - spare <= most)
     return most;
-  return std::max(most,
-                  std::min(difference_within(a, b, box_a), difference_within(a, b, box_b)) - spare);
+  return std::max(
+      most, std::min(largest_difference(a, b, box_a), largest_difference(a, b, box_b)) - spare);
 }
 
-/// The motion of b in the directions and from the place of a.
+/// The motion of b seen from a.
 RigidMotion seen_from(const RigidMotion& a, const RigidMotion& b) {
   return {a.turn.transpose() * b.turn, a.turn.transpose() * (b.shift - a.shift)};
 }
 
-/// Boxes of slices across the longest side.
+/// Bounding boxes of slices across the longest side.
 std::vector<Box> sliced(const Box& whole, std::span<const Box> parts) {
   int axis = 0;
   const double length = whole.sizes().maxCoeff(&axis);
@@ -213,26 +211,26 @@ double Contacts::approach_near(const Pair& pair, std::span<const RigidMotion> mo
                                double most) const {
   if (pair.near_a.isEmpty()) return most;
   const double spare = std::max(0.0, pair.gap - range_ - 2 * shift);
-  return approach_of(motions[pair.a], motions[pair.b], wider(pair.near_a, shift),
-                     wider(pair.near_b, shift), spare, most);
+  return approach_of(motions[pair.a], motions[pair.b], expanded(pair.near_a, shift),
+                     expanded(pair.near_b, shift), spare, most);
 }
 
 double Contacts::approach_far(const Pair& pair, std::span<const RigidMotion> motions, double shift,
                               double most) const {
   const RigidMotion &a = motions[pair.a], &b = motions[pair.b];
   const double least = std::max(reach_, pair.gap) - range_ - 2 * shift;
-  if (approach_of(a, b, wider(whole_[pair.a], shift), wider(whole_[pair.b], shift), least, most) <=
-      most)
+  if (approach_of(a, b, expanded(whole_[pair.a], shift), expanded(whole_[pair.b], shift), least,
+                  most) <= most)
     return most;
   for (const Box& in_a : slices_[pair.a])
     for (const Box& in_b : slices_[pair.b]) {
       const double spare = std::max(least, in_a.exteriorDistance(in_b) - range_ - 2 * shift);
-      most = approach_of(a, b, wider(in_a, shift), wider(in_b, shift), spare, most);
+      most = approach_of(a, b, expanded(in_a, shift), expanded(in_b, shift), spare, most);
     }
   return most;
 }
 
-/// Whether spheres around two groups are now so far apart that the lists need none of their pairs.
+/// Whether spheres around two groups are so far apart that the lists need none of their pairs.
 bool Contacts::apart(const Pair& pair, std::span<const Vec3> centers, double shift) const {
   const double least = radius_[pair.a] + radius_[pair.b] + range_ + 2 * shift;
   return (centers[pair.a] - centers[pair.b]).squaredNorm() >= least * least;
@@ -262,11 +260,11 @@ double Contacts::approach_since(std::span<const RigidMotion> earlier,
       const RigidMotion now = seen_from(motions[a], motions[b]);
       const double turned = (now.turn - then.turn).norm() * moved;
       if (rough_difference(now, then, near_b) + turned <= most) return most;
-      return difference_within(now, then, near_b) + turned;
+      return largest_difference(now, then, near_b) + turned;
     };
-    const double in_a = added(pair.a, pair.b, wider(pair.near_b, shift));
+    const double in_a = added(pair.a, pair.b, expanded(pair.near_b, shift));
     if (in_a > most)
-      most = std::max(most, std::min(in_a, added(pair.b, pair.a, wider(pair.near_a, shift))));
+      most = std::max(most, std::min(in_a, added(pair.b, pair.a, expanded(pair.near_a, shift))));
   }
   return most;
 }

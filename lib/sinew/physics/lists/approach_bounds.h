@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Until when a list holds: no pair outside it may have come within b.
+// Bounds on how far particles have approached each other since a neighbor list was built.
 //
-// A list of the pairs within b + skin holds while particles have approached by no more than the
-// skin. What each has moved relative to its co-moving frame is bounded step by step by the fastest;
-// the bound is replaced by a look at all of them when it has used up what there is.
+// A list of the pairs within b + skin is valid while no two particles have approached by more than
+// the skin. The displacement of each particle relative to its co-moving frame is bounded step by
+// step by the fastest particle; when that bound has used up the skin, it is replaced by the
+// measured displacements.
 #pragma once
 
 #include <array>
@@ -24,14 +25,15 @@ class Drift {
   Drift() = default;
   explicit Drift(double skin) : skin_(skin) {}
 
-  /// A step in which no particle moved more than `length` (m) relative to its co-moving frame.
+  /// Adds a step in which no particle moved more than `length` (m) relative to its co-moving frame.
   void add(double length) { moved_ += length; }
-  /// A look at all particles found that none is farther than this from where it was (m).
-  void found(double length) { moved_ = length; }
+  /// Replaces the bound by a measured one: no particle is farther than this from its reference (m).
+  void reset(double length) { moved_ = length; }
 
   double moved() const { return moved_; }
-  /// Whether the list still holds when the co-moving frames alone have brought particles nearer by
-  /// this (m). A little of the skin is left to rounding, of floats at most.
+  /// Whether the list is still valid when the motion of the co-moving frames alone has brought
+  /// particles nearer by this (m). A small part of the skin is reserved for rounding (of floats at
+  /// most).
   bool holds(double approach) const { return 2 * moved_ + approach < skin_ * (1 - 1e-5); }
   double skin() const { return skin_; }
 
@@ -39,11 +41,11 @@ class Drift {
   double skin_ = 0, moved_ = 0;
 };
 
-/// How much farther than its velocity says a frame has carried particles within `reach` (m) of its
-/// head in a step from `before` to `now`: m.
+/// How much farther than its velocity predicts a frame has moved particles within `reach` (m) of
+/// its head in a step from `before` to `now`, m.
 double excess_of_step(const BonePose& before, const BonePose& now, double step, double reach);
 
-// Where the particles of different groups come near each other.
+// Where the particles of different groups are close to each other.
 
 class GroupCells {
  public:
@@ -66,7 +68,7 @@ class GroupCells {
     double gap;          ///< lower bound of their distance, m
   };
   using Pair = std::pair<std::size_t, std::size_t>;  ///< the lower group first
-  /// Of all groups that come within reach.
+  /// Of all groups that come within reach of each other.
   std::map<Pair, Meeting> meetings() const;
 
  private:
@@ -85,34 +87,34 @@ class GroupCells {
 };
 
 // How far the motions of rigid frames alone have brought particles towards each other since the
-// lists were built. Particles are grouped by the frame that carries them; x(t) = T (x(0) + s) + e,
-// with T the frame's motion, and s and e known in length. Two particles of one frame approach by
-// 2 |e| at most; two of frames A and B by |(T_A - T_B) x| more, which is largest at a corner of a
-// box around the particles meant, and less what they were farther apart than the lists' range.
+// lists were built. Particles are grouped by co-moving frame; x(t) = T (x(0) + s) + e, with T the
+// frame's motion and s, e bounded in length. Two particles of one frame approach by at most 2 |e|;
+// two of frames A and B by |(T_A - T_B) x| more, which is largest at a corner of a box around the
+// particles concerned, less the distance by which they exceeded the lists' range.
 
-/// The motion since a pose of reference: x -> turn x + shift.
+/// The motion since a reference pose: x -> turn x + shift.
 struct RigidMotion {
   Mat3 turn = Mat3::Identity();
   Vec3 shift = Vec3::Zero();
 };
 
-/// Of each frame from `before` to `now`, and of the scene, which stands still, as the last.
+/// Of each frame from `before` to `now`, and of the scene, which is at rest, as the last.
 std::vector<RigidMotion> motions_between(const Pose& before, const Pose& now);
 
 class Contacts {
  public:
   Contacts() = default;
-  /// `co-moving frame` names the group of each particle, below `groups`. Lists hold the pairs
-  /// within `range` (m).
+  /// `comoving_frame`: the group of each particle, below `groups`. Lists hold the pairs within
+  /// `range` (m).
   template <class Real>
   Contacts(const BlockState<Real>& state, const Units& units,
            std::span<const std::uint32_t> comoving_frame, std::size_t groups, double range);
 
   /// How much nearer the frames' motions since the reference may have brought particles that the
-  /// lists do not pair, m, when no particle is farther than `shift` (m) out of its place. The lists
-  /// hold as long as this plus 2 |e| stays below range - b.
+  /// lists do not pair, m, when no particle is more than `shift` (m) from its place. The lists are
+  /// valid as long as this plus 2 |e| is below range - b.
   double approach(std::span<const RigidMotion> motions, double shift = 0) const;
-  /// The same for pairs that the lists hold, and only what was added after `earlier`, when no
+  /// The same for pairs in the lists, counting only what was added after `earlier`, when no
   /// particle was farther than `moved` (m) from its T x(0).
   double approach_since(std::span<const RigidMotion> earlier, std::span<const RigidMotion> motions,
                         double moved, double shift = 0) const;
@@ -123,7 +125,7 @@ class Contacts {
   struct Pair {
     std::size_t a, b;
     Box near_a, near_b;  ///< the particles of either within reach of the other's; empty: none
-    double gap;          ///< at least so far from each other, m
+    double gap;          ///< lower bound of their distance, m
   };
 
   bool apart(const Pair& pair, std::span<const Vec3> centers, double shift) const;

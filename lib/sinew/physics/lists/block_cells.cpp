@@ -12,7 +12,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t particles_per_piece = 16384;  // a multiple of every block
-// Rounding, of floats at most, must not put partners just within the range two cells apart.
+// Rounding (of floats at most) must not put particles just within the range two cells apart.
 constexpr double slack = 1 + 1e-5;
 
 using Extent = std::array<double, 6>;  // least of x y z, negated largest of x y z
@@ -64,7 +64,7 @@ void BlockCells::size_cells(BlockState<Real>& state, double range) {
   low_ = Vec3(extent[0], extent[1], extent[2]);
   const Vec3 size = Vec3(-extent[3], -extent[4], -extent[5]) - low_;
   const auto along = [&](int axis) { return std::floor(size[axis] / edge_) + 1; };
-  // A escaped particle particle must not blow the table up: wider cells stay correct, only slower.
+  // A particle far away must not make the table huge: larger cells are correct, only slower.
   const double most = 4.0 * static_cast<double>(state.size()) + 4096;
   while (along(0) * along(1) * along(2) > most) edge_ *= 1.5;
   for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(along(axis));
@@ -102,7 +102,7 @@ void BlockCells::for_each_cell(std::size_t block, Visit&& visit) const {
 void BlockCells::sort() {
   first_.assign(cells() + 1, 0);
   const std::size_t blocks_per_piece = particles_per_piece / block_size_;
-  // Threads write in no fixed order: of a cell's blocks only the set is used.
+  // Threads write in no fixed order: only the set of a cell's blocks is used.
   parallel_for(blocks_, blocks_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block)
       for_each_cell(block, [&](std::uint32_t cell) {
@@ -112,7 +112,7 @@ void BlockCells::sort() {
   std::uint32_t sum = 0;
   for (std::uint32_t& count : first_) sum += count, count = sum;
   inside_.resize(sum);
-  // Filled from the end of each cell: when done, first_ tells the beginnings.
+  // Filled from the end of each cell: afterwards first_ holds the beginnings.
   parallel_for(blocks_, blocks_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block)
       for_each_cell(block, [&](std::uint32_t cell) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The paper's cells, holding blocks instead of particles: which blocks have a particle where.
+// The paper's cell grid over blocks instead of particles: which blocks have particles in a cell.
 #pragma once
 
 #include <algorithm>
@@ -28,13 +28,13 @@ class BlockCells {
   double edge() const { return edge_; }
   /// The cell of each particle.
   std::span<const std::uint32_t> cell_of_particle() const { return cell_; }
-  /// Lets go of that, which takes the most memory.
+  /// Frees it: it takes the most memory.
   void forget_particles() { std::vector<std::uint32_t>().swap(cell_); }
   /// Corner of the grid, in lengths of the kernel.
   const Vec3& low() const { return low_; }
 
-  /// Calls visit(block) for the blocks with a particle within two edges of a point, in lengths,
-  /// and others; some more than once.
+  /// Calls visit(block) for the blocks with a particle within two edges of a point (in lengths of
+  /// the kernel), and for others; for some more than once.
   template <class Visit>
   void for_each_block_near(const Vec3& point, Visit&& visit) const {
     std::array<std::int64_t, 3> from, to;
@@ -56,7 +56,7 @@ class BlockCells {
   class Finder {
    public:
     explicit Finder(const BlockCells& cells);
-    /// Calls visit(other) for each of them in ascending order, itself among them.
+    /// Calls visit(other) for each of them in ascending order, the block itself included.
     template <class Visit>
     void for_each_around(std::size_t block, Visit&& visit) {
       mark(block);
@@ -73,7 +73,7 @@ class BlockCells {
     void mark_row(std::int64_t from, std::int64_t to);
 
     const BlockCells& cells_;
-    std::vector<std::uint32_t> last_;  ///< by cell: the block it was last looked at for, from 1
+    std::vector<std::uint32_t> last_;  ///< by cell: the last block it was visited for, from 1
     std::uint32_t now_ = 0;
     std::vector<std::uint64_t> found_;  ///< a bit for each block
     std::vector<std::uint32_t> words_;  ///< of found_ that are not zero, ascending when marked

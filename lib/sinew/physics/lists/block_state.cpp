@@ -9,10 +9,10 @@ namespace sinew {
 
 namespace {
 
-// Coordinates are whole numbers of 32 bits that wrap round. A body fills a quarter of their range
-// at first; it is measured anew when it is larger than 1.25 of that, or off the middle by more than
-// an eighth of it, which is looked at when it may have traveled by 0.36 of it. So no particle
-// comes farther out than 0.625 + 0.125 + 0.36 of 2^30; pads are beyond.
+// Coordinates are 32-bit integers that wrap around. At first a body fills a quarter of their range.
+// Units are chosen again when it is larger than 1.25 of that or off center by more than an eighth
+// of it; this is checked when it may have traveled 0.36 of it. So no particle is farther out than
+// 0.625 + 0.125 + 0.36 of 2^30; padding is beyond.
 constexpr double body_range = 1073741824;  // 2^30
 constexpr double largest = 1.25, off_the_middle = 0.125, traveled = 0.36;
 
@@ -25,7 +25,7 @@ Units units_for<double>(const Box&, const PairForce&, double) {
 
 template <>
 Units units_for<float>(const Box& box, const PairForce& pair, double step) {
-  // So wide that pads are out of each other's range as well.
+  // Large enough that padding particles are out of each other's range as well.
   const double extent = (box.isEmpty() ? 0 : box.sizes().maxCoeff()) + 16 * pair.b;
   Units units;
   units.length = extent / body_range;
@@ -35,12 +35,12 @@ Units units_for<float>(const Box& box, const PairForce& pair, double step) {
 }
 
 template <>
-bool serves<double>(const Units&, const Box&) {
+bool covers<double>(const Units&, const Box&) {
   return true;
 }
 
 template <>
-bool serves<float>(const Units& units, const Box& box) {
+bool covers<float>(const Units& units, const Box& box) {
   const double usual = body_range * units.length;
   return box.isEmpty() || ((box.center() - units.origin).norm() < off_the_middle * usual &&
                            box.sizes().maxCoeff() < largest * usual);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Positions and velocities in the kernel's form: whole blocks in an order of their own, with a pad
-// of nobody's particles at each end.
+// Positions and velocities in the kernel's layout: whole blocks in an order of their own, with a
+// block of padding particles at each end.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace sinew {
 
-// Lengths, times and places as the kernel has them.
+// The kernel's units, positions included.
 
-/// How the kernel measures. Double precision keeps meters and seconds. Single precision counts time
-/// in steps and positions as whole numbers of a small length from an origin.
+/// The kernel's units. Double precision uses meters and seconds. Single precision counts time in
+/// steps and stores positions as fixed-point numbers: multiples of a small length from an origin.
 struct Units {
   double length = 1;  ///< m
   double time = 1;    ///< s
@@ -33,16 +33,16 @@ struct Units {
 template <class Real>
 Units units_for(const Box& box, const PairForce& pair, double step);
 
-/// Whether a units still serves particles within `box` (m): whole numbers hold a body that has
-/// grown or traveled far in a units of its own.
+/// Whether the units still cover particles within `box` (m): fixed-point numbers have a limited
+/// range, and a body may have grown or moved far since.
 template <class Real>
-bool serves(const Units& units, const Box& box);
+bool covers(const Units& units, const Box& box);
 
-/// How far particles may travel before the units is looked at again: m.
+/// How far particles may travel before the units are checked again, m.
 template <class Real>
 double free_travel(const Units& units);
 
-/// a - b as the kernel has it: whole numbers wrap round.
+/// a - b in the kernel's arithmetic: integers wrap around.
 inline double difference_of(double a, double b) { return a - b; }
 inline std::int32_t difference_of(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
@@ -68,13 +68,13 @@ class BlockState {
   void set_velocity(std::size_t k, const Vec3& v, const Units& units);
 
   MovingColumns<Coord, Real> columns() const;  ///< without the pads
-  /// As many as there are.
+  /// As many as there are particles.
   void set_columns(const MovingColumns<Coord, Real>& columns);
 
-  /// Puts nobody's particles, far from everything and each other, before the first and after the
-  /// last.
+  /// Puts padding particles, far from everything and from each other, before the first and after
+  /// the last particle.
   void pad();
-  /// The same for the rest of the last block alone, which a step writes.
+  /// The same for the rest of the last block only, which a step overwrites.
   void pad_last_block();
 
  private:

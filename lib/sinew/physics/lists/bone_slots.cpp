@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-// Nearer to the bone than this share of a radius a particle has no direction across it.
+// Nearer to the axis than this share of a radius, a particle has no direction across it.
 constexpr double on_axis = 1e-6;
 
 double place_along(const Bone& bone, const Vec3& point) {
@@ -82,7 +82,7 @@ class Filler {
     return out_.slots.size() - 1;
   }
 
-  /// A bone that holds every lane alone needs none.
+  /// A bone that holds every lane alone needs no weights.
   void forget_shares_of_one() {
     const std::size_t begin = out_.shares.size() - kernel::share_fields * block;
     if (!std::all_of(out_.shares.begin() + static_cast<std::ptrdiff_t>(begin), out_.shares.end(),
@@ -97,7 +97,7 @@ class Filler {
   BoneSlots<Real>& out_;
 };
 
-/// How many slots the blocks will take: memory that grows by doubling would be half empty.
+/// Slots that the blocks will need: a vector that grows by doubling would be half empty.
 std::size_t count_slots(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
   std::size_t count = 0;
   std::vector<int> bones;
@@ -117,7 +117,7 @@ void put(const Vec3& from, double scale, Real* to) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = static_cast<Real>(from[axis] * scale);
 }
 
-/// A point in whole units, and what they leave of it in lengths.
+/// A point as integers and a remainder, both in lengths of the kernel.
 void put_center(const Vec3& p, const Units&, kernel::FrameNow<double>& frame) {
   put(p, 1, frame.center);
   put(Vec3(Vec3::Zero()), 1, frame.rest_of_center);

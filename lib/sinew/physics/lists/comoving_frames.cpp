@@ -10,16 +10,16 @@
 namespace sinew {
 namespace {
 
-// Frames between two bones: as many as diameters the flesh there is carried apart, and no more than
-// pay for the looks at them.
+// Frames between two bones: one per diameter by which the tissue there is sheared, but no more than
+// save more checks than they cost.
 constexpr std::size_t most_frames = 15;
 constexpr std::size_t places_per_hinge = 64;
-// Turns below this, in rad, tell nothing of who follows whom.
+// Below this rotation, in rad, it is undecided which bone a particle follows.
 constexpr double least_turn = 0.02;
 constexpr std::size_t particles_per_piece = 8192;
-constexpr auto nobody = static_cast<std::uint32_t>(-1);
+constexpr auto unassigned = static_cast<std::uint32_t>(-1);
 
-/// A turn as a rotation vector, rad, and its rate of change for the angular velocity `spin`.
+/// A rotation vector, rad, and its rate of change for the angular velocity `spin`.
 struct Turn {
   Vec3 vector, rate;
 
@@ -46,7 +46,7 @@ struct Turn {
   }
 };
 
-/// Of the flesh around a joint, in diameters.
+/// Extent of the tissue around a joint, in diameters.
 double width_at(const Body& body, std::size_t parent, std::size_t child) {
   const auto& section = body.binding.cross_section;
   return std::sqrt((section[parent] + section[child]) / 2) / (2 * body.material.pair.r);
@@ -54,7 +54,8 @@ double width_at(const Body& body, std::size_t parent, std::size_t child) {
 
 }  // namespace
 
-/// How the turn of a joint is shared out along its axis: by place, what the flesh there has of it.
+/// How the rotation of a joint is distributed along its axis: by place, the share of the tissue
+/// there.
 class ComovingFrames::Profile {
  public:
   Profile(const Hinge& hinge, const Pose& bones)
@@ -67,9 +68,9 @@ class ComovingFrames::Profile {
           std::clamp(std::ceil(angle_ * hinge.width), 1.0, static_cast<double>(most_frames)));
   }
 
-  /// Frames between the two bones; none while they have hardly turned against each other.
+  /// Frames between the two bones; none while they have hardly rotated relative to each other.
   int frames() const { return frames_; }
-  /// A particle and where it was at rest.
+  /// Adds a particle, with its position at rest.
   void add(const Vec3& rest, const Vec3& now) {
     const Vec3 from = rest - hinge_->place;
     const Vec3 to = parent_->turn.transpose() * (now - child_->frame.origin);
@@ -83,7 +84,7 @@ class ComovingFrames::Profile {
       cosine_[place] += other.cosine_[place];
     }
   }
-  /// To be called when all particles are in.
+  /// To be called after all particles were added.
   void settle() {
     for (std::size_t place = 0; place < places_per_hinge && frames_ > 0; ++place) {
       const double share = std::atan2(sine_[place], cosine_[place]) / angle_;
@@ -91,7 +92,7 @@ class ComovingFrames::Profile {
           static_cast<int>(std::clamp(std::round(share * (frames_ + 1)), 0.0, frames_ + 1.0));
     }
   }
-  /// Of the turn from parent to child, in steps of the frames between: 0 for the parent.
+  /// Of the rotation from parent to child, in units of the frames between: 0 for the parent.
   int share(const Vec3& rest) const { return share_[place_of(rest)]; }
 
  private:
@@ -133,7 +134,7 @@ ComovingFrames::ComovingFrames(const Body& body) : hinges_of_(body.skeleton.size
   }
 }
 
-/// Amid the places to which both bones have taken the joint.
+/// The head is halfway between the places to which both bones have moved the joint.
 BonePose ComovingFrames::pose_of(const Between& between, const Pose& bones) const {
   const Hinge& hinge = hinges_[between.hinge];
   const BonePose &parent = bones[hinge.parent], &child = bones[hinge.child];
@@ -165,7 +166,8 @@ std::vector<ComovingFrames::Profile> ComovingFrames::profiles(
         if (piece[h].frames() > 0) piece[h].add(body.rest[id[k]], state.position(k, units));
     }
   });
-  for (const auto& piece : pieces)  // in their order: the sums are the same for all threads
+  // In the order of the pieces: the sums are the same for any number of threads.
+  for (const auto& piece : pieces)
     for (std::size_t h = 0; h < piece.size(); ++h) sums[h].add(piece[h]);
   for (Profile& profile : sums) profile.settle();
   return sums;
@@ -184,10 +186,10 @@ void ComovingFrames::choose(const Body& body, const Pose& bones, const BlockStat
   compress(profile, bones.size());
 }
 
-/// The bone's own frame, or of the frames between it and others the one farthest from it.
+/// The bone's own frame or, of the frames between it and others, the one farthest from it.
 std::uint32_t ComovingFrames::choice(int bone, const Vec3& rest, std::span<const Profile> profiles,
                                      std::size_t bones) const {
-  if (bone == no_bone) return nobody;
+  if (bone == no_bone) return unassigned;
   auto found = static_cast<std::uint32_t>(bone);
   int farthest = 0;
   for (const std::size_t h : hinges_of_[static_cast<std::size_t>(bone)]) {
@@ -211,12 +213,12 @@ template void ComovingFrames::choose(const Body&, const Pose&, const BlockState<
                                      const Units&, std::span<const std::int32_t>);
 
 void ComovingFrames::compress(std::span<const Profile> profile, std::size_t bones) {
-  std::vector<std::uint32_t> place(bones + hinges_.size() * most_frames, nobody);
+  std::vector<std::uint32_t> place(bones + hinges_.size() * most_frames, unassigned);
   for (const std::uint32_t comoving_frame : of_)
-    if (comoving_frame != nobody) place[comoving_frame] = 0;
+    if (comoving_frame != unassigned) place[comoving_frame] = 0;
   between_.clear();
   for (std::size_t c = 0; c < place.size(); ++c) {
-    if (c >= bones && place[c] == nobody) continue;
+    if (c >= bones && place[c] == unassigned) continue;
     place[c] = static_cast<std::uint32_t>(c < bones ? c : bones + between_.size());
     if (c < bones) continue;
     const std::size_t h = (c - bones) / most_frames;
@@ -225,7 +227,7 @@ void ComovingFrames::compress(std::span<const Profile> profile, std::size_t bone
   }
   const auto scene = static_cast<std::uint32_t>(bones + between_.size());
   for (std::uint32_t& comoving_frame : of_)
-    comoving_frame = comoving_frame == nobody ? scene : place[comoving_frame];
+    comoving_frame = comoving_frame == unassigned ? scene : place[comoving_frame];
 }
 
 Pose ComovingFrames::at(const Pose& bones) const {

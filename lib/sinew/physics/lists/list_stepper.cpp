@@ -123,11 +123,11 @@ ListCounts ListStepper<Real>::counts() const {
 
 template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
-  // Per unit of mass and in the kernel's units: to watts.
+  // Per unit of mass and in the kernel's units; converted to watts.
   const double watts =
       mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
   StepSums sums;
-  for (const kernel::Totals& piece : totals_)  // in the order of the pieces, whoever made them
+  for (const kernel::Totals& piece : totals_)  // in this order, whichever thread made them
     sums.power += piece.power, sums.lost += piece.lost;
   sums.power *= watts;
   sums.lost *= watts;
@@ -137,7 +137,7 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
   place_bones(pose);
-  keep_lists_true(pose);
+  update_lists(pose);
   const auto now = job();
   parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
@@ -159,7 +159,7 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   return sums;
 }
 
-/// Who failed in the step, the first in the caller's order; where rounding makes that none, the
+/// The particles that failed in the step, in the caller's order; where rounding leaves none, the
 /// fastest.
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
@@ -181,7 +181,8 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
   return failure;
 }
 
-/// Of the velocity after the step to the leading bone, or to the velocity before it.
+/// Velocity after the step relative to the leading bone or, without a bone, to the velocity before
+/// it.
 template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
   const int bone = body_->binding.bone(static_cast<std::size_t>(id_[k + block]));
@@ -193,18 +194,18 @@ Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   place_bones(pose);
-  keep_lists_true(pose);
+  update_lists(pose);
   const std::size_t n = caller_.size(), slots = state_.blocks() * block;
-  std::array<std::vector<Real>, 9> told;
-  for (auto& axis : told) axis.resize(slots);
-  std::vector<std::int32_t> partners(slots);
+  std::array<std::vector<Real>, 9> probed;
+  for (auto& axis : probed) axis.resize(slots);
+  std::vector<std::int32_t> neighbors(slots);
   auto now = job();
   for (int axis = 0; axis < 3; ++axis) {
-    now.probed.pair[axis] = told[axis].data();
-    now.probed.damping[axis] = told[3 + axis].data();
-    now.probed.bone[axis] = told[6 + axis].data();
+    now.probed.pair[axis] = probed[axis].data();
+    now.probed.damping[axis] = probed[3 + axis].data();
+    now.probed.bone[axis] = probed[6 + axis].data();
   }
-  now.probed.partners = partners.data();
+  now.probed.neighbors = neighbors.data();
   parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.probe(now, begin, end); });
   const double newtons = mass_ * units_.length / (units_.time * units_.time);
@@ -215,10 +216,10 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = caller_[k];
-      forces.pair[i] = newtons * Vec3(told[0][k], told[1][k], told[2][k]);
-      forces.damping[i] = newtons * Vec3(told[3][k], told[4][k], told[5][k]);
-      forces.bone[i] = newtons * Vec3(told[6][k], told[7][k], told[8][k]);
-      forces.neighbors[i] = partners[k];
+      forces.pair[i] = newtons * Vec3(probed[0][k], probed[1][k], probed[2][k]);
+      forces.damping[i] = newtons * Vec3(probed[3][k], probed[4][k], probed[5][k]);
+      forces.bone[i] = newtons * Vec3(probed[6][k], probed[7][k], probed[8][k]);
+      forces.neighbors[i] = neighbors[k];
     }
   });
   const StepSums sums = sums_of_totals();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps with the kernel: the fast way, for the paper's pair force, damping and bones.
+// Steps with the vectorized kernel and neighbor lists: for the paper's pair force, damping and
+// bones.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ class ListStepper {
 
  private:
   static constexpr int block = BlockState<Real>::block;
-  /// A barrier costs more than the work below this many of them.
+  /// Below this many of them a barrier costs more than the work.
   static constexpr std::size_t particles_per_thread = 8192;
   static constexpr std::size_t pieces_per_thread =
       particles_per_thread / (kernel::blocks_per_piece * BlockState<Real>::block);
@@ -46,11 +47,11 @@ class ListStepper {
   kernel::Step<Real> job();
   MovingParticles<Real> particles();
 
-  void keep_lists_true(const Pose& pose);
+  void update_lists(const Pose& pose);
   void rebuild(const Pose& pose);
   bool change_units();
   double travel_of_step(const Pose& pose) const;
-  bool must_look_at_order();
+  bool order_check_due();
   bool sort();
   void find_slots();
   void restore_order(const std::vector<std::uint32_t>& order);
@@ -64,28 +65,29 @@ class ListStepper {
   double mass_;  ///< of a particle, kg
   kernel::Functions<Real> kernel_;
   Units units_;
-  Box units_box_;        ///< around the particles when the units was looked at, m
-  double traveled_ = 0;  ///< since then, at most, m
+  Box units_box_;        ///< around the particles when the units were last checked, m
+  double traveled_ = 0;  ///< upper bound since then, m
   BlockState<Real> state_, next_;
-  std::vector<std::int32_t> id_;       ///< with pads, as the states have
+  std::vector<std::int32_t> id_;       ///< padded like the states
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   BoneSlots<Real> slots_;
-  std::vector<kernel::BoneNow<Real>> bones_;  ///< where they are now
+  std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   ComovingFrames comoving_frames_;
   FrameSlots<Real> frame_slots_;
   Pose comoving_pose_;
-  std::vector<kernel::FrameNow<Real>> frames_;  ///< of the comoving_frames; the last stands still
+  /// Of the co-moving frames; the scene's, at rest, is the last.
+  std::vector<kernel::FrameNow<Real>> frames_;
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
   VerletLists<Real> lists_;
-  double mean_when_sorted_ =
-      45;  ///< differences per block in the outer list; here: of a packed body
-  std::int64_t order_looked_at_ = -1;  ///< before which step
+  /// Differences per block in the outer list; initially those of a packed body.
+  double mean_when_sorted_ = 45;
+  std::int64_t order_checked_ = -1;  ///< the step before which it was last checked
   std::int64_t sorts_ = 0;
   double sorting_ = 0;  ///< s
-  std::optional<double>
-      fastest_;  ///< in a step not yet followed, relative to the comoving_frames, m/s
+  /// In a step not yet followed, relative to the co-moving frames, m/s.
+  std::optional<double> fastest_;
 
   std::vector<kernel::Totals> totals_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When the lists of partners are made anew, and the particles sorted and measured for them.
+// When neighbor lists are rebuilt, and particles sorted and units chosen for them.
 #include <algorithm>
 #include <utility>
 
@@ -11,13 +11,12 @@
 namespace sinew {
 namespace {
 
-// Columns of sorted particles, in diameters; how much longer lists may become before a sort is
-// tried anew.
+// Columns of sorted particles, in diameters; how much lists may grow before sorting is tried again.
 constexpr double column_edge = 1.2, most_growth = 1.3;
-// When the order of the particles is looked at, which the last bits of sums depend on, follows from
-// the count of steps alone, so that a run that is resumed sorts when an unbroken one does. The
-// lists made for it cost about one step in a hundred.
-constexpr std::int64_t steps_between_looks_at_order = 1024;
+// The last bits of sums depend on the order of the particles. When that order is checked follows
+// from the step count alone, so that a resumed run sorts when an uninterrupted one does. The lists
+// built for the check cost about one step in a hundred.
+constexpr std::int64_t steps_between_order_checks = 1024;
 
 template <class Real>
 Box box_of(const BlockState<Real>& state, const Units& units, std::size_t grain) {
@@ -42,10 +41,10 @@ void ListStepper<Real>::choose_comoving_frames(const Pose& pose) {
 }
 
 template <class Real>
-void ListStepper<Real>::keep_lists_true(const Pose& pose) {
+void ListStepper<Real>::update_lists(const Pose& pose) {
   const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
   const bool anew = change_units();
-  if (must_look_at_order()) {
+  if (order_check_due()) {
     rebuild(pose);
     if (lists_.mean_of_outer() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
     return;
@@ -55,14 +54,14 @@ void ListStepper<Real>::keep_lists_true(const Pose& pose) {
   if (fastest && !lists_.follow(particles(), *fastest)) rebuild(pose);
 }
 
-/// A second look before the same step, as in a run resumed there, would change nothing.
+/// A second check before the same step, as in a run resumed there, would change nothing.
 template <class Real>
-bool ListStepper<Real>::must_look_at_order() {
-  return steps_ % steps_between_looks_at_order == 0 &&
-         std::exchange(order_looked_at_, steps_) != steps_;
+bool ListStepper<Real>::order_check_due() {
+  return steps_ % steps_between_order_checks == 0 &&
+         std::exchange(order_checked_, steps_) != steps_;
 }
 
-/// Puts the particles into columns where that makes the lists shorter.
+/// Sorts the particles into columns where that makes the lists shorter.
 template <class Real>
 bool ListStepper<Real>::sort() {
   Stopwatch watch;
@@ -88,16 +87,15 @@ bool ListStepper<Real>::sort() {
   return true;
 }
 
-/// Takes a new units where the body may have come to the end of the present one's range, and has.
-/// When that is looked at follows from the bones' motion alone: lists differ in a run that is
-/// resumed.
+/// Chooses other units where the body may have left the range of the present ones, and has. When
+/// that is checked follows from the bones' motion alone: lists differ in a resumed run.
 template <class Real>
 bool ListStepper<Real>::change_units() {
   if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
   const std::size_t n = caller_.size();
   units_box_ = box_of(state_, units_, particles_per_thread);
   traveled_ = 0;
-  if (sinew::serves<Real>(units_, units_box_)) return false;
+  if (sinew::covers<Real>(units_, units_box_)) return false;
   const Units before =
       std::exchange(units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
@@ -110,7 +108,7 @@ bool ListStepper<Real>::change_units() {
   return true;
 }
 
-/// How far a particle may come in a step that is sound: its bone's way and what it moves beside.
+/// How far a particle may travel in a valid step: with its bone, and relative to it.
 template <class Real>
 double ListStepper<Real>::travel_of_step(const Pose& pose) const {
   double fastest = 0;
@@ -131,8 +129,8 @@ void ListStepper<Real>::rebuild(const Pose& pose) {
   lists_.make(particles());
 }
 
-template void ListStepper<double>::keep_lists_true(const Pose& pose);
-template void ListStepper<float>::keep_lists_true(const Pose& pose);
+template void ListStepper<double>::update_lists(const Pose& pose);
+template void ListStepper<float>::update_lists(const Pose& pose);
 template double ListStepper<double>::travel_of_step(const Pose& pose) const;
 template double ListStepper<float>::travel_of_step(const Pose& pose) const;
 

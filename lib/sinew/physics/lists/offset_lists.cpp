@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t particles_per_piece = 16384;
 constexpr std::size_t columns_per_piece = 64;
 
-/// How columns stand in the body's bounds.
+/// How columns divide the body's bounding box.
 struct Columns {
   int along = 0;                    ///< axis along the columns
   std::array<int, 2> across{1, 2};  ///< the others
@@ -28,7 +28,7 @@ struct Columns {
   std::int64_t rows = 1, places = 1;  ///< columns: rows x places
 
   std::size_t count() const { return static_cast<std::size_t>(rows * places); }
-  /// Rows are walked back and forth.
+  /// Rows run back and forth.
   std::uint32_t of(double a, double b) const {
     const auto row = std::min(static_cast<std::int64_t>((a - low[across[0]]) / edge), rows - 1);
     const auto at = std::min(static_cast<std::int64_t>((b - low[across[1]]) / edge), places - 1);
@@ -48,8 +48,7 @@ Columns columns_of(const std::array<Coord*, 3>& x, std::size_t count, double edg
   columns.along = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
   columns.across = {(columns.along + 1) % 3, (columns.along + 2) % 3};
   columns.edge = edge;
-  const double most =
-      2.0 * static_cast<double>(count) + 1024;  // a escaped particle particle far away
+  const double most = 2.0 * static_cast<double>(count) + 1024;  // a particle may be far away
   const auto along = [&](int side) {
     return std::floor(size[columns.across[side]] / columns.edge) + 1;
   };
@@ -130,7 +129,7 @@ OffsetLists in_pieces(std::size_t blocks, Fill&& fill) {
     start[p + 1] = static_cast<std::uint32_t>(all);
   }
   if (all > UINT32_MAX)
-    throw bad_input("lists of partners need over 2^32 entries",
+    throw bad_input("neighbor lists need over 2^32 entries",
                     "make body.radius larger, or use solver.precision single");
   OffsetLists lists;
   lists.first.resize(blocks + 1, 0);
@@ -145,7 +144,7 @@ OffsetLists in_pieces(std::size_t blocks, Fill&& fill) {
   return lists;
 }
 
-/// Finders, as many as threads ask at once: each remembers as much as there are blocks.
+/// One finder per concurrent thread: each stores an entry per cell and per block.
 class Finders {
  public:
   explicit Finders(const BlockCells& cells) : cells_(cells) {}
@@ -181,7 +180,7 @@ kernel::PruneInput<Real> prune_input(BlockState<Real>& state, double range) {
   return {state.arrays(), static_cast<Real>(range * range)};
 }
 
-/// Bounds of each block's particles.
+/// Bounding box of each block's particles.
 template <class Real>
 std::vector<std::array<float, 6>> boxes_of(BlockState<Real>& state) {
   constexpr std::size_t size = BlockState<Real>::block;
@@ -200,7 +199,7 @@ std::vector<std::array<float, 6>> boxes_of(BlockState<Real>& state) {
   return boxes;
 }
 
-bool within(const std::array<float, 6>& a, const std::array<float, 6>& b, float range) {
+bool in_range(const std::array<float, 6>& a, const std::array<float, 6>& b, float range) {
   for (int axis = 0; axis < 3; ++axis) {
     // Bounds were rounded to floats.
     const float slack = 4e-7F * (std::abs(a[axis]) + std::abs(b[3 + axis])) + range;
@@ -209,8 +208,7 @@ bool within(const std::array<float, 6>& a, const std::array<float, 6>& b, float 
   return true;
 }
 
-/// Gathers ascending blocks into runs that follow each other without a gap: one range of
-/// differences.
+/// Joins consecutive blocks into runs: each is one range of differences.
 class Runs {
  public:
   template <class Prune>
@@ -232,7 +230,7 @@ class Runs {
   std::uint32_t begin_ = 0, end_ = 0;
 };
 
-/// Appends the lists of the blocks [begin, end) with what is added to them.
+/// Appends the lists of the blocks [begin, end) with the differences added to them.
 void copy_with(const OffsetLists& lists, const std::vector<BlockOffset>& added, std::size_t begin,
                std::size_t end, OffsetLists& part) {
   const auto place = [&](std::size_t block) {
@@ -296,7 +294,7 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
       };
       Runs runs;
       finder->for_each_around(block, [&](std::uint32_t other) {
-        if (within(boxes[block], boxes[other], reach)) runs.add(other, prune);
+        if (in_range(boxes[block], boxes[other], reach)) runs.add(other, prune);
       });
       runs.flush(prune);
       part.first.push_back(static_cast<std::uint32_t>(used));
@@ -308,14 +306,14 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 
 template <class Real>
 OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                          const OffsetLists& wider, double range) {
+                          const OffsetLists& outer, double range) {
   const auto input = prune_input(state, range);
   return in_pieces(state.blocks(), [&](std::size_t begin, std::size_t end, OffsetLists& part) {
-    part.value.resize(wider.first[end] - wider.first[begin] + 1);
+    part.value.resize(outer.first[end] - outer.first[begin] + 1);
     std::int32_t* kept = part.value.data();
     for (std::size_t block = begin; block < end; ++block) {
-      kept = kernel.prune(input, block, wider.value.data() + wider.first[block],
-                          wider.value.data() + wider.first[block + 1], kept);
+      kept = kernel.prune(input, block, outer.value.data() + outer.first[block],
+                          outer.value.data() + outer.first[block + 1], kept);
       part.first.push_back(static_cast<std::uint32_t>(kept - part.value.data()));
     }
     part.value.resize(static_cast<std::size_t>(kept - part.value.data()));

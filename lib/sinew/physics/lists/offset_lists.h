@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For each block the distinct differences j - i of its pairs within a range: see kernel.h.
+// For each block, the distinct differences j - i of its pairs within a range: see kernel/kernel.h.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace sinew {
 
-// An order in which particles near in memory are near in space: columns of cells across the longest
-// side of the body, back and forth, each sorted along. A packed body keeps the rows it was filled
-// in, which are better still; this is for bodies that have flowed or came in any order.
+// An order in which particles close in space are close in memory: columns of cells across the
+// longest side of the body, back and forth, each sorted along it. A freshly packed body keeps the
+// rows of its lattice, which are better still; this is for bodies that have flowed, and for any
+// other order.
 
-/// The particles in that order, by their place in `state`; columns are `edge` wide (in lengths of
-/// the kernel).
+/// Places in `state` in that order; columns are `edge` wide (in lengths of the kernel).
 template <class Real>
 std::vector<std::uint32_t> order_by_columns(BlockState<Real>& state, double edge);
 
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> order_by_columns(BlockState<Real>& state, double edge
 template <class Real>
 void reorder(BlockState<Real>& from, const std::vector<std::uint32_t>& order, BlockState<Real>& to);
 
-/// A difference of one block.
+/// One difference of one block.
 struct BlockOffset {
   std::uint32_t block;
   std::int32_t offset;
@@ -54,9 +54,9 @@ template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          const BlockCells& cells, double range);
 
-/// Those among `wider` that have a pair closer than `range`.
+/// Those among `outer` that have a pair closer than `range`.
 template <class Real>
 OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
-                          const OffsetLists& wider, double range);
+                          const OffsetLists& outer, double range);
 
 }  // namespace sinew

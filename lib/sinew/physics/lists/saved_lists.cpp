@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The state of the stepper as checkpoints keep it.
+// The state of the stepper that checkpoints store.
 #include <cmath>
 #include <utility>
 
@@ -31,12 +31,12 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;
   steps_ = state.steps;
-  order_looked_at_ = -1;
+  order_checked_ = -1;
   fastest_.reset();
   lists_ = VerletLists<Real>(kernel_, body_->material.pair, stepping_.step);
 }
 
-/// `order` names each particle's place in the caller's order once.
+/// `order` contains each particle's place in the caller's order once.
 template <class Real>
 void ListStepper<Real>::restore_order(const std::vector<std::uint32_t>& order) {
   std::vector<std::int32_t> id_of(caller_.size(), -1);

@@ -10,12 +10,12 @@
 namespace sinew {
 namespace {
 
-// In diameters, measured: longer lists cost every step, shorter ones are made more often. The
-// narrow skin leaves out the second neighbors of a packed body.
+// In diameters, by measurement: longer lists cost every step, shorter ones are rebuilt more often.
+// The inner skin excludes the second neighbors of a packed body.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
-// Particles that moved farther than the others have escaped: farther than the first of these, in
-// diameters, that only one block in so many exceeds, or than the last. If more than one particle in
-// so many is, all lists are made anew.
+// Particles displaced more than the others have escaped: beyond the first of these distances, in
+// diameters, that only one block in so many exceeds, or beyond the last. If more than one particle
+// in so many has, all lists are rebuilt.
 constexpr std::array escape_distances{0.04, 0.07, 0.1, 0.15, 0.2};
 constexpr std::size_t blocks_per_escaped = 100, particles_per_escaped = 50;
 constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
@@ -88,7 +88,7 @@ void VerletLists<Real>::prune(const MovingParticles<Real>& particles) {
   counts_.pruning += watch.lap();
 }
 
-/// How far the particles may have moved in their frames in the step that led here.
+/// Bounds the displacements in the co-moving frames in the last step.
 template <class Real>
 void VerletLists<Real>::add_step(const Pose& pose, double fastest, double rounding) {
   double excess = 0;
@@ -105,12 +105,12 @@ void VerletLists<Real>::add_step(const Pose& pose, double fastest, double roundi
 
 template <class Real>
 bool VerletLists<Real>::follow(const MovingParticles<Real>& particles, double fastest) {
-  // Whole units of single precision add up to one unit to what the speed says.
+  // Fixed-point rounding adds up to one unit to the distance that the speed gives.
   add_step(particles.pose, fastest, sizeof(Real) == 4 && fastest > 0 ? particles.units.length : 0);
   const auto motions = motions_between(listed_pose_, particles.pose);
   const double approach = contacts_.approach(motions, shift_);
   if (!outer_drift_.holds(approach)) {
-    if (!look(particles)) return false;
+    if (!check_displacements(particles)) return false;
     prune(particles);
   }
   const double since =
@@ -119,7 +119,7 @@ bool VerletLists<Real>::follow(const MovingParticles<Real>& particles, double fa
   return true;
 }
 
-/// The place of a particle in the frame of its co-moving frame, in lengths.
+/// Coordinates of a particle in its co-moving frame, in lengths of the kernel.
 template <class Real>
 Vec3 VerletLists<Real>::place(const MovingParticles<Real>& particles, std::size_t k) const {
   const auto& frame = particles.comoving_frames.frames[particles.comoving_frame[k]];
@@ -135,7 +135,7 @@ Vec3 VerletLists<Real>::place(const MovingParticles<Real>& particles, std::size_
   return axes * arm;
 }
 
-/// The largest displacement within each block since the lists were made, in lengths.
+/// The largest displacement in each block since the lists were built, in lengths of the kernel.
 template <class Real>
 std::vector<double> VerletLists<Real>::displacements(const MovingParticles<Real>& particles) {
   std::vector<double> largest(particles.state.blocks());
@@ -148,7 +148,7 @@ std::vector<double> VerletLists<Real>::displacements(const MovingParticles<Real>
   return largest;
 }
 
-/// Beyond what displacement, m, particles of blocks so displaced have escaped.
+/// The displacement, m, beyond which particles have escaped.
 template <class Real>
 double VerletLists<Real>::escaped_beyond(const std::vector<double>& displaced,
                                          const Units& units) const {
@@ -180,10 +180,10 @@ std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(
   return found;
 }
 
-/// Gives escaped particles new partners. False where there are too many, or too little is left to
-/// go on with.
+/// Finds new neighbors for escaped particles. False where there are too many, or too little of the
+/// skin is left.
 template <class Real>
-bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
+bool VerletLists<Real>::check_displacements(const MovingParticles<Real>& particles) {
   Stopwatch watch;
   ++counts_.checks;
   const auto displaced = displacements(particles);
@@ -191,25 +191,25 @@ bool VerletLists<Real>::look(const MovingParticles<Real>& particles) {
   const auto found = escaped_particles(particles, displaced, limit);
   if (found.size() * particles_per_escaped > particles.comoving_frame.size()) return false;
   for (const std::uint32_t k : found) anchor(particles, k);
-  // Of places widened by what the escaped particles have moved, hence after that.
+  // After anchor(): these references have moved.
   const double approach = contacts_.approach(motions_between(listed_pose_, particles.pose), shift_);
-  if (!found.empty()) outer_ = with_added(outer_, partners_of(particles, found, limit + approach));
+  if (!found.empty()) outer_ = with_added(outer_, neighbors_of(particles, found, limit + approach));
   counts_.escaped += static_cast<std::int64_t>(found.size());
-  // References are kept in floats: to their rounding.
+  // References are floats: to their rounding.
   double reach = 0;
   for (std::size_t b = 0; b < listed_pose_.size(); ++b)
     reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
-  outer_drift_.found(limit + 2.5e-7 * reach);
+  outer_drift_.reset(limit + 2.5e-7 * reach);
   counts_.checking += watch.lap();
-  // Escaped are found in the cells around their place; and no two of them may meet that were
-  // farther apart, when the lists were made, than the bones' contacts know.
+  // Escaped particles are searched for in the cells around their place; and no two of them may meet
+  // that were farther apart, when the lists were built, than the contacts account for.
   const double edge = cells_.edge() * particles.units.length;
   const double room = std::min(edge - approach - limit, edge / 2);
   return shift_ < room && outer_drift_.holds(approach + outer_drift_.skin() / 8);
 }
 
-/// Where the particle would have been when the lists were made, had it stood where it does in its
-/// co-moving frame's frame: m.
+/// Where the particle would have been when the lists were built, at its present place in its
+/// co-moving frame, m.
 template <class Real>
 Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles,
                                           std::size_t k) const {
@@ -220,11 +220,11 @@ Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles
   return then.origin + then.rotation * (now.rotation.transpose() * (here - now.origin));
 }
 
-/// The pairs of an escaped particle with all that could come near it before the next look, when
-/// others may have come nearer by `nearer` (m) than their references tell.
+/// The pairs of an escaped particle with all that could come near it before the next check, when
+/// others may be nearer by `nearer` (m) than their references indicate.
 template <class Real>
-void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uint32_t k,
-                                double nearer, std::vector<BlockOffset>& added) const {
+void VerletLists<Real>::add_pairs(const MovingParticles<Real>& particles, std::uint32_t k,
+                                  double nearer, std::vector<BlockOffset>& added) const {
   const auto arrays = particles.state.arrays();
   const std::size_t size = BlockState<Real>::block;
   const double reach = range(outer_skin, particles.units) + nearer / particles.units.length;
@@ -254,20 +254,20 @@ void VerletLists<Real>::pair_up(const MovingParticles<Real>& particles, std::uin
 }
 
 template <class Real>
-std::vector<BlockOffset> VerletLists<Real>::partners_of(const MovingParticles<Real>& particles,
-                                                        const std::vector<std::uint32_t>& found,
-                                                        double nearer) const {
+std::vector<BlockOffset> VerletLists<Real>::neighbors_of(const MovingParticles<Real>& particles,
+                                                         const std::vector<std::uint32_t>& found,
+                                                         double nearer) const {
   std::vector<std::vector<BlockOffset>> parts(found.size() / escaped_per_piece + 1);
   parallel_for(found.size(), escaped_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      pair_up(particles, found[n], nearer, parts[begin / escaped_per_piece]);
+      add_pairs(particles, found[n], nearer, parts[begin / escaped_per_piece]);
   });
   std::vector<BlockOffset> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
-/// Takes the particle's place as the one to units from.
+/// Makes the particle's present place its reference.
 template <class Real>
 void VerletLists<Real>::anchor(const MovingParticles<Real>& particles, std::uint32_t k) {
   const Vec3 now = place(particles, k);

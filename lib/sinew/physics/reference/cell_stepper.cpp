@@ -35,7 +35,7 @@ CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepp
   }
 }
 
-/// Puts what pins hold where it belongs, exactly: no error adds up from step to step.
+/// Moves pinned particles exactly to their positions: no error accumulates over steps.
 void CellStepper::hold(const Pose& pose) {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const Pinned& pin = body_->world->pins[k];
@@ -45,7 +45,7 @@ void CellStepper::hold(const Pose& pose) {
   }
 }
 
-/// After all others: dry friction answers them, and a pin bears whatever is left.
+/// After all other forces: dry friction answers them, and a pin takes whatever is left.
 void CellStepper::find_world_forces(const Pose& pose) {
   const World& world = *body_->world;
   const WorldNow now = world_at(world, time_, pose);
@@ -153,7 +153,7 @@ void CellStepper::advance(std::size_t i, double kick) {
   particles_.set_velocity(i, kicked);
 }
 
-/// Over the step, relative to its bone, or to its motion before where it has none.
+/// Over the step, relative to the bone or, without one, to the previous motion.
 Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose) const {
   const auto bones = body_->binding.of(particles_.id[i]);
   const Vec3 carried =
@@ -164,20 +164,20 @@ Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose)
 bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
   if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
   const double most = most_radii_per_step * particles_.radius;
-  // False for values that are not numbers as well.
+  // Also false for values that are not numbers.
   return moved(i, before, pose).squaredNorm() <= most * most && particles_.position(i).allFinite();
 }
 
-/// Goes back to before the step, and tells who failed in it.
+/// Restores the state before the step, and returns the particles that failed in it.
 Failure CellStepper::take_back(const Pose& pose) {
   Failure failure;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Particle before{{before_.x[0][i], before_.x[1][i], before_.x[2][i]},
                           {before_.v[0][i], before_.v[1][i], before_.v[2][i]}};
     if (sound(i, before, pose)) continue;
-    const Vec3 way = moved(i, before, pose);
-    failure.all.push_back({i, way.allFinite() && particles_.position(i).allFinite(),
-                           way.allFinite() ? way.norm() : 0});
+    const Vec3 displacement = moved(i, before, pose);
+    failure.all.push_back({i, displacement.allFinite() && particles_.position(i).allFinite(),
+                           displacement.allFinite() ? displacement.norm() : 0});
   }
   failure.first = failure.all.front();
   Particles& now = particles_;

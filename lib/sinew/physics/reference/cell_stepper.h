@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps as the paper describes them, with its cells sorted anew in every step: the readable
-// reference, and the way for what the kernel does not know.
+// Steps as the paper describes them, with its cells sorted again in every step: the readable
+// reference, and the stepper for whatever the kernel does not support.
+//
+//     CellStepper stepper(body, stepping, particles);
+//     const StepSums sums = stepper.step(pose);
 #pragma once
 
 #include <memory>
@@ -18,7 +21,7 @@ class CellStepper {
  public:
   CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles particles);
 
-  /// The moment (s) of what is asked or done next: what surrounds the body changes with it.
+  /// Time (s) of the next call: surroundings change with it.
   void set_time(double time) { time_ = time; }
 
   StepSums step(const Pose& pose);
@@ -53,13 +56,13 @@ class CellStepper {
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
   Particles particles_;
-  std::optional<Solid> solid_;  ///< of materials that remember who was whose neighbor
+  std::optional<Solid> solid_;  ///< of materials whose forces depend on the neighbors at rest
   Forces forces_;
   MovingInDouble before_;  ///< the step
   double time_ = 0;
   WorldForces world_;
-  std::vector<std::size_t> held_;  ///< place of each pin of the world
-  std::vector<bool> is_held_;      ///< empty where nothing is
+  std::vector<std::size_t> held_;  ///< index of the particle of each pin of the world
+  std::vector<bool> is_held_;      ///< empty without pins
   bool kicked_ = false;            ///< velocities are half a step ahead (velocity Verlet)
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One walk through all pairs: what pushes them, who is whose partner, and the damping of eq. 2.
+// One pass over all pairs: their forces, the neighbor counts, and the damping of eq. 2.
+//
+//     pair_pass(particles, material, push, forces);
 #pragma once
 
 #include <cmath>
@@ -11,7 +13,7 @@
 
 namespace sinew {
 
-// Walking through the partners of a particle with the paper's cells: own and adjacent ones.
+// The neighbors of a particle, found with the paper's cells: its own and the adjacent ones.
 
 inline constexpr std::size_t particles_per_walk = 256;
 
@@ -19,16 +21,16 @@ inline CellGrid cells_of(const Particles& particles, double range) {
   return {particles.x, particles.y, particles.z, range};
 }
 
-/// From j to i, seen from i. Two particles in one place part along x, the lower id to the left.
+/// From j to i, seen from i. Two coincident particles separate along x, the lower id to the left.
 inline Vec3 direction_from(const Particles& particles, const Vec3& offset, double d, std::size_t i,
                            std::size_t j) {
   return d > 0 ? Vec3(offset / d) : Vec3(particles.id[i] < particles.id[j] ? -1 : 1, 0, 0);
 }
 
-/// Calls visit(j, offset, d) for every partner j of particle i: x_i - x_j and its length d < b.
+/// Calls visit(j, offset, d) for every neighbor j of particle i: x_i - x_j and its length d < b.
 template <class Visit>
-void for_each_partner(const Particles& particles, const CellGrid& cells, double b, std::size_t i,
-                      Visit&& visit) {
+void for_each_neighbor(const Particles& particles, const CellGrid& cells, double b, std::size_t i,
+                       Visit&& visit) {
   const Vec3 here = particles.position(i);
   cells.for_each_near(here, [&](std::uint32_t j) {
     if (j == i) return;
@@ -62,7 +64,7 @@ template <class Push>
 void pair_pass(const Particles& particles, const Material& material, const Push& push,
                Forces& forces);
 
-/// Damping by pairs with the mean of both counts, which must be known: keeps momentum, and with
+/// Pairwise damping with the mean of both counts, which must be known: conserves momentum, and with
 /// only the part along the pair (central) angular momentum as well.
 void pairwise_damping(const Particles& particles, const CellGrid& cells, const Material& material,
                       Forces& forces);
@@ -77,16 +79,16 @@ void pair_pass(const Particles& particles, const Material& material, const Push&
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 force = Vec3::Zero(), velocities = Vec3::Zero();
     int count = 0;
-    for_each_partner(particles, cells, material.pair.b, i,
-                     [&](std::uint32_t j, const Vec3& offset, double d) {
-                       force += push(i, j, d) * direction_from(particles, offset, d, i, j);
-                       velocities += particles.velocity(j);
-                       ++count;
-                     });
+    for_each_neighbor(particles, cells, material.pair.b, i,
+                      [&](std::uint32_t j, const Vec3& offset, double d) {
+                        force += push(i, j, d) * direction_from(particles, offset, d, i, j);
+                        velocities += particles.velocity(j);
+                        ++count;
+                      });
     forces.pair[i] = force;
     forces.neighbors[i] = count;
     forces.damping[i] = Vec3::Zero();
-    if (count > 0 && material.damping > 0)  // towards the partners' mean velocity
+    if (count > 0 && material.damping > 0)  // towards the neighbors' mean velocity
       forces.damping[i] = -material.damping * (particles.velocity(i) - velocities / count);
   });
   if (material.damping_form != DampingForm::paper)

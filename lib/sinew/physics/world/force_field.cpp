@@ -13,7 +13,7 @@ namespace {
 
 constexpr double steepest_edge = 1.5;  // of 3 s^2 - 2 s^3, per width
 
-/// Unit vectors outside the core, shorter in proportion within.
+/// Unit vectors outside the core, proportionally shorter inside.
 Vec3 softened(const Vec3& offset, double core) { return offset / std::max(offset.norm(), core); }
 
 Vec3 force_of(const UniformAcceleration& form, const Vec3&, const Grain& grain) {

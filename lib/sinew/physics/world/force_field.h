@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces that fill a region of space: wind, pull, suction, a whirl; and the drag of a medium.
+// Forces that fill a region of space: wind, attraction, suction, a vortex; and the drag of a
+// medium.
+//
+//     const ForceField wind{"wind", UniformAcceleration{{3, 0, 0}}, region, {}};
+//     const Vec3 force = field_force(wind, wind.scale.at(time), position, grain);
 #pragma once
 
 #include <functional>
@@ -19,15 +23,15 @@ struct ForceDensity {
   Vec3 density = Vec3::Zero();  ///< N per m^3 of the body at rest
 };
 
-/// Towards a point at one acceleration, from `core` inwards falling in proportion to the distance.
+/// Towards a point at constant acceleration; inside `core`, proportional to the distance.
 struct Attraction {
   Vec3 point = Vec3::Zero();  ///< m
   double acceleration = 0;    ///< m/s^2; negative pushes away
   double core = 0;            ///< m, > 0
 };
 
-/// Around an axis, right-handed, at one acceleration outside `core` and in proportion to the
-/// distance within.
+/// Around an axis, right-handed, at constant acceleration; inside `core`, proportional to the
+/// distance.
 struct Swirl {
   Vec3 point = Vec3::Zero();  ///< of the axis, m
   Vec3 axis = Vec3::UnitZ();  ///< of any length but 0
@@ -58,17 +62,17 @@ struct ForceField {
   KeyedValue scale;  ///< over time; 1 without keys
 };
 
-/// A medium that moves at one velocity brakes what moves in it: f = -rate m (v - velocity).
+/// A medium moving at constant velocity brakes the particles: f = -rate m (v - velocity).
 struct Drag {
   double rate = 0;               ///< 1/s
   Vec3 velocity = Vec3::Zero();  ///< of the medium, m/s
 };
 
-/// The force on a particle at `position` while the keys say `scale`, N.
+/// The force on a particle at `position`, N, with the keys' value `scale`.
 Vec3 field_force(const ForceField& field, double scale, const Vec3& position, const Grain& grain);
 
-/// A bound on how fast that force changes from place to place, whatever the time, N/m. A region's
-/// edge without falloff is left out: a particle crosses it in no time.
+/// An upper bound of the force's gradient at any time, N/m. The edge of a region without falloff is
+/// left out: a particle crosses it in no time.
 double field_stiffness(const ForceField& field, const Grain& grain);
 
 /// Throws bad input for numbers that are not finite, cores that are not positive, an axis without

@@ -13,7 +13,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t particles_per_piece = 1024;
-// A fibre at half its length is a muscle far beyond what living ones do (0.6).
+// A fiber at half its length is far beyond what living muscles do (0.6).
 constexpr double crushed = 0.5;
 
 [[noreturn]] void refuse(const Muscle& muscle, const std::string& wrong, const std::string& cure) {
@@ -43,9 +43,9 @@ void check_muscle(const Muscle& muscle, std::size_t count) {
 }
 
 /// Sorts the shares of all muscles by particle.
-void sort_fibres(Muscles& all) {
+void sort_fibers(Muscles& all) {
   const std::size_t count = all.rest.points.size();
-  std::vector<std::vector<Muscles::Fibre>> of(count);
+  std::vector<std::vector<Muscles::Fiber>> of(count);
   for (std::size_t m = 0; m < all.muscles.size(); ++m)
     for (const MuscleShare& share : all.muscles[m].shares)
       if (all.rest.defined(share.particle))
@@ -56,8 +56,8 @@ void sort_fibres(Muscles& all) {
     if (of[i].empty()) continue;
     all.row[i] = static_cast<std::int32_t>(all.active.size());
     all.active.push_back(static_cast<std::uint32_t>(i));
-    all.fibres.insert(all.fibres.end(), of[i].begin(), of[i].end());
-    all.first.push_back(static_cast<std::uint32_t>(all.fibres.size()));
+    all.fibers.insert(all.fibers.end(), of[i].begin(), of[i].end());
+    all.first.push_back(static_cast<std::uint32_t>(all.fibers.size()));
   }
 }
 
@@ -68,31 +68,31 @@ double log_length(double squared) {
   return (std::log(least) + squared / least - 1) / 2;
 }
 
-/// P of one particle's fibres at the deformation gradient F, Pa.
+/// P of one particle's fibers at the deformation gradient F, Pa.
 Mat3 nominal_stress(const Muscles& all, const Activations& now, std::size_t row, const Mat3& F) {
   Mat3 P = Mat3::Zero();
   for (std::size_t k = all.first[row]; k < all.first[row + 1]; ++k) {
-    const Muscles::Fibre& fibre = all.fibres[k];
-    const Muscle& muscle = all.muscles[fibre.muscle];
+    const Muscles::Fiber& fiber = all.fibers[k];
+    const Muscle& muscle = all.muscles[fiber.muscle];
     const Vec3 along = F * muscle.direction;
     const double squared = std::max(along.squaredNorm(), crushed * crushed);
-    const double pull = now.level[fibre.muscle] * muscle.strength * fibre.weight / squared;
+    const double pull = now.level[fiber.muscle] * muscle.strength * fiber.weight / squared;
     P += pull * along * muscle.direction.transpose();
   }
   return P;
 }
 
 /// Energies per volume at rest, J/m^3 and W/m^3.
-FibreEnergy energy_density(const Muscles& all, const Activations& now, std::size_t row,
+FiberEnergy energy_density(const Muscles& all, const Activations& now, std::size_t row,
                            const Mat3& F) {
-  FibreEnergy energy;
+  FiberEnergy energy;
   for (std::size_t k = all.first[row]; k < all.first[row + 1]; ++k) {
-    const Muscles::Fibre& fibre = all.fibres[k];
-    const Muscle& muscle = all.muscles[fibre.muscle];
+    const Muscles::Fiber& fiber = all.fibers[k];
+    const Muscle& muscle = all.muscles[fiber.muscle];
     const double at_full =
-        muscle.strength * fibre.weight * log_length((F * muscle.direction).squaredNorm());
-    energy.stored += now.level[fibre.muscle] * at_full;
-    energy.power += now.rate[fibre.muscle] * at_full;
+        muscle.strength * fiber.weight * log_length((F * muscle.direction).squaredNorm());
+    energy.stored += now.level[fiber.muscle] * at_full;
+    energy.power += now.rate[fiber.muscle] * at_full;
   }
   return energy;
 }
@@ -104,7 +104,7 @@ Points by_id(const Particles& particles) {
   return points;
 }
 
-/// F of every particle with fibres.
+/// F of every particle with fibers.
 std::vector<Mat3> active_gradients(const Muscles& all, const Particles& particles) {
   const Points now = by_id(particles);
   std::vector<Mat3> F(all.active.size());
@@ -115,7 +115,7 @@ std::vector<Mat3> active_gradients(const Muscles& all, const Particles& particle
   return F;
 }
 
-/// V0 P A^-1 of every particle with fibres: times an offset at rest it is a force, N.
+/// V0 P A^-1 of every particle with fibers: times an offset at rest it is a force, N.
 std::vector<Mat3> pulls(const Muscles& all, const Activations& activations,
                         const std::vector<Mat3>& F, double volume) {
   std::vector<Mat3> by_offset(F.size());
@@ -127,19 +127,18 @@ std::vector<Mat3> pulls(const Muscles& all, const Activations& activations,
   return by_offset;
 }
 
-FibreEnergy energy_of(const Muscles& all, const Activations& activations,
+FiberEnergy energy_of(const Muscles& all, const Activations& activations,
                       const std::vector<Mat3>& F, double volume) {
-  FibreEnergy sum;
+  FiberEnergy sum;
   for (std::size_t row = 0; row < F.size(); ++row) {
-    const FibreEnergy density = energy_density(all, activations, row, F[row]);
+    const FiberEnergy density = energy_density(all, activations, row, F[row]);
     sum.stored += volume * density.stored;
     sum.power += volume * density.power;
   }
   return sum;
 }
 
-/// (M_i + M_j) X_ij over the neighbors: what i pulls itself with, and what each of them pulls i
-/// with.
+/// (M_i + M_j) X_ij over the neighbors: the pull of i itself and that of each of them.
 Vec3 force_on(const Muscles& all, const std::vector<Mat3>& by_offset, std::uint32_t i) {
   const auto of = [&](std::uint32_t p) {
     return all.row[p] < 0 ? nullptr : &by_offset[static_cast<std::size_t>(all.row[p])];
@@ -150,14 +149,15 @@ Vec3 force_on(const Muscles& all, const std::vector<Mat3>& by_offset, std::uint3
     const Mat3* other = of(j);
     if (!own && !other) continue;
     const Vec3 offset = all.rest.points[j] - all.rest.points[i];
-    // Each term alone, as j adds it with the opposite sign: the sum of all forces is rounding.
+    // Each term alone, as j adds it with the opposite sign: the sum of all forces is zero up to
+    // rounding.
     if (own) force += *own * offset;
     if (other) force += *other * offset;
   }
   return force;
 }
 
-/// |dU/dx| of one particle's fibres is V0 S |c|: c_j = (A^-1 t0).X_ij for a neighbor, and minus
+/// |dU/dx| of one particle's fibers is V0 S |c|: c_j = (A^-1 t0).X_ij for a neighbor, and minus
 /// their sum for the particle itself.
 struct Coefficients {
   double own = 0, all = 0;  ///< |sum c|; that and sum |c|
@@ -173,15 +173,15 @@ Coefficients coefficients(const RestShape& rest, std::size_t i, const Vec3& cove
   return {std::abs(sum), std::abs(sum) + magnitudes};
 }
 
-/// Adds the sums of the rows of |c c^T| over particle i's fibres, to each row.
+/// Adds the sums of the rows of |c c^T| over particle i's fibers, to each row.
 void add_rows(const Muscles& all, std::size_t row, std::vector<double>& sums) {
   const std::uint32_t i = all.active[row];
   for (std::size_t k = all.first[row]; k < all.first[row + 1]; ++k) {
-    const Muscle& muscle = all.muscles[all.fibres[k].muscle];
+    const Muscle& muscle = all.muscles[all.fibers[k].muscle];
     const Vec3 covector = all.rest.inverse[i] * muscle.direction;
     const Coefficients c = coefficients(all.rest, i, covector);
     const double scale =
-        std::abs(muscle.strength) * muscle.activation.largest() * all.fibres[k].weight * c.all;
+        std::abs(muscle.strength) * muscle.activation.largest() * all.fibers[k].weight * c.all;
     sums[i] += scale * c.own;
     for (const auto j : all.rest.neighbors.of(i))
       sums[j] += scale * std::abs(covector.dot(all.rest.points[j] - all.rest.points[i]));
@@ -216,7 +216,7 @@ Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles) {
   Muscles all;
   all.rest = rest_shape(std::move(rest), rest_neighbor_range(radius));
   all.muscles = std::move(muscles);
-  sort_fibres(all);
+  sort_fibers(all);
   return all;
 }
 
@@ -229,7 +229,7 @@ Activations activations_at(const Muscles& muscles, double time) {
   return now;
 }
 
-FibreEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
+FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
                           const Particles& particles, Points& forces) {
   forces.assign(particles.size(), Vec3::Zero());
   if (muscles.active.empty()) return {};

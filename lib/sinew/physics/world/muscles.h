@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Muscles: fibres in the body that pull along their own direction, as an active stress.
+// Muscles: fibers in the body that pull along their own direction, as an active stress.
 //
-// A fibre lies along t0 (unit) at rest and along F t0 in the deformed body, F the least-squares
+//     const Muscles muscles = make_muscles(rest, radius, {muscle});
+//     const Activations now = activations_at(muscles, time);
+//     const FiberEnergy energy = muscle_forces(muscles, now, particles, forces);
+//
+// A fiber lies along t0 (unit) at rest and along F t0 in the deformed body, F the least-squares
 // deformation gradient over the rest neighbors. At activation a in [0, 1] and strength S (Pa) the
-// Kirchhoff stress (force per area times J, what the virial formula with the volume at rest gives)
-// is a S t t^T, t = F t0 / |F t0|. It comes from the potential, per particle of volume V0,
+// Kirchhoff stress (force per area times J, as in the virial formula with the rest volume) is a S t
+// t^T, t = F t0 / |F t0|. It derives from the potential, per particle of volume V0,
 //   U = a S V0 w ln(lambda),  lambda = |F t0|,
 //   force on neighbor j: -V0 P A^-1 X_ij, the opposite on i,  P = a S w (F t0) t0^T / lambda^2,
-// with A = sum X X^T at rest and w the particle's share. P F^T is symmetric, so momentum and
-// angular momentum are kept. Below lambda = 1/2 lambda^2 is held at 1/4 and U continued smoothly: a
-// crushed fibre loses its pull instead of gaining without end. Particles whose neighbors at rest
-// lie in a plane have no F, and no fibres.
+// with A = sum X X^T at rest and w the particle's weight. P F^T is symmetric, so momentum and
+// angular momentum are conserved. Below lambda = 1/2, lambda^2 is held at 1/4 and U continued
+// smoothly: a crushed fiber loses its pull instead of gaining without limit. Particles whose
+// neighbors at rest lie in a plane have no F, and no fibers.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +28,7 @@
 
 namespace sinew {
 
-/// How much of a particle belongs to a muscle.
+/// The weight of a muscle in a particle.
 struct MuscleShare {
   std::uint32_t particle = 0;  ///< by id
   double weight = 1;           ///< in (0, 1]
@@ -32,7 +36,7 @@ struct MuscleShare {
 
 struct Muscle {
   std::string name;
-  Vec3 direction = Vec3::UnitZ();  ///< of its fibres at rest (a bone's axis, say), any length but 0
+  Vec3 direction = Vec3::UnitZ();  ///< of its fibers at rest (a bone's axis, say), any length but 0
   double strength = 0;             ///< S, Pa, tension positive
   KeyedValue activation;           ///< over time, in [0, 1]; 1 without keys
   std::vector<MuscleShare> shares;  ///< ascending particles
@@ -44,28 +48,28 @@ std::vector<MuscleShare> shares_in(const Region& region, const Points& rest);
 /// The particles bound to a bone, with the bone's weights.
 std::vector<MuscleShare> shares_bound_to(int bone, const Binding& binding);
 
-/// All muscles of a body with what the rest state fixes.
+/// All muscles of a body, with what the rest state determines.
 struct Muscles {
-  /// One muscle's fibre in one particle.
-  struct Fibre {
+  /// One muscle's fiber in one particle.
+  struct Fiber {
     std::uint32_t muscle;
     double weight;
   };
 
   RestShape rest;
   std::vector<Muscle> muscles;        ///< directions of length 1
-  std::vector<std::uint32_t> active;  ///< particles with fibres, by id, ascending
-  std::vector<std::int32_t> row;      ///< by id: place in active, -1 for none
-  std::vector<std::uint32_t> first;   ///< one longer than active; fibres of row k
-  std::vector<Fibre> fibres;          ///< those of a particle in the order of the muscles
+  std::vector<std::uint32_t> active;  ///< particles with fibers, by id, ascending
+  std::vector<std::int32_t> row;      ///< by id: index in active, -1 for none
+  std::vector<std::uint32_t> first;   ///< one longer than active; fibers of row k
+  std::vector<Fiber> fibers;          ///< those of a particle in the order of the muscles
 };
 
-/// Prepares muscles of a body at `rest` (n x 3, m, by id) of particles of `radius` (m). Throws bad
-/// input for a direction without length, a strength that is not finite, activations outside
-/// [0, 1], shares of no particle, out of order or outside (0, 1].
+/// Prepares the muscles of a body at `rest` (n x 3, m, by id) with particles of `radius` (m).
+/// Throws bad input for a direction of zero length, a strength that is not finite, activations
+/// outside [0, 1], shares of unknown particles, out of order or outside (0, 1].
 Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles);
 
-/// How much each muscle pulls at one moment.
+/// The activation of each muscle at one moment.
 struct Activations {
   std::vector<double> level;  ///< per muscle
   std::vector<double> rate;   ///< 1/s
@@ -73,23 +77,23 @@ struct Activations {
 
 Activations activations_at(const Muscles& muscles, double time);
 
-/// Energies of the fibres at one moment.
-struct FibreEnergy {
+/// Energies of the fibers at one moment.
+struct FiberEnergy {
   double stored = 0;  ///< sum of U, J
-  double power = 0;   ///< its change by the change of activation alone, W
+  double power = 0;   ///< its rate of change due to activation alone, W
 };
 
-/// Sets forces (n, in the order of `particles`), N. In parallel, bits independent of threads.
-FibreEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
+/// Sets forces (n, in the order of `particles`), N. In parallel; the bits do not depend on threads.
+FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
                           const Particles& particles, Points& forces);
 
-/// Kirchhoff stress of the fibres at each particle (n, in the order of `particles`), Pa. In
+/// Kirchhoff stress of the fibers at each particle (n, in the order of `particles`), Pa. In
 /// parallel.
 std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activations,
                                 const Particles& particles);
 
-/// A bound on the stiffness that muscles at their strongest add to any motion of the body near
-/// rest, N/m; fibres shortened to lambda add 1 / lambda^2 times as much.
+/// An upper bound of the stiffness that fully active muscles add to any motion of the body near
+/// rest, N/m; fibers shortened to lambda add 1 / lambda^2 times as much.
 double muscle_stiffness(const Muscles& muscles, double radius);
 
 }  // namespace sinew

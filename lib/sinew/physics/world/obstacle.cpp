@@ -16,7 +16,7 @@ void check_constant(const Obstacle& obstacle, const std::string& key, double val
                   "give 0 or a positive number");
 }
 
-/// Coulomb's law, no steeper in the velocity than `stick`.
+/// Coulomb's law, with a slope in the velocity of at most `stick`.
 Vec3 rub(double most_force, double stick, const Vec3& sliding) {
   const double speed = sliding.norm();
   if (!(speed > 0)) return Vec3::Zero();
@@ -37,7 +37,7 @@ ObstacleMotion still(const RigidFrame& frame) {
   };
 }
 
-ObstacleMotion riding(int bone, const Bone& rest, const RigidFrame& frame) {
+ObstacleMotion attached_to_bone(int bone, const Bone& rest, const RigidFrame& frame) {
   return [bone, rest = rest.rest, frame](double, const Pose& bones) {
     const BonePose& comoving_frame = bones.at(static_cast<std::size_t>(bone));
     ObstaclePose pose;

@@ -2,14 +2,18 @@
 // Solids that push particles out: a spring along the normal, damping of the approach, and dry
 // friction.
 //
+//     const Contact touch = contact(obstacle, obstacle.at(time, pose), position, velocity, radius);
+//     force += touch.force();
+//
 // A particle of radius r whose center is nearer than r to the surface (d < r, however deep inside)
-// feels, with the velocity v relative to the obstacle's point at its center, n the outward normal:
+// is subject to, with its velocity v relative to the obstacle's point at its center and n the
+// outward normal,
 //   f_n = k (r - d) + c max(0, -v.n)       never pulls
-//   f_t = -min(mu f_n / |v_t|, s) v_t      Coulomb's law, made regular
+//   f_t = -min(mu f_n / |v_t|, s) v_t      Coulomb's law, regularized
 // A damping s (kg/s, "stick") makes sliding below the speed mu f_n / s viscous: the force depends
-// on the state alone and adds a rate s / m to what the step must resolve (s = m / (2 step) keeps
-// the usual half of the limit), but a load creeps at load / s. Without s contacts rub only through
-// stop_sliding of world.h, which knows the step: they hold fast and ask for no shorter step.
+// on the state alone and adds a rate s / m that the step must resolve (s = m / (2 step) keeps the
+// usual half of the limit), but a load creeps at load / s. Without s, friction acts only through
+// stop_sliding() of world.h, which depends on the step: contacts stick, and need no shorter step.
 // An obstacle thinner than about 2r pushes a particle that passed its middle out on the far side.
 #pragma once
 
@@ -34,13 +38,13 @@ struct ObstaclePose {
   }
 };
 
-/// The pose at a time (s), when the bones are at a pose.
+/// The pose at a time (s), when the bones are at the given pose.
 using ObstacleMotion = std::function<ObstaclePose(double, const Pose&)>;
 
 struct Obstacle {
   std::string name;
   Shape shape;
-  ObstacleMotion motion;  ///< none: the shape's coordinates are the scene's
+  ObstacleMotion motion;  ///< none: shape coordinates are scene coordinates
   double stiffness = 0;   ///< k, N/m
   double damping = 0;     ///< c, kg/s
   double friction = 0;    ///< mu
@@ -49,14 +53,14 @@ struct Obstacle {
   ObstaclePose at(double time, const Pose& pose) const;
 };
 
-/// Stays at `frame`.
+/// Always at `frame`.
 ObstacleMotion still(const RigidFrame& frame);
 
-/// Rides on a bone: `frame` is where the obstacle is while bone number `bone` of a skeleton rests
-/// as `rest` does.
-ObstacleMotion riding(int bone, const Bone& rest, const RigidFrame& frame);
+/// Attached to a bone: `frame` is the obstacle's frame while bone number `bone` of a skeleton is at
+/// its rest frame `rest`.
+ObstacleMotion attached_to_bone(int bone, const Bone& rest, const RigidFrame& frame);
 
-/// What an obstacle does to one particle, N, and the energy k (r - d)^2 / 2 it stores, J.
+/// The force of an obstacle on one particle, N, and the energy k (r - d)^2 / 2 it stores, J.
 struct Contact {
   Vec3 spring = Vec3::Zero(), damping = Vec3::Zero(), friction = Vec3::Zero();
   double energy = 0;

@@ -18,7 +18,7 @@ bool holds(const Pin& pin, const Vec3& point) {
   return Region{pin.region.shape, 0}.weight(point) > 0;
 }
 
-/// The first pin that holds each point.
+/// The first pin that contains each point.
 std::vector<std::uint32_t> pin_of_each(const Points& rest, const std::vector<Pin>& pins) {
   std::vector<std::uint32_t> first(rest.size(), no_pin);
   parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles that are held: where they rest, or fixed to a bone. This says which and where; the
-// stepper holds them.
+// Particles that are held where they rest, or fixed to a bone: which ones, and their positions. The
+// stepper applies them.
+//
+//     const std::vector<Pinned> held = pinned(rest, pins, bones);
+//     const PinPose at = pin_pose(held[k], rest[held[k].particle], skeleton, pose);
 #pragma once
 
 #include <cstdint>
@@ -12,8 +15,8 @@
 namespace sinew {
 
 struct Pin {
-  Region region;       ///< at rest; its falloff is not looked at
-  int bone = no_bone;  ///< that carries its particles; no_bone: they stay
+  Region region;       ///< at rest; its falloff is ignored
+  int bone = no_bone;  ///< to which its particles are fixed; no_bone: the scene
 };
 
 /// A held particle, by its place in the written order.
@@ -28,13 +31,12 @@ struct PinPose {
   Vec3 velocity;  ///< m/s
 };
 
-/// The particles at `rest` (n x 3, m, by id) that lie in a pin's shape or on its surface,
-/// ascending. The first pin that has a particle holds it. Throws bad input for a bad region, an
-/// unknown bone
-/// (`bones` is their count) or a pin that holds nothing.
+/// The particles at `rest` (n x 3, m, by id) in a pin's shape or on its surface, ascending. A
+/// particle in several pins is held by the first. Throws bad input for a bad region, an unknown
+/// bone (`bones` is their count) or a pin without particles.
 std::vector<Pinned> pinned(const Points& rest, const std::vector<Pin>& pins, int bones);
 
-/// Where `pin` holds its particle, which was at `rest` (m), as the bones are at `pose`.
+/// Where `pin` holds its particle, which was at `rest` (m), with the bones at `pose`.
 PinPose pin_pose(const Pinned& pin, const Vec3& rest, const Skeleton& skeleton, const Pose& pose);
 
 }  // namespace sinew

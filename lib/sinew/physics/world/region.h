@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A part of space, with a soft edge if wanted.
+// A part of space, with a smooth edge if wanted, and a number that changes over time.
+//
+//     const double weight = region.weight(point), strength = keys.at(time);
 #pragma once
 
 #include <optional>
@@ -21,21 +23,20 @@ struct Region {
 /// Throws bad input for a bad shape or a falloff that is negative or not finite.
 void check_region(const Region& region, const std::string& what);
 
-// A number that changes over time: straight lines between keys, the first and last value held
-// before and after them.
+// Linear between keys; constant before the first and after the last.
 
 struct KeyedValue {
   std::vector<double> times;   ///< s, strictly ascending
   std::vector<double> values;  ///< one per time
 
   double at(double time) const;  ///< 1 without keys
-  /// Change per second, 1/s; at a key that of the line after it.
+  /// Change per second, 1/s; at a key, that of the interval after it.
   double rate(double time) const;
-  double largest() const;  ///< of the magnitudes over all time
+  double largest() const;  ///< largest magnitude over all time
 };
 
-/// Throws bad input, naming `what` the keys are for, unless there is one value per time, all are
-/// finite, times ascend and values lie in [low, high].
+/// Throws bad input, which names `what` the keys are for, unless there is one value per time, all
+/// are finite, times ascend and values lie in [low, high].
 void check_keys(const KeyedValue& keys, double low, double high, const std::string& what);
 
 }  // namespace sinew

@@ -11,9 +11,10 @@ namespace sinew {
 
 namespace {
 
-// Axes given with rounded digits pass; the distance is then wrong by no more than this share.
+// Axes given with rounded digits are accepted; the distance is then wrong by no more than this
+// share.
 constexpr double square_enough = 1e-6;
-// So near to a capsule's segment, in its radii, a direction is rounding.
+// Closer than this to a capsule's segment, in radii, a direction is rounding.
 constexpr double on_axis = 1e-9;
 
 SignedDistance from_point(const Vec3& offset, double radius, const Vec3& otherwise) {
@@ -36,7 +37,7 @@ SignedDistance distance_to(const CapsuleShape& capsule, const Vec3& point) {
   if (!(squared > 0)) return from_point(point - capsule.a, capsule.radius, Vec3::UnitZ());
   const double share = std::clamp((point - capsule.a).dot(along) / squared, 0.0, 1.0);
   const Vec3 offset = point - (capsule.a + share * along);
-  // On the axis rounding alone would choose the direction, and might choose that of the axis.
+  // On the axis the direction would be rounding alone, and might be that of the axis.
   if (offset.norm() < on_axis * capsule.radius)
     return {offset.norm() - capsule.radius, frame_along(along).col(1)};
   return from_point(offset, capsule.radius, Vec3::UnitZ());
@@ -128,7 +129,7 @@ void check_shape(const Shape& shape, const std::string& what) {
 
 namespace {
 
-constexpr int meridians = 24, parallels = 6;  // per hemisphere: within 1 % of the radius
+constexpr int meridians = 24, parallels = 6;  // per hemisphere: to 1 % of the radius
 
 Triangles surface_of(const PlaneShape& plane, double size) {
   const Mat3 frame = frame_along(plane.normal);
@@ -139,8 +140,8 @@ Triangles surface_of(const PlaneShape& plane, double size) {
 
 /// A ball pulled apart along an axis: rings of points from the pole at b to the one at a.
 Triangles rounded(const Vec3& a, const Vec3& b, double radius) {
-  const Vec3 way = b - a;
-  const Mat3 frame = frame_along(way.norm() > 0 ? way : Vec3::UnitZ());
+  const Vec3 axis = b - a;
+  const Mat3 frame = frame_along(axis.norm() > 0 ? axis : Vec3::UnitZ());
   Triangles surface;
   surface.points.push_back(b + radius * frame.col(0));
   for (int ring = 1; ring <= 2 * parallels; ++ring) {  // the equator twice: once at either end

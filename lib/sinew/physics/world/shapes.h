@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Simple solids and their exact signed distances: what obstacles and regions are made of.
+// Simple solids and their exact signed distances: the shapes of obstacles and regions.
+//
+//     const SignedDistance at = signed_distance(SphereShape{center, radius}, point);
 //
 // Distances are to the nearest point of the surface, inside as well as outside, so they are
 // continuous and the normal is their gradient. Where several points of the surface are equally near
@@ -22,7 +24,7 @@ struct SignedDistance {
   Vec3 normal = Vec3::UnitZ();  ///< outward, unit
 };
 
-/// All that lies behind a plane.
+/// The half-space behind a plane.
 struct PlaneShape {
   Vec3 point = Vec3::Zero();    ///< m
   Vec3 normal = Vec3::UnitZ();  ///< outward, of any length but 0
@@ -33,7 +35,7 @@ struct SphereShape {
   double radius = 1;           ///< m, > 0
 };
 
-/// A segment with all that is nearer to it than the radius; a sphere where the ends coincide.
+/// A segment and all points nearer to it than the radius; a sphere where the ends coincide.
 struct CapsuleShape {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< ends of the segment, m
   double radius = 1;                        ///< m, > 0
@@ -45,10 +47,10 @@ struct BoxShape {
   Mat3 rotation = Mat3::Identity();  ///< columns are the box's axes
 };
 
-/// A closed surface, through what its owner knows about it.
+/// A closed surface, given by its distance function.
 struct MeshShape {
   std::function<SignedDistance(const Vec3&)> distance;  ///< may be called from many threads
-  Box bounds;  ///< holds the surface, m; nothing is asked about points far outside it
+  Box bounds;  ///< of the surface, m; the distance is not evaluated far outside it
 };
 
 using Shape = std::variant<PlaneShape, SphereShape, CapsuleShape, BoxShape, MeshShape>;
@@ -56,7 +58,7 @@ using Shape = std::variant<PlaneShape, SphereShape, CapsuleShape, BoxShape, Mesh
 /// Of `point` from `shape`, both in the shape's own coordinates.
 SignedDistance signed_distance(const Shape& shape, const Vec3& point);
 
-/// Whether the signed distance of `point` may be below `range` (m >= 0): false saves asking.
+/// Whether the signed distance of `point` may be below `range` (m >= 0): a cheap test.
 bool may_be_within(const Shape& shape, const Vec3& point, double range);
 
 /// The capsule of `radius` (m) about a bone's segment at rest.
@@ -66,7 +68,7 @@ CapsuleShape capsule_about(const Bone& bone, double radius);
 /// plane without direction, a box whose axes are not square, a mesh without distance or bounds.
 void check_shape(const Shape& shape, const std::string& what);
 
-// The shapes of obstacles as triangles, for pictures.
+// The shapes of obstacles as triangles, for rendering.
 
 /// Triangles of a shape in its own coordinates, counter-clockwise seen from outside. A plane is a
 /// square of edge `size` (m) about its point; spheres and capsules are round to about 1 % of their

@@ -11,9 +11,9 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t particles_per_piece = 1024;
-constexpr std::size_t most_contacts = 3;  // of one particle at once, for the limits of the step
+constexpr std::size_t most_contacts = 3;  // of one particle at once, for the step limit
 
-/// What the particles of one piece give to the sums over all.
+/// Contributions of the particles of one piece to the sums.
 struct PieceSums {
   double energy = 0;
   std::vector<Reaction> reactions;
@@ -91,7 +91,7 @@ void add_fields(const Particles& particles, const World& world, const WorldNow& 
     forces.field[i] += field_force(world.fields[k], now.scales[k], particles.position(i), grain);
 }
 
-/// Adds the sums of the pieces, in their order, whichever thread made them.
+/// Adds the sums of the pieces in their order, whichever thread computed them.
 void add_up(const std::vector<PieceSums>& pieces, WorldForces& forces) {
   for (const PieceSums& piece : pieces) {
     forces.contact_energy += piece.energy;
@@ -130,7 +130,7 @@ double sum_of(const std::vector<double>& values) {
   });
 }
 
-/// The sum of what a particle can meet at once.
+/// The sum of the values that can act on one particle at once.
 double largest_few(std::vector<double> values) {
   std::sort(values.begin(), values.end(), std::greater<>());
   values.resize(std::min(values.size(), most_contacts));

@@ -17,7 +17,7 @@ constexpr std::size_t deepest = 200;
 constexpr std::array<std::string_view, 6> channel_names = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
-/// Reads the joints, each as it opens and closes; the open ones are a stack, not calls.
+/// Reads the joints; the open ones are a stack, not recursive calls.
 class Hierarchy {
  public:
   explicit Hierarchy(BvhText& text) : text_(text) {}
@@ -90,7 +90,7 @@ class Hierarchy {
     Open& open = open_.back();
     if (open.has_channels)
       throw text_.wrong("joint " + shown(joint().name) + " has CHANNELS twice", "remove one");
-    if (open.has_children)  // in which order would their values stand?
+    if (open.has_children)  // otherwise the order of their values would be ambiguous
       throw text_.wrong("CHANNELS after a joint within this one", "put them before it");
     open.has_channels = true;
     const std::int64_t count = text_.integer("the number of channels");
@@ -173,7 +173,7 @@ int read_frame_count(BvhText& text, std::size_t channels) {
   if (frames < 1)
     throw text.wrong("a clip of " + std::to_string(frames) + " frames",
                      "give it at least one, or leave out MOTION");
-  // Each value takes a digit and a space, but for the last.
+  // Each value takes a digit and a space, except the last.
   const std::uint64_t room = (text.rest().size() + 1) / 2;
   if (static_cast<std::uint64_t>(frames) > room / channels)
     throw text.wrong(std::to_string(frames) + " frames of " + std::to_string(channels) +
@@ -200,8 +200,8 @@ std::size_t words_in(std::string_view line) {
   return count;
 }
 
-/// In a file with one frame per line, the first line that holds more or fewer values: the place
-/// where the count went wrong, long before it is noticed.
+/// In a file with one frame per line, the first line with more or fewer values: where the count
+/// went wrong, long before the end of the file.
 void refuse_odd_line(const BvhText& text, const Bvh& bvh, std::string_view frames) {
   const std::size_t channels = bvh.channels();
   for (int frame = 0; frame < bvh.frames && !frames.empty();) {

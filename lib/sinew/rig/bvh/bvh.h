@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // BVH (Biovision hierarchy): a skeleton of joints, and the angles of each in every frame.
 //
-// There is no standard; this is what Biovision's and Motion Analysis' files have in common
-// (M. Meredith, S. Maddock: Motion Capture File Formats Explained, 2001). Taken as well: words in
-// any case, any spaces and ends of lines, frames that are split over lines, numbers as "+1", ".5"
-// or "1e-3", a byte order mark, names with spaces, several roots, joints without channels, channels
-// in any order, an End Site beside child joints (of several in one joint the first counts), with a
+//     const Rig rig = rig_of(read_bvh("walk.bvh"), {.scale = 0.01});
+//
+// There is no standard; this is what Biovision's and Motion Analysis' files have in common (M.
+// Meredith, S. Maddock: Motion Capture File Formats Explained, 2001). Also accepted: words in any
+// case, any spaces and line ends, frames that are split over lines, numbers such as "+1", ".5" or
+// "1e-3", a byte order mark, names with spaces, several roots, joints without channels, channels in
+// any order, an End Site beside child joints (of several in one joint the first counts), with a
 // name or "CHANNELS 0". A file that ends after its HIERARCHY is a skeleton without a clip. Not
-// taken: comments, scale channels.
+// accepted: comments, scale channels.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +35,7 @@ struct BvhJoint {
   bool operator==(const BvhJoint&) const = default;
 };
 
-/// What a file says, without any interpretation.
+/// The contents of a file, without any interpretation.
 struct Bvh {
   std::vector<BvhJoint> joints;  ///< parents come first
   int frames = 0;                ///< 0: the file holds a skeleton only
@@ -44,18 +46,17 @@ struct Bvh {
   bool operator==(const Bvh&) const = default;
 };
 
-/// Reads a file of up to 256 MiB, 10,000 joints and 200 of them in each other. Every number is
-/// finite and at most 1e9; the frame time lies between 1e-9 and 1e6 s. Throws bad input, naming
-/// line and column.
+/// Reads a file of up to 256 MiB, 10,000 joints and a depth of 200. Every number is finite and at
+/// most 1e9; the frame time is between 1e-9 and 1e6 s. Throws bad input with line and column.
 Bvh read_bvh(const std::filesystem::path& path);
 
 /// The same for a text; `file` names it in errors.
 Bvh parse_bvh(std::string_view text, const std::string& file);
 
-/// What the position channels of a joint are.
+/// The meaning of a joint's position channels.
 enum class BvhPositions {
-  replace,  ///< its place relative to its parent; the offset holds where there is no channel
-  add,      ///< its way from the offset
+  replace,  ///< position relative to the parent; the offset where there is no channel
+  add,      ///< displacement from the offset
 };
 
 struct BvhOptions {
@@ -69,13 +70,13 @@ struct BvhOptions {
   BvhPositions positions = BvhPositions::replace;
 };
 
-/// Skeleton and clip. At rest nothing is turned and each joint stands at its offset. The rotation
-/// of a joint is R1 R2 R3 of its rotation channels in their order (the first one outermost);
-/// its own rotation does not turn its position, wherever its position channels stand. The scene's
-/// y, a figure's left, is up x forward. Between frames rotations take the short way (slerp) and
-/// positions a straight line. A rate that does not divide the clip's duration ends it early, by
-/// less than one key. Without frames there is no clip. Throws bad input for options out of range,
-/// more than 20 million keys, and what skeleton_of() refuses.
+/// Skeleton and clip. At rest nothing is rotated and each joint is at its offset. The rotation of a
+/// joint is R1 R2 R3 of its rotation channels in their order (the first one outermost); its own
+/// rotation does not rotate its position, wherever its position channels are in the order. The
+/// scene's y, a figure's left, is up x forward. Between frames rotations are interpolated by slerp
+/// (the shortest rotation) and positions linearly. A rate that does not divide the clip's duration
+/// ends it early, by less than one key. Without frames there is no clip. Throws bad input for
+/// options out of range, more than 20 million keys, and what skeleton_of() rejects.
 Rig rig_of(const Bvh& bvh, const BvhOptions& options = {});
 
 }  // namespace sinew

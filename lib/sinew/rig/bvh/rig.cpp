@@ -12,8 +12,8 @@ namespace {
 
 constexpr double most_keys = 20e6;  // about 1 GB
 constexpr double largest_scale = 1e9;
-// In steps of a key that may lie after the last frame: files write 1/30 s as 0.033333, and a rate
-// of 30 must not lose the last frame of a thousand.
+// In key intervals; a key may be this much after the last frame: files write 1/30 s as 0.033333,
+// and a rate of 30 must not lose the last frame of a thousand.
 constexpr double slack = 0.05;
 
 /// "x", "+x" or "-x" as a vector of the file.
@@ -26,7 +26,7 @@ Vec3 direction(const std::string& name, const std::string& option) {
   return (name[0] == '-' ? -1 : 1) * Vec3::Unit(axis[0] - 'x');
 }
 
-/// Turns the file's directions into the scene's: forward into x, up into z.
+/// Rotates the file's directions into the scene's: forward into x, up into z.
 Mat3 axes_of(const BvhOptions& options) {
   const Vec3 up = direction(options.up, "up"), forward = direction(options.forward, "forward");
   if (up.dot(forward) != 0)
@@ -58,7 +58,7 @@ Frames frames_of(const Bvh& bvh, const BvhOptions& options) {
   return {options.start, last - options.start + 1};
 }
 
-/// The file's numbers as the scene's: meters, its directions, quaternions.
+/// The file's numbers in the scene's units: meters, its directions, quaternions.
 class Reading {
  public:
   Reading(const Bvh& bvh, const BvhOptions& options)
@@ -66,7 +66,7 @@ class Reading {
 
   Vec3 vector(const Vec3& given) const { return options_.scale * (axes_ * given); }
 
-  /// Of a joint whose channels begin in `column` of the frame.
+  /// Of a joint whose channels begin at `column` of the frame.
   Quat rotation(const BvhJoint& joint, std::size_t column, int frame) const {
     const double* values = bvh_.values.data() + frame * width_ + column;
     Quat rotation = Quat::Identity();
@@ -81,18 +81,18 @@ class Reading {
     return rotation;
   }
 
-  /// How far the joint is from its place at rest.
+  /// The joint's displacement from its place at rest.
   Vec3 translation(const BvhJoint& joint, std::size_t column, int frame) const {
     const double* values = bvh_.values.data() + frame * width_ + column;
     const bool replace = options_.positions == BvhPositions::replace;
-    Vec3 way = Vec3::Zero();
+    Vec3 shift = Vec3::Zero();
     for (const BvhChannel channel : joint.channels) {
       const double value = *values++;
       if (!is_position(channel)) continue;
       const int axis = axis_of(channel);
-      way[axis] = replace ? value - joint.offset[axis] : value;
+      shift[axis] = replace ? value - joint.offset[axis] : value;
     }
-    return vector(way);
+    return vector(shift);
   }
 
   static bool is_position(BvhChannel channel) { return channel <= BvhChannel::z_position; }
@@ -116,8 +116,8 @@ std::vector<Joint> joints_of(const Bvh& bvh, const Reading& reading) {
   return joints;
 }
 
-/// Neighbors on the same side of the sphere: q and -q are one rotation, and two ways to it.
-void choose_short_ways(std::vector<Quat>& rotations) {
+/// Consecutive quaternions on the same side of the sphere: q and -q are one rotation.
+void choose_shortest_turns(std::vector<Quat>& rotations) {
   for (std::size_t i = 1; i < rotations.size(); ++i)
     if (rotations[i].dot(rotations[i - 1]) < 0) rotations[i].coeffs() *= -1;
 }
@@ -183,7 +183,7 @@ class ClipMaker {
     const std::vector<double> times = times_every(1 / options_.rate, count_);
     resample(track.rotation, times);
     resample(track.translation, times);
-    choose_short_ways(track.rotation.values);
+    choose_shortest_turns(track.rotation.values);
     return track;
   }
 
@@ -196,11 +196,11 @@ class ClipMaker {
     curve.values.reserve(frames_.count);
     for (int i = 0; i < frames_.count; ++i)
       curve.values.push_back(reading_.rotation(joint, column, frames_.first + i));
-    choose_short_ways(curve.values);
+    choose_shortest_turns(curve.values);
     return curve;
   }
 
-  /// No curve for a joint that stays at its offset, as in files that give every joint positions.
+  /// No curve for a joint that stays at its offset, as in files with positions for every joint.
   Curve<Vec3> translations(const BvhJoint& joint, std::size_t column) const {
     Curve<Vec3> curve;
     curve.interpolation = Interpolation::linear;
@@ -209,7 +209,7 @@ class ClipMaker {
     for (int i = 0; i < frames_.count; ++i)
       curve.values.push_back(reading_.translation(joint, column, frames_.first + i));
     if (std::all_of(curve.values.begin(), curve.values.end(),
-                    [](const Vec3& way) { return way.isZero(0); }))
+                    [](const Vec3& shift) { return shift.isZero(0); }))
       curve.values.clear();
     else
       curve.times = times_every(bvh_.frame_time, frames_.count);

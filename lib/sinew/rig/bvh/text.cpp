@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr double largest = 1e9;            // far beyond any body, and its square is finite
+constexpr double largest = 1e9;            // far larger than any body, and its square is finite
 constexpr std::size_t longest_name = 200;  // bytes
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
@@ -23,7 +23,7 @@ std::size_t letter_size(unsigned first) {
   return first < 0x80 ? 1 : first < 0xC0 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
 }
 
-/// Takes a letter in UTF-8 off the text; false where none stands (RFC 3629), or none to be shown.
+/// Removes a UTF-8 letter from the text; false where there is none (RFC 3629), or no printable one.
 bool take_letter(std::string_view& text) {
   constexpr std::uint32_t least[] = {0, 0x20, 0xA0, 0x800, 0x10000};  // by size; less is control,
   const unsigned first = static_cast<unsigned char>(text[0]);         // or written too long
@@ -51,7 +51,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Whether a number stands after a plus.
+/// Whether a number follows a plus.
 bool follows_plus(std::string_view text) {
   return text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
 }
@@ -141,7 +141,7 @@ double BvhText::number(const char* what) {
   start_ = at_;
   const char* const end = text_.data() + text_.size();
   const char* begin = text_.data() + at_;
-  if (follows_plus(rest())) ++begin;  // which from_chars does not know
+  if (follows_plus(rest())) ++begin;  // which from_chars does not accept
   double value = 0;
   const auto read = std::from_chars(begin, end, value);
   const bool whole =

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The words and numbers of a BVH file, each with its place.
+//
+//     BvhText text(path, contents);
+//     text.expect("HIERARCHY", "begin the file with HIERARCHY");
 #pragma once
 
 #include <cstddef>
@@ -11,18 +14,18 @@
 
 namespace sinew {
 
-/// Whether two words are the same but for their case.
+/// Whether two words are equal but for case.
 bool same_word(std::string_view a, std::string_view b);
 
-/// Goes through a text word by word. Words end at spaces and at the end of a line (LF, CRLF or
-/// CR); '{', '}' and ':' are words of their own. Errors name the word that came last.
+/// Reads a text word by word. Words end at spaces and line ends (LF, CRLF or CR); '{', '}' and ':'
+/// are words of their own. Errors name the last word.
 class BvhText {
  public:
-  /// `text` must stay; `file` is its name in errors.
+  /// `text` must outlive this; `file` is its name in errors.
   BvhText(std::string file, std::string_view text);
 
-  bool at_end();                     ///< nothing but space is left
-  std::string_view peek();           ///< the word that comes next, "" at the end
+  bool at_end();                     ///< only space is left
+  std::string_view peek();           ///< the next word, "" at the end
   std::string_view next();           ///< takes it
   bool take(std::string_view word);  ///< takes the next word if it is this one, in any case
   void expect(std::string_view word, const char* cure);  ///< takes it, or throws bad input
@@ -33,8 +36,8 @@ class BvhText {
   double number(const char* what);         ///< throws bad input unless finite, and at most 1e9
   std::int64_t integer(const char* what);  ///< throws bad input unless one
 
-  std::string_view rest() const { return text_.substr(at_); }  ///< what is not taken yet
-  std::size_t position() const { return start_; }              ///< of the word taken last
+  std::string_view rest() const { return text_.substr(at_); }  ///< what has not been read yet
+  std::size_t position() const { return start_; }              ///< of the last word
   Place place() const { return place(start_); }
   Place place(std::size_t position) const;
   Place place_of(std::string_view part) const {  ///< of a part of rest()
