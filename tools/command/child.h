@@ -11,7 +11,7 @@ namespace sinew {
 // stopping leaves nothing torn.
 
 /// Whether SIGHUP was ignored when the program began, as under nohup.
-bool survives_its_terminal();
+bool ignores_hangup();
 
 /// From here on SIGINT and SIGTERM only set a flag; a second one ends the program at once. So does
 /// SIGHUP unless it is ignored, however often it comes.

@@ -36,7 +36,7 @@ class Stage {
   /// Put things here.
   vtkRenderer& renderer();
   /// Draws what was put there and clears the stage.
-  Exposure shoot();
+  Exposure render();
 
  private:
   struct Parts;
