@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of written arrays. The writer takes units, component names, number types and active
-// arrays from it, the README its tables: to write one more array, add its row in arrays.cpp.
+// The table of written arrays, from which the writer takes units, component names, number types and
+// active arrays, and the README its tables. To write another array, add its row in arrays.cpp.
+//
+//     const WrittenArray* velocity = find_written("particles", ArrayPlace::point, "velocity");
 #pragma once
 
 #include <span>
@@ -14,7 +16,7 @@ enum class ArrayPlace { point, cell, field };
 /// How numbers are stored: Int32, Float32 (Float64 in double precision), always Float64, or bytes.
 enum class ArrayNumbers { whole, real, exact, bytes };
 
-/// What a viewer shows first: the active scalars and vectors of the points.
+/// The arrays that a viewer shows first: the active scalars and vectors of the points.
 enum class ArrayRole { plain, scalars, vectors };
 
 struct WrittenArray {

@@ -74,7 +74,7 @@ ThinSurface thin_surface(const Triangles& surface, std::size_t most);
 
 /// A playback without frames that selects what will be kept: all of a small run; of a large one,
 /// frames at even intervals including the first and the last, particles selected at random with a
-/// fixed seed, and a coarser skin. `share`: fraction of a page's bytes that it may take.
+/// hash of their index, and a coarser skin. `share`: fraction of a page's bytes that it may take.
 Playback plan_playback(const RestBody& rest, std::size_t frames, double share = 1);
 
 /// Inserts a frame in order of time.
