@@ -3,7 +3,7 @@
 // them are skipped and referred to in place. Files with declarations or entities of their own are
 // refused.
 //
-//     for (const XmlElement& element : xml_elements(text)) use(element.path, element.text);
+//     const std::vector<XmlElement> elements = xml_elements(text, "VTKFile/AppendedData");
 #pragma once
 
 #include <functional>

@@ -2,7 +2,8 @@
 // The table of metrics, from which metrics.csv, metrics.json, the report, --fail-on and the
 // README's table are made. To add a metric, add its member in frame.h and its row in table.cpp.
 //
-//     for (const Metric& metric : metrics_table()) print(metric.name, frame.*metric.value);
+//     const Metric& metric = metrics_table()[metric_index("volume_error")];
+//     const double value = frame.*metric.value;
 #pragma once
 
 #include <span>
