@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of written arrays, always or on request. The writer takes units, component names,
-// number types and active arrays from it, --arrays and output.arrays their names, the README its
-// tables: to write one more array, add its row in arrays.cpp.
+// The table of written arrays, always or on request, from which the writer takes units, component
+// names, number types and active arrays, --arrays and output.arrays their names, and the
+// documentation its tables. To write another array, add its row in arrays.cpp.
 //
 //     const WrittenArray* row = find_written("particles", ArrayPlace::point, "velocity");
 #pragma once
@@ -17,7 +17,7 @@ enum class ArrayPlace { point, cell, field };
 /// How numbers are stored: Int32, Float32 (Float64 in double precision), always Float64, or bytes.
 enum class ArrayNumbers { whole, real, exact, bytes };
 
-/// What a viewer shows first: the active scalars and vectors of the points.
+/// The arrays that a viewer shows first: the active scalars and vectors of the points.
 enum class ArrayRole { plain, scalars, vectors };
 
 struct WrittenArray {
