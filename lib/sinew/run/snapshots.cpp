@@ -116,8 +116,8 @@ DrawnValues::Range DrawnValues::range_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return value != value; });
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const std::size_t stray = values.size() / 100;
-  const double low = values[stray], high = values[values.size() - 1 - stray];
+  const std::size_t outliers = values.size() / 100;
+  const double low = values[outliers], high = values[values.size() - 1 - outliers];
   return {values.front() >= 0 && low < high / 2 ? 0 : low, high};
 }
 
