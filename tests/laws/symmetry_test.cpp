@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a body does knows no direction, no place, no hand, no even motion of everything, and no
-// numbers of its particles: runs that differ only in these are the same, turned, but for rounding.
+// The motion of a body does not depend on direction, place, handedness, uniform motion, or the
+// numbering of its particles: runs that differ only in these are the same, transformed, but for
+// rounding.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -31,7 +31,7 @@ Settings everything_at_once() {
 
 Points box() { return test::fcc_box(5, 5, half_planes, r); }
 
-/// A body of its own start, in the ways that serve it.
+/// A body with its own start, with the steppers that support it.
 struct Way {
   std::string name;
   Settings settings;
@@ -117,7 +117,7 @@ TEST(Symmetry, AShiftedSceneRunsShifted) {
   expect_same_when_moved(Mat3::Identity(), {0.4, -1.7, 0.9});
 }
 
-/// A twist turns with the hand: mirrored it is the opposite one, as are angles about an axis.
+/// A twist changes sign in a mirror, as do angles about an axis.
 TEST(Symmetry, AMirroredSceneRunsMirrored) {
   const Points rest = box();
   const Mat3 mirror = Vec3(1, -1, 1).asDiagonal();
@@ -132,7 +132,7 @@ TEST(Symmetry, AMirroredSceneRunsMirrored) {
   }
 }
 
-/// The place of each point's image by y -> -y.
+/// The index of each point's image by y -> -y.
 std::vector<std::size_t> images(const Points& points) {
   std::vector<std::size_t> image;
   for (const Vec3& point : points) {
@@ -147,8 +147,8 @@ std::vector<std::size_t> images(const Points& points) {
   return image;
 }
 
-/// Without a joint zone: within one, flesh inside a bend may come to the far side of a bone's axis,
-/// 180 degrees about it from where it belongs, and rounding tells which way it is turned back.
+/// Without a joint zone: in one, tissue inside a bend may move to the far side of a bone's axis,
+/// 180 degrees from its place, and rounding decides in which direction it is rotated back.
 TEST(Symmetry, ASymmetricBodyThatBendsStaysSymmetric) {
   const Points rest = box();
   const std::vector<std::size_t> image = images(rest);
@@ -172,7 +172,7 @@ std::vector<std::size_t> shuffled(std::size_t size) {
   return order;
 }
 
-TEST(Symmetry, RenumberedParticlesGoTheSameWays) {
+TEST(Symmetry, RenumberedParticlesMoveAlike) {
   const Points rest = box();
   const std::vector<std::size_t> order = shuffled(rest.size());
   Points other_rest;
@@ -187,7 +187,7 @@ TEST(Symmetry, RenumberedParticlesGoTheSameWays) {
   }
 }
 
-/// The paper's damping and the bones' know only differences of velocity.
+/// The paper's damping and the bones' depend only on differences of velocity.
 TEST(Symmetry, AnEvenMotionOfEverythingChangesNothing) {
   const Points rest = box();
   const Vec3 wind(0.3, -0.2, 0.4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The balance of energy: what the bones put in is stored or lost, and nothing else.
+// The balance of energy: the work of the bones is stored or lost, and nothing else.
 #include <gtest/gtest.h>
 
 #include "world.h"
@@ -16,7 +16,7 @@ Settings bend_scene(Integrator integrator) {
   return settings;
 }
 
-/// What of the bones' work is neither stored nor lost, relative to the work, after `time`.
+/// The part of the bones' work that is neither stored nor lost, relative to the work, after `time`.
 double residual(const Settings& settings, double time) {
   Simulation simulation = test::make_simulation(settings, test::fcc_box(7, 7, 25, r));
   const double start = simulation.energies().stored();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small bodies go through all that a scene can ask of the physics for some steps; where they end is
-// compared with the files in golden/.
-#include "golden.h"
-
+// Small bodies run all features of the physics for some steps; their final states are compared with
+// the files in golden/.
 #include <gtest/gtest.h>
 
 #include <sinew/physics/rest_stability.h>
@@ -11,6 +9,8 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
+#include "golden.h"
 #include "world.h"
 
 namespace sinew {
@@ -43,7 +43,7 @@ struct Story {
     settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.05, 12)})};
   }
 
-  /// Where it ends.
+  /// The final state.
   std::string end() const {
     Body body = test::make_body(settings, rest);
     body.world = std::make_shared<const World>(world);
@@ -133,7 +133,7 @@ TEST(Golden, MaterialsEndWhereTheyDid) {
     bonded.name += " that creeps and breaks";
     bonded.shake = 0.3 * r;
     std::swap(bonded.rest.front(),
-              bonded.rest[bonded.rest.size() / 2]);  // one that is held all around
+              bonded.rest[bonded.rest.size() / 2]);  // one with neighbors on all sides
     bonded.settings.material.yield_strain = 0.05;
     bonded.settings.material.creep_rate = 40;
     bonded.settings.material.breaking_strain = 0.1;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/physics/world/obstacle.h>
-#include <sinew/scene/rig.h>
-
 #include <gtest/gtest.h>
 
 #include <sinew/physics/forces.h>
+#include <sinew/physics/world/obstacle.h>
 #include <sinew/physics/world/world.h>
+#include <sinew/scene/rig.h>
+
 #include "expect_error.h"
 #include "world.h"
 
@@ -61,7 +61,7 @@ TEST(Obstacles, GiveNothingButWhatTheyAreGiven) {
   EXPECT_LT((forces.total(0) - Vec3(0, 0, 200 * 0.4 * r)).norm(), 1e-14);
 }
 
-/// The same, with friction that stops sliding within the step.
+/// The same, with friction that stops sliding in the step.
 Particles stopped(const World& world, const Vec3& position, const Vec3& velocity, int steps,
                   double dt) {
   Particles one = particles_at({position}, r, mass);
@@ -321,7 +321,7 @@ TEST(Obstacles, AStillOneStaysAndOneWithoutMotionIsInTheScene) {
   EXPECT_EQ(Obstacle{}.at(5, {}).frame.rotation, Mat3(Mat3::Identity()));
 }
 
-TEST(Obstacles, OneThatRidesMovesWithItsBone) {
+TEST(Obstacles, AnAttachedOneMovesWithItsBone) {
   Settings scene = test::box_scene();
   scene.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 90)})};
   const Skeleton skeleton = skeleton_of(scene);
@@ -342,7 +342,7 @@ TEST(Obstacles, OneThatRidesMovesWithItsBone) {
   EXPECT_NEAR((at(0.4).velocity_at(place(0.4)) - velocity).norm(), 0, 1e-8);
 }
 
-/// A shaken ball of particles between two moving obstacles that rub.
+/// A shaken ball of particles between two moving obstacles with friction.
 struct Squeezed {
   World world;
   Particles particles;
@@ -389,7 +389,7 @@ TEST(Obstacles, ReactionsAreTheOppositeOfTheForcesAndOfTheirPower) {
   EXPECT_GT(powers.lost, 0);
 }
 
-/// The energy stored dt later, were particles and obstacles to keep their velocities.
+/// The energy stored dt later, if particles and obstacles kept their velocities.
 double drifted_energy(Squeezed scene, double dt) {
   for (std::size_t i = 0; i < scene.particles.size(); ++i)
     scene.particles.set_position(i, scene.particles.position(i) + dt * scene.particles.velocity(i));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A simulation that is saved and restored goes on with the bits of one that never stopped, wherever
-// it stops and on any number of threads, while particles are sorted and measured anew.
+// A simulation that is saved and restored continues with the bits of one that never stopped,
+// wherever it stops and on any number of threads, while particles are sorted and units chosen
+// again.
 #include <sinew/core/parallel.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
 #include "expect_error.h"
 #include "ways.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double r = 0.01;
 
-/// A world of which as many equal simulations can be begun as are needed.
+/// A world from which any number of equal simulations can be started.
 struct World {
   std::string name;
   Settings settings;
@@ -45,7 +47,7 @@ World bend(const std::string& name, Precision precision, int planes = 25) {
   return world;
 }
 
-/// Comes in no order and flows.
+/// Begins in no order and flows.
 World melt(const std::string& name, Precision precision) {
   World world{name,
               test::in(precision, test::unbound(test::box_scene(15))),
@@ -58,7 +60,7 @@ World melt(const std::string& name, Precision precision) {
   return world;
 }
 
-/// Flies so far that whole numbers need a measure of their own.
+/// Flies so far that fixed-point units must be chosen again.
 World flight(const std::string& name) {
   World world{name,
               test::in(Precision::binary32, test::unbound(test::box_scene(9))),
@@ -91,7 +93,7 @@ World tearing(const std::string& name, MaterialModel model) {
   return world;
 }
 
-/// Between a wall that comes and a wind, in a medium, held at both ends, with a muscle that
+/// Between an approaching wall and a wind, in a medium, held at both ends, with a muscle that
 /// twitches.
 World surrounded(const std::string& name, Integrator integrator) {
   World world = with(bend(name, Precision::binary64, 17), integrator);
@@ -143,7 +145,7 @@ std::vector<World> worlds() {
           surrounded("VerletSurrounded", Integrator::velocity_verlet)};
 }
 
-/// All that a simulation tells of a moment.
+/// All results of a simulation at one moment.
 struct Told {
   std::uint64_t state = 0;
   std::vector<double> energies;
@@ -171,7 +173,7 @@ Told tell(Simulation& simulation) {
   return told;
 }
 
-/// Telling the state on the way leaves no trace.
+/// Saving the state during a run changes nothing.
 bool is_told(std::int64_t step) { return step % 5 == 0; }
 
 void go_on(Simulation& simulation, std::int64_t steps) {
@@ -183,7 +185,7 @@ void go_on(Simulation& simulation, std::int64_t steps) {
 
 class Resumed : public testing::TestWithParam<World> {};
 
-/// Past the first look at the order of the particles.
+/// Past the first check of the order of the particles.
 constexpr std::int64_t last = 1100;
 
 TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
@@ -206,7 +208,7 @@ TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
     });
 }
 
-TEST_P(Resumed, TellsTheSameOfTheMomentItWasSavedAt) {
+TEST_P(Resumed, GivesTheSameResultsAtTheMomentItWasSavedAt) {
   Simulation simulation = GetParam().begin();
   for (const std::int64_t moment : {0, 3, 90}) {
     go_on(simulation, moment);
@@ -235,7 +237,7 @@ TEST_P(Resumed, StopsAgainAndAgainWithoutATrace) {
 INSTANTIATE_TEST_SUITE_P(Worlds, Resumed, testing::ValuesIn(worlds()),
                          [](const auto& one) { return one.param.name; });
 
-TEST(Resume, GoesThroughSortsMeasuresAndBrokenBonds) {
+TEST(Resume, GoesThroughSortsUnitsAndBrokenBonds) {
   for (const Precision precision : test::precisions) {
     Simulation simulation = melt("Melt", precision).begin();
     const auto before = simulation.save().order;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same bits from every set of instructions and any number of threads, while lists are made anew
-// under way.
+// The same bits from every instruction set and any number of threads, while lists are rebuilt.
 #include <sinew/core/parallel.h>
+
 #include "ways.h"
 
 namespace sinew {
@@ -21,7 +21,7 @@ Settings bend_and_twist(int half_planes, Precision precision) {
   return settings;
 }
 
-/// All that a run tells, bit by bit.
+/// All results of a run, bit by bit.
 struct Told {
   std::uint64_t state;
   std::vector<double> energies;
@@ -161,7 +161,7 @@ TEST(SameBits, OfBodiesThatComeInNoOrderAndAreSorted) {
   }
 }
 
-TEST(SameBits, HoweverOftenForcesAndEnergiesAreAskedFor) {
+TEST(SameBits, HoweverOftenForcesAndEnergiesAreEvaluated) {
   const Points rest = test::fcc_box(7, 7, 33, r);
   for (const Precision precision : test::precisions)
     for (const Integrator integrator :

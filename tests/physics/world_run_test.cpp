@@ -6,6 +6,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -50,7 +51,7 @@ class Box {
     return simulation;
   }
 
-  /// Runs, and holds the balance of energies within a share of what was put in or lost.
+  /// Runs, and keeps the balance of energies within a share of the work or losses.
   Energies balanced(double duration) const {
     Simulation simulation = run();
     const Energies start = simulation.energies();
@@ -99,7 +100,7 @@ TEST(WorldRun, AnEmptyWorldChangesNoBit) {
 TEST(WorldRun, ABodyFallsOnAFloorAndRests) {
   Box box;
   box.settings.solver.gravity = {0, 0, -9.81};
-  box.settings.material.damping = 2;  // the body's own tremble dies out sooner
+  box.settings.material.damping = 2;  // the body's own vibration decays sooner
   box.world.obstacles = {box.obstacle(PlaneShape{{0, 0, -2.5 * r}, {0, 0, 1}}, 0.5)};
   const Energies end = box.balanced(0.8);
   EXPECT_GT(end.contact, 0);
@@ -146,7 +147,7 @@ TEST(WorldRun, PinsHoldWhatTheyHave) {
   EXPECT_LT(most, 2 * r);
 }
 
-TEST(WorldRun, PinsOnBonesRideAndDoTheirWork) {
+TEST(WorldRun, PinsOnBonesMoveAndDoTheirWork) {
   for (const auto integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Box box;
     box.settings.solver.integrator = integrator;
@@ -227,7 +228,7 @@ bool rests(double share) {
   return simulation.energies().kinetic < 1e-6;
 }
 
-TEST(WorldRun, TheStepLimitKnowsTheObstacles) { EXPECT_TRUE(rests(0.99)); }
+TEST(WorldRun, TheStepLimitCountsTheObstacles) { EXPECT_TRUE(rests(0.99)); }
 
 }  // namespace
 }  // namespace sinew

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/core/vector.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -19,7 +20,7 @@ Curve<double> numbers(Interpolation kind) {
   return curve;
 }
 
-/// Keys with random rotations, by the short way or by turns of up to two and a half times round.
+/// Keys with random rotations, by the shortest rotations or by up to two and a half turns.
 RotationCurve rotations(Interpolation kind, bool far) {
   std::mt19937 random(11);
   RotationCurve curve;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/joint_zones.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
-
 #include <random>
 
 #include <sinew/rig/binding.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {

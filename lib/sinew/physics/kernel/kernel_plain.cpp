@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define SINEW_PLAIN_LANES
-#include <sinew/physics/kernel/tables.h>
-
 #include <sinew/physics/kernel/functions.h>
+#include <sinew/physics/kernel/tables.h>
 
 namespace sinew::kernel {
 

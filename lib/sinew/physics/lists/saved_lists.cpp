@@ -57,7 +57,7 @@ void ListStepper<Real>::restore_units(const WholeNumbers& saved) {
   const bool sane = saved.length > 0 && std::isfinite(saved.length) && saved.origin.allFinite() &&
                     saved.box.min().allFinite() && saved.box.max().allFinite() &&
                     saved.traveled >= 0 && std::isfinite(saved.traveled);
-  if (!sane) throw not_a_state("its units is none");
+  if (!sane) throw not_a_state("its units are invalid");
   units_.length = saved.length;
   units_.origin = saved.origin;
   units_box_ = saved.box;
