@@ -373,8 +373,7 @@ std::string counts_after_250_steps(const std::string& name, Simulation simulatio
   return row + ',' + test::rounded(counts.outer) + ',' + test::rounded(counts.inner) + '\n';
 }
 
-/// A change of these numbers changes how long a run takes, not its result: check whether it was
-/// intended.
+/// A change of these numbers changes the duration of a run, not its result.
 TEST(ListsThrough, StoriesAreBuiltAsOftenAndAsLongAsTheyWere) {
   std::string text = "story,rebuilds,prunings,checks,escaped,sorts,outer,inner\n";
   for (const Precision precision : test::precisions) {

@@ -100,8 +100,8 @@ std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& m
     if (!bone.limits.any()) continue;
     LimitPassed passed;
     for (const double time : moments_of(track, motion)) {
-      LocalMotion asked = track.at(motion.start + time - motion.preroll);
-      const Excess excess = limit(bone, asked);
+      LocalMotion requested = track.at(motion.start + time - motion.preroll);
+      const Excess excess = limit(bone, requested);
       if (excess.any() && !passed.most.any()) passed.bone = track.bone, passed.time = time;
       passed.most.swing = std::max(passed.most.swing, excess.swing);
       passed.most.twist = std::max(passed.most.twist, excess.twist);

@@ -43,12 +43,12 @@ struct Support {
   double h = 0;
 };
 
-/// Empty where fewer than `wanted` particles are closer than `wide`.
+/// Empty where fewer than `wanted` particles are closer than `limit`.
 std::optional<Support> support_within(const CellGrid& grid, const Points& points,
-                                      const Vec3& vertex, double range, double wide,
+                                      const Vec3& vertex, double range, double limit,
                                       std::size_t wanted) {
-  std::vector<Near> near = within(grid, points, vertex, margin * wide);
-  if (near.size() < wanted || near[wanted - 1].distance >= wide) return std::nullopt;
+  std::vector<Near> near = within(grid, points, vertex, margin * limit);
+  if (near.size() < wanted || near[wanted - 1].distance >= limit) return std::nullopt;
   const double h = std::max(range, margin * near[wanted - 1].distance);
   std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
   return Support{std::move(near), h};
@@ -61,12 +61,12 @@ std::vector<Support> supports_of(const Points& vertices, const Points& points, d
   const std::size_t wanted = std::min(least_particles, points.size());
   std::vector<std::uint32_t> left(vertices.size());
   std::iota(left.begin(), left.end(), 0);
-  for (double wide = range; !left.empty(); wide *= 2) {
-    const CellGrid grid(points, margin * wide);
+  for (double limit = range; !left.empty(); limit *= 2) {
+    const CellGrid grid(points, margin * limit);
     std::vector<char> found(left.size());
     parallel_for(left.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
-        if (auto support = support_within(grid, points, vertices[left[k]], range, wide, wanted))
+        if (auto support = support_within(grid, points, vertices[left[k]], range, limit, wanted))
           supports[left[k]] = *std::move(support), found[k] = 1;
     });
     std::size_t k = 0;
