@@ -132,7 +132,7 @@ Model by(Integrator integrator, Model model) {
 }
 
 /// With every stepper that supports them.
-std::vector<Model> both_ways(const Model& model) {
+std::vector<Model> with_both_steppers(const Model& model) {
   Model cells = model;
   cells.settings = test::with_cells(model.settings);
   cells.name += ", cells";
@@ -142,14 +142,14 @@ std::vector<Model> both_ways(const Model& model) {
 std::vector<Model> damped() {
   std::vector<Model> models{bonded_pair(0.3)};
   for (const Model& model : {beside_a_bone(0.4), along_a_bone(0.4), beside_a_bone(2)})
-    for (const Model& way : both_ways(model)) models.push_back(way);
+    for (const Model& one : with_both_steppers(model)) models.push_back(one);
   return models;
 }
 
 std::vector<Model> undamped() {
   std::vector<Model> models{bonded_pair(0)};
   for (const Model& model : {beside_a_bone(0), along_a_bone(0)})
-    for (const Model& way : both_ways(model)) models.push_back(way);
+    for (const Model& one : with_both_steppers(model)) models.push_back(one);
   return models;
 }
 

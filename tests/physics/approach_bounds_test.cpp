@@ -177,8 +177,8 @@ TEST(Contacts, ATurnBringsParticlesNearerTheFurtherTheyHaveEscaped) {
 
 TEST(Contacts, GroupsFarApartMayMoveFreelyAtFirst) {
   const Scene scene = two_bars();  // 10 r between their surfaces
-  const auto pushed = [](double way) {
-    return std::vector<RigidMotion>{{}, {Mat3::Identity(), Vec3(-way, 0, 0)}};
+  const auto pushed = [](double shift) {
+    return std::vector<RigidMotion>{{}, {Mat3::Identity(), Vec3(-shift, 0, 0)}};
   };
   EXPECT_EQ(scene.contacts.approach(pushed(2 * r)), 0);
   EXPECT_GT(scene.contacts.approach(pushed(10 * r)), range - b);

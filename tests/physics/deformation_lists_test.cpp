@@ -115,11 +115,11 @@ Story shake() {
 /// Ten lengths in a second, the body moving with it from the start.
 Story travel() {
   Story story{"Travel", test::box_scene(25), test::fcc_box(7, 7, 25, r)};
-  const Vec3 way(0, 7 * height(25), 7 * height(25));
-  story.settings.tracks = {test::track("lower", {key(0, {0, 0, 0}), key(0.5, way)}),
+  const Vec3 shift(0, 7 * height(25), 7 * height(25));
+  story.settings.tracks = {test::track("lower", {key(0, {0, 0, 0}), key(0.5, shift)}),
                            test::track("upper", {test::bend_key(0, 0), test::bend_key(0.5, 60)})};
   story.settings.tracks[0].interpolation = Interpolation::linear;
-  story.velocity = way / 0.5;
+  story.velocity = shift / 0.5;
   story.least_rebuilds = 0;
   return story;
 }

@@ -103,11 +103,11 @@ TEST(Energy, OfAFreeDampedBodyIsInTheLedgerAtEveryMoment) {
 TEST(Energy, AtRestIsTheCohesionOfAllBonds) {
   Simulation simulation = test::make_simulation(test::box_scene(25), test::fcc_box(5, 5, 9, r));
   const PairForce pair = simulation.body().material.pair;
-  int partners = 0;
-  for (const int count : simulation.forces().neighbors) partners += count;
+  int neighbors = 0;
+  for (const int count : simulation.forces().neighbors) neighbors += count;
   const double cohesion = pair.k2 * std::pow(pair.b - pair.a, 3) / 6;
   const Energies energies = simulation.energies();
-  EXPECT_NEAR(energies.pair, -cohesion * partners / 2, 1e-10 * cohesion * partners);
+  EXPECT_NEAR(energies.pair, -cohesion * neighbors / 2, 1e-10 * cohesion * neighbors);
   EXPECT_NEAR(energies.kinetic, 0, 1e-25);
   EXPECT_NEAR(energies.bone, 0, 1e-25);
   EXPECT_EQ(energies.gravity, 0);

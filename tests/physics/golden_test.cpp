@@ -153,9 +153,9 @@ TEST(Golden, BonesPullAsTheyDid) {
   Story anchor("anchor");
   anchor.settings.binding.force = BoneForce::anchor;
   text += anchor.end();
-  for (const auto& [search, way] :
+  for (const auto& [search, word] :
        {std::pair{NeighborSearch::cells, "cells"}, {NeighborSearch::lists, "lists"}}) {
-    Story strong(std::string("strengths of each bone by ") + way);
+    Story strong(std::string("strengths of each bone by ") + word);
     strong.settings.solver.neighbor_search = search;
     strong.settings.tracks[0].keys[1].twist = 20;
     strong.settings.bones[1].stiffness = 2;
@@ -192,11 +192,11 @@ TEST(Golden, WorldsPushAsTheyDid) {
   ball.motion = [](double time, const Pose&) {
     return ObstaclePose{{time * Vec3(0.3, 0, 0), Mat3::Identity()}, {0.3, 0, 0}, {0, 2, 0}};
   };
-  Obstacle rider = obstacle(walls, "rider",
-                            CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
-  rider.motion = attached_to_bone(1, skeleton_of(walls.settings).bones[1], {});
+  Obstacle attached = obstacle(
+      walls, "rider", CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
+  attached.motion = attached_to_bone(1, skeleton_of(walls.settings).bones[1], {});
   walls.world.obstacles = {
-      obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, rider,
+      obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, attached,
       obstacle(
           walls, "box",
           BoxShape{{0, side + 0.015, 0.03}, {0.01, 0.018, 0.02}, test::turned({1, 2, 0}, 20)})};

@@ -131,8 +131,8 @@ TEST(Obstacles, WithStopSlidingABlockHoldsFastBelowTheAngleOfFriction) {
   const Particles one = stopped(incline.world, start, speed * incline.downhill, 5000, dt);
   EXPECT_LT(one.velocity(0).norm(), 1e-12);
   const double brake = g * (mu * std::cos(radians(angle)) - std::sin(radians(angle)));
-  const double way = speed * speed / (2 * brake);
-  EXPECT_NEAR((one.position(0) - start).dot(incline.downhill), way, speed * dt);
+  const double distance = speed * speed / (2 * brake);
+  EXPECT_NEAR((one.position(0) - start).dot(incline.downhill), distance, speed * dt);
   const Particles later = stopped(incline.world, one.position(0), Vec3::Zero(), 5000, dt);
   EXPECT_NEAR((later.position(0) - one.position(0)).norm(), 0, 1e-12);
 }

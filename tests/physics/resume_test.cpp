@@ -146,31 +146,31 @@ std::vector<World> worlds() {
 }
 
 /// All results of a simulation at one moment.
-struct Told {
+struct Results {
   std::uint64_t state = 0;
   std::vector<double> energies;
   Points forces;
   std::vector<int> neighbors;
   std::vector<std::int32_t> broken;
 
-  bool operator==(const Told&) const = default;
+  bool operator==(const Results&) const = default;
 };
 
-Told tell(Simulation& simulation) {
+Results results_of(Simulation& simulation) {
   const Energies of = simulation.energies();
   const Forces& forces = simulation.forces();
-  Told told{state_hash(simulation.particles()),
-            {of.kinetic, of.gravity, of.pair, of.bone, of.work_of_bones, of.dissipation, of.contact,
-             of.work_of_world},
-            {},
-            forces.neighbors,
-            {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
+  Results results{state_hash(simulation.particles()),
+                  {of.kinetic, of.gravity, of.pair, of.bone, of.work_of_bones, of.dissipation,
+                   of.contact, of.work_of_world},
+                  {},
+                  forces.neighbors,
+                  {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
   for (std::size_t i = 0; i < simulation.particles().size(); ++i)
     for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
-      told.forces.push_back((*part)[i]);
-  told.forces.insert(told.forces.end(), forces.world.begin(), forces.world.end());
-  for (const Reaction& on : simulation.reactions_of_obstacles()) told.forces.push_back(on.force);
-  return told;
+      results.forces.push_back((*part)[i]);
+  results.forces.insert(results.forces.end(), forces.world.begin(), forces.world.end());
+  for (const Reaction& on : simulation.reactions_of_obstacles()) results.forces.push_back(on.force);
+  return results;
 }
 
 /// Saving the state during a run changes nothing.
@@ -196,7 +196,7 @@ TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
     saved.push_back(unbroken.save());
   }
   while (unbroken.steps() < last) unbroken.step();
-  const Told expected = tell(unbroken);
+  const Results expected = results_of(unbroken);
   int threads = 0;
   for (const SimulationState& state : saved)
     with_threads(1 + threads++ % 3, [&] {
@@ -204,7 +204,7 @@ TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
       resumed.restore(state);
       EXPECT_EQ(resumed.steps(), state.steps);
       while (resumed.steps() < last) resumed.step();
-      EXPECT_TRUE(tell(resumed) == expected) << "from step " << state.steps;
+      EXPECT_TRUE(results_of(resumed) == expected) << "from step " << state.steps;
     });
 }
 
@@ -213,10 +213,10 @@ TEST_P(Resumed, GivesTheSameResultsAtTheMomentItWasSavedAt) {
   for (const std::int64_t moment : {0, 3, 90}) {
     go_on(simulation, moment);
     const SimulationState state = simulation.save();
-    const Told expected = tell(simulation);
+    const Results expected = results_of(simulation);
     Simulation resumed = GetParam().begin();
     resumed.restore(state);
-    EXPECT_TRUE(tell(resumed) == expected) << "step " << moment;
+    EXPECT_TRUE(results_of(resumed) == expected) << "step " << moment;
   }
 }
 
@@ -231,7 +231,7 @@ TEST_P(Resumed, StopsAgainAndAgainWithoutATrace) {
     resumed = std::make_unique<Simulation>(GetParam().begin());
     resumed->restore(state);
   }
-  EXPECT_TRUE(tell(*resumed) == tell(unbroken));
+  EXPECT_TRUE(results_of(*resumed) == results_of(unbroken));
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Resumed, testing::ValuesIn(worlds()),
@@ -308,7 +308,7 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   refuse(bend("", binary64), bad, "energies");
   bad = bend("", binary32).begin().save();
   bad.whole_numbers.length = 0;
-  refuse(bend("", binary32), bad, "measure");
+  refuse(bend("", binary32), bad, "units");
   bad = tearing("", MaterialModel::bonded).begin().save();
   bad.rest_length.pop_back();
   refuse(tearing("", MaterialModel::bonded), bad, "bonds");

@@ -233,8 +233,8 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
   const Body body = half_bound(settings, rest);
   Particles particles = particles_at(rest, r, body.material.mass);
   for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, {30, 0, 0});
-  for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
-    settings.solver.neighbor_search = way;
+  for (const NeighborSearch search : {NeighborSearch::lists, NeighborSearch::cells}) {
+    settings.solver.neighbor_search = search;
     Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, 1e-3));
     EXPECT_NO_THROW({
@@ -245,10 +245,10 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
 
 TEST(Unstable, StopsWhereNoBoneHoldsTheFlesh) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet})
-    for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
+    for (const NeighborSearch search : {NeighborSearch::lists, NeighborSearch::cells}) {
       Settings settings = test::box_scene(25);
       settings.solver.integrator = integrator;
-      settings.solver.neighbor_search = way;
+      settings.solver.neighbor_search = search;
       const Points rest = test::fcc_box(9, 9, 25, r);
       Body body = half_bound(settings, rest);
       body.springs.assign(body.springs.size(), {});

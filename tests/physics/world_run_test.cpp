@@ -113,13 +113,13 @@ TEST(WorldRun, ABodyFallsOnAFloorAndRests) {
 TEST(WorldRun, FrictionHoldsABodyOnAnIncline) {
   Box box(false, 5);
   box.settings.solver.gravity = {2, 0, -9.6};
-  const auto way = [&](double friction) {
+  const auto speed = [&](double friction) {
     box.world.obstacles = {box.obstacle(PlaneShape{{0, 0, -0.2 * r}, {0, 0, 1}}, friction)};
     return mean_velocity(box.run(0.5).particles()).x();
   };
-  EXPECT_NEAR(way(0), 2 * 0.5, 0.02);
-  EXPECT_NEAR(way(0.1), (2 - 0.1 * 9.6) * 0.5, 0.05);
-  EXPECT_LT(std::abs(way(0.4)), 0.02);
+  EXPECT_NEAR(speed(0), 2 * 0.5, 0.02);
+  EXPECT_NEAR(speed(0.1), (2 - 0.1 * 9.6) * 0.5, 0.05);
+  EXPECT_LT(std::abs(speed(0.4)), 0.02);
 }
 
 TEST(WorldRun, AMovingWallDoesTheWorkItGives) {

@@ -60,8 +60,8 @@ void expect_derivative(const RotationCurve& curve) {
   for (const double time : between_keys()) {
     const Quat before = curve.at(time - h).value, after = curve.at(time + h).value;
     const Vec3 rate = rotation_vector(after * before.conjugate()) / (2 * h);
-    const Vec3 told = curve.at(time).angular_velocity;
-    EXPECT_LT((rate - told).norm(), 1e-6 * (1 + told.norm())) << time;
+    const Vec3 spin = curve.at(time).angular_velocity;
+    EXPECT_LT((rate - spin).norm(), 1e-6 * (1 + spin.norm())) << time;
     EXPECT_NEAR(curve.at(time).value.norm(), 1, 1e-14);
   }
 }

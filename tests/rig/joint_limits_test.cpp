@@ -88,8 +88,8 @@ TEST(JointLimits, VelocitiesAreThoseOfTheHeldMotion) {
       const Mat3 before = pose_at(skeleton, wild(), time - h)[0].turn,
                  after = pose_at(skeleton, wild(), time + h)[0].turn;
       const Vec3 rate = rotation_vector(Quat(Mat3(after * before.transpose()))) / (2 * h);
-      const Vec3 told = pose_at(skeleton, wild(), time)[0].angular_velocity;
-      bad += (rate - told).norm() > 1e-5 * (1 + told.norm());
+      const Vec3 spin = pose_at(skeleton, wild(), time)[0].angular_velocity;
+      bad += (rate - spin).norm() > 1e-5 * (1 + spin.norm());
       ++samples;
     }
     EXPECT_LE(bad, 2) << "of " << samples;
