@@ -43,6 +43,16 @@ function(sinew_library room)
     FILES_MATCHING PATTERN "*.h")
 endfunction()
 
+# sinew_umbrella(ROOMS): sinew::sinew, which brings all of them, with <sinew/sinew.h>.
+function(sinew_umbrella)
+  add_library(sinew INTERFACE)
+  add_library(sinew::sinew ALIAS sinew)
+  list(TRANSFORM ARGN PREPEND sinew_ OUTPUT_VARIABLE rooms)
+  target_link_libraries(sinew INTERFACE ${rooms})
+  install(TARGETS sinew EXPORT sinew)
+  install(FILES lib/sinew/sinew.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew)
+endfunction()
+
 function(sinew_install_package)
   include(CMakePackageConfigHelpers)
   set(place ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)

@@ -2,7 +2,7 @@
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; or what two runs have in common, and what not.
 #include <sinew/core/file.h>
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/core/system.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
@@ -70,8 +70,8 @@ Exit told(const std::vector<Check>& checks) {
   return exit;
 }
 
-HowToMeasure how_to_measure(const Options& options, const Common& common) {
-  HowToMeasure how;
+MeasureOptions how_to_measure(const Options& options, const Common& common) {
+  MeasureOptions how;
   for (const std::string& text : options.limits) how.limits.push_back(parse_limit(text));
   if (!options.reference.empty()) how.reference = open_surfaces(options.reference);
   how.arrays = requested_arrays(options.arrays);
@@ -90,7 +90,7 @@ void write_tables(const RunFolder& folder, const Measured& measured) {
 Exit measure_folder(const Options& options, const Common& common) {
   if (!options.out.empty())
     throw bad_input("-o is for the comparison of two runs", "leave it out, or name two runs");
-  const HowToMeasure how = how_to_measure(options, common);
+  const MeasureOptions how = how_to_measure(options, common);
   Stopwatch watch;
   const RunFiles run = open_run({options.folders.front()});
   if (run.frames() < run.frames_named)

@@ -2,7 +2,7 @@
 // sinew-tables NAME: prints a table of the README files as Markdown. For developers; not installed.
 #include <string>
 
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/sections.h>
 #include <sinew/metrics/table.h>

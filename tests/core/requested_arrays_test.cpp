@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 
 #include <gtest/gtest.h>
 
 #include <sinew/core/error.h>
+#include <sinew/settings/table.h>
 
 namespace sinew {
 namespace {
@@ -26,6 +27,16 @@ TEST(RequestedArrays, RefuseOtherNamesAndSuggestTheNearest) {
     EXPECT_NE(std::string(error.what()).find("did you mean stress?"), std::string::npos)
         << error.what();
   }
+}
+
+TEST(RequestedArrays, AreAllNamedByTheHelpOfTheSetting) {
+  for (const auto& row : settings_table()) {
+    if (row.section != "output" || row.name != "arrays") continue;
+    for (const std::string_view name : requestable_arrays())
+      EXPECT_NE(row.help.find(name), std::string_view::npos) << name;
+    return;
+  }
+  FAIL() << "output.arrays is no setting";
 }
 
 }  // namespace

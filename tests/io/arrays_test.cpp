@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <set>
 #include <tuple>
 
-#include <sinew/core/requested_arrays.h>
 #include <sinew/io/single_files.h>
 #include "synthetic_run.h"
 

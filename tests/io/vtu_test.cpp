@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/vtu.h>
 
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 #include "scratch.h"
 #include "synthetic_run.h"
 

@@ -26,7 +26,7 @@ std::vector<double> some_values(std::size_t count) {
 
 TEST(DrawnPlaces, AreAllOfAShortLine) {
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, most_drawn}) {
-    const auto places = drawn_places(std::vector<double>(count, 1.0));
+    const auto places = drawn_indices(std::vector<double>(count, 1.0));
     ASSERT_EQ(places.size(), count);
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(places[i], i);
   }
@@ -38,7 +38,7 @@ TEST(DrawnPlaces, OfALongLineAreFewInOrderAndKeepItsExtremesWhereverTheyAre) {
       std::vector<double> values = some_values(count);
       values[at] = 2000;
       values[count - 1 - at] = at + at + 1 == count ? 2000 : -2000;
-      const auto places = drawn_places(values);
+      const auto places = drawn_indices(values);
       EXPECT_LE(places.size(), most_drawn);
       EXPECT_TRUE(std::is_sorted(places.begin(), places.end(), std::less_equal<>())) << count;
       EXPECT_TRUE(std::binary_search(places.begin(), places.end(), at)) << count << ' ' << at;
@@ -51,7 +51,7 @@ TEST(DrawnPlaces, KeepAGapAndThePeakBesideIt) {
     std::vector<double> values = some_values(100'000);
     values[at] = nan;
     values[at - 1] = values[at + 1] = 2000;
-    const auto places = drawn_places(values);
+    const auto places = drawn_indices(values);
     EXPECT_LE(places.size(), most_drawn);
     ASSERT_TRUE(std::binary_search(places.begin(), places.end(), at)) << at;
     EXPECT_TRUE(std::binary_search(places.begin(), places.end(), at - 1) ||

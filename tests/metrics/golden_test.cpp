@@ -5,7 +5,7 @@
 
 #include <regex>
 
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/particle_values.h>

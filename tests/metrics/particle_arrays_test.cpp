@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/core/error.h>
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include "world.h"
 
 namespace sinew::test {

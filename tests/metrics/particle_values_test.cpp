@@ -91,15 +91,15 @@ TEST(ParticleValues, AtRestEachHasItsNeighborsAndNoTurnover) {
   }
 }
 
-TEST(ParticleValues, PartnersAreThoseNearerThanTheRange) {
+TEST(ParticleValues, NeighborsAreThoseNearerThanTheRange) {
   const Points line{{0, 0, 0}, {0.4, 0, 0}, {0.8, 0, 0}, {0, 0.5, 0}};
-  std::vector<Partner> found;
-  find_partners(line, CellGrid(line, 0.5), 0.5, 1, found);
+  std::vector<Neighbor> found;
+  find_neighbors(line, CellGrid(line, 0.5), 0.5, 1, found);
   ASSERT_EQ(found.size(), 2u);
-  for (const Partner& partner : found) {
-    EXPECT_NE(partner.index % 2, 1u);
-    EXPECT_NEAR(partner.squared, 0.16, 1e-15);
-    EXPECT_EQ(partner.apart, line[1] - line[partner.index]);
+  for (const Neighbor& neighbor : found) {
+    EXPECT_NE(neighbor.index % 2, 1u);
+    EXPECT_NEAR(neighbor.squared, 0.16, 1e-15);
+    EXPECT_EQ(neighbor.apart, line[1] - line[neighbor.index]);
   }
 }
 

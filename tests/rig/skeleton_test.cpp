@@ -95,7 +95,7 @@ TEST(Skeleton, RefusesTwoOrHalfTails) {
   flat.bones[1].length = 1;
   flat.bones[1].direction = Vec3::Zero();
   expect_refused(both, {"'upper'", "tail already", "; "});
-  expect_refused(none, {"skeleton.bones[1].tail is missing", "; "});
+  expect_refused(none, {"bones[1].tail is missing", "; "});
   expect_refused(half, {"'lower'", "no direction", "; "});
   expect_refused(flat, {"'upper'", "direction of no length", "; "});
 }

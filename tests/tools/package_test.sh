@@ -1,43 +1,40 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# package_test.sh BUILD: installs sinew into an empty folder; a program outside finds and links it, and
-# the installed programs run.
+# package_test.sh BUILD SOURCE: installs sinew into an empty folder; the example programs find and link it,
+# and they and the installed programs run.
 set -euo pipefail
 
-build=${1:?usage: package_test.sh BUILD}
+build=${1:?usage: package_test.sh BUILD SOURCE}
+source=${2:?usage: package_test.sh BUILD SOURCE}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/installed" >/dev/null
 
-cat > "$work/CMakeLists.txt" <<'END'
-cmake_minimum_required(VERSION 3.25)
-project(outside CXX)
-find_package(sinew REQUIRED)
-add_executable(outside outside.cpp)
-target_link_libraries(outside PRIVATE sinew::config sinew::fill sinew::io sinew::physics sinew::metrics
-                                      sinew::render)
-END
-cat > "$work/outside.cpp" <<'END'
-#include "core/closest_packing.h"
-#include "fill/pack.h"
-#include "fill/volume_inside.h"
-#include "io/arrays.h"
-#include "metrics/table.h"
-#include "physics/pair_force.h"
-#include "render/color.h"
-
-int main() {
-  const sinew::PairForce pair{0.01, 1, 1, 0.02, 0.026};
-  const bool works = pair.force(0.02) == 0 && sinew::radius_for_count(1, 1000) > 0 &&
-                     !sinew::written_arrays().empty() && !sinew::metrics_table().empty() &&
-                     sinew::mapped_color(0.5)[0] > 0;
-  return works ? 0 : 1;
-}
-END
-cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null
+cmake -S "$source/lib/examples" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null
 cmake --build "$work/build" >/dev/null
-"$work/build/outside"
+cd "$work"
+cat > box.yaml <<END
+body: {mesh: $source/data/meshes/box.obj, count: 300}
+skeleton:
+  bones:
+    - {name: lower, head: [0, 0, 0], tail: [0, 0, 0.34648]}
+    - {name: upper, parent: lower, tail: [0, 0, 0.69296]}
+motion:
+  tracks:
+    - bone: upper
+      keys: [{time: 0}, {time: 0.1, axis: [0, 1, 0], angle: 20}]
+solver: {duration: 0.1}
+END
+build/fill_mesh "$source/data/meshes/box.obj" body.vtu | grep -E '^[45][0-9]{3} particles of radius 0\.00'
+build/bend_box box.yaml frames | grep -E '^4 frames of [23][0-9]{2} particles$'
+test "$(grep -c '<DataSet' frames/particles.pvd)" = 4
+build/measure_run box.yaml run | grep -E '^tip 1[5-9]\.|^tip 2[0-5]\.'
+test "$(wc -l < run/bones.csv)" = 9  # two bones, four frames, and the names
+build/own_force box.yaml | grep -E '^mean displacement [0-9.e-]+ m along x$'
+if build/fill_mesh missing.obj body.vtu 2>error.txt; then exit 1; else test $? = 2; fi
+grep -q missing.obj error.txt
+
 "$work/installed/bin/sinew" --version
 "$work/installed/bin/sinew" info --help >/dev/null
 for script in view live; do  # what sinew view starts

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The settings of a body as options of the command line, for meshes without a scene: --radius 0.01
-// for body.radius. They come from the table of settings.
+// The settings of a body as command line options, for meshes without a scene: --radius 0.01 for
+// body.radius. They are generated from the table of settings.
+//
+//     BodyFlags flags;
+//     flags.declare(app);
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,8 +18,8 @@ namespace sinew {
 class BodyFlags {
  public:
   enum class Kind {
-    all,   ///< each setting of the section body but its mesh, and the density
-    mesh,  ///< those that say how the mesh is read
+    all,   ///< each setting of the section body except its mesh, and the density
+    mesh,  ///< those about reading the mesh
   };
 
   /// Adds one option for each.
@@ -24,7 +27,7 @@ class BodyFlags {
 
   bool any() const { return !overrides().empty(); }
 
-  /// What was given, as overrides for settings_of_mesh().
+  /// The options given, as overrides for settings_of_mesh().
   std::vector<Override> overrides() const;
 
  private:

@@ -23,7 +23,7 @@ void remember(int) { asked = 1; }
 
 }  // namespace
 
-bool survives_its_terminal() {
+bool ignores_hangup() {
   struct sigaction now {};
   return sigaction(SIGHUP, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
@@ -32,7 +32,7 @@ void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = remember;
   // The kernel and the shell both tell of a terminal that is closed: the second time means no more.
-  if (!survives_its_terminal()) sigaction(SIGHUP, &action, nullptr);
+  if (!ignores_hangup()) sigaction(SIGHUP, &action, nullptr);
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -57,7 +57,7 @@ void pass_signals_on() {
   action.sa_flags = SA_RESTART | SA_SIGINFO;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  if (!survives_its_terminal()) sigaction(SIGHUP, &action, nullptr);
+  if (!ignores_hangup()) sigaction(SIGHUP, &action, nullptr);
 }
 
 [[noreturn]] void become(const std::string& program, const std::vector<char*>& arguments,

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Another program of sinew as a child that dies with its parent.
+// Runs another program of sinew as a child that ends with its parent, and handles the signals that
+// stop a run.
+//
+//     const ChildEnd end = run_child("simulate", {"scene.yaml"});
 #pragma once
 
 #include <string>
@@ -7,14 +10,14 @@
 
 namespace sinew {
 
-// A user's wish to stop (SIGINT, SIGTERM, a terminal that is closed), to be looked at where
-// stopping leaves nothing torn.
+// Requests to stop (SIGINT, SIGTERM, a closed terminal), checked where stopping leaves all files
+// complete.
 
 /// Whether SIGHUP was ignored when the program began, as under nohup.
-bool survives_its_terminal();
+bool ignores_hangup();
 
-/// From here on SIGINT and SIGTERM only set a flag; a second one ends the program at once. So does
-/// SIGHUP unless it is ignored, however often it comes.
+/// From now on SIGINT and SIGTERM only set a flag; a second one ends the program at once. SIGHUP,
+/// unless ignored, also sets the flag, however often it is received.
 void catch_stop_signals();
 
 bool stop_asked();
@@ -24,8 +27,8 @@ struct ChildEnd {
   std::string output;  ///< its standard output
 };
 
-/// Runs sinew-COMMAND from beside this program and waits. SIGINT and SIGTERM are passed on to it.
-/// Throws bad input when it cannot be started.
+/// Runs sinew-COMMAND from the folder of this program and waits. SIGINT and SIGTERM are forwarded to
+/// it. Throws bad input where it cannot be started.
 ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments);
 
 }  // namespace sinew

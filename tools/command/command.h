@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every program of sinew shares: its options, its exit codes, and its one line for an error.
+// The common part of all programs of sinew: options, exit codes, and the one-line error message.
+//
+//     int main(int argc, char** argv) { return run_command(argc, argv, about, declare, job); }
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,11 +15,11 @@
 
 namespace sinew {
 
-/// What --help says of a command.
+/// Description of a command for --help.
 struct About {
   std::string name;                   ///< "fill"; the program is sinew-fill
   std::string purpose;                ///< one line
-  std::vector<std::string> examples;  ///< whole command lines
+  std::vector<std::string> examples;  ///< complete command lines
   bool takes_scene = true;            ///< has --set, and --help ends with the list of settings
 };
 
@@ -29,25 +31,25 @@ struct Common {
   std::vector<Override> overrides;
 };
 
-/// The main() of a command: `declare` adds its own options, `job` does the work within --threads
-/// threads. Returns the exit code; what goes wrong, in the command line too, is printed as one line
+/// The main() of a command: `declare` adds its own options, `job` does the work in --threads
+/// threads. Returns the exit code; an error, also in the command line, is printed as one line
 /// "sinew: WHAT; CURE" on standard error.
 int run_command(int argc, char** argv, const About& about,
                 const std::function<void(CLI::App&)>& declare,
                 const std::function<Exit(const Common&)>& job);
 
-/// Runs `job` and returns its exit code, or that of what it throws, told as above.
+/// Runs `job` and returns its exit code, or that of the error it throws, reported as above.
 int run_reporting_errors(const std::function<Exit()>& job);
 
-/// A line of talk on standard error, unless --quiet.
+/// Prints a message on standard error, unless --quiet.
 void say(const Common& common, const std::string& line);
 
-// What `run` and `simulate` are asked alike.
+// The common options of `run` and `simulate`.
 
 struct RunOptions {
   std::string scene, folder;
   bool force = false, resume = false;
-  std::string asked_of = "simulate";  ///< what the user called, and calls to go on
+  std::string asked_of = "simulate";  ///< the command that the user called, to be named in hints
 };
 
 inline void declare(CLI::App& app, RunOptions& options) {
@@ -56,7 +58,7 @@ inline void declare(CLI::App& app, RunOptions& options) {
       ->type_name("DIR");
   auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
   app.add_flag("--resume", options.resume, "Continue a run that was stopped")->excludes(force);
-  app.add_option("--asked-of", options.asked_of)->group("");  // hidden: run says it to simulate
+  app.add_option("--asked-of", options.asked_of)->group("");  // hidden: passed by run to simulate
 }
 
 }  // namespace sinew

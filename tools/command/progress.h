@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a run is, on standard error.
+// Progress of a run on standard error.
+//
+//     Progress progress(frames, progress_style(quiet));
+//     progress.frame(1, time, steps);
 #pragma once
 
 #include <chrono>
@@ -11,8 +14,8 @@ namespace sinew {
 
 enum class ProgressStyle { none, lines, rewritten };
 
-/// One line rewritten on a terminal, otherwise one line every tenth of the way; nothing when quiet.
-/// No colors and no escape sequences anywhere, so NO_COLOR and plain terminals get what they ask.
+/// One line rewritten on a terminal, otherwise one line per tenth of the run; nothing when quiet. No
+/// colors and no escape sequences, so NO_COLOR and plain terminals are respected.
 ProgressStyle progress_style(bool quiet);
 
 /// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts
@@ -24,12 +27,12 @@ class Progress {
  public:
   /// `frames`: how many there will be after the first. `out` is for tests.
   Progress(int frames, ProgressStyle style, std::FILE* out = stderr);
-  ~Progress();  ///< ends a rewritten line, so that what follows begins on its own
+  ~Progress();  ///< ends a rewritten line, so that later output begins on a line of its own
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Frame number `frame` is done, at `time` (s of the scene), after `steps` steps of this run, of
-  /// which it has waited (s) for frames to be written. The first call starts the clock.
+  /// Reports frame `frame` at `time` (s of the scene) after `steps` steps of this run, which has
+  /// `waited` (s) for frames to be written. The first call starts the clock.
   void frame(int frame, double time, std::int64_t steps, double waited = 0);
 
  private:

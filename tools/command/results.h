@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a command found out, on standard output.
+// The results of a command on standard output, as lines or JSON.
+//
+//     Results results;
+//     results.add("radius", 0.01, "m");
+//     results.print(common.json);
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,20 +12,19 @@
 
 namespace sinew {
 
-/// Collects values under names, in order, and prints them at the end: one "key: value" a line, or
-/// one JSON object.
+/// Collects named values in order and prints them: one "key: value" per line, or one JSON object.
 class Results {
  public:
-  /// A text, a number, a flag or a list; the unit stands behind it for people.
+  /// A text, a number, a flag or a list; the unit is appended in lines only.
   void add(std::string key, nlohmann::ordered_json value, std::string unit = "");
-  /// For the lines alone, where a key may come twice, and for the object alone.
+  /// For lines only, where a key may occur twice, and for the object only.
   void add_line(std::string key, nlohmann::ordered_json value, std::string unit = "");
   void add_value(std::string key, nlohmann::ordered_json value);
 
   std::string text() const;  ///< "key: value" lines
   std::string json() const;  ///< one object; numbers that are not finite become null
 
-  /// Prints text() or json(). Throws Error (not_written) when standard output takes no more.
+  /// Prints text() or json(). Throws Error (not_written) where standard output fails.
   void print(bool as_json) const;
 
  private:
@@ -34,7 +37,7 @@ class Results {
   std::vector<Entry> entries_;
 };
 
-/// Writes to standard output, and makes sure that it arrived. Throws Error (not_written).
+/// Writes to standard output and flushes it. Throws Error (not_written).
 void print_out(const std::string& text);
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of settings as people read it.
+// The table of settings as text: for --help and for the README files.
+//
+//     print_out(settings_help());
 #pragma once
 
 #include <initializer_list>
@@ -8,9 +10,7 @@
 
 namespace sinew {
 
-// Rows of Markdown tables, for the README files.
-
-/// "| a | b |" with a line break; bars within a cell are escaped.
+/// A row of a Markdown table: "| a | b |" with a line break; bars in a cell are escaped.
 inline std::string markdown_row(std::initializer_list<std::string_view> cells) {
   std::string row = "|";
   for (const std::string_view cell : cells) {

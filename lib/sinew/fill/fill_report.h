@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a fill came to, in numbers.
+// The report of a filling: counts, sizes, volumes and times.
+//
+//     for (const ReportRow& row : rows_of(filling.report)) results.push_back(row);
 #pragma once
 
 #include <array>
@@ -14,28 +16,28 @@
 
 namespace sinew {
 
-/// What became of one body of the mesh.
+/// One body of the mesh.
 struct BodyReport {
-  double volume = 0;  ///< within its surface, m^3; 0 where the surface is open
+  double volume = 0;  ///< enclosed by its surface, m^3; 0 where the surface is open
   std::size_t particles = 0;
 };
 
-/// Every site of the lattice asked of CGAL, too.
+/// Every site of the lattice checked against CGAL.
 struct Verification {
   std::size_t sites = 0;
   std::size_t on_surface = 0;  ///< by CGAL
-  std::size_t mismatches = 0;  ///< sites that one of the two puts inside and the other does not
+  std::size_t mismatches = 0;  ///< sites inside by one of the two and not by the other
 };
 
 struct FillReport {
   std::size_t particles = 0;
-  std::optional<int> wanted;  ///< particles, where a count was asked for
+  std::optional<int> wanted;  ///< particles, where a count was requested
   std::uint64_t sites = 0;    ///< of the lattice in the mesh's box
   std::size_t ties = 0;       ///< sites on the surface: outside
   std::size_t kept_out = 0;   ///< sites inside but too close to the surface
   double radius = 0;          ///< m
   double mass = 0;            ///< of one particle, kg
-  double volume = 0;          ///< that the mass stands for, m^3: the mesh's, else the particles'
+  double volume = 0;          ///< that the mass is of, m^3: the mesh's, else the particles'
   bool volume_of_mesh = true;
   Moments mesh, packed;
   Vec3 box_size = Vec3::Zero();                     ///< of the mesh, m
@@ -43,17 +45,17 @@ struct FillReport {
   double smallest_distance = 0, mean_distance = 0;  ///< to the nearest, over 2r; 0: none touch
   std::vector<BodyReport> bodies;
   int cavities = 0;
-  int groups = 0;  ///< particles that hang together by touching
+  int groups = 0;  ///< of particles connected by touching
   int shallowest = 0;
   int deepest = 0;  ///< winding number; above 1 where parts of the mesh overlap
   bool closed = true;
   bool layer = false;    ///< along the surface, of a given thickness, instead of its inside
-  double ambiguous = 0;  ///< share of places whose winding number is far from a whole number
+  double ambiguous = 0;  ///< share of points whose winding number is far from an integer
   Border border;
   int components = 0;
   CleaningCounts cleaning;
   std::optional<Verification> verification;
-  std::vector<std::string> warnings;  ///< what deserves a look, with its cure
+  std::vector<std::string> warnings;  ///< each with its cure
   double seconds_reading = 0, seconds_cleaning = 0, seconds_inside = 0, seconds_particles = 0,
          seconds_verifying = 0;
 };
@@ -61,7 +63,7 @@ struct FillReport {
 using ReportValue = std::variant<std::size_t, double, bool, std::string, Vec3,
                                  std::vector<std::size_t>, std::vector<double>>;
 
-/// A line of the report.
+/// A row of the report.
 struct ReportRow {
   std::string key;
   ReportValue value;

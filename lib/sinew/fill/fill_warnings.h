@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What in a filling deserves a look.
+// Warnings about a filling that may not be what the user intended.
+//
+//     report.warnings = warnings_of(report, surface);
 #pragma once
 
 #include <optional>
@@ -10,11 +12,11 @@
 
 namespace sinew {
 
-/// One sentence each, with the number that decided and a cure. Looks at the surface only where
-/// something was lost.
+/// One sentence each, with the decisive number and a cure. Examines the surface only where a part of
+/// it was not filled.
 std::vector<std::string> warnings_of(const FillReport& report, const Surface& surface);
 
-/// Where a body of that length (m) is so large or so small that its unit may have been mistaken.
+/// A warning where a body of that length (m) is so large or so small that its unit may be wrong.
 std::optional<std::string> size_warning(double longest);
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which sites of a lattice become particles.
+// Selects the sites of a lattice that become particles, and counts their nearest neighbors.
+//
+//     const FilledSites filled = fill_sites(BodySpace(surface, options), options, radius);
 #pragma once
 
 #include <cstdint>
@@ -12,7 +14,7 @@
 
 namespace sinew {
 
-/// A surface in the space of its lattice.
+/// A surface in the coordinates of its lattice.
 struct BodySpace {
   BodySpace(const Surface& given, const PackOptions& options);
 
@@ -25,16 +27,16 @@ struct BodySpace {
 struct FilledSites {
   Lattice lattice;
   InsideRuns inside;      ///< empty where a layer is filled
-  std::vector<Run> runs;  ///< of those inside the ones that are kept, or the layer
+  std::vector<Run> runs;  ///< the sites that become particles
 };
 
-/// Sites at `radius` (m); where a count is wanted, at the radius near it that meets the count best.
+/// Sites at `radius` (m); where a count is wanted, at the nearby radius that matches it best.
 FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius);
 
 std::size_t count_of(const std::vector<Run>& runs);
 
-/// Calls visit(place, run, n) for each site n of each run; `place` counts the sites from 0. Many
-/// threads at once.
+/// Calls visit(place, run, n) for each site n of each run, from many threads; `place` numbers the
+/// sites from 0.
 template <class Visit>
 void for_each_site(const std::vector<Run>& runs, const Visit& visit) {
   constexpr std::size_t runs_at_a_time = 256;
@@ -47,21 +49,21 @@ void for_each_site(const std::vector<Run>& runs, const Visit& visit) {
   });
 }
 
-/// Positions of the runs' sites in the lattice's space (n x 3, m), in their order.
+/// Positions of the runs' sites in the lattice's coordinates (n x 3, m), in their order.
 Points positions_of(const Lattice& lattice, const std::vector<Run>& runs);
 
-/// How far within the body a center has to lie, m.
+/// Minimal distance of a center from the surface, m.
 double clearance_of(const PackOptions& options, double radius);
 
-/// A lattice over a box, just fine enough to judge a surface by.
+/// A coarse lattice over a box, for estimates.
 Lattice coarse_lattice(const Box& box);
 
-// Which of the filled sites are nearest neighbors of each other: they touch at 2r. Counted on the
-// lattice, run against run, without looking at positions.
+// Nearest neighbors among the filled sites: they touch at 2r. Counted on the lattice, run against
+// run, without positions.
 
 struct Touching {
   std::vector<std::int32_t> neighbors;  ///< per site of the runs, in their order: 0 to 12
-  std::vector<std::int32_t> group;      ///< per run: sites that hang together, by their first run
+  std::vector<std::int32_t> group;      ///< per run: connected sites, by their first run
   std::int32_t groups = 0;
 };
 

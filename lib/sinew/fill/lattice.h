@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sites of closest packings (FCC, HCP) in a box, as rows along a close-packed direction, in
-// which sites follow each other at 2r. A site lies at the box's center unless told otherwise, so
-// that a symmetric body is filled symmetrically and no layer lies on the faces of a box.
+// which the spacing is 2r. By default a site lies at the box's center, so that a symmetric body is
+// filled symmetrically and no layer lies on the faces of a box.
 //
-// Every coordinate of every site is a whole multiple of one power of two that is as small as
-// doubles allow at the box's farthest corner: sums and differences of sites are exact, and the
-// sites of a row lie on one line to the last bit. Exact predicates can then speak of rows. Spacings
-// are rounded up: no two sites are closer than 2r, and sites that would lie on the faces of a box
-// do not fall inside by rounding.
+//     const Lattice lattice = lattice_in(box, Packing::fcc, radius);
+//
+// Every coordinate of every site is an integer multiple of one power of two, the smallest that
+// doubles resolve at the box's farthest corner: sums and differences of sites are exact, and the
+// sites of a row lie exactly on a line, so that exact predicates apply to whole rows. Spacings are
+// rounded up: no two sites are closer than 2r, and sites that would lie on the faces of a box do
+// not get inside by rounding.
 #pragma once
 
 #include <array>
@@ -33,7 +35,7 @@ struct LatticeRow {
 struct LatticeLayer {
   std::size_t first_row;  ///< index into Lattice::rows
   int rows;
-  int across;  ///< of the first row; each next one is `Lattice::across_step` farther
+  int across;  ///< of the first row; each next one is 2 (FCC) or 3 (HCP) farther
 };
 
 struct Lattice {
@@ -46,7 +48,7 @@ struct Lattice {
   std::vector<LatticeRow> rows;  ///< by z, then across the row: a fixed order
   std::vector<LatticeLayer> layers;  ///< of k = low[2] .. high[2]
 
-  /// Site n of a row, m; exact for any n near the row, outside of it too.
+  /// Site n of a row, m; exact for any n near the row, also beyond its ends.
   Vec3 site(const LatticeRow& row, int n) const {
     return {origin[0] + unit[0] * (row.first[0] + n * along[0]),
             origin[1] + unit[1] * (row.first[1] + n * along[1]),
@@ -69,19 +71,19 @@ struct Lattice {
 Lattice lattice_in(const Box& box, Packing packing, double radius,
                    const std::optional<Vec3>& origin = std::nullopt);
 
-/// About how many sites and rows that will be.
+/// Estimated numbers of sites and rows.
 struct LatticeSize {
   double sites, rows;
 };
 LatticeSize lattice_size(const Box& box, double radius);
 
-// Where the lattice lies in the mesh's space: it may be turned, and a mesh far from the origin is
-// filled near it, where coordinates have more digits.
+// The placement of the lattice with respect to the mesh: it may be rotated, and a mesh far from the
+// origin is filled near it, where coordinates have more digits.
 
 class Placement {
  public:
-  /// `turn`: the lattice's axes as columns. Meshes farther from the origin than they are large are
-  /// shifted, by an amount that loses no digit of theirs.
+  /// `turn`: the lattice's axes as columns. Meshes farther from the origin than their size are
+  /// shifted, by an amount that loses no digits.
   Placement(const Points& points, const Mat3& turn);
 
   Triangles to_lattice(Triangles surface) const;

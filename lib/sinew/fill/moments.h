@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume, center and inertia of what a surface encloses and of what particles fill.
+// Volume, center and inertia of the space enclosed by a surface or filled with particles.
+//
+//     const Vec3 principal = moments_of(surface.triangles).principal();
 #pragma once
 
 #include <sinew/core/particles.h>
@@ -15,11 +17,11 @@ struct Moments {
   Vec3 principal() const;  ///< principal moments of inertia, ascending, m^5
 };
 
-/// By sums over tetrahedra from the box's center to the faces. Surfaces without volume have their
+/// By sums over tetrahedra from the box's center to the faces. Surfaces without volume have the
 /// box's center.
 Moments moments_of(const Triangles& surface);
 
-/// Of points (in particles) that stand for `volume` m^3 each. Each counts as a ball of that volume.
+/// Of particles of `volume` (m^3) each, as balls of that volume.
 Moments moments_of(const Particles& particles, double volume);
 
 }  // namespace sinew

@@ -33,8 +33,8 @@ Interval everything() { return {-HUGE_VAL, HUGE_VAL}; }
 
 /// Of length 1, zero for corners on one line. That of a thin face is known to a few digits only,
 /// but must not lean along the face's longest side, where the lever is long.
-Vec3 unit_normal(const Vec3& way, const Vec3& next_way, const Vec3& longest) {
-  Vec3 normal = way.cross(next_way);
+Vec3 unit_normal(const Vec3& edge, const Vec3& next_edge, const Vec3& longest) {
+  Vec3 normal = edge.cross(next_edge);
   const double squared_length = longest.squaredNorm();
   if (!(squared_length > 0)) return Vec3::Zero();
   for (int i = 0; i < 2; ++i) normal -= normal.dot(longest) / squared_length * longest;
@@ -83,14 +83,14 @@ DilatedTriangle::DilatedTriangle(const Corners& corners, double distance)
   bound_ = (std::sqrt(bound) + distance) * (1 + 1e-12);
 }
 
-DilatedTriangle::Side DilatedTriangle::side(const Vec3& way, const Vec3& normal) {
-  Side side{way, normal.cross(way), 0, 0, 0, 0, way.squaredNorm()};
-  const double squared_flat = way.y() * way.y() + way.z() * way.z();
+DilatedTriangle::Side DilatedTriangle::side(const Vec3& edge, const Vec3& normal) {
+  Side side{edge, normal.cross(edge), 0, 0, 0, 0, edge.squaredNorm()};
+  const double squared_flat = edge.y() * edge.y() + edge.z() * edge.z();
   if (squared_flat <= no_tilt * no_tilt * side.squared_length) return side;
   const double inverse = 1 / std::sqrt(squared_flat);
-  side.across = way.y() * inverse;
-  side.up = way.z() * inverse;
-  side.slope = way.x() * inverse;
+  side.across = edge.y() * inverse;
+  side.up = edge.z() * inverse;
+  side.slope = edge.x() * inverse;
   side.stretch = std::sqrt(side.squared_length) * inverse;
   return side;
 }
@@ -119,9 +119,9 @@ void DilatedTriangle::add_ball(const Vec3& from, double along, Interval& all) co
 /// its corner.
 void DilatedTriangle::keep_beside(const Side& side, const Vec3& from, double shift,
                                   Interval& part) {
-  const double beside = shift * side.way.x() + from.y() * side.way.y() + from.z() * side.way.z();
-  keep(part, side.way.x(), beside);
-  keep(part, -side.way.x(), side.squared_length - beside);
+  const double beside = shift * side.edge.x() + from.y() * side.edge.y() + from.z() * side.edge.z();
+  keep(part, side.edge.x(), beside);
+  keep(part, -side.edge.x(), side.squared_length - beside);
 }
 
 /// With x along from the side's corner, t the place beside the side and h the distance from its

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fills a surface with equal particles in closest packing: every lattice site strictly inside
-// becomes a particle. A site on the surface counts as outside. (Komiya and Tokoi fill their bodies
-// so; which lattice, and where it lies, they leave open.) Any surface will do as long as it has an
-// inside: open, overlapping, of single triangles; with a thickness even a sheet.
+// becomes a particle; a site on the surface counts as outside. (As Komiya and Tokoi fill their
+// bodies; they do not specify the lattice and its placement.) Accepts any surface with an inside:
+// open, overlapping, of single triangles; with a thickness even a sheet.
+//
+//     const Filling filling = pack(read_surface(body), {.radius = 0.01});
 #pragma once
 
 #include <cstdint>
@@ -16,33 +18,30 @@
 
 namespace sinew {
 
-// How a surface is to be filled.
-
 struct PackOptions {
   Packing packing = Packing::fcc;
   std::optional<double> radius;          ///< m; either this
-  std::optional<int> count;              ///< or about so many particles
+  std::optional<int> count;              ///< or about this number of particles
   double density = 1000;                 ///< kg/m^3
-  std::optional<Vec3> lattice_origin;    ///< where a site lies, m; by default in the box's middle
+  std::optional<Vec3> lattice_origin;    ///< position of a site, m; by default the box's center
   Mat3 lattice_axes = Mat3::Identity();  ///< as columns: a rotation
   Keep keep = Keep::center;
-  double clearance = 0;             ///< how far within, m
+  double clearance = 0;             ///< minimal distance from the surface, m
   std::optional<double> thickness;  ///< fill a layer along the surface instead of its inside, m
-  bool verify = false;              ///< ask CGAL about every site
+  bool verify = false;              ///< check every site against CGAL
 };
 
 struct Filling {
   Particles particles;                  ///< at rest, by lattice rows; mass = density volume / count
-  std::vector<std::int32_t> component;  ///< the body each particle lies in, from 0
-  std::vector<std::int32_t> neighbors;  ///< how many others touch it; 12 within the body
+  std::vector<std::int32_t> component;  ///< the body that each particle is in, from 0
+  std::vector<std::int32_t> neighbors;  ///< number of touching particles; 12 inside the body
   FillReport report;
 };
 
-/// The same particles for every number of threads. Throws Error (bad input) before it fills when
-/// an open surface is to be verified, when there would be too many particles for memory or for
-/// 32-bit ids, when the body holds less than one, when the surface has no inside (naming the share
-/// of ambiguous places), and when no site lies inside; all name a radius that fits, or the option
-/// that helps.
+/// The same particles for any number of threads. Throws Error (bad input) where an open surface is
+/// to be verified, where there would be too many particles for memory or 32-bit ids or less than
+/// one, where the surface has no inside (naming the share of ambiguous points), and where no site
+/// lies inside; all name a radius that fits, or the option that helps.
 Filling pack(const Surface& surface, const PackOptions& options);
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sets of lattice sites as runs of sites that follow each other in a row, and their difference.
+// Sets of lattice sites as runs of consecutive sites in a row, and their difference.
+//
+//     const std::vector<Run> kept = runs_without(inside.runs, near);
 #pragma once
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 
 namespace sinew {
 
-/// Lengths along an axis; none where low is above high.
+/// An interval of lengths along an axis; empty where low is above high.
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -31,19 +33,18 @@ struct Run {
   bool operator==(const Run&) const = default;
 };
 
-/// The sites of `runs` that are not in `others`, with the body they have in `runs`. Both are sorted
-/// by row and then site, no two runs of one with a site in common; so is what is given, in which
-/// none touch with the same body.
+/// The sites of `runs` that are not in `others`, with their body in `runs`. Both must be sorted by
+/// row and then site, without overlaps; so is the result, in which no runs of a body touch.
 std::vector<Run> runs_without(const std::vector<Run>& runs, const std::vector<Run>& others);
 
-// Which layers, rows and sites of a lattice lie within an interval of lengths.
+// The layers, rows and sites of a lattice in an interval of lengths.
 
-/// Whole numbers from first to last - 1.
+/// Integers from first to last - 1.
 struct IndexRange {
   int first, last;
 };
 
-/// Those within the interval and 0 .. count - 1; a little more than rounding asks for.
+/// Those in the interval and 0 .. count - 1, enlarged by a margin above rounding errors.
 inline IndexRange whole_numbers(const Interval& at, int count) {
   return {static_cast<int>(std::ceil(std::clamp(at.low - 1e-6, 0.0, count + 0.0))),
           static_cast<int>(std::floor(std::clamp(at.high + 1e-6, -1.0, count - 1.0))) + 1};
@@ -100,11 +101,11 @@ class RowRanges {
   double layers_per_meter_, rows_per_meter_, sites_per_meter_;
 };
 
-// The sites of one row, put together from ranges that come in any order.
+// The sites of one row, merged from ranges in any order.
 
 class SiteRanges {
  public:
-  /// Whether the last one added has them all.
+  /// Whether the last range added contains all of `sites`.
   bool has(IndexRange sites) const {
     return !ranges_.empty() && ranges_.back().first <= sites.first &&
            sites.last <= ranges_.back().last;
@@ -138,16 +139,16 @@ class SiteRanges {
   std::vector<IndexRange> ranges_;
 };
 
-// The runs inside a surface as a sweep along the rows of a lattice collects them.
+// The runs inside a surface, as collected by a sweep along the rows of a lattice.
 
-/// What a piece of the rows came to.
+/// The result for a part of the rows.
 struct SweptRows {
   std::vector<Run> runs;
   std::vector<std::array<int, 2>> overlaps;  ///< components that share a site
   int deepest = 0, shallowest = 0;           ///< winding numbers; of closed surfaces only
 };
 
-/// Collects runs of one row and leaves out the sites on the surface.
+/// Collects runs of one row, without the sites on the surface.
 class RowRuns {
  public:
   RowRuns(std::size_t row, const std::vector<RowSite>& on_surface, std::vector<Run>& runs)
@@ -156,7 +157,7 @@ class RowRuns {
         next_(std::lower_bound(on_surface.begin(), on_surface.end(), RowSite{row_, 0})),
         end_(on_surface.end()) {}
 
-  /// Sites first .. last - 1 lie inside. Calls come in the order of the sites.
+  /// Adds the sites first .. last - 1. Calls must be in the order of the sites.
   void add(int first, int last, int body) {
     while (next_ != end_ && next_->row == row_ && next_->site < last) {
       push(first, next_->site, body);

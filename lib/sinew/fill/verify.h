@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The promise that a filling is right, in the user's hand: every site of the lattice asked of CGAL.
+// Verifies a filling: every site of the lattice is checked against CGAL.
+//
+//     const Verification result = verify(filled.lattice, surface, filled.inside);
 #pragma once
 
 #include <memory>
@@ -10,19 +12,19 @@
 
 namespace sinew {
 
-// Where a point lies against a closed surface, by CGAL's Side_of_triangle_mesh: one exact query per
-// point. Slow beside the rows, and independent of them: what the fill is verified with.
+// The side of a closed surface that a point is on, by CGAL's Side_of_triangle_mesh: one exact query
+// per point. Slower than the sweep along rows, and independent of it.
 
 enum class Side { outside, boundary, inside };
 
 class SideOf {
  public:
-  /// Builds the search tree. The surface must be closed. Faces without area are left out: they
-  /// change no answer, and rays would get stuck on them. Where parts of the surface overlap CGAL
+  /// Builds the search tree. The surface must be closed. Faces without area are left out: they do
+  /// not change the result, and CGAL's rays fail on them. Where parts of the surface overlap CGAL
   /// counts crossings modulo 2.
   explicit SideOf(const Triangles& surface);
   ~SideOf();
-  SideOf(const SideOf&) = delete;  // CGAL's test must stay where it was made
+  SideOf(const SideOf&) = delete;  // CGAL's test must not be moved in memory
   SideOf& operator=(const SideOf&) = delete;
 
   /// May be called from many threads at once.

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bones.csv: what the body does to each bone over time, one row per bone and frame.
+// bones.csv: the force and moment of the body on each bone over time, one row per bone and frame.
+//
+//     BoneTable table("out/bend/bones.csv");
+//     table.add(time, skeleton, reactions, power);
+//     table.close();
 #pragma once
 
 #include <filesystem>
@@ -12,11 +16,11 @@
 namespace sinew {
 
 /// Columns: time (s), bone (its name), force_x, force_y, force_z (N), moment_x, moment_y, moment_z
-/// (N m, about the head), power (W, that the bone puts into the body). It grows frame by frame.
+/// (N m, about the head), power (W, of the bone on the body). Grows frame by frame.
 class BoneTable {
  public:
-  /// Goes on after the first `kept` frames of a table of as many `bones` that is there already.
-  /// Throws not written, and bad input when it holds fewer.
+  /// Continues after the first `kept` frames of an existing table of as many `bones`. Throws not
+  /// written, and bad input when it holds fewer.
   explicit BoneTable(const std::filesystem::path& path, std::size_t bones = 0,
                      std::size_t kept = 0);
 

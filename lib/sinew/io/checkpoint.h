@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checkpoints: all of a run that steps change, for --resume.
+// Checkpoints: all state of a run that steps change, for --resume.
 //
-// DIR/a.bin and DIR/b.bin are written in turn, each beside its place, synced and renamed, so that
-// one whole checkpoint is there at any moment. Format, of version 1, in the machine's own byte
-// order (which a mark tells):
+//     Checkpoints checkpoints("out/bend/checkpoint");
+//     checkpoints.write({run, simulation_state});
+//     const std::optional<Checkpoint> last = checkpoints.newest(particles, complaint);
+//
+// DIR/a.bin and DIR/b.bin are written in turn, each to a temporary file that is synced and renamed,
+// so that a complete checkpoint exists at any time. Format, version 1, in the machine's byte order
+// (which a mark identifies):
 //   "SINEWCKP", mark u32, version u32, length of the file u64,
 //   sections: name (8 bytes), bytes of an element u64, elements u64, the elements,
 //   FNV-1a of all bytes before, u64.
-// Sections come in one order; a section with another name or element than expected is refused.
+// The order of sections is fixed; one with another name or element size than expected is refused.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +23,13 @@
 
 namespace sinew {
 
-/// Whose checkpoint it is. Only the same program, scene and body go on from it with the same bits.
+/// The run that a checkpoint belongs to. Only the same program, scene and body continue from it
+/// with the same bits.
 struct RunIdentity {
-  std::string program;       ///< version of it
-  std::uint64_t scene = 0;   ///< hash of all settings that decide about bits
-  std::uint64_t body = 0;    ///< hash of the particles at rest and what holds them
-  std::uint64_t motion = 0;  ///< hash of what moves
+  std::string program;       ///< its version
+  std::uint64_t scene = 0;   ///< hash of all settings that affect the result
+  std::uint64_t body = 0;    ///< hash of the particles at rest and their attachment
+  std::uint64_t motion = 0;  ///< hash of all motions
   std::uint64_t particles = 0;
   double time_step = 0;  ///< s
 
@@ -39,25 +44,25 @@ struct Checkpoint {
 /// Throws not written.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// Throws bad input, naming the file, when it is no whole checkpoint of `particles` particles that
-/// this machine and this version can read. Allocates no more than the file's size.
+/// Throws bad input, naming the file, where it is not a complete checkpoint of `particles`
+/// particles that this machine and version can read. Allocates no more than the file's size.
 Checkpoint read_checkpoint(const std::filesystem::path& file, std::uint64_t particles);
 
-/// The checkpoints of one run, in turn.
+/// The two alternating checkpoints of a run.
 class Checkpoints {
  public:
   explicit Checkpoints(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Writes over the older one of the two. Creates the folder. Throws not written.
+  /// Replaces the older one. Creates the folder. Throws not written.
   void write(const Checkpoint& checkpoint);
 
-  /// The newest that is whole, nothing when no file is there. `complaint` tells of one that is
-  /// not. Throws bad input when there are only broken ones. Removes what was left half written.
+  /// The newest complete one, nothing where there is no file. `complaint` names one that is damaged.
+  /// Throws bad input where all are damaged. Removes incomplete temporary files.
   std::optional<Checkpoint> newest(std::uint64_t particles, std::string& complaint);
 
  private:
   std::filesystem::path folder_;
-  int next_ = 0;  ///< to be written over: 0 a.bin, 1 b.bin
+  int next_ = 0;  ///< to be replaced: 0 a.bin, 1 b.bin
 };
 
 }  // namespace sinew

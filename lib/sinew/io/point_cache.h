@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A moving surface for animators: Wavefront OBJ at rest, and a point cache (PC2) of its motion,
-// which Blender (Mesh Cache), 3ds Max and Maya put on it. Coordinates and units of the scene.
+// as imported by Blender (Mesh Cache), 3ds Max and Maya. Coordinates and units of the scene.
+//
+//     PointCache cache("surface.pc2", surface.points.size());
+//     cache.add(points);
+//     cache.close();
 #pragma once
 
 #include <cstdint>
@@ -17,12 +21,12 @@ namespace sinew {
 void write_obj(const std::filesystem::path& path, const Triangles& surface);
 
 /// PC2: "POINTCACHE2\0", int32 version 1, int32 points, float start, float rate, int32 samples,
-/// then float32 x y z of every point of every sample; little endian. It grows sample by sample, and
-/// never counts one that is not there.
+/// then float32 x y z of every point of every sample; little endian. It grows sample by sample; its
+/// count never exceeds the samples written.
 class PointCache {
  public:
-  /// Goes on after the first `kept` samples of a cache that is there already. Throws not written,
-  /// and bad input when it holds fewer.
+  /// Continues after the first `kept` samples of an existing cache. Throws not written, and bad
+  /// input when it holds fewer.
   PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept = 0);
 
   /// One sample; as many points each time. Throws not written.
@@ -36,10 +40,10 @@ class PointCache {
   GrowingFile file_;
 };
 
-/// Reads a PC2 file again, sample by sample.
+/// Reads a PC2 file sample by sample.
 class CachedPoints {
  public:
-  /// Throws bad input where it is none, or not whole.
+  /// Throws bad input where it is not one, or incomplete.
   explicit CachedPoints(const std::filesystem::path& path);
 
   std::size_t points() const { return points_; }

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A series of frames: DIR/NAME.pvd, with one row per time, and DIR/NAME/NAME_000000.vtu and so on.
+//
+//     Series particles("out/bend", {.series = "particles"});
+//     particles.add(frame);
+//     particles.close();
 #pragma once
 
 #include <chrono>
@@ -17,23 +21,22 @@ struct PvdRow {
   std::string file;  ///< relative to the PVD's folder
 };
 
-/// The rows of a PVD file. Throws bad input, naming the file, when it is none, when a time is not a
-/// number, or when a row leads out of the folder (absolute, or with "..").
+/// The rows of a PVD file. Throws bad input, naming the file, where it is not a PVD, a time is not a
+/// number, or a row points outside the folder (an absolute path, or one with "..").
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
 
 /// The text of a PVD with these rows.
 std::string pvd_text(const std::vector<PvdRow>& rows);
 
-/// Writes a series frame by frame. A reader who comes meanwhile finds whole files only: each frame
-/// is there before the PVD names it, and the PVD is replaced at most once a second.
+/// Writes a series frame by frame. A concurrent reader finds complete files only: each frame is
+/// written before the PVD lists it, and the PVD is replaced at most once a second.
 class Series {
  public:
-  /// Starts the series format.series in `folder`, which is created; an older one is removed. Throws
-  /// not written.
-  /// But for its first frames, those at `kept` (s), which are there already: it goes on after them.
-  /// Throws bad input when one is missing.
+  /// Starts the series format.series in `folder`, which is created; an older one is removed except
+  /// for its first frames, at the times `kept` (s), after which it continues. Throws not written,
+  /// and bad input when one of these is missing.
   Series(std::filesystem::path folder, VtuFormat format, std::span<const double> kept = {});
-  /// Closes, without a word if that fails: call close() to hear of it.
+  /// Closes; errors are ignored: call close() to receive them.
   ~Series();
   Series(const Series&) = delete;
   Series& operator=(const Series&) = delete;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// blowup.vtu: the body before the step in which a simulation became unstable, its offenders marked.
+// The single VTU files of a run: blowup.vtu, the defects of a mesh, and body.vtu.
+//
+//     const BodyFile body = read_body("out/bend/body.vtu");
 #pragma once
 
 #include <cstdint>
@@ -17,7 +19,10 @@
 
 namespace sinew {
 
-/// A particle's part in the step that failed.
+// blowup.vtu: the body before the step in which a simulation became unstable, with the offending
+// particles marked.
+
+/// Why a particle made the step fail.
 enum class Offence : std::int32_t { none = 0, too_fast = 1, not_finite = 2 };
 
 struct BlowupFrame {
@@ -33,9 +38,9 @@ Dataset blowup_dataset(const BlowupFrame& frame, Moment moment);
 /// Throws not written.
 void write_blowup(const std::filesystem::path& path, const BlowupFrame& frame, Moment moment);
 
-// What is wrong with a mesh, to be seen in ParaView: its faces and its defective edges, marked.
+// The defects of a mesh for ParaView: its faces and its defective edges, marked.
 
-/// One number per face, then one per edge, where not said otherwise.
+/// One number per face, then one per edge, unless noted.
 struct DefectsFile {
   Triangles surface;
   std::vector<std::array<std::int32_t, 2>> edges;  ///< points of each defective edge
@@ -53,22 +58,22 @@ void write_defects(const std::filesystem::path& path, const DefectsFile& defects
 struct BodyFile {
   Particles particles;                            ///< at rest, in the written order
   std::vector<std::int32_t> neighbors;            ///< touching particles of each
-  std::vector<std::int32_t> component;            ///< connected piece of each, from 0
+  std::vector<std::int32_t> component;            ///< connected component of each, from 0
   std::optional<std::vector<std::int32_t>> bone;  ///< of each, once bound
-  std::optional<std::vector<double>> weight;      ///< that bone's share in it, once bound
+  std::optional<std::vector<double>> weight;      ///< of that bone in it, once bound
   std::string meta;                               ///< UTF-8 JSON, or empty
 };
 
-/// Arrays of millions of particles are moved, not copied, where the body is given away.
+/// Moves the arrays where the body is an rvalue.
 Dataset body_dataset(BodyFile body);
 
 /// Throws not written.
 void write_body(const std::filesystem::path& path, BodyFile body,
                 Encoding encoding = Encoding::zlib);
 
-/// Throws bad input, naming the file, when it is not a body: arrays missing, ids that are not
-/// 0, 1, 2, ..., a radius or mass that is not positive or differs between particles, a coordinate
-/// that is not finite.
+/// Throws bad input, naming the file, where it is not a body: arrays are missing, ids are not
+/// 0, 1, 2, ..., radius or mass is not positive or differs between particles, or a coordinate is
+/// not finite.
 BodyFile read_body(const std::filesystem::path& path);
 
 }  // namespace sinew

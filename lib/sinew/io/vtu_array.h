@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The arrays of a VTU file, of any type of numbers and in any of its formats, as our own.
+// Reads the arrays of a VTU file, of any number type and in any of its formats.
+//
+//     const Column values = arrays.column(element, rows);
 #pragma once
 
 #include <cstdint>
@@ -14,24 +16,24 @@ namespace sinew {
 
 /// Where the arrays of a file are and how they are encoded.
 struct VtuArrays {
-  Coding within;              ///< the elements
-  Coding behind;              ///< the elements, in the appended data
-  std::string_view appended;  ///< from behind the '_'
+  Coding within;              ///< of data in the elements
+  Coding behind;              ///< of data in the appended section
+  std::string_view appended;  ///< from after the '_'
   std::uint64_t most = 0;     ///< values that the file could hold
 
-  /// Integers where all are Int32's, else doubles. Throws bad input naming the array where `rows`
-  /// rows of numbers are not there.
+  /// Integers where all fit Int32, else doubles. Throws bad input, naming the array, where it does
+  /// not hold `rows` rows of numbers.
   Column column(const XmlElement& array, std::uint64_t rows) const;
   Points points(const XmlElement& array, std::uint64_t rows) const;
 
-  /// An attribute that counts, no more than that. Throws bad input.
+  /// An attribute that is a count, at most `most`. Throws bad input.
   std::uint64_t count(const XmlElement& element, const char* attribute) const;
 };
 
-/// Bad input, with what helps.
+/// The error bad input, with the cure.
 Error vtu_refused(const std::string& what);
 
-/// 'text', not too long.
+/// 'text', shortened where it is long.
 std::string quoted(std::string_view text);
 
 }  // namespace sinew

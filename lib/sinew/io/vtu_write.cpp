@@ -4,7 +4,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/io/encode.h>
 #include <sinew/io/vtu.h>
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a surface ends, whatever its patches.
+// The edges of a surface and the faces at them, and its border as closed loops.
+//
+//     const std::vector<EdgeUse> uses = edge_uses(surface);
+//     const Border border = border_of(surface, uses, border_loops(uses));
 #pragma once
 
 #include <array>
@@ -35,24 +38,24 @@ void for_each_edge(std::span<const EdgeUse> uses, Visit&& visit) {
 
 // The border of a surface as closed loops.
 
-/// An edge that faces of a group go along once more from `from` to `to` than back.
+/// An edge that the faces of a group traverse once more from `from` to `to` than back.
 struct BorderEdge {
   int group, from, to;
 };
 
 struct Loop {
   int group;
-  std::vector<int> points;  ///< three or more, none twice; the last joins the first
+  std::vector<int> points;  ///< three or more, each once; the last is joined to the first
 };
 
-/// Splits the border edges (an edge that counts twice stands there twice) into loops without
-/// repeated points: a walk along the edges, each point's lowest next one first, loses a loop where
-/// it meets itself. In every group as many edges must leave each point as come to it: so it is for
-/// the border of any set of triangles.
+/// Splits the border edges (an edge that counts twice is given twice) into loops without repeated
+/// points: a walk along the edges, each point's lowest successor first, splits off a loop where it
+/// meets itself. In every group as many edges must leave each point as arrive there, which holds
+/// for the border of any set of triangles.
 std::vector<Loop> simple_loops(std::vector<BorderEdge> edges);
 
-/// Where the surface ends. Each edge counts the directions its faces go along it, forward minus
-/// backward; where that is not 0 the surface is open. Such edges form closed loops: the holes.
+/// The border of a surface. An edge is open where the numbers of faces that traverse it forward and
+/// backward differ. Open edges form closed loops: the holes.
 struct Border {
   std::size_t holes = 0;          ///< loops
   std::size_t edges = 0;          ///< open edges

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What cleaning does not need to know, but people want to be told. Takes longer than cleaning:
-// seconds for a million faces.
+// Diagnoses a surface beyond what cleaning needs: self-intersections and thin parts, for reports.
+// Slower than cleaning: seconds for a million faces.
+//
+//     const Defects defects = defects_of(surface, diagnose(surface));
 #pragma once
 
 #include <optional>
@@ -13,18 +15,17 @@ namespace sinew {
 
 struct Diagnosis {
   SelfIntersections intersections;
-  std::optional<double>
-      thinnest;  ///< thickness below which 1 % of the skin lies, m; none: no inside
+  std::optional<double> thinnest;  ///< 1st percentile of the thickness, m; none: no inside
 };
 
 Diagnosis diagnose(const Surface& surface);
 
-// What is wrong with a surface, as geometry to be drawn over it.
+// The defects of a surface, as geometry to be drawn over it.
 
 enum class EdgeDefect {
   open,     ///< of one face
   crowded,  ///< of three faces or more
-  twisted,  ///< of two faces that cannot agree
+  twisted,  ///< of two faces that cannot be oriented consistently
 };
 
 struct DefectiveEdge {
@@ -34,13 +35,13 @@ struct DefectiveEdge {
 };
 
 struct Defects {
-  std::vector<bool> turned;        ///< per face: points against the file
+  std::vector<bool> turned;        ///< per face: reversed with respect to the file
   std::vector<bool> intersecting;  ///< per face: takes part in a self-intersection found
   std::vector<bool> flat;          ///< per face: has no area
   std::vector<DefectiveEdge> edges;
 };
 
-/// Surface::component tells which faces hang together.
+/// Surface::component gives the connected components of faces.
 Defects defects_of(const Surface& surface, const Diagnosis& diagnosis);
 
 }  // namespace sinew

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The nearest place on any set of triangles, open or closed, by CGAL's tree of boxes.
+// Queries on any set of triangles, open or closed: the nearest point, by CGAL's AABB tree, and the
+// thickness of the body, by rays.
+//
+//     const NearestOnFaces nearest = NearestFace(surface).to(point);
 #pragma once
 
 #include <cstddef>
@@ -12,7 +15,7 @@ namespace sinew {
 
 struct NearestOnFaces {
   Vec3 place;        ///< on the surface, m
-  std::size_t face;  ///< that it lies on; one of several where they meet
+  std::size_t face;  ///< that contains it; one of several where they meet
 };
 
 class NearestFace {
@@ -23,7 +26,7 @@ class NearestFace {
   NearestFace(NearestFace&&) noexcept;
   NearestFace& operator=(NearestFace&&) noexcept;
 
-  /// Rounded, not exact. From many threads at once if wanted.
+  /// Rounded, not exact. May be called from many threads at once.
   NearestOnFaces to(const Vec3& point) const;
 
  private:
@@ -31,12 +34,10 @@ class NearestFace {
   std::unique_ptr<Tree> tree_;
 };
 
-// How thin a body is, by rays from its faces to the other side.
-
-/// The thickness (m) below which 1 % of the skin lies. From 2,000 places spread evenly over the
-/// area (fewer where most faces are needles) a ray goes inward, across the face, until it has left
-/// all parts of the body it came through; places within another part are no skin. Nothing where
-/// fewer than half of the rays find an end: a sheet has no inside.
+/// The 1st percentile of the body's thickness over its skin, m. From 2,000 points spread evenly
+/// over the area (fewer where most faces are needles) a ray is cast inward, normal to the face, up
+/// to where it has left all parts of the body on its path; points inside another part are not skin.
+/// Nothing where fewer than half of the rays leave: a sheet has no inside.
 std::optional<double> thinnest_part(const Triangles& surface);
 
 }  // namespace sinew

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a user may ask for when a mesh is not the skin of a body yet. Neither is done unasked: both
-// make up a surface that the mesh does not have.
+// Repairs of a mesh that is not yet the skin of a body, done only on request: both add a surface
+// that the mesh does not have.
+//
+//     const Triangles closed = close_holes(surface).triangles;
+//     const Triangles skin = wrap(surface, 0.01);
 #pragma once
 
 #include <cstddef>
@@ -15,22 +18,23 @@ struct HoleClosing {
   std::size_t faces_added = 0;
 };
 
-/// Covers every hole with faces over its own points, so that no edge is left open (mesh/surface.h
-/// says what open is). By CGAL: the triangulation that bends least, then of least area (Liepa 2003;
-/// Barequet and Sharir 1995), among the triangles of a Delaunay triangulation. A loop it finds none
-/// for, or of over 1,000 edges, is cut in two first. Any triangles will do. Faces should agree in
-/// direction: an edge along which two go the same way is open, too. Of a sheet (a face, a Moebius
-/// strip) the border is closed all the same: it then encloses little or nothing.
+/// Covers every hole with faces on its own points, so that no edge is left open
+/// (<sinew/mesh/border.h> defines open). By CGAL: the triangulation that bends least, then of least
+/// area (Liepa 2003; Barequet and Sharir 1995), among the triangles of a Delaunay triangulation. A
+/// loop without one, or of more than 1,000 edges, is first cut in two. Accepts any triangles. Their
+/// orientations should agree: an edge that two faces traverse in the same direction is open, too.
+/// The border of a sheet (a face, a Moebius strip) is closed as well and then encloses little or
+/// nothing.
 HoleClosing close_holes(const Triangles& surface);
 
-/// A closed skin around the faces, with no edge open, that does not cut itself: CGAL's alpha wrap
-/// (Portaneri et al. 2022). It bridges gaps narrower than about `alpha` (m), leaves out cavities,
-/// and lies alpha / 30 outside of the mesh, as CGAL advises: it makes a body that much fatter, and
-/// rounds dents narrower than alpha. Its faces measure about alpha.
+/// A closed skin around the faces without self-intersections: CGAL's alpha wrap (Portaneri et al.
+/// 2022). It bridges gaps narrower than about `alpha` (m), omits cavities, and lies alpha / 30
+/// outside the mesh, as CGAL recommends: the body grows by that much, and dents narrower than alpha
+/// are rounded. Its faces are about alpha in size.
 ///
-/// Throws Error (bad input): no face with an area; alpha > 0 not below the box's diagonal; a skin
-/// of more than 2 million faces to be expected; or a skin without an inside, which has leaked
-/// through a hole wider than alpha.
+/// Throws Error (bad input) where no face has an area, where alpha is not above 0 and below the
+/// box's diagonal, where a skin of more than 2 million faces is expected, and for a skin without an
+/// inside, which has leaked through a hole wider than alpha.
 Triangles wrap(const Triangles& surface, double alpha);
 
 }  // namespace sinew

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface as the fill takes it: triangles that agree on what is outside as far as they can, and
-// what closes them where they do not.
+// The surface of a body, as the fill takes it: triangles oriented outward where that is possible,
+// caps that close its holes, and the counts of cleaning.
+//
+//     const bool closed = surface.closed();
+//     const std::vector<double> volumes = component_volumes(surface);
 #pragma once
 
 #include <cstddef>
@@ -13,16 +16,16 @@
 
 namespace sinew {
 
-// What closes holes.
+// Caps, which close holes.
 
-/// Faces over copies of the loop's points that go along its edges in the other direction. Each
-/// halves what is left of the loop: most of them are small and near the border. Appends to `caps`.
+/// Adds to `caps` faces on copies of the loop's points, traversing its edges in the other direction.
+/// The loop is halved recursively, so that most faces are small and near the border.
 void add_cap(const Loop& loop, const Points& points, Triangles& caps);
 
 /// All of them, in the order of the loops.
 Triangles caps_of(std::span<const Loop> loops, const Points& points);
 
-// What cleaning and repairing a mesh came to, and what each count is called wherever it is told.
+// The counts of cleaning and repairing a mesh, and their names in reports.
 
 struct CleaningCounts {
   std::size_t points_read = 0;
@@ -37,10 +40,10 @@ struct CleaningCounts {
   std::size_t holes_closed = 0;     ///< by faces_added new faces, where that was asked for
   std::size_t faces_added = 0;
   std::size_t faces_wrapped = 0;  ///< of the skin that replaced the mesh, where asked for
-  std::size_t edges_twisted = 0;  ///< edges whose two faces cannot agree (as on a Moebius strip)
+  std::size_t edges_twisted = 0;  ///< edges of two faces that cannot agree (on a Moebius strip)
 };
 
-/// A count as reports name it.
+/// A count and its name in reports.
 struct NamedCount {
   enum class Of { file, cleaning, repair };  ///< repairs are done only when asked for
 
@@ -49,18 +52,18 @@ struct NamedCount {
   Of of;
 };
 
-/// All counts, in the order in which they are told.
+/// All counts, in the order of reports.
 std::span<const NamedCount> cleaning_counts();
 
 /// The faces of a body point outward (counter-clockwise seen from outside), those of a cavity into
-/// the cavity. They may cut each other, and overlap.
+/// the cavity. Faces may intersect, and bodies overlap.
 struct Surface {
   Triangles triangles;
-  std::vector<bool> turned;    ///< per face: whether it points against the file
+  std::vector<bool> turned;    ///< per face: whether it is reversed with respect to the file
   std::vector<int> component;  ///< per face: faces joined by edges, numbered by their first face
   int components = 0;
   /// Faces that close every hole, with points of their own, so that triangles and caps together
-  /// have no border. They fill nothing; they are a means to compute winding numbers.
+  /// have no border. They serve to compute winding numbers and bound nothing.
   Triangles caps;
   Border border;
   CleaningCounts cleaning;
@@ -69,11 +72,11 @@ struct Surface {
   bool closed() const { return caps.faces.empty(); }
 };
 
-/// The volume that each component encloses, m^3; negative for cavities. Of open surfaces without
-/// the volume behind their caps.
+/// The volume that each component encloses, m^3; negative for cavities. For open surfaces it does
+/// not include the volume behind their caps.
 std::vector<double> component_volumes(const Surface& surface);
 
-// Area and volume, face by face.
+// Area and volume of single faces.
 
 /// Area times normal, m^2.
 inline Vec3 area_vector(const Triangles& surface, const std::array<int, 3>& face) {
@@ -86,8 +89,7 @@ inline double face_area(const Triangles& surface, const std::array<int, 3>& face
   return area_vector(surface, face).norm();
 }
 
-/// Of the tetrahedron between a face and a place, m^3: positive where the face turns its back to
-/// it.
+/// Of the tetrahedron of a face and a point, m^3: positive where the point is behind the face.
 inline double volume_below(const Triangles& surface, const std::array<int, 3>& face,
                            const Vec3& place) {
   const Vec3 a = surface.points[face[0]] - place, b = surface.points[face[1]] - place,
@@ -95,7 +97,7 @@ inline double volume_below(const Triangles& surface, const std::array<int, 3>& f
   return a.dot(b.cross(c)) / 6;
 }
 
-/// What rounding may leave of the volume of a flat body, m^3.
+/// Rounding error of the volume of a flat body, m^3.
 inline double volume_rounding(double area, const Box& box) {
   return 1e-13 * area * box.diagonal().norm();
 }

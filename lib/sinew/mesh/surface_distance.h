@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far points lie from a closed surface, inside or outside of it: nearest faces by a tree of
-// boxes, sides by winding numbers.
+// The signed distance of points from a closed surface, by an AABB tree and winding numbers, and the
+// distance between two surfaces.
+//
+//     const double depth = -SurfaceDistance(surface).from(point).distance;
+//     const double gap = surface_gap(one, other).hausdorff;
 #pragma once
 
 #include <memory>
@@ -13,7 +16,7 @@ namespace sinew {
 /// The nearest point of a surface.
 struct NearestPlace {
   double distance = 0;  ///< m, negative inside
-  Vec3 normal;          ///< outward, unit: the distance's gradient; on the surface a face's normal
+  Vec3 normal;          ///< outward, unit: the distance's gradient, or on the surface a face normal
 };
 
 class SurfaceDistance {
@@ -24,7 +27,7 @@ class SurfaceDistance {
   SurfaceDistance(SurfaceDistance&&) noexcept;
   SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
 
-  /// From many threads at once if wanted.
+  /// May be called from many threads at once.
   NearestPlace from(const Vec3& point) const;
 
  private:
@@ -32,17 +35,17 @@ class SurfaceDistance {
   std::unique_ptr<Tree> tree_;
 };
 
-// How far two surfaces lie apart, whatever their points and triangles are.
+// The distance between two surfaces of any triangulation.
 
 struct SurfaceGap {
-  double hausdorff = 0;  ///< the farthest that a place on either lies from the other, m
+  double hausdorff = 0;  ///< largest distance of a point on either from the other, m
   double mean = 0;       ///< over the area of both, m
 };
 
-/// Both are looked at in the corners and the centers of all faces, so that the Hausdorff distance
-/// may be short by what happens between them (of two flat pieces nothing, of a face across a fold
-/// of the other at most half its longest edge); the mean is Simpson's over each face. In parallel,
-/// the same bits for any number of threads. Throws bad input for a surface without an area.
+/// Both are sampled at the corners and centers of all faces, so that the Hausdorff distance may be
+/// underestimated between them (not for flat pieces; for a face across a fold of the other by at
+/// most half its longest edge); the mean is by Simpson's rule over each face. In parallel, the same
+/// bits for any number of threads. Throws bad input for a surface without area.
 SurfaceGap surface_gap(const Triangles& one, const Triangles& other);
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How often a closed surface goes around a point: the signed crossings of a ray from it.
+// The winding number of a closed surface about a point: the signed crossings of a ray from it.
+//
+//     const bool inside = Winding(faces).around(point).value_or(0) > 0;
 #pragma once
 
 #include <array>
@@ -12,14 +14,14 @@ namespace sinew {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Triangles in a tree of boxes. Two that share an edge see a ray on the same side of it, whatever
-/// rounding does: closed surfaces have no gaps.
+/// Triangles in a tree of boxes. Two that share an edge decide alike on which side a ray passes it,
+/// in spite of rounding: closed surfaces have no gaps.
 class Winding {
  public:
   explicit Winding(std::vector<Corners> faces);
 
-  /// 1 within an outward surface, 0 outside of it, -1 within an inward one; nothing closer to the
-  /// surface than 1e-10 of its size.
+  /// 1 inside an outward surface, 0 outside of it, -1 inside an inward one; nothing for points
+  /// closer to the surface than 1e-10 of its size.
   std::optional<int> around(const Vec3& point) const;
 
  private:
@@ -32,7 +34,7 @@ class Winding {
   int build(int begin, int end);
   bool visit(const Node& node, const Vec3& point, int& sum) const;
 
-  std::vector<Corners> faces_;  ///< turned, so that few lie along the rays
+  std::vector<Corners> faces_;  ///< rotated, so that few lie along the rays
   std::vector<Node> nodes_;
   double near_ = 0;
 };

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // metrics_bones.csv: how well the particles of each bone follow it, a row per frame and bone.
+//
+//     const auto rows = measure_bones(rest, state, particle_values(rest, state));
+//     write_file("metrics_bones.csv", bone_metrics_csv(rows));
 #pragma once
 
 #include <span>
@@ -13,7 +16,7 @@
 
 namespace sinew {
 
-/// Of the particles that follow one bone (most); not-a-number where there are none.
+/// Of the particles that follow one bone most; not-a-number where there are none.
 struct BoneMetrics {
   double time = not_measured, bone = not_measured, followers = 0;
   double adherence_rms = not_measured, adherence_95 = not_measured, adherence_max = not_measured;
@@ -31,11 +34,11 @@ struct BoneMetric {
 
 std::span<const BoneMetric> bone_metrics_table();
 
-/// One for each bone, in their order. The state is one of this body, with its particles' values.
+/// One for each bone, in their order. The state must be one of this body, `particles` its values.
 std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state,
                                        const ParticleValues& particles);
 
-/// The whole file; as metrics_csv().
+/// The whole file, in the format of metrics_csv().
 std::string bone_metrics_csv(std::span<const BoneMetrics> rows);
 
 }  // namespace sinew

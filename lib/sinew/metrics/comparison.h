@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two runs beside each other: frames of the same times, and what the second has more than the
+// Compares two runs at the times that both have: the differences of all metrics, second minus
 // first.
+//
+//     const RunComparison comparison = compare(std::move(first), std::move(second));
+//     write_file("compare.csv", comparison_csv(comparison));
 #pragma once
 
 #include <optional>
@@ -16,31 +19,31 @@ namespace sinew {
 
 struct ComparedRun {
   std::string name;
-  std::vector<FrameMetrics> frames;  ///< those of times that both have, one at least
+  std::vector<FrameMetrics> frames;  ///< at the times that both have, one at least
   Summary summary;                   ///< of all its frames
   double radius = 0;                 ///< of a particle, m
 };
 
 struct RunComparison {
   ComparedRun first, second;
-  /// A metric of the second run less that of the first; distances to the first as they are.
+  /// A metric of the second run minus that of the first; distances to the first unchanged.
   std::vector<FrameMetrics> differences;
   Summary summary;                   ///< of the differences; run metrics are differences too
   std::vector<Check> checks;         ///< of the differences
-  std::vector<std::string> remarks;  ///< what could not be compared, and why, in plain sentences
+  std::vector<std::string> remarks;  ///< sentences on what could not be compared, and why
 };
 
-/// Whether a metric compares a frame with a reference by itself: no difference is taken of it.
+/// Whether a metric is itself a distance from a reference, of which no difference is taken.
 bool is_distance(std::string_view metric);
 
-/// The differences of two frames, by the rule above.
+/// The differences of two frames, as in RunComparison::differences.
 FrameMetrics difference(const FrameMetrics& first, const FrameMetrics& second);
 
-/// Sums the differences up. `first` and `second` have their frames and summaries.
+/// Computes and summarizes the differences. `first` and `second` have their frames and summaries.
 RunComparison compare(ComparedRun first, ComparedRun second);
 
-/// compare.csv: a row per time; of each metric NAME_a, NAME_b and NAME_difference, of distances
-/// between the runs NAME alone. Numbers read back as the same bits.
+/// compare.csv: a row per time, with NAME_a, NAME_b and NAME_difference of each metric, and NAME
+/// alone of distances between the runs. Numbers read back as the same bits.
 std::string comparison_csv(const RunComparison& comparison);
 
 /// The frame in which a metric's difference is farthest from zero.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// metrics.csv: a row per frame, a column per metric, the time first. Opens in ParaView and in
-// spreadsheets without options.
+// metrics.csv: a row per frame, a column per metric, the time first, as ParaView and spreadsheets
+// open it; and metrics.json, the summary of a run for scripts.
+//
+//     write_file("metrics.csv", metrics_csv(frames));
+//     write_file("metrics.json", metrics_json(frames, summary, checks));
 #pragma once
 
 #include <cmath>
@@ -18,7 +21,7 @@ namespace sinew {
 /// The whole file. Numbers read back as the same bits; "nan" where a metric was not measured.
 std::string metrics_csv(std::span<const FrameMetrics> frames);
 
-/// A line of the columns' names, then one per row. Numbers read back as the same bits.
+/// A line of column names, then one line per row. Numbers read back as the same bits.
 template <class Table, class Rows>
 std::string csv_text(const Table& columns, const Rows& rows) {
   std::string text;
@@ -38,9 +41,9 @@ std::string csv_text(const Table& columns, const Rows& rows) {
   return text + '\n';
 }
 
-// metrics.json: a run summed up, for scripts.
+// metrics.json: the summary of a run, for scripts.
 //
-// - schema_version: 1; grows when a key changes its meaning or goes
+// - schema_version: 1; increases when a key changes its meaning or is removed
 // - frames, duration
 // - metrics, by name: unit, meaning, formula, min, max, mean, final, worst_frame, worst_time,
 //   worst_particle
@@ -48,7 +51,7 @@ std::string csv_text(const Table& columns, const Rows& rows) {
 // - holds: from, to, settled_after (s)
 // - checks: name, expression, value, limit, frame, pass
 //
-// null stands where there was nothing to measure.
+// A value is null where there was nothing to measure.
 
 inline constexpr int metrics_schema_version = 1;
 
@@ -60,7 +63,7 @@ std::string metrics_json(std::span<const FrameMetrics> frames, const Summary& su
 /// - schema_version: 1; frames, duration, remarks
 /// - a, b: name, radius
 /// - metrics, by name: unit, meaning, formula, a, b (min, max, mean, final each), difference (the
-///   same with largest, the one farthest from zero, and its time)
+///   same, and largest: the one farthest from zero, with its time)
 /// - run, by name: unit, meaning, formula, a, b, difference
 /// - checks: as in metrics.json of a run
 std::string comparison_json(const RunComparison& comparison);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One frame of a run: what is measured, and what comes out.
+// One frame of a run: the state that is measured, and the metrics of it.
+//
+//     FrameState state{.time = 1.5, .positions = positions, .bones = frames};
 #pragma once
 
 #include <cstdint>
@@ -17,7 +19,7 @@ struct MeasuredBone {
   std::string name;
   int parent = -1;    ///< index of an earlier bone, -1 for a root
   double length = 0;  ///< m, > 0
-  RigidFrame rest;    ///< origin: the head, m; first column: the axis towards the tail
+  RigidFrame rest;    ///< origin: the head, m; first column: the axis toward the tail
 
   Vec3 axis() const { return rest.rotation.col(0); }
 };
@@ -27,13 +29,13 @@ struct FrameState {
   double time = 0;                ///< s
   Points positions, velocities;   ///< n x 3, m and m/s
   Points surface_points;          ///< in the order of the surface at rest, m
-  std::vector<RigidFrame> bones;  ///< where each bone is
+  std::vector<RigidFrame> bones;  ///< of each bone
   Energies energies;
   std::vector<double> bone_lengths;             ///< head to tail, m; empty: as at rest
   std::vector<std::int32_t> broken_bonds = {};  ///< of each particle; empty: it has no bonds
 };
 
-/// What is measured of one frame: units, meaning and formula of each stand in table.cpp.
+/// The metrics of one frame; table.cpp gives unit, meaning and formula of each.
 struct FrameMetrics {
   double time = not_measured;
   double bone_angle = not_measured, bone_shift = not_measured;
@@ -63,7 +65,7 @@ struct FrameMetrics {
   double flipped_faces = not_measured;
   double tip_angle = not_measured, twist_jump_max = not_measured;
   double candy_wrapper = not_measured, bulge = not_measured;
-  // What needs other surfaces or exact geometry: filled by whoever has them at hand.
+  // Metrics that need other surfaces or exact geometry: see <sinew/run/measure_run.h>.
   double self_intersections = not_measured;
   double pose_hausdorff = not_measured, pose_distance_mean = not_measured;
   double lbs_hausdorff = not_measured, lbs_distance_mean = not_measured;

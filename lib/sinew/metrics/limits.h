@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits on metrics, as --fail-on states them:
+// Limits on metrics, as given with --fail-on:
 //
-//   volume_error > 0.05          passed as soon as any frame is above
+//   volume_error > 0.05          fails if any frame is above
 //   final(volume_error) > 0.05   likewise max(), min(), mean()
 //   residual_rms > 0.002         metrics of the whole run
 //
 // Operators > >= < <= ==; limits are in the metric's unit.
+//
+//     const Check check = check_limit(parse_limit("volume_error > 0.05"), frames, summary);
 #pragma once
 
 #include <cstddef>
@@ -29,21 +31,21 @@ struct Limit {
   double value = 0;
 };
 
-/// Reads an expression. Throws bad input for anything else than the forms above, with the nearest
+/// Parses an expression. Throws bad input for anything but the forms above, suggesting the nearest
 /// name for an unknown metric.
 Limit parse_limit(std::string_view expression);
 
-/// What became of a limit.
+/// The result of checking a limit.
 struct Check {
   std::string name;             ///< the metric's
-  std::string expression;       ///< the limit, written plainly
-  double value = not_measured;  ///< what was compared: of any_frame the one nearest to failing
+  std::string expression;       ///< the limit in its normal form
+  double value = not_measured;  ///< that was compared: of any_frame the one nearest to failing
   double limit = 0;
-  std::optional<std::size_t> frame;  ///< where it is, if in one frame
-  bool pass = false;                 ///< the limit was kept; never for what was not measured
+  std::optional<std::size_t> frame;  ///< of the value, if it belongs to one
+  bool pass = false;                 ///< the limit was kept; false where nothing was measured
 };
 
-/// Holds a run against a limit. `summary` is that of `frames`.
+/// Checks a run against a limit. `summary` is that of `frames`.
 Check check_limit(const Limit& limit, std::span<const FrameMetrics> frames, const Summary& summary);
 
 /// One line: "volume_error > 0.05: fails with 0.0612 in frame 31".

@@ -30,10 +30,10 @@ double equivalent(const Vec3& principal, double factor) {
 
 double non_affine(const RestShape& shape, const Points& now, const Mat3& F, std::size_t i) {
   double sum = 0;
-  const auto partners = shape.neighbors.of(i);
-  for (const auto j : partners)
+  const auto neighbors = shape.neighbors.of(i);
+  for (const auto j : neighbors)
     sum += ((now[j] - now[i]) - F * (shape.points[j] - shape.points[i])).squaredNorm();
-  return sum / static_cast<double>(partners.size());
+  return sum / static_cast<double>(neighbors.size());
 }
 
 void add_motion(ParticleValues& out, const RestBody& rest, const FrameState& state) {
@@ -86,11 +86,11 @@ Within count_within(std::size_t count, double near, double far, const Squared& s
 }
 
 void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& now,
-                     std::span<const Partner> partners, std::size_t i) {
+                     std::span<const Neighbor> neighbors, std::size_t i) {
   const double near = rest_neighbor_range(rest.radius), far = rest.interaction_range;
   const auto before = rest.shape.neighbors.of(i);
   const Within all =
-      count_within(partners.size(), near, far, [&](std::size_t k) { return partners[k].squared; });
+      count_within(neighbors.size(), near, far, [&](std::size_t k) { return neighbors[k].squared; });
   const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
     return (now[i] - now[before[k]]).squaredNorm();
   });
@@ -127,11 +127,11 @@ void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& n
   const double range = std::max(rest_neighbor_range(rest.radius), rest.interaction_range);
   const CellGrid grid(now, range);
   parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
-    std::vector<Partner> partners;
+    std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
-      find_partners(now, grid, range, i, partners);
-      count_neighbors(out, rest, now, partners, i);
-      if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, partners, i));
+      find_neighbors(now, grid, range, i, neighbors);
+      count_neighbors(out, rest, now, neighbors, i);
+      if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, neighbors, i));
     }
   });
 }
@@ -143,8 +143,8 @@ double von_mises(const Mat3& stress) {
   return std::sqrt(1.5 * deviator.squaredNorm());
 }
 
-void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                   std::vector<Partner>& found) {
+void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Neighbor>& found) {
   found.clear();
   grid.for_each_near(now[i], [&](std::uint32_t j) {
     const Vec3 apart = now[i] - now[j];
@@ -153,12 +153,12 @@ void find_partners(const Points& now, const CellGrid& grid, double range, std::s
   });
 }
 
-Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Neighbor> neighbors,
                    std::size_t i) {
   const double range = rest.interaction_range;
   const auto bonded = rest.shape.neighbors.of(i);
   Mat3 sum = rest.law.bond ? bonds_virial(rest, now, i) : Mat3(Mat3::Zero());
-  for (const Partner& other : partners) {
+  for (const Neighbor& other : neighbors) {
     if (other.squared >= range * range || other.squared == 0) continue;
     if (rest.law.bond && std::binary_search(bonded.begin(), bonded.end(), other.index)) continue;
     const double d = std::sqrt(other.squared);
@@ -248,9 +248,9 @@ Column stresses(std::string_view name, const RestBody& rest, const Points& now) 
   if (!rest.law.force) return filled<6>(name, now.size(), [&](std::size_t) { return none; });
   const CellGrid grid(now, rest.interaction_range);
   return filled<6>(name, now.size(), [&](std::size_t i) {
-    std::vector<Partner> partners;
-    find_partners(now, grid, rest.interaction_range, i, partners);
-    return symmetric(virial_stress(rest, now, partners, i));
+    std::vector<Neighbor> neighbors;
+    find_neighbors(now, grid, rest.interaction_range, i, neighbors);
+    return symmetric(virial_stress(rest, now, neighbors, i));
   });
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is measured of every single particle of a frame.
+// The values measured for each particle of a frame, and arrays of them to be written.
+//
+//     const ParticleValues values = particle_values(rest, state);
+//     const std::vector<Column> arrays = particle_arrays(rest, state, names);
 #pragma once
 
 #include <cstdint>
@@ -14,7 +17,7 @@
 
 namespace sinew {
 
-/// The least squared stretch that counts: keeps the logarithm of a flat F finite.
+/// Lower bound on squared stretches: keeps the logarithm of a singular F finite.
 inline constexpr double flattest = 1e-24;
 
 /// n values each, in the written order. From F, the least-squares deformation gradient over the
@@ -31,40 +34,40 @@ struct ParticleValues {
   std::vector<double> gained;        ///< particles closer than 2.2 r that were not at rest
   std::vector<double> turnover;      ///< (lost + gained) / neighbors at rest
   std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
-  std::vector<double> weight;        ///< the share its bone has in it; empty where not known
+  std::vector<double> weight;        ///< weight of its bone in it; empty where not known
   /// sqrt(3/2 dev s : dev s) of the virial stress s = -(1/2V0) sum f (x) r, Pa; empty where the
   /// body's pair force is not known.
   std::vector<double> von_mises;
 };
 
 /// A particle near another one.
-struct Partner {
+struct Neighbor {
   std::uint32_t index;
   Vec3 apart;      ///< from it to the other one, m
   double squared;  ///< of its length, m^2
 };
 
 /// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
-void find_partners(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                   std::vector<Partner>& found);
+void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                   std::vector<Neighbor>& found);
 
-/// The virial stress of particle i, Pa: all the forces between particles, and of each one's own
-/// volume. The body's pair force is known; partners within b at least.
-Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Partner> partners,
+/// The virial stress of particle i, Pa: of all forces between particles and the volume force of
+/// each. The body's pair force must be known; `neighbors` are those within b at least.
+Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Neighbor> neighbors,
                    std::size_t i);
 
 /// sqrt(3/2 dev s : dev s).
 double von_mises(const Mat3& stress);
 
-/// In parallel. The state is one of this body.
+/// In parallel. The state must be one of this body.
 ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 
-// What is known of every particle of a frame as arrays to be written: tensors in ParaView's order
-// of components, XX YY ZZ XY YZ XZ for symmetric ones and row by row for F.
+// Particle values as arrays to be written: tensors in ParaView's order of components, XX YY ZZ XY
+// YZ XZ for symmetric ones and row by row for F.
 
 /// Those of requestable_arrays() that are named, in the written order of the particles;
-/// not-a-number where a particle's neighbors define none, and stresses where the body's forces are
-/// not known. Of the state, positions and bones count. In parallel.
+/// not-a-number where a particle's neighbors do not define them, and stresses where the body's
+/// forces are not known. Uses positions and bones of the state. In parallel.
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
                                     std::span<const std::string_view> names);
 

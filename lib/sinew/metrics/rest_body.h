@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The body at rest: what every frame of a run is compared with, and all that can be worked out
-// once.
+// The body at rest: the reference for every frame of a run, with all that can be computed once.
+//
+//     const RestBody rest = rest_body(measured_body(run));
 #pragma once
 
 #include <cstdint>
@@ -17,31 +18,30 @@
 
 namespace sinew {
 
-/// What particles do to each other, as far as their positions decide it. Called from several
-/// threads.
+/// The forces between particles as functions of their positions. Called from several threads.
 struct PairLaw {
   /// Force between two particles at a distance (m), N, positive repels; empty: not known.
   std::function<double(double)> force;
-  /// The same between neighbors at rest, of the distance and the one at rest; empty: as any other.
+  /// The same between neighbors at rest, from distance and rest distance; empty: as `force`.
   std::function<double(double, double)> bond;
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
 };
 
-/// What is known of a run before its first frame. Particles are in the written order.
+/// Input: the body at rest and its constants. Particles are in the written order.
 struct RestInput {
   Points positions;       ///< of the n particles at rest, m
   Triangles surface;      ///< the body's skin at rest, outside out
   std::vector<int> bone;  ///< n; the bone each particle follows (most), -1 for none
   std::vector<MeasuredBone> bones;
   double radius = 0;             ///< of a particle, r, m
-  double interaction_range = 0;  ///< b, m: pairs farther apart than this do not feel each other
-  Energies start;                ///< of the first frame: where the balance of energies begins
+  double interaction_range = 0;  ///< b, m: pairs farther apart do not interact
+  Energies start;                ///< of the first frame, from which the energy balance is taken
   PairLaw law;
   double mass = not_measured;  ///< of a particle, kg
-  std::vector<double> weight;  ///< n; the share that bone has in each particle; or empty
+  std::vector<double> weight;  ///< n; the weight of that bone in each particle; or empty
 };
 
-/// A particle that follows a bone: its point of attachment at rest, and whether a joint is near.
+/// A particle that follows a bone: its attachment at rest, and whether a joint is near.
 struct Bound {
   std::uint32_t particle = 0;
   int bone = 0;
@@ -71,13 +71,13 @@ struct RestBody {
   double rest_pairs() const { return static_cast<double>(shape.neighbors.neighbor.size()) / 2; }
 };
 
-/// Checks the input and works out the rest. Throws bad input for sizes that do not fit, indices out
-/// of range, numbers that are not finite, or a surface without an area.
+/// Checks the input and computes the rest. Throws bad input for sizes that do not agree, indices out
+/// of range, numbers that are not finite, or a surface without area.
 /// A joint zone reaches half a width of the body, sqrt(A_B) / 2, along the bones from each joint;
 /// A_B is the volume bound to a bone over its length, the larger of the two that meet counts.
 RestBody rest_body(RestInput input);
 
-/// Whether every coordinate is a number.
+/// Whether every coordinate is finite.
 bool all_finite(const Points& points);
 
 }  // namespace sinew

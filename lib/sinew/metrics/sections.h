@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sections.csv: how the body's sections across its bones change. A section is the ring in which a
-// plane across a bone cuts the skin at rest; its points then follow the faces they lie on. A ring
-// that a twist pinches off (candy wrapper) loses its area, one that bulges gains.
+// sections.csv: how the body's cross sections change. A section is the ring in which a plane across
+// a bone cuts the skin at rest; its points then follow the faces they lie on. A ring that a twist
+// pinches (candy wrapper) loses area, one that bulges gains area.
+//
+//     const auto rows = measure_sections(rest.sections, state.surface_points, state.time);
 #pragma once
 
 #include <functional>
@@ -15,7 +17,7 @@
 
 namespace sinew {
 
-/// A point of an edge: `share` of the way from one end to the other.
+/// A point of an edge: at the fraction `share` from one end to the other.
 struct EdgePoint {
   int from = 0, to = 0;  ///< points of the surface
   double share = 0;
@@ -31,13 +33,13 @@ struct Section {
 
 inline constexpr int sections_per_bone = 16;  ///< steps from head to tail, both ends included
 
-/// Of each bone the rings around it at even steps; none where the bone is outside the skin. The
-/// smallest ring counts where one lies in another. `near_joint` tells whether a place (at rest, m)
-/// lies in a joint zone.
+/// Of each bone the rings around it at even steps; none where the bone is outside the skin. Of
+/// nested rings the smallest counts. `near_joint` returns whether a point (at rest, m) lies in a
+/// joint zone.
 std::vector<Section> make_sections(const Triangles& surface, std::span<const MeasuredBone> bones,
                                    const std::function<bool(const Vec3&)>& near_joint);
 
-/// Area of the ring as its points lie now: of its shadow in the direction where that is largest.
+/// Present area of the ring: of its projection along the direction in which that is largest.
 double area_of(const Section& section, const Points& surface_points);
 
 struct SectionMetrics {
@@ -56,7 +58,7 @@ std::span<const SectionMetric> section_metrics_table();
 std::vector<SectionMetrics> measure_sections(std::span<const Section> sections,
                                              const Points& surface_points, double time);
 
-/// The whole file; as metrics_csv().
+/// The whole file, in the format of metrics_csv().
 std::string sections_csv(std::span<const SectionMetrics> rows);
 
 }  // namespace sinew

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slices across the bones, one lattice half-plane thick at rest, and how each of them has turned.
-// Bones that continue each other in one line at rest form a chain and are sliced as one, so that
-// the turn from slice to slice shows across their joints too.
+// Slices across the bones, one lattice half-plane thick at rest, and the rotation of each. Bones
+// that continue each other in one line at rest form a chain and are sliced as one, so that the
+// twist from slice to slice is measured across their joints too.
+//
+//     const double angle = tip_turn(make_slices(rest, bone, bones, radius), rest, now);
 #pragma once
 
 #include <array>
@@ -30,15 +32,15 @@ struct Slices {
 Slices make_slices(const Points& rest, std::span<const int> bone,
                    std::span<const MeasuredBone> bones, double radius);
 
-/// The rotation that carries the particles' rest positions to their present ones best, in the sense
-/// of least squares about their centers (Kabsch).
+/// The rotation that best maps the particles' rest positions to their present ones, in the sense of
+/// least squares about their centers (Kabsch).
 Mat3 turn_of(const Slice& slice, const Points& rest, const Points& now);
 
-/// Angle of the tip's turn, 0 to pi rad; not measured without a tip.
+/// Rotation angle of the tip, 0 to pi rad; not measured without a tip.
 double tip_turn(const Slices& slices, const Points& rest, const Points& now);
 
-/// The largest twist between slices that follow each other, rad: the part of their relative turn
-/// that is about their common axis now (the twist of swing and twist). Not measured without a pair.
+/// The largest twist between consecutive slices, rad: the part of their relative rotation about
+/// their present common axis (swing-twist decomposition). Not measured without a pair.
 double largest_twist_jump(const Slices& slices, const Points& rest, const Points& now);
 
 }  // namespace sinew

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Count, mean, rms and extremes of many values, in parallel with the same bits for any number of
-// threads. Of no values at all they are not-a-number: what was not measured is never a zero.
+// threads. Without values they are not-a-number, never zero.
+//
+//     const Statistics speeds = statistics(n, [&](std::size_t i) { return velocity[i].norm(); });
 #pragma once
 
 #include <algorithm>
@@ -36,8 +38,7 @@ struct Statistics {
   double max() const { return count > 0 ? high : not_measured; }
 };
 
-/// The smallest of the values that `percent` of them do not exceed (nearest rank); those that are
-/// not measured do not count. Reorders them.
+/// The percentile by nearest rank; values that are not measured do not count. Reorders the values.
 inline double percentile(std::vector<double>& values, double percent) {
   const auto end = std::remove_if(values.begin(), values.end(), [](double v) { return v != v; });
   const double count = static_cast<double>(end - values.begin());

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run as a whole: extremes of every metric, what stays after the return, and how soon it settles.
+// Summary of a run: extremes of every metric, the residual after the return, the settling time, and
+// the verdict.
+//
+//     const Summary summary = summarize(frames, radius);
 #pragma once
 
 #include <array>
@@ -28,7 +31,7 @@ struct MetricSummary {
 /// A time in which no bone moves.
 struct Hold {
   std::size_t first = 0, last = 0;  ///< frames
-  double settled = not_measured;    ///< s after its start; see settling.h
+  double settled = not_measured;    ///< s after its start; see settling_time()
 };
 
 struct Summary {
@@ -41,28 +44,29 @@ struct Summary {
   std::vector<Hold> holds;
 };
 
-/// Sums the frames up (in order of time, one at least, else bad input). `holds` with their settling
-/// times come from settling.h where the positions are at hand. `radius`: of a particle, m.
+/// Summarizes frames in order of time; throws bad input where there are none. `holds` come with
+/// their settling times, see below. `radius`: of a particle, m.
 Summary summarize(std::span<const FrameMetrics> frames, double radius,
                   std::vector<Hold> holds = {});
 
-/// Adds the particles that have the worst values. worst_particles: of every frame, see measure.h.
+/// Adds the particles that have the worst values. worst_particles: of every frame, see
+/// MeasuredFrame.
 void add_worst_particles(Summary& summary,
                          std::span<const std::vector<std::int64_t>> worst_particles);
 
-// How soon the body comes to rest once its bones do.
+// Settling: how soon the body comes to rest once its bones do.
 
-/// The longest stretches of three frames or more in which no bone turns by more than 0.01 degrees
-/// or shifts by more than 1e-3 r from where it was at the stretch's start. bones: a pose per frame.
+/// The longest intervals of three frames or more in which no bone turns by more than 0.01 degrees
+/// or shifts by more than 1e-3 r from its pose at the interval's start. bones: a pose per frame.
 std::vector<Hold> holds(std::span<const std::vector<RigidFrame>> bones, double radius);
 
-/// The time (s) from the hold's start after which the rms distance of the particles to their places
-/// in its last frame stays below 0.2 r. Frames are asked for backwards from the last, two in
-/// memory.
+/// The time (s) from the hold's start after which the rms distance of the particles to their
+/// positions in its last frame stays below 0.2 r. Frames are requested backward from the last; two
+/// are in memory.
 double settling_time(const Hold& hold, std::span<const double> times, double radius,
                      const std::function<Points(std::size_t frame)>& positions);
 
-// What a run amounts to, in five numbers and a few words.
+// The verdict: five numbers that characterize a run, each with a level and a few words.
 
 enum class Level { good, fair, poor, unknown };
 
@@ -72,8 +76,8 @@ struct VerdictItem {
 };
 
 /// Volume error, distance from the rigid pose far from joints, broken neighbors, inverted
-/// particles, and the residual after the return or else the turn of the tip. Worst frame each, the
-/// last two at the end. radius in m.
+/// particles, and the residual after the return or else the rotation of the tip: each in its worst
+/// frame, the last two at the end. radius in m.
 std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const Summary& summary,
                                    double radius);
 

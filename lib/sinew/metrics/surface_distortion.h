@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a skin is distorted: the stretch of its edges and faces, and which faces are turned over.
+// The distortion of a skin: stretch of its edges and faces, and the number of flipped faces.
+//
+//     const SurfaceDistortion distortion = surface_distortion(rest.surface, state.surface_points);
 #pragma once
 
 #include <sinew/core/triangles.h>
@@ -13,7 +15,7 @@ struct SurfaceDistortion {
   double area_stretch;  ///< max of A / A0 and A0 / A over the faces
   double conformal;     ///< max of s1 / s2, the two stretches of a face; 1: angles are kept
   double dirichlet;     ///< mean over A0 of s1^2 + s2^2 + 1/s1^2 + 1/s2^2; 4 when rigid
-  double flipped;       ///< faces that look against the mean normals at their corners
+  double flipped;       ///< faces opposed to the mean normals at their corners
 };
 
 /// Of `now` (points in the order of rest.points, m) against the surface at rest. In parallel.

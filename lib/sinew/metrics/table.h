@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of metrics. metrics.csv, metrics.json, the report, --fail-on and the README's table
-// all come from it: to add a metric, add its member in frame.h and its row in table.cpp.
+// The table of metrics, from which metrics.csv, metrics.json, the report, --fail-on and the
+// README's table are made. To add a metric, add its member in frame.h and its row in table.cpp.
+//
+//     const Metric& metric = metrics_table()[metric_index("volume_error")];
+//     const double value = frame.*metric.value;
 #pragma once
 
 #include <span>
@@ -12,10 +15,10 @@
 
 namespace sinew {
 
-/// Which values of a metric are the bad ones.
+/// Which values of a metric are worse.
 enum class Worse { larger, smaller, magnitude };
 
-/// What is measured in every frame.
+/// A metric of every frame.
 struct Metric {
   std::string_view name;  ///< column of metrics.csv
   std::string_view unit;  ///< "" for pure numbers
@@ -23,11 +26,12 @@ struct Metric {
   std::string_view formula;
   double FrameMetrics::*value;
   Worse worse = Worse::larger;
-  /// Of which the metric is the worst over all particles; none where it belongs to no one particle.
+  /// The values of which the metric is the worst over all particles; none where it is not of that
+  /// kind.
   std::vector<double> ParticleValues::*of_particles = nullptr;
 };
 
-/// What is measured once in a run.
+/// A metric of a whole run.
 struct RunMetric {
   std::string_view name, unit, help, formula;
   double Summary::*value;
@@ -36,7 +40,7 @@ struct RunMetric {
 std::span<const Metric> metrics_table();  ///< the first is the time
 std::span<const RunMetric> run_metrics_table();
 
-/// The place of the metric in metrics_table(); its size where there is none of that name.
+/// The index of the metric in metrics_table(); its size where there is none of that name.
 std::size_t metric_index(std::string_view name);
 
 }  // namespace sinew

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <sinew/core/particles.h>
+#include <sinew/physics/laws.h>
 
 namespace sinew {
 namespace {
@@ -44,9 +45,8 @@ double Material::young_modulus() const {
 }
 
 double Material::stiffness() const {
-  return model == MaterialModel::paper
-             ? std::max(pair.contact_stiffness(), pair.tension_stiffness())
-             : std::max(pair.contact_stiffness(), bond.stiffness);
+  return std::max(pair.contact_stiffness(),
+                  law_of(*this).has_bonds ? bond.stiffness : pair.tension_stiffness());
 }
 
 CubicConstants Material::constants() const {

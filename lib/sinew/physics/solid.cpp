@@ -110,12 +110,13 @@ double weight_of(const Mat3& A, double d0) {
 
 }  // namespace
 
-bool remembers_neighbors(const Material& material) {
-  return material.model != MaterialModel::paper || material.cohesion == Cohesion::initial_neighbors;
-}
+bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
 Solid::Solid(const Material& material, Points rest)
-    : material_(material), rest_(std::move(rest)), bonds_(make_bonds(rest_, material.pair.r)) {
+    : material_(material),
+      law_(&law_of(material)),
+      rest_(std::move(rest)),
+      bonds_(make_bonds(rest_, material.pair.r)) {
   if (material_.volume_stiffness <= 0) return;
   const std::size_t n = rest_.size();
   inverse_.assign(n, Mat3::Zero());
@@ -131,18 +132,16 @@ Solid::Solid(const Material& material, Points rest)
 
 /// The force along a pair that cells find, N.
 double Solid::between(std::size_t i, std::uint32_t j, double d) const {
-  const PairForce& pair = material_.pair;
-  if (material_.model == MaterialModel::paper)
-    return d < 2 * pair.r || bonds_.were_neighbors(i, j) ? pair.force(d) : 0;
-  return d < 2 * pair.r && !bonds_.bonded(i, j) ? pair.force(d) : 0;
+  const bool touch = d < 2 * material_.pair.r;  // asked first: looking for a bond takes longer
+  if (law_->has_bonds) return touch && !bonds_.bonded(i, j) ? law_->force(material_, d) : 0;
+  if (touch || !bonds_.were_neighbors(i, j)) return law_->force(material_, d);
+  return law_->bond_force(material_, d, d);
 }
 
 double Solid::potential(std::size_t i, std::uint32_t j, double d) const {
-  const PairForce& pair = material_.pair;
-  const double repulsion = d < 2 * pair.r ? pair.potential(d) - pair.potential(2 * pair.r) : 0;
-  if (material_.model == MaterialModel::paper)
-    return bonds_.were_neighbors(i, j) ? pair.potential(d) : repulsion;
-  return bonds_.bonded(i, j) ? 0 : repulsion;
+  if (law_->has_bonds) return bonds_.bonded(i, j) ? 0 : law_->energy(material_, d);
+  return bonds_.were_neighbors(i, j) ? law_->bond_energy(material_, d, d)
+                                     : law_->energy(material_, d);
 }
 
 /// F_i, J_i and the stress that keeps the volume. Where a bond broke, the body is severed and keeps
@@ -168,8 +167,8 @@ Vec3 Solid::bond_force(const Particles& particles, std::size_t i) const {
   Vec3 force = Vec3::Zero();
   for_each_bond(
       bonds_, particles, i, [&](std::uint32_t j, const Vec3& offset, double d, double length) {
-        force -=
-            material_.bond.stiffness * (d - length) * direction_from(particles, offset, d, i, j);
+        force +=
+            law_->bond_force(material_, d, length) * direction_from(particles, offset, d, i, j);
       });
   return force;
 }
@@ -191,7 +190,7 @@ void Solid::forces(const Particles& particles, Forces& forces) {
   pair_pass(
       particles, material_,
       [&](std::size_t i, std::uint32_t j, double d) { return between(i, j, d); }, forces);
-  if (material_.model == MaterialModel::paper) return;
+  if (!law_->has_bonds) return;
   find_volumes(particles);
   for_each_particle(particles.size(), [&](std::size_t i) {
     forces.pair[i] += bond_force(particles, i);
@@ -207,9 +206,9 @@ double Solid::energy(const Particles& particles) {
     for_each_neighbor(
         particles, cells, material_.pair.b, i,
         [&](std::uint32_t j, const Vec3&, double d) { sum += potential(i, j, d) / 2; });
-    if (material_.model != MaterialModel::paper)
+    if (law_->has_bonds)
       for_each_bond(bonds_, particles, i, [&](std::uint32_t, const Vec3&, double d, double length) {
-        sum += material_.bond.stiffness / 4 * (d - length) * (d - length);
+        sum += law_->bond_energy(material_, d, length) / 2;
       });
     if (material_.volume_stiffness > 0) sum += volume_energy(i);
     return sum;
@@ -229,7 +228,7 @@ void Solid::restore(const std::vector<double>& rest_length,
 }
 
 double Solid::evolve(const Particles& particles, double step) {
-  if (material_.model == MaterialModel::paper) return 0;
+  if (!law_->has_bonds) return 0;
   const std::vector<std::int32_t> before = bonds_.broken;
   double released = sinew::evolve(bonds_, material_.bond, material_.pair, particles, step);
   if (material_.volume_stiffness <= 0) return released;

@@ -20,6 +20,7 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
 #include <sinew/physics/forces.h>
+#include <sinew/physics/laws.h>
 #include <sinew/physics/material.h>
 
 namespace sinew {
@@ -89,6 +90,7 @@ class Solid {
   double volume_energy(std::size_t i) const;
 
   Material material_;
+  const ForceLaw* law_;
   Points rest_;
   Bonds bonds_;
   std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The things a picture shows, put onto VTK's stage.
+// The objects in a picture as VTK actors: particles, skin, edges, bones and arrows.
+//
+//     add_particles(stage.renderer(), snapshot, scale);
 #pragma once
 
 #include <sinew/render/color.h>
@@ -16,9 +18,9 @@ void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorS
 void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin);
 
 struct LineStyle {
-  double width = 1;  ///< of the sharp edges, in the drawn pixels; the others are thinner
+  double width = 1;  ///< of the sharp edges, in rendered pixels; the others are thinner
   double lift = 0;   ///< off the skin, m
-  double pixel = 0;  ///< size of one, m: a net of lines closer than a few of them is left out
+  double pixel = 0;  ///< size of one, m: lines closer than a few pixels are left out
 };
 
 /// The skin's sharp edges.
@@ -33,15 +35,7 @@ void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& ski
 void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
                const Color& color);
 
-}  // namespace sinew
-
-// Vectors as arrows on VTK's stage.
-
-class vtkRenderer;
-
-namespace sinew {
-
-/// Each arrow from its place as far as it reaches, in the color of its value.
+/// Each arrow in its length, in the color of its value.
 void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
 
 }  // namespace sinew

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From where a picture is seen: a parallel projection, so that sizes can be compared anywhere in
-// it.
+// The camera of a picture: a parallel projection, so that sizes can be compared anywhere in it.
+//
+//     const Camera camera{three_quarter_view(), seen(three_quarter_view(), snapshot)};
 #pragma once
 
 #include <sinew/render/snapshot.h>
 
 namespace sinew {
 
-/// Rows: to the right, up, and towards the viewer, who stands in front of the body (at -y), a
-/// little to its right and above; z is up. A bend in the x-z plane is seen nearly at its true size.
+/// Rows: to the right, up, and toward the viewer, who is in front of the body (at -y), slightly to
+/// its right and above; z is up. A bend in the x-z plane appears nearly at its true size.
 Mat3 three_quarter_view();
 
-/// The view of someone who stands in the direction `towards_viewer` (not along z, not zero).
+/// The view from the direction `towards_viewer` (not along z, not zero).
 Mat3 view_from(const Vec3& towards_viewer);
 
-/// The view of someone who looks down, x to the right and y upwards.
+/// The view from above, x to the right and y upward.
 Mat3 view_from_above();
 
 struct Camera {
   Mat3 view = three_quarter_view();
-  Box frame;  ///< in the view's directions, m; all of it is in the picture
+  Box frame;  ///< in the view's axes, m; all of it is in the picture
 };
 
-/// The box around everything in `snapshot` in the directions of `view`, m; empty for an empty
+/// The box around everything in `snapshot` in the axes of `view`, m; empty for an empty
 /// snapshot. Throws bad input for positions that are not finite.
 Box seen(const Mat3& view, const Snapshot& snapshot);
 

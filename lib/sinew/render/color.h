@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colors, and the color maps of values. All of them grow lighter in equal steps, so that equal
-// differences of a value look equally large, also in gray.
+// Colors, and color maps of values. Lightness increases evenly along each map, so that equal
+// differences of a value appear equally large, also in gray.
+//
+//     const Color color = mapped_color(0.5, ColorMap::viridis);
 #pragma once
 
 #include <cstdint>
@@ -22,7 +24,7 @@ inline constexpr Color faint_ink{112, 118, 126};
 enum class ColorMap {
   indigo,  ///< indigo, teal, green, yellow; the darkest is light enough to see shading on it
   viridis,
-  cividis,  ///< for eyes that do not tell red from green
+  cividis,  ///< for color vision without red and green
   plasma,
   inferno,
   magma,
@@ -35,11 +37,11 @@ struct NamedColorMap {
 };
 std::span<const NamedColorMap> color_maps();
 
-/// The map at 0 (low) .. 1 (high); outside and NaN: the nearer end and the low end.
+/// The map at 0 (low) .. 1 (high); the nearer end outside of that, the low end for NaN.
 Color mapped_color(double position, ColorMap map = ColorMap::indigo);
 
-/// Lightness and the two opponents of a color in Oklab (B. Ottosson, 2020), in which distances
-/// are about proportional to what the eye sees.
+/// Lightness and the two opponent channels of a color in Oklab (B. Ottosson, 2020), in which
+/// distances are about proportional to perceived differences.
 Vec3 oklab(const Color& color);
 
 }  // namespace sinew

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture with words: one or more panels side by side, below them the caption and the meaning of
-// the colors.
+// A picture with text: one or more panels side by side, and below them the caption and the color
+// bar.
+//
+//     write_png(figure({{&painter, &snapshot}}, {.camera = camera}), "bent.png");
 #pragma once
 
 #include <sinew/render/picture.h>
@@ -25,9 +27,9 @@ struct FigureOptions {
 /// panels share it. Throws bad input without panels, and as Painter::draw does.
 Image figure(const std::vector<Panel>& panels, const FigureOptions& options);
 
-// A run in one picture: moments from left to right, ways of looking at them below each other.
+// A contact sheet: a run in one picture, moments from left to right, views below each other.
 
-/// One row: the same moments as in the other rows, seen in one way.
+/// One row: the same moments as in the other rows, in one view.
 struct SheetRow {
   Painter* painter = nullptr;
   const std::vector<Snapshot>* snapshots = nullptr;
@@ -43,8 +45,8 @@ struct SheetOptions {
 };
 
 /// All panels to one scale; below them the captions of the first row's snapshots and the color
-/// scale of its painter. Throws bad input without rows or snapshots or with rows of different
-/// lengths, and as Painter::draw does.
+/// scale of its painter. Throws bad input without rows or snapshots, for rows of different lengths,
+/// and as Painter::draw does.
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
 /// As in the paper's figure 4: the surface above, the particles below, over time.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture as plain bytes, the few things done to it, and its PNG file.
+// An image as plain bytes, the operations needed on it, and its PNG file.
+//
+//     Image image(640, 480);
+//     write_png(halved(image), "picture.png");
 #pragma once
 
 #include <string>
@@ -22,13 +25,13 @@ struct Image {
 /// Half the width and height: the mean of 2 x 2 pixels each.
 Image halved(const Image& image);
 
-/// Puts `part` with its left upper corner at (x, y); what lies outside is cut off.
+/// Copies `part` to (x, y), its upper left corner; clipped at the borders.
 void paste(Image& image, const Image& part, int x, int y);
 
-/// Paints the pixels of a rectangle, cut off at the borders.
+/// Fills a rectangle, clipped at the borders.
 void fill(Image& image, int x, int y, int width, int height, const Color& color);
 
-/// Writes `image` to `path`, which appears complete or not at all. Throws not written.
+/// Writes `path` atomically. Throws not written.
 void write_png(const Image& image, const std::string& path);
 
 }  // namespace sinew

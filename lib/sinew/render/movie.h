@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An .mp4 (H.264, as browsers play it) made by the program ffmpeg from one picture after another.
+// Writes a movie (.mp4, H.264, as browsers play it) frame by frame, with the program ffmpeg.
+//
+//     Movie movie("bend.mp4", {.frames_per_second = 30});
+//     movie.add(frame);
+//     movie.finish();
 #pragma once
 
 #include <memory>
@@ -14,10 +18,10 @@ struct MovieOptions {
   double frames_per_second = 30;
 };
 
-/// Appears at its path only once it is finished; given up before, it leaves nothing.
+/// The file is created by finish(); without it nothing is left.
 class Movie {
  public:
-  /// Throws not written when ffmpeg is missing or the place cannot be written; bad input for a size
+  /// Throws not written where ffmpeg is missing or the path cannot be written; bad input for a size
   /// that is odd or outside 16 .. 8192, or a rate outside 0.1 .. 240.
   Movie(const std::string& path, const MovieOptions& options);
   ~Movie();
@@ -25,7 +29,7 @@ class Movie {
   Movie& operator=(const Movie&) = delete;
 
   void add(const Image& frame);  ///< of the movie's size. Throws not written, bad input
-  void finish();                 ///< throws not written, with what ffmpeg said
+  void finish();                 ///< throws not written, with the message of ffmpeg
 
  private:
   struct Encoder;

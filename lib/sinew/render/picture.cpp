@@ -75,10 +75,10 @@ Image Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin
                 {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
-  Image image = with_shadows(stage_.shoot(), 2 * sizes.grain);
+  Image image = with_shadows(stage_.render(), 2 * sizes.grain);
   if (!skin_and_bones || snapshot.bones.empty()) return image;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
-  shine_through(image, stage_.shoot(), 0.6F);
+  shine_through(image, stage_.render(), 0.6F);
   return image;
 }
 
@@ -87,17 +87,17 @@ Image Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, slate);
-  Image image = with_shadows(stage_.shoot(), 5 * sizes.grain);
+  Image image = with_shadows(stage_.render(), 5 * sizes.grain);
   if (snapshot.bones.empty()) return image;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, slate);
-  shine_through(image, stage_.shoot(), 0.6F);
+  shine_through(image, stage_.render(), 0.6F);
   return image;
 }
 
 Image Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  Image image = with_shadows(stage_.shoot(), 5 * sizes.grain);
+  Image image = with_shadows(stage_.render(), 5 * sizes.grain);
   pale(image);
   return image;
 }
@@ -117,7 +117,7 @@ Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
   Image image = pale_skin(snapshot, sizes);
   if (options.view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
   if (options.view == View::bones) add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, slate);
-  Exposure over = stage_.shoot();
+  Exposure over = stage_.render();
   over.image = with_shadows(over, 2 * sizes.grain);
   shine_through(image, over, 1);
   return image;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws a snapshot. Needs an X display (display.h).
+// Draws a snapshot. Needs an X display (<sinew/render/display.h>).
+//
+//     Painter painter(rest_surface, scale);
+//     const Image image = painter.draw(snapshot, {.view = View::particles, .camera = camera});
 #pragma once
 
 #include <sinew/render/shading.h>
@@ -8,14 +11,14 @@
 namespace sinew {
 
 enum class View {
-  surface,    ///< the skin, the bones shining through
-  particles,  ///< spheres of their true size in the colors of their values
-  both,       ///< the particles within the net of the skin, the bones shining through
-  arrows,     ///< the snapshot's arrows within a pale skin
-  bones,      ///< the bones and their axes within a pale skin
+  surface,    ///< the skin, with the bones visible through it
+  particles,  ///< spheres of their true size, colored by their values
+  both,       ///< the particles inside the wireframe of the skin, and the bones
+  arrows,     ///< the snapshot's arrows inside a pale skin
+  bones,      ///< the bones and their axes inside a pale skin
 };
 
-/// Whether its colors mean values.
+/// Whether its colors show values.
 constexpr bool shows_values(View view) { return view != View::surface && view != View::bones; }
 
 struct PictureOptions {
@@ -26,7 +29,7 @@ struct PictureOptions {
   Finish finish = Finish::fine;
 };
 
-/// Keeps what all pictures of a run share: the stage, the skin's edges, the meaning of the colors.
+/// Holds what all pictures of a run share: the stage, the skin's edges and the color scale.
 class Painter {
  public:
   /// `rest` is the surface at rest; the snapshots have its faces. Throws as Stage does.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a picture is made of: one moment of a run as plain values, in any order the files gave.
+// The input of a picture: one moment of a run as plain values, in the order of the files.
+//
+//     Snapshot snapshot{.caption = "t = 1 s", .particles = points, .radius = 0.01};
 #pragma once
 
 #include <string>
@@ -16,15 +18,15 @@ struct SnapshotBone {
   Mat3 axes = Mat3::Identity();                   ///< columns: along the bone, and two sides
 };
 
-/// A vector to be seen: a force at a particle, say.
+/// A vector to be drawn, such as the force on a particle.
 struct SnapshotArrow {
-  Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; as long as it is drawn
+  Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; `along` is the arrow as drawn
   double value = 0;                                ///< shown in color
 };
 
 /// One moment. Any part may be empty and is then not drawn.
 struct Snapshot {
-  std::string caption;         ///< written under the picture, may have several lines
+  std::string caption;         ///< below the picture, may have several lines
   Points particles;            ///< n x 3, m
   double radius = 0;           ///< of each particle, m
   std::vector<double> values;  ///< one per particle, shown in color; empty: all alike
@@ -33,14 +35,14 @@ struct Snapshot {
   std::vector<SnapshotArrow> arrows;
 };
 
-/// What the colors of the particles mean, the same for all pictures of a run.
+/// The values that colors stand for, the same for all pictures of a run.
 struct ColorScale {
   std::string name;  ///< of the quantity, "displacement"
   std::string unit;  ///< "m", or empty for a plain number
   double low = 0, high = 1;
   ColorMap map = ColorMap::indigo;
 
-  /// Where `value` lies between low and high: 0 .. 1, values outside at the ends.
+  /// Position of `value` between low and high: 0 .. 1, clamped.
   double position(double value) const;
   Color color(double value) const { return mapped_color(position(value), map); }
 };

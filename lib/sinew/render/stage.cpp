@@ -129,7 +129,7 @@ void Stage::aim(const Camera& camera, int width, int height, double pixel, Finis
 
 vtkRenderer& Stage::renderer() { return *parts_->renderer; }
 
-Exposure Stage::shoot() {
+Exposure Stage::render() {
   parts_->window->Render();
   Exposure exposure;
   exposure.image = parts_->times == 2 ? halved(parts_->pixels()) : parts_->pixels();

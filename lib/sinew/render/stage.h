@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The place in front of the camera: a window nobody sees, its lights, and what the camera records.
+// The stage in front of the camera: an offscreen window, its lights, and the rendered image.
+//
+//     stage.aim(camera, width, height, pixel, Finish::fine);
+//     add_particles(stage.renderer(), snapshot, scale);
+//     const Exposure exposure = stage.render();
 #pragma once
 
 #include <memory>
@@ -13,19 +17,19 @@ class vtkRenderer;
 namespace sinew {
 
 enum class Finish {
-  quick,  ///< edges smoothed afterwards: for movies
-  fine,   ///< drawn at twice the size: for pictures
+  quick,  ///< antialiased by a filter: for movies
+  fine,   ///< rendered at twice the size: for pictures
 };
 
 struct Exposure {
   Image image;
   DepthImage depth;
-  std::vector<float> coverage;  ///< how much of each pixel something covers, 0 .. 1
+  std::vector<float> coverage;  ///< covered part of each pixel, 0 .. 1
 };
 
 class Stage {
  public:
-  Stage();  ///< throws Error (not written) when the display cannot draw
+  Stage();  ///< throws Error (not written) where the display cannot draw
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
@@ -33,10 +37,10 @@ class Stage {
   /// Sets up the camera for pictures of width x height pixels, each `pixel` (m) in size, about the
   /// middle of its frame.
   void aim(const Camera& camera, int width, int height, double pixel, Finish finish);
-  /// Put things here.
+  /// To which actors are added.
   vtkRenderer& renderer();
-  /// Draws what was put there and clears the stage.
-  Exposure shoot();
+  /// Renders the actors and clears the stage.
+  Exposure render();
 
  private:
   struct Parts;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words in a picture. The font is built in; no display is needed.
+// Text and color bars in an image. The font is built in; no display is needed.
+//
+//     write_text(image, "t = 1 s", 10, 10, {.size = 16});
 #pragma once
 
 #include <string>
@@ -20,11 +22,11 @@ struct TextStyle {
 /// Height of one line, pixels.
 int line_height(const TextStyle& style);
 
-/// Writes the lines of `text` (UTF-8) downwards from y; x is their left end, middle or right end.
+/// Writes the lines of `text` (UTF-8) downward from y; x is their left end, middle or right end.
 void write_text(Image& image, const std::string& text, int x, int y, const TextStyle& style);
 
-/// The colors of `scale` from left to right with its ends below and its name above, in a width of
-/// `width` and a height of color_bar_height pixels.
+/// The colors of `scale` from left to right with its limits below and its name above, `width` pixels
+/// wide and color_bar_height() pixels high.
 void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
                     const TextStyle& style);
 int color_bar_height(const TextStyle& style);

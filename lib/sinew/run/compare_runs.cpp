@@ -185,7 +185,7 @@ void write_comparison(const RunComparison& compared, const Side& first, const Si
 }  // namespace
 
 RunComparison compare_runs(const fs::path& first_folder, const fs::path& second_folder,
-                           const HowToMeasure& how, const fs::path& out) {
+                           const MeasureOptions& how, const fs::path& out) {
   refuse_own_folders(out, first_folder, second_folder);
   Side first(first_folder), second(second_folder);
   const std::vector<Pair> pairs = matched_frames(first.run, second.run);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two runs measured, held against each other at the times that both have, and told of in a folder.
+// Measures two runs, compares their frames at the times that both have, and writes a report.
+//
+//     const RunComparison comparison = compare_runs("out/a", "out/b", {}, "out/comparison");
 #pragma once
 
 #include <filesystem>
@@ -9,10 +11,10 @@
 
 namespace sinew {
 
-/// Writes compare.csv, metrics.json and report.html into `out`, which is made. Throws bad input for
-/// folders that are no runs, for runs without a time in common, and for `out` being one of them;
-/// not written.
+/// Writes compare.csv, metrics.json and report.html into `out`, which is created. Throws bad input
+/// for folders that are not runs, for runs without a common time, and where `out` is one of them;
+/// throws not written.
 RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second,
-                           const HowToMeasure& how, const std::filesystem::path& out);
+                           const MeasureOptions& how, const std::filesystem::path& out);
 
 }  // namespace sinew

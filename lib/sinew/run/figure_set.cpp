@@ -37,7 +37,7 @@ ColorScale FigureSet::scale() const {
 
 /// Frames of the first run.
 std::vector<std::size_t> FigureSet::moments() const {
-  if (options_.times.empty()) return runs_.front()->telling_frames();
+  if (options_.times.empty()) return runs_.front()->key_frames();
   std::vector<std::size_t> frames;
   for (const double time : options_.times) frames.push_back(runs_.front()->frame_at(time));
   return frames;
@@ -63,7 +63,7 @@ std::string FigureSet::name() const {
 FigureOptions FigureSet::figure_options(Finish finish) const {
   FigureOptions figure;
   figure.camera.view = options_.view;
-  for (const DrawnRun* run : runs_) figure.camera.frame.extend(run->story().frame);
+  for (const DrawnRun* run : runs_) figure.camera.frame.extend(run->overview().frame);
   figure.width = options_.width;
   figure.height = options_.height;
   figure.finish = finish;

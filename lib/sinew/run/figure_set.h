@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pictures and movies of one run, or of two side by side, in a folder.
+//
+//     FigureSet figures({&run}, 0, {.folder = "out/bend/pictures"});
+//     figures.pictures();
 #pragma once
 
 #include <array>
@@ -15,23 +18,23 @@
 namespace sinew {
 
 struct FigureSetOptions {
-  std::filesystem::path folder;  ///< where the pictures go
+  std::filesystem::path folder;  ///< of the pictures
   int width = 1280, height = 720;
   Mat3 view = three_quarter_view();
   ColorMap colors = ColorMap::indigo;
-  std::optional<std::array<double, 2>> range;  ///< of the colors, instead of the run's own
-  std::vector<double> times;                   ///< s; empty: the telling moments
+  std::optional<std::array<double, 2>> range;  ///< of the colors; by default the run's own
+  std::vector<double> times;                   ///< s; empty: the run's key frames
 };
 
-/// One look at one run or two, in the same colors and to the same scale.
+/// One view preset of one run or two, in the same colors and to the same scale.
 class FigureSet {
  public:
-  /// `preset`: which of the runs' presets. The runs must outlive the figure_set.
+  /// `preset`: index of the runs' view preset. The runs must outlive this object.
   FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset, FigureSetOptions options);
 
-  int pictures();  ///< one of each moment; returns how many
-  void sheet();    ///< all moments in one picture: of the body as in the paper's figure 4
-  void movie();    ///< of all frames; of the body its surface beside its particles
+  int pictures();  ///< one for each moment; returns their number
+  void sheet();    ///< all moments in one picture; of the body as in the paper's figure 4
+  void movie();    ///< of all frames; of the body, its surface beside its particles
 
  private:
   const DrawnView& drawn(std::size_t run) const { return runs_[run]->view_presets()[preset_]; }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <sinew/core/parallel.h>
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/run_files.h>
@@ -138,6 +138,11 @@ void FrameWriter::begin_arrays(const OutputSettings& output, const Body& body) {
   input.bone.assign(particle_bone_.begin(), particle_bone_.end());
   measured_ = rest_body(std::move(input));
 }
+
+FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
+                         const ReadyScene& ready)
+    : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles,
+                  ready.setup.obstacles) {}
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {

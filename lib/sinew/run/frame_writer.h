@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes what a simulation is at this moment as one frame of each series, while it goes on
-// stepping: a frame is copied and handed to a thread of its own. Beside the series: bones.csv and,
-// where the scene asks for them, the surface by skinning alone and its export for animators.
+// Writes the present state of a simulation as one frame of each series. The state is copied and
+// written by a separate thread while the simulation continues. Also writes bones.csv and, where the
+// scene requests them, the surface by skinning alone and its export for animators.
+//
+//     FrameWriter writer(folder, output, body, surface, obstacles);
+//     writer.add(simulation, time);
+//     writer.close();
 #pragma once
 
 #include <array>
@@ -32,29 +36,32 @@ namespace sinew {
 
 class FrameWriter {
  public:
-  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each about its own frame;
-  /// `kept`: times (s) of frames that are there already. Throws not written, and bad input when one
-  /// of those is missing.
+  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each in its own frame;
+  /// `kept`: times (s) of frames already written. Throws not written, and bad input when one of
+  /// those is missing.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
               const Triangles& surface, std::vector<Triangles> obstacles,
               std::span<const double> kept = {});
+  /// The same of a scene that begins.
+  FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
+              const ReadyScene& ready);
 
-  /// Takes the frame at `time` (s); waits where two frames before it are not written yet. Throws
-  /// not written, of a frame before it too: then nothing more is written.
+  /// Copies the frame at `time` (s); waits while two earlier frames are not yet written. Throws not
+  /// written, also for an earlier frame: then nothing more is written.
   void add(Simulation& simulation, double time);
-  /// Does what make() returns once all frames before are written, unless that fails.
+  /// Runs the job that make() returns once all earlier frames are written, unless that fails.
   void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
   /// Waits until all frames are written and named by the PVDs. Throws not written.
   void close();
 
-  /// How long add() has waited for frames before to be written, s.
+  /// How long add() has waited for earlier frames to be written, s.
   double waited() const { return writer_.waited(); }
 
   /// Frames that every series holds.
   int written() const { return written_; }
 
  private:
-  /// What a frame is made of, in the order of the particles.
+  /// The content of a frame, in the order of the particles.
   struct Moved {
     Moment moment;
     Particles particles;
@@ -94,15 +101,15 @@ class FrameWriter {
   Series particles_, skins_, bones_, frames_;
   std::optional<Series> obstacle_series_;  ///< where the scene has some
   BoneTable bone_table_;
-  BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not asked for
+  BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not requested
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
-  std::vector<std::string_view> arrays_;  ///< that the scene asks for besides
-  std::optional<RestBody> measured_;      ///< what they are worked out from, if any
-  std::array<Moved, 2> moved_;  ///< one being written, one waiting; their room is used again
+  std::vector<std::string_view> arrays_;  ///< additional ones that the scene requests
+  std::optional<RestBody> measured_;      ///< which they are computed from, if any
+  std::array<Moved, 2> moved_;  ///< one being written, one waiting; their memory is reused
   std::size_t taken_ = 0;
   std::atomic<int> written_ = 0;
-  Background writer_;  ///< the last member: it ends before what it works with
+  Background writer_;  ///< the last member: destroyed before the data it uses
 };
 
 }  // namespace sinew

@@ -114,7 +114,7 @@ namespace {
 
 /// Frames that one goes to look at are in the playback even where it leaves others out.
 void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& run) {
-  for (const std::string_view name : telling_metrics()) {
+  for (const std::string_view name : headline_metrics()) {
     const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
     if (!worst || measured.playback.has(*worst)) continue;
     const FrameState state = measured_frame(read_frame(run, *worst));
@@ -160,7 +160,7 @@ class ValueSeries {
 };
 
 void measure_one(Measured& measured, Course& course, const RestBody& rest, const RunFiles& run,
-                 const FrameState& state, const HowToMeasure& how) {
+                 const FrameState& state, const MeasureOptions& how) {
   const std::size_t i = measured.frames.size();
   MeasuredFrame frame = measure_frame(rest, state);
   add_surface_metrics(frame.metrics, run, state, how.reference);
@@ -177,7 +177,7 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
 }
 
 Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& run,
-                      const HowToMeasure& how) {
+                      const MeasureOptions& how) {
   Course course;
   FramesInOrder frames(run, how.ahead);
   ValueSeries values(run, how.arrays);
@@ -198,7 +198,7 @@ RestBody rest_of(const RunFiles& run) {
   return rest_body(std::move(input));
 }
 
-Measured measure_run(const RunFiles& run, const HowToMeasure& how) {
+Measured measure_run(const RunFiles& run, const MeasureOptions& how) {
   const RestBody rest = rest_of(run);
   Measured measured;
   if (how.playback) measured.playback = plan_playback(rest, run.frames());

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run measured frame by frame.
+// Measures a run frame by frame: all metrics, their summary and the checks of limits.
+//
+//     const Measured measured = measure_run(open_run({"out/bend"}), {});
+//     write_file("metrics.csv", metrics_csv(measured.frames));
 #pragma once
 
 #include <filesystem>
@@ -17,26 +20,27 @@
 
 namespace sinew {
 
-// Metrics of a run's surface against other surfaces, and of its own folds: what lib/metrics leaves
-// to whoever has meshes at hand.
+// Metrics that compare a run's surface with other surfaces, and its self-intersections:
+// <sinew/metrics> does not depend on meshes.
 
-/// A series of surfaces that somebody names: frames are taken by their time.
+/// A series of reference surfaces; frames are selected by their time.
 struct SurfaceSeries {
-  std::filesystem::path folder;  ///< that its rows lie in
+  std::filesystem::path folder;  ///< that the paths of its rows are relative to
   std::vector<PvdRow> rows;
 };
 
-/// Throws bad input, naming the file, for one that is no PVD or has no rows.
+/// Throws bad input, naming the file, where it is not a PVD or has no rows.
 SurfaceSeries open_surfaces(const std::filesystem::path& pvd);
 
 /// The frame of these rows at a time (s), within a millionth of a second.
 std::optional<std::size_t> frame_at(const std::vector<PvdRow>& rows, double time);
 
-/// The triangles of one frame. Throws bad input, naming the file, where it holds others.
+/// The triangles of one frame. Throws bad input, naming the file, where it holds other cells.
 Triangles read_surface_frame(const std::filesystem::path& file);
 
-/// Adds to a frame's metrics: self-intersections, and distances to the rigid pose, to skinning
-/// where the run has written it, and to the reference where one is given and has that time.
+/// Adds to a frame's metrics: self-intersections, and the distances to the rigid pose, to the
+/// skinned surfaces if the run has written them, and to the reference if it has a frame of that
+/// time.
 void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameState& state,
                          const std::optional<SurfaceSeries>& reference);
 
@@ -49,18 +53,18 @@ struct Measured {
   std::vector<SectionMetrics> sections;  ///< of every frame
 };
 
-struct HowToMeasure {
+struct MeasureOptions {
   std::vector<Limit> limits;
   std::optional<SurfaceSeries> reference;
   std::vector<std::string_view> arrays;  ///< to be written as the series "values"
-  bool ahead = true;                     ///< read the frame that comes while one is measured
-  bool playback = true;                  ///< keep one
+  bool ahead = true;                     ///< read the next frame while one is measured
+  bool playback = true;                  ///< make one
 };
 
 /// The body of a run at rest.
 RestBody rest_of(const RunFiles& run);
 
-/// Two frames are in memory at a time. Throws what reading them does, and not written.
-Measured measure_run(const RunFiles& run, const HowToMeasure& how);
+/// Holds two frames in memory at a time. Throws what reading them does, and not written.
+Measured measure_run(const RunFiles& run, const MeasureOptions& how);
 
 }  // namespace sinew

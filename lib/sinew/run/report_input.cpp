@@ -11,6 +11,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/bone_force.h>
+#include <sinew/physics/laws.h>
 #include <sinew/rig/binding.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/run_record.h>
@@ -43,14 +44,14 @@ Curve pair_curve(const Material& material) {
   curve.note = "f = k1 (4r² − d²) below 2r, −k2 (d − a)(b − d) from a to b, nothing beyond; " +
                number("k1", pair.k1, "Pa, ") + number("k2", pair.k2, "Pa, ") +
                number("a", pair.a / pair.r, "r, ") + number("b", pair.b / pair.r, "r.");
-  if (material.model != MaterialModel::paper)
-    curve.note += " Rest neighbors are held by bonds instead; others feel its repulsion.";
+  const ForceLaw& law = law_of(material);
+  curve.note += law.remark;
   curve.lines.push_back(sampled("force", 1.5, 1.15 * pair.b / pair.r,
                                 [&](double d) { return pair.force(d * pair.r); }));
-  if (material.model == MaterialModel::paper) return curve;
-  const double stiffness = material.bond.stiffness;
-  curve.lines.push_back(sampled("bond", 1.5, 1.15 * pair.b / pair.r,
-                                [&](double d) { return -stiffness * (d - 2) * pair.r; }));
+  if (!law.has_bonds) return curve;
+  curve.lines.push_back(sampled("bond", 1.5, 1.15 * pair.b / pair.r, [&](double d) {
+    return law.bond_force(material, d * pair.r, 2 * pair.r);
+  }));
   return curve;
 }
 
@@ -90,7 +91,7 @@ Curve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skele
 std::vector<Curve> law_curves(const RunFiles& run) {
   const Material material = material_of(run);
   std::vector<Curve> curves{pair_curve(material)};
-  if (material.model == MaterialModel::paper) curves.push_back(energy_curve(material.pair));
+  if (!law_of(material).has_bonds) curves.push_back(energy_curve(material.pair));
   if (run.skeleton.size() == 0) return curves;
   const double r = run.body.particles.radius;
   const Binding binding = bind_to_bones(positions_of(run.body.particles), run.skeleton,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What report.html tells of a run: its metrics, and what lies in its folder.
+// The content of a run's report.html: its metrics, and the files in its folder.
+//
+//     write_file("report.html", report_html(report_input(run, std::move(measured))));
 #pragma once
 
 #include <vector>
@@ -10,11 +12,10 @@
 
 namespace sinew {
 
-// The forces of a scene as curves: between two particles, and of a bone on a particle.
-
+/// The forces of a scene as curves: between two particles, and of a bone on a particle.
 std::vector<Curve> law_curves(const RunFiles& run);
 
-/// Takes what was measured. Throws Error (bad input) where the run's record is none.
+/// Throws Error (bad input) where run.json is not the record of a run.
 ReportInput report_input(const RunFiles& run, Measured measured);
 
 }  // namespace sinew

@@ -10,6 +10,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/laws.h>
 #include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
 
@@ -218,17 +219,17 @@ Material material_of(const RunFiles& run) {
 }
 
 PairLaw pair_law(const Material& material) {
-  const PairForce pair = material.pair;
-  const auto all = [pair](double d) { return pair.force(d); };
-  const auto repulsion = [pair](double d) { return d < 2 * pair.r ? pair.force(d) : 0; };
-  if (material.model == MaterialModel::paper) {
-    if (material.cohesion == Cohesion::all) return {all, {}, 0};
-    return {repulsion, [pair](double d, double) { return pair.force(d); }, 0};
-  }
-  if (material.bond.breaking_strain > 0 || material.bond.yield_strain > 0) return {};
-  const double k = material.bond.stiffness;
-  return {repulsion, [k](double d, double rest) { return -k * (d - rest); },
-          material.volume_stiffness};
+  const ForceLaw& law = law_of(material);
+  const bool changes = material.bond.breaking_strain > 0 || material.bond.yield_strain > 0;
+  if (law.has_bonds && changes) return {};
+  PairLaw measured;
+  measured.force = [&law, material](double d) { return law.force(material, d); };
+  if (law.has_memory)
+    measured.bond = [&law, material](double d, double rest) {
+      return law.bond_force(material, d, rest);
+    };
+  if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
+  return measured;
 }
 
 RestInput measured_body(const Material& material, const Skeleton& skeleton) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a run read back: what measuring and drawing begin with.
+// Reads the files of a run, for measuring and drawing.
+//
+//     const RunFiles run = open_run({"out/bend"});
+//     const RunFrame last = read_frame(run, run.frames() - 1);
 #pragma once
 
 #include <deque>
@@ -28,41 +31,40 @@ struct RunFiles {
   BodyFile body;                           ///< at rest, with the bone of each particle
   Triangles surface;                       ///< at rest
   std::vector<std::int32_t> surface_bone;  ///< that moves each point most, -1 for none
-  std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< as many of each
-  std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the surface by skinning; none if not written
+  std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< equally many of each
+  std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the skinned surfaces; none if not written
 
-  std::size_t frames_named = 0;  ///< by the series that has most
+  std::size_t frames_named = 0;  ///< by the longest series
 
   std::size_t frames() const { return particle_rows.size(); }
 };
 
-/// Opens a run. Throws bad input, naming the file, for a folder that is none, and for series of
-/// different times. Frames that only some of the series have (a run still going, or cut off) are
-/// left out.
+/// Opens a run. Throws bad input, naming the file, for a folder that is not a run, and for series
+/// of different times. Frames that some of the series lack (of a run in progress or interrupted)
+/// are left out.
 RunFiles open_run(const RunFolder& folder);
 
-/// Everything about one frame, in the written order.
+/// All data of one frame, in the written order.
 struct RunFrame {
   double time = 0;                               ///< s
   Points positions, velocities, surface_points;  ///< m, m/s, m
   std::vector<double> displacement;              ///< its size per particle, m
   std::vector<RigidFrame> bones;                 ///< heads and axes
-  std::vector<double> bone_lengths;              ///< head to tail, m: some stretch
+  std::vector<double> bone_lengths;              ///< head to tail, m: bones may stretch
   Energies energies;
   std::vector<std::int32_t> broken_bonds;  ///< of each particle; empty: it has no bonds
 };
 
-/// Throws bad input, naming the file, when it is damaged or of another body.
+/// Throws bad input, naming the file, where it is damaged or of another body.
 RunFrame read_frame(const RunFiles& run, std::size_t frame);
 
-/// The frames of a run one after the other; those that come are read while the caller works on the
-/// one before.
+/// The frames of a run in order; the next ones are read while the caller works on the present one.
 class FramesInOrder {
  public:
-  /// Not `ahead`: by the caller's thread, when it asks.
+  /// Not `ahead`: next() reads each frame in the caller's thread.
   FramesInOrder(const RunFiles& run, bool ahead);
 
-  /// As many times as there are frames. Throws what read_frame does.
+  /// May be called once per frame. Throws what read_frame() does.
   RunFrame next();
 
  private:
@@ -74,23 +76,23 @@ class FramesInOrder {
   std::deque<std::future<RunFrame>> coming_;
 };
 
-// What metrics have to know of a body and of the forces in it.
+// The input of metrics: the body and the forces in it.
 
-/// The constants that the run's particles had.
+/// The constants of the run's particles.
 Material material_of(const RunFiles& run);
 
-/// The material's forces between particles, as far as their positions decide them: empty where
-/// bonds break or creep, which depends on the past.
+/// The material's forces between particles as functions of position; empty where bonds break or
+/// creep and the forces depend on history.
 PairLaw pair_law(const Material& material);
 
-/// Radius, range, mass and forces from the material; the bones from the skeleton. Positions,
-/// surface and the bones of particles are the caller's.
+/// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
+/// positions, surface and the bones of particles.
 RestInput measured_body(const Material& material, const Skeleton& skeleton);
 
-/// The same of a run's files, with its body at rest.
+/// The same from a run's files, with its body at rest.
 RestInput measured_body(const RunFiles& run);
 
-/// A frame as metrics take it.
+/// A frame as input of the metrics.
 FrameState measured_frame(RunFrame frame);
 
 }  // namespace sinew

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder of a run: what lies where, who works in it, and what of it is an older run's.
+// The folder of a run: the paths of its files, the lock of the process that works in it, and the
+// removal of an older run.
+//
+//     const RunFolder folder = run_folder("configs/box_bend.yaml", "");
+//     create(folder);
+//     const FolderLock lock(folder);
 #pragma once
 
 #include <cstdint>
@@ -29,34 +34,34 @@ struct RunFolder {
   }
 };
 
-/// out/NAME-OF-SCENE below the current directory, or what the user chose with -o.
+/// out/NAME-OF-SCENE below the current directory, or the folder chosen with -o.
 RunFolder run_folder(const std::filesystem::path& scene, const std::filesystem::path& chosen);
 
 /// Creates the folder. Throws not written.
 void create(const RunFolder& folder);
 
-/// Removes what an older run has left, and nothing else; the body stays, it may fit the scene.
-/// Killed on the way it leaves a folder that can be used again in the same way. Throws not written.
+/// Removes the files of an older run and nothing else; the body is kept, since it may fit the scene.
+/// If killed in between, it leaves a folder that it can be applied to again. Throws not written.
 void remove_old_run(const RunFolder& folder);
 
-/// Throws bad input when the folder, which no run has used, holds a file that a run would replace.
+/// Throws bad input where a folder that no run has used holds a file that a run would replace.
 void refuse_foreign_files(const RunFolder& folder);
 
 /// Bytes that remove_old_run would free.
 std::uint64_t size_of_old_run(const RunFolder& folder);
 
-/// Held while a run works in its folder; the kernel lets go of it however the program ends.
-/// DIR/.lock names the process that holds it.
+/// Held while a run works in its folder; the kernel releases it however the program ends. DIR/.lock
+/// names the process that holds it.
 class FolderLock {
  public:
-  /// Throws bad input, naming the process, when another one holds it, not written when it cannot be
-  /// made.
+  /// Throws bad input, naming the process, where another one holds the lock, and not written where
+  /// the lock cannot be created.
   explicit FolderLock(const RunFolder& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// The process that held it before and ended without letting go; "" for none.
+  /// The process that held it before and ended without releasing it; "" for none.
   const std::string& left_by() const { return left_by_; }
 
  private:

@@ -6,7 +6,7 @@
 
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/run/run_record.h>
 #include <sinew/settings/table.h>
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The run_log of a run: run.json for programs, log.txt for people.
+// Logs a run as it proceeds: run.json for programs, log.txt for people.
+//
+//     RunLog log(folder, {"sinew", "simulate", "scene.yaml"});
+//     log.spend("setup", seconds);
 #pragma once
 
 #include <memory>
@@ -20,8 +23,8 @@ namespace sinew {
 
 class RunLog {
  public:
-  /// Begins both files, status "running". Throws not written.
-  /// A run that is resumed goes on with what they hold.
+  /// Begins both files with status "running"; those of a resumed run are continued. Throws not
+  /// written.
   RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
   ~RunLog();
   RunLog(const RunLog&) = delete;
@@ -31,21 +34,21 @@ class RunLog {
 
   /// Adds to the seconds of a stage.
   void spend(const std::string& stage, double seconds);
-  /// Writes run.json as far as the run has come. Throws not written.
+  /// Writes run.json with the progress of the run. Throws not written.
   void checkpoint(std::int64_t steps);
   void frame(int frame, double time);
-  /// How many frames there are, where a failure has left fewer than were begun.
+  /// Sets the number of frames, where a failure has left fewer than were begun.
   void frames(int written);
 
-  /// Writes run.json as it stands now, and what `simulation` came to. Throws not written.
+  /// Writes run.json with the results of `simulation`. Throws not written.
   void end(const std::string& status, const Simulation& simulation);
-  /// The end of a run that threw, as far as the disk still takes it.
+  /// Records the end of a run that threw, as far as the disk permits.
   void fail(const std::string& status, const std::string& why);
 
   const nlohmann::ordered_json& record() const { return record_; }
 
  private:
-  void describe(const StepperChoice& way);
+  void describe(const StepperChoice& choice);
   void log(const std::string& line);
 
   RunFolder folder_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run.json: what was run, how far it came, and how long each stage took. Every tool adds its part.
+// run.json: what was run, its progress, and the duration of each stage. Every tool adds its part.
+//
+//     record_stage(folder, "measure", stopwatch.seconds());
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,13 +12,13 @@
 
 namespace sinew {
 
-/// What run.json holds. Throws bad input, naming the file, when it is no record of a run.
+/// The content of run.json. Throws bad input, naming the file, where it is not a record of a run.
 nlohmann::ordered_json read_record(const RunFolder& folder);
 
 /// Replaces run.json. Throws not written.
 void write_record(const RunFolder& folder, const nlohmann::ordered_json& record);
 
-/// Writes seconds.STAGE into run.json, unless a run is going on in the folder.
+/// Writes seconds.STAGE into run.json, unless a run is in progress in the folder.
 void record_stage(const RunFolder& folder, const std::string& stage, double seconds);
 
 /// "status" of the run: running, finished, stopped, unstable, failed; "" without a record.

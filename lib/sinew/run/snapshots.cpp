@@ -10,7 +10,7 @@
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
@@ -164,17 +164,17 @@ DrawnRun::DrawnRun(const std::string& folder, const std::vector<ViewPreset>& pre
   for (const ViewPreset& preset : presets)
     views_.push_back(
         {preset, DrawnValues(run_, array.empty() ? std::string(preset.array) : array), {}});
-  read_story(view, ahead);
+  read_overview(view, ahead);
 }
 
-void DrawnRun::read_story(const Mat3& view, bool ahead) {
+void DrawnRun::read_overview(const Mat3& view, bool ahead) {
   FramesInOrder frames(run_, ahead);
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
-    story_.angle.push_back(largest_turn(run_, frame));
+    overview_.angle.push_back(largest_turn(run_, frame));
     for (DrawnView& drawn : views_)
       widen(drawn.range, DrawnValues::range_of(drawn.values.at(i, frame)), i == 0);
-    story_.frame.extend(seen(view, snapshot_of(run_, std::move(frame), 0)));
+    overview_.frame.extend(seen(view, snapshot_of(run_, std::move(frame), 0)));
   }
 }
 
@@ -192,8 +192,8 @@ std::size_t DrawnRun::frame_at(double time) const {
       std::min_element(rows.begin(), rows.begin() + run_.frames(), nearer) - rows.begin());
 }
 
-std::vector<std::size_t> DrawnRun::telling_frames() const {
-  const std::vector<double>& angle = story_.angle;
+std::vector<std::size_t> DrawnRun::key_frames() const {
+  const std::vector<double>& angle = overview_.angle;
   const double most = *std::max_element(angle.begin(), angle.end());
   if (most < least_turn) return spread_over(angle.size());
   std::size_t half = 0, farthest = 0;
@@ -243,7 +243,7 @@ void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
   std::vector<double> values = drawn.values.at(index, frame);
-  Snapshot snapshot = snapshot_of(run_, std::move(frame), story_.angle[index]);
+  Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
   if (drawn.preset.cut_open) cut_open(snapshot);
   if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);

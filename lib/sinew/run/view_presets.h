@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ways of looking at a run that pictures can be asked for by name.
+// The named view presets of pictures, and color maps and views by name.
+//
+//     const ViewPreset& preset = view_preset_named("body");
+//     const Mat3 view = view_named("three_quarter");
 #pragma once
 
 #include <span>
@@ -21,7 +24,7 @@ struct ViewPreset {
 
 std::span<const ViewPreset> view_presets();
 
-/// Throws bad input, with the nearest, for an unknown name.
+/// Throws bad input for an unknown name, suggesting the nearest.
 const ViewPreset& view_preset_named(const std::string& name);
 ColorMap color_map_named(const std::string& name);
 

@@ -48,7 +48,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify 
 nlohmann::ordered_json json_of(const ReportValue& value);
 
 /// The contents of body.vtu for a filling; `origin` identifies its source.
-BodyFile body_file(Filling filling, const std::string& origin);
+BodyFile body_file(Filling filling, const std::string& origin = "");
 
 /// A text that is equal for the same mesh file filled with the same settings.
 std::string origin_of(const Settings& settings);

@@ -8,9 +8,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/core/text.h>
-#include <sinew/io/arrays.h>
 #include <sinew/physics/solid.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/motion_checks.h>

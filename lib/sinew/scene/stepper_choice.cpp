@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/stepper_choice.h>
 
+#include <sinew/physics/laws.h>
 #include <sinew/physics/simulation.h>
 
 namespace sinew {
@@ -23,9 +24,8 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
 constexpr double speed_with_cells = 2e6;
 
 Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
-  if (body.material.model != MaterialModel::paper)
-    return {"material.model",
-            body.material.model == MaterialModel::bonded ? "bonded" : "bonded_volume", "paper"};
+  if (const ForceLaw& law = law_of(body.material); law.has_bonds)
+    return {"material.model", std::string(law.name), "paper"};
   if (body.material.cohesion != Cohesion::all)
     return {"material.cohesion", "initial_neighbors", "all"};
   if (body.world) return {"the section world", "not empty", "without entries"};

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include <sinew/core/requested_arrays.h>
+#include <sinew/core/arrays.h>
 #include <sinew/settings/settings.h>
 #include <sinew/settings/table.h>
 

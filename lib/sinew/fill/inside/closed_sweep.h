@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Along a row of sites a closed surface's winding number is a whole number that changes at
-// crossings only.
+// Finds the sites inside a closed surface, whose winding number along a row is an integer that
+// changes at crossings only.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,11 @@
 
 namespace sinew {
 
-// Which components of a closed surface make one body.
-
-/// Joins overlapping components and numbers what encloses a volume, or holds sites, by its first
-/// component.
+/// Numbers the bodies of a closed surface: joins overlapping components, and numbers those that
+/// enclose a volume or contain sites by their first component.
 void number_bodies(const std::vector<SweptRows>& found, const Surface& surface, InsideRuns& inside);
 
-// Which components of a closed surface are around a place of a row.
-
-/// The winding numbers of the components at one place of a row.
+/// The winding numbers of the components at one point of a row.
 class Depths {
  public:
   void cross(int component, int winding) {
@@ -36,11 +32,11 @@ class Depths {
     }
   }
 
-  /// Components and their winding numbers, where these are not 0.
+  /// Components of nonzero winding number.
   const std::vector<std::array<int, 2>>& around() const { return depths_; }
 
-  /// The first component around this place. Those that have come since the last call and are around
-  /// it, too, are noted as overlapping with another one.
+  /// The first component around this point. Those entered since the last call that are also around
+  /// it are recorded as overlapping with another one.
   int body(std::vector<std::array<int, 2>>& overlaps) {
     const auto positive = [](const std::array<int, 2>& depth) { return depth[1] > 0; };
     const auto first = std::find_if(depths_.begin(), depths_.end(), positive);
@@ -65,19 +61,19 @@ class Depths {
     return at != depths_.end() && (*at)[0] == component ? (*at)[1] : 0;
   }
 
-  std::vector<int> entered_;                ///< since body() was asked
+  std::vector<int> entered_;                ///< since body() was called
   std::vector<std::array<int, 2>> depths_;  ///< component and winding number, not 0
 };
 
-/// Per component: itself, or for a cavity the component whose body it hollows out.
+/// Per component: itself, or for a cavity the component whose body it is in.
 std::vector<int> owners_of(const Surface& surface, const RowCrossings& crossings);
 
 class ClosedSweep {
  public:
-  /// All must outlive this. `crossings` are those of the surface.
+  /// All arguments must outlive this. `crossings` are those of the surface.
   ClosedSweep(const Lattice& lattice, const Surface& surface, const RowCrossings& crossings);
 
-  /// Adds what the row has inside, in runs of the first component around them.
+  /// Adds the row's sites inside, in runs of the first component around them.
   void add_row(std::size_t row, SweptRows& found) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signs that are right to the last bit, for any doubles: CGAL's exact predicates.
+// Exact signs for any doubles, by CGAL's predicates.
 #pragma once
 
 #include <sinew/core/vector.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which sites of a lattice lie inside a surface: those with a winding number above one half, and
-// not on the surface itself. As runs of sites that follow each other in a row.
+// The sites of a lattice inside a surface: those with a winding number above one half that are not
+// on the surface itself, as runs of consecutive sites in a row.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,8 @@ namespace sinew {
 struct InsideRuns {
   std::vector<Run> runs;            ///< by row, then site; never touching with the same body
   std::vector<RowSite> on_surface;  ///< sites on the surface: not inside
-  int shallowest = 0;               ///< of closed surfaces: below 0 where one lies inside out
+  int shallowest = 0;               ///< smallest winding number of closed surfaces; below 0 where
+                                    ///< one is inside out
   int deepest = 0;                  ///< the largest winding number; above 1 where parts overlap
   /// Of closed surfaces: the body of each component, -1 for cavities. Components that share an
   /// inside site are one body. Empty for open ones, where all runs are of body 0.
@@ -23,11 +24,11 @@ struct InsideRuns {
   int bodies = 0;
 };
 
-/// The same for every number of threads.
+/// The same for any number of threads.
 InsideRuns inside_runs(const Lattice& lattice, const Surface& surface);
 
-/// Of about 4,000 sites all over the lattice, the share whose winding number is farther than 0.1
-/// from any whole number: 0 for closed surfaces, near 1 where nothing is inside.
+/// Of about 4,000 sites all over the lattice, the share whose winding number differs by more than
+/// 0.1 from any integer: 0 for closed surfaces, near 1 where nothing is inside.
 double ambiguous_share(const Lattice& lattice, const Surface& surface);
 
 }  // namespace sinew

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The generalized winding number (Jacobson et al. 2013) of a surface with holes, along the rows of
-// a lattice. With its caps the surface is closed, so signed crossings give a whole number; what
-// the caps contribute is taken away again:
+// a lattice. With its caps the surface is closed, so signed crossings give an integer; the
+// contribution of the caps is then subtracted:
 //   w(q) = crossings of the surface before q + sum over caps of S(q),
 //   S(q) = 1 / (4 pi) sum over a cap's sides ab of 2 atan2(D, N),  with A = a - q, B = b - q,
 //   D = A_v B_w - A_w B_v,  N = |A||B| + A.B + A_u |B| + B_u |A|,
-// (u along the row, v across, w up): the solid angle of the strips that lead from the cap's sides
-// backwards along the row. S has no jumps but on those strips, where no row ever lies. Caps far
-// away are taken together, by the first two moments of their areas (Barill et al. 2018), with a
-// bound on the error; where that bound leaves a doubt each cap is taken by itself.
+// (u along the row, v across, w up): the solid angle of the strips that extend from the cap's sides
+// backward along the row. S jumps only on those strips, where no row lies. Distant caps are
+// combined, by the first two moments of their areas (Barill et al. 2018), with a bound on the
+// error; where that bound is too large each cap is evaluated by itself.
 #pragma once
 
 #include <array>
@@ -24,21 +24,20 @@ namespace sinew {
 
 class OpenWinding {
  public:
-  /// Both must outlive this. `crossings` are those of the caps.
+  /// All arguments must outlive this. `crossings` are those of the caps.
   OpenWinding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings);
 
   bool none() const { return nodes_.empty(); }
 
   struct Share {
-    double value;      ///< what the caps add to the winding number
-    double clearance;  ///< at most the distance to the border, m
+    double value;      ///< contribution of the caps to the winding number
+    double clearance;  ///< lower bound on the distance to the border, m
   };
 
-  /// At a site, to the last bits.
+  /// At a site, in full precision.
   Share share(std::size_t row, int site) const;
 
-  /// How well a share has to be known: to within `doubt`, or to a third of its distance from
-  /// `threshold`.
+  /// Required accuracy of a share: `doubt`, or a third of its distance from `threshold`.
   struct Enough {
     double doubt;
     double threshold;
@@ -46,7 +45,7 @@ class OpenWinding {
   Share share(std::size_t row, int site, const Enough& enough) const;
 
  private:
-  /// Caps first .. last - 1 together, as seen from afar. Lengths in the frame of the rows.
+  /// Far-field expansion of caps first .. last - 1. Lengths in the frame of the rows.
   struct Node {
     int first, last;
     int left, right;  ///< nodes; -1: a leaf
@@ -85,18 +84,18 @@ class OpenWinding {
   std::vector<Node> nodes_;
 };
 
-// Along a row of sites an open surface's winding number jumps at crossings and changes smoothly
-// between them, by what its caps add (fill/inside/open_winding.h).
+// Finds the sites inside an open surface, whose winding number along a row jumps at crossings and
+// varies smoothly between them, by the contribution of the caps.
 
 class OpenSweep {
  public:
-  /// All must outlive this. `crossings` are those of the surface without its caps.
+  /// All arguments must outlive this. `crossings` are those of the surface without its caps.
   OpenSweep(const Lattice& lattice, const Surface& surface, const RowCrossings& crossings);
 
-  /// Adds what the row has inside, in runs of body 0.
+  /// Adds the row's sites inside, in runs of body 0.
   void add_row(std::size_t row, SweptRows& found) const;
 
-  /// At a site, within a few hundredths.
+  /// At a site, with an error of a few hundredths.
   double winding(std::size_t row, int site) const;
 
  private:

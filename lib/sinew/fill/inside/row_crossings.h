@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the rows of a lattice cross a surface: one exact ray per row instead of one query per site.
-// Along a row the sum of signed crossings so far is the winding number of a closed surface, and the
-// cost grows with triangles and crossings, not with sites.
+// The crossings of the rows of a lattice with a surface: one exact ray per row instead of one query
+// per site. The sum of signed crossings along a row is the winding number of a closed surface; the
+// cost is proportional to triangles and crossings, not to sites.
 //
-// Decisions are those of exact predicates. Where a row meets an edge or lies in a face it counts as
-// shifted a little across (the first of two symbolic shifts, the second along z): so no row ever
-// meets an edge, and a crossing of two triangles' common edge is counted once.
+// Decisions use exact predicates. A row that meets an edge or lies in a face is treated as shifted
+// infinitesimally across (the first of two symbolic shifts, the second along z): so no row meets an
+// edge, and a crossing of two triangles' common edge is counted once.
 #pragma once
 
 #include <cmath>
@@ -19,10 +19,10 @@
 
 namespace sinew {
 
-// A lattice seen along its rows: each row is one point (across, up) of a plane, in which the rows
-// of a layer follow each other evenly.
+// A lattice projected along its rows: each row is a point (across, up) of a plane, in which the rows
+// of a layer are evenly spaced.
 
-inline constexpr double rounding = 1.2e-16;  // of one operation, relative, and a little more
+inline constexpr double rounding = 1.2e-16;  // relative error of one operation, slightly enlarged
 
 class RowFrame {
  public:
@@ -39,8 +39,8 @@ class RowFrame {
   /// +1 where (along, across, up) is right-handed, else -1.
   int handedness() const { return fcc_ ? -1 : 1; }
 
-  /// A point relative to the lattice's origin, in right-handed axes of which x runs along the rows
-  /// and z up, m.
+  /// A point relative to the lattice's origin, in right-handed axes with x along the rows and z up,
+  /// m.
   Vec3 turned(const Vec3& p) const {
     const Vec3 from = p - lattice_.origin;
     if (!fcc_) return from;
@@ -48,14 +48,13 @@ class RowFrame {
     return {(from.x() + from.y()) * half, (from.y() - from.x()) * half, from.z()};
   }
 
-  /// The way from a to b in these axes. Across and up it is right to the last bits even where the
-  /// way along is much longer.
+  /// b - a in these axes. Accurate across and up even where it is much longer along the rows.
   Vec3 turned_between(const Vec3& a, const Vec3& b) const {
-    const Vec3 way = b - a;
-    if (!fcc_) return way;
+    const Vec3 d = b - a;
+    if (!fcc_) return d;
     constexpr double half = std::numbers::sqrt2 / 2;
-    const double lost = lost_in(b.y(), a.y(), way.y()) - lost_in(b.x(), a.x(), way.x());
-    return {(way.x() + way.y()) * half, ((way.y() - way.x()) + lost) * half, way.z()};
+    const double lost = lost_in(b.y(), a.y(), d.y()) - lost_in(b.x(), a.x(), d.x());
+    return {(d.x() + d.y()) * half, ((d.y() - d.x()) + lost) * half, d.z()};
   }
 
   /// Whether rows run along (1, 1, 0) rather than along x.
@@ -68,7 +67,7 @@ class RowFrame {
     return across_origin_ + across_unit_ * (layer.across + across_step_ * row);
   }
 
-  /// Where among the rows of a layer, and among the layers, something lies: 0 is the first.
+  /// Fractional index of a position among the rows of a layer, and among the layers, from 0.
   double row_at(const LatticeLayer& layer, double across) const {
     return ((across - across_origin_) / across_unit_ - layer.across) / across_step_;
   }
@@ -76,7 +75,7 @@ class RowFrame {
     return (up - lattice_.origin.z()) / lattice_.unit.z() - lattice_.low[2];
   }
 
-  /// Along a row x alone tells where: the site at x, as a number of sites from the row's first.
+  /// Fractional index of the site at coordinate x of a row, from its first.
   double site_at(const LatticeRow& row, double x) const {
     const double first = lattice_.origin.x() + lattice_.unit.x() * row.first[0];
     return (x - first) / (lattice_.unit.x() * lattice_.along[0]);
@@ -84,7 +83,7 @@ class RowFrame {
   double site_step() const { return lattice_.unit.x() * lattice_.along[0]; }  ///< in x, m
 
  private:
-  /// What rounding took from the difference d = a - b (Knuth).
+  /// Rounding error of the difference d = a - b (Knuth).
   static double lost_in(double a, double b, double d) {
     const double part = d - a;
     return (a - (d - part)) - (b + part);
@@ -96,7 +95,7 @@ class RowFrame {
   int across_step_;
 };
 
-// On which side of a row an edge passes it, seen along the row: exactly, and without ties.
+// The side on which an edge passes a row, seen along the row: exact, and without ties.
 
 class RowSide {
  public:
@@ -107,8 +106,8 @@ class RowSide {
   /// edge's line.
   int exact(const Vec3& a, const Vec3& b, const LatticeRow& row) const;
 
-  /// What an exact sign of 0 becomes when the row is shifted a little across, and by much less up;
-  /// 0 only for edges along the row.
+  /// The sign that replaces an exact 0 when the row is shifted infinitesimally across, and by much
+  /// less up; 0 only for edges along the row.
   int shifted(const Vec3& a, const Vec3& b) const;
 
   /// A bound on all coordinates, and on `across`, m.
@@ -135,7 +134,7 @@ struct RowSite {
 };
 
 struct RowCrossings {
-  std::vector<std::size_t> first;   ///< of each row, and one past the last row's end
+  std::vector<std::size_t> first;   ///< index of each row's first crossing, and the total number
   std::vector<Crossing> crossings;  ///< by row, then site, then face
   std::vector<RowSite> on_surface;  ///< sites exactly on a triangle, sorted, each once
 
@@ -144,7 +143,7 @@ struct RowCrossings {
   }
 };
 
-/// Any triangles will do. The same for every number of threads.
+/// Accepts any triangles. The same for any number of threads.
 RowCrossings row_crossings(const Lattice& lattice, const Triangles& surface);
 
 }  // namespace sinew

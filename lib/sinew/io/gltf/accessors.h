@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers in a glTF file's buffers. Little-endian machines only, as the files are.
+// The numbers in a glTF file's buffers. For little-endian machines only, like the files.
+//
+//     const std::vector<double> times = gltf_values(gltf, sampler.times, "its times");
 #pragma once
 
 #include <string>
@@ -9,19 +11,19 @@
 
 namespace sinew {
 
-/// Elements in a buffer view, one after the other or `stride` apart, read where they lie. What
-/// accessors and views say must have been checked.
+/// Elements in a buffer view, contiguous or `stride` apart, read in place. Accessors and views must
+/// have been checked.
 class GltfElements {
  public:
-  /// From byte `offset` of the view on, `parts` numbers each.
+  /// From byte `offset` of the view, `parts` numbers each.
   GltfElements(const CheckedGltf& gltf, int view, std::int64_t offset, GltfNumber number,
                int parts = 1);
-  /// Of an accessor with data; sparse elements are not looked at.
+  /// Of an accessor with data; sparse elements are ignored.
   GltfElements(const CheckedGltf& gltf, const GltfAccessor& accessor);
 
   std::int64_t index(std::int64_t i) const;  ///< element i, of one unsigned whole number
 
-  /// Writes the numbers of element i; normalized whole ones as parts of the largest, -1 or 0 to 1.
+  /// Writes the numbers of element i; normalized integers as fractions, -1 or 0 to 1.
   void put(std::int64_t i, bool normalized, double* to) const;
 
  private:

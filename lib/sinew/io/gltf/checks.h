@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A glTF file whose numbers can be believed: every count, offset and index of it has been looked
-// at.
+// Reads a glTF file and checks every count, offset and index in it.
+//
+//     const CheckedGltf gltf = checked_gltf("fox.glb");
 #pragma once
 
 #include <cstddef>
@@ -13,11 +14,11 @@
 
 namespace sinew {
 
-/// A document that holds together. Every index points at something; every element lies in its
-/// view, every view in `bytes`; nodes form trees of moderate depth. Positions are VEC3 of floats,
-/// corners whole numbers, as many as their mode wants. Skins have a bind matrix for every joint and
-/// surfaces joints and weights for every vertex, if any; animations have values for every time.
-/// What the numbers are (corners, coordinates, times, weights) is not looked at.
+/// A consistent document. Every index refers to an element; every element lies in its view, every
+/// view in `bytes`; nodes form trees of moderate depth. Positions are VEC3 of floats, corners whole
+/// numbers, as many as their mode requires. Skins have a bind matrix for every joint and surfaces
+/// joints and weights for every vertex, if any; animations have values for every time. The numbers
+/// themselves (corners, coordinates, times, weights) are not checked.
 struct CheckedGltf {
   GltfDocument document;    ///< no buffers: the views' offsets count from the start of `bytes`
   std::vector<char> bytes;  ///< all buffers, below 2 GiB
@@ -29,15 +30,15 @@ struct CheckedGltf {
 /// the folder of `path` or below. Throws bad input, with the path.
 CheckedGltf checked_gltf(const std::filesystem::path& path);
 
-/// The parts of the check that rigs need. All checks throw bad input without the path, and name the
-/// element at fault: "accessors[3]".
+// The checks for rigs. All throw bad input without the path, naming the faulty element:
+// "accessors[3]".
 
-/// Indices exist; joints are nodes, each once; inverse bind matrices are enough; surfaces have
-/// joints and weights of the right kind for every vertex. Accessors and meshes are checked before.
+/// Indices exist; joints are nodes, each once; there are enough inverse bind matrices; surfaces have
+/// joints and weights of the right type for every vertex. Accessors and meshes must be checked.
 void check_gltf_skins(const GltfDocument& document);
 
-/// Indices exist; times and values are of the right kind and as many as each other; no property of
-/// a node follows two samplers. Channels that move no node are dropped.
+/// Indices exist; times and values are of the right type and number; no property of a node follows
+/// two samplers. Channels that move no node are dropped.
 void check_gltf_animations(GltfDocument& document);
 
 /// The accessor of that index, which must exist and have data. `user` is a plural: "its times".

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two shapes of glTF files, plain JSON and GLB, which packs JSON and binary data together; and
-// the bytes that their buffers stand for.
+// The two forms of glTF files, plain JSON and GLB, which contains JSON and binary data; and the
+// bytes of their buffers.
+//
+//     const GltfContainer container = gltf_container(read_file(path), path.extension());
 #pragma once
 
 #include <filesystem>
@@ -17,13 +19,13 @@ struct GltfContainer {
   std::optional<std::string> binary;  ///< the binary chunk of a GLB
 };
 
-/// What a file of that extension (".gltf", ".glb", in any case) holds. Throws bad input (without
-/// the path) when it is neither, is cut short, or is the one under the other's name.
+/// The content of a file of that extension (".gltf", ".glb", in any case). Throws bad input (without
+/// the path) where it is neither, is truncated, or has the other's extension.
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension);
 
-/// All buffers one after the other, each as long as it says. `binary` is the GLB's chunk, `folder`
-/// where the glTF file lies: buffers in files are looked for there and below, nowhere else. Throws
-/// bad input (without the path) for what is missing, too short, or too long in all.
+/// All buffers concatenated, each of its declared length. `binary` is the GLB's chunk, `folder` that
+/// of the glTF file: buffers in files must lie there or below. Throws bad input (without the path)
+/// for buffers that are missing, too short, or too long in total.
 std::vector<char> gltf_bytes(const std::vector<GltfBuffer>& buffers,
                              const std::optional<std::string>& binary,
                              const std::filesystem::path& folder);

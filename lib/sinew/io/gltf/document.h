@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a glTF 2.0 file says about shapes, where they stand and how they move, as plain values.
-// Names and defaults are those of the glTF 2.0 Specification (Khronos Group); -1 is no index.
+// The shapes, nodes, skins and animations of a glTF 2.0 file as plain values. Names and defaults
+// are those of the glTF 2.0 Specification (Khronos Group); -1 is no index.
+//
+//     const GltfDocument document = gltf_document(json);
 #pragma once
 
 #include <cstdint>
@@ -22,13 +24,13 @@ struct GltfBuffer {
 struct GltfView {
   int buffer = -1;
   std::int64_t offset = 0, size = 0;  ///< bytes
-  std::int64_t stride = 0;            ///< bytes from element to element, 0 for dense ones
+  std::int64_t stride = 0;            ///< bytes from element to element, 0 where contiguous
 };
 
-/// OpenGL's numbers.
+/// Number types with OpenGL's codes.
 enum class GltfNumber { int8 = 5120, uint8, int16, uint16, uint32 = 5125, float32 };
 
-/// Elements of an accessor given one by one, over the others.
+/// Elements of an accessor that replace individual others.
 struct GltfSparse {
   std::int64_t count = 0;
   int index_view = -1, value_view = -1;
@@ -81,9 +83,9 @@ struct GltfNode {
 
 /// The nodes that move a mesh.
 struct GltfSkin {
-  std::vector<int> joints;  ///< nodes; JOINTS_n of a mesh count in this list
+  std::vector<int> joints;  ///< nodes; JOINTS_n of a mesh are indices into this list
   int binds = -1;           ///< accessor of the inverse bind matrices; none: all are the identity
-  int root = -1;            ///< "skeleton", a node that no rule rests on
+  int root = -1;            ///< "skeleton", a node; informative only
 };
 
 enum class GltfInterpolation { step, linear, cubic };
@@ -127,11 +129,11 @@ struct GltfDocument {
 int size_of(GltfNumber number);
 int components_of(std::string_view type);
 
-/// A length or index in a file, in bytes or elements, is at most this: 32 bits with a sign.
+/// Upper bound on lengths and indices in a file, in bytes or elements: 32 bits with a sign.
 inline constexpr std::int64_t most_gltf_bytes = 2147483647;
 
-/// Checks the form of each field it takes (type, length, range), not what indices point at. Throws
-/// bad input (without the path) that names the field, and for JSON that is damaged, nests more than
+/// Checks the form of each field it reads (type, length, range), not what indices refer to. Throws
+/// bad input (without the path) naming the field, and for JSON that is damaged, nested more than
 /// 100 deep or holds more than 4 million values.
 GltfDocument gltf_document(std::string_view json);
 

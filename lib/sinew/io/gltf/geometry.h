@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles of glTF 2.0 files, .gltf and .glb, put where they belong.
+// The triangles of glTF 2.0 files, .gltf and .glb, placed in the scene.
+//
+//     const PolygonSoup soup = read_gltf("fox.glb");
 #pragma once
 
 #include <filesystem>
@@ -11,24 +13,23 @@
 namespace sinew {
 
 /// The triangles of the file's default scene (its first one where it names none, every node where
-/// it has none), in meters, y up, as the file has them. Meshes stand where their nodes place them,
-/// mirrored ones with their triangles turned so that outsides stay outside. A skinned mesh is taken
-/// in its bind pose, put into the scene as node_tree.h says: its node does not move it. Strips and
-/// fans become triangles; points and lines are left out. Vertices no triangle uses are left out,
-/// equal ones stay apart.
+/// it has none), in meters, y up, as in the file. Meshes are placed by their nodes; the triangles
+/// of mirrored ones are reversed, so that outsides stay outside. A skinned mesh is taken in its
+/// bind pose and placed as node_tree.h says: its node does not move it. Strips and fans become
+/// triangles; points, lines and unused vertices are left out, equal vertices stay separate.
 ///
-/// Throws bad input, with the path, for all that is not such a file, is damaged, holds no
+/// Throws bad input, with the path, for a file of another kind, that is damaged, holds no
 /// triangles, has 2 GiB or more, or needs an extension that changes shapes (compression,
 /// instancing).
 PolygonSoup read_gltf(const std::filesystem::path& path);
 
-/// A node of the scene that has a mesh, and where that stands.
+/// A node of the scene that has a mesh, and the mesh's placement.
 struct GltfShape {
   int node = -1;
   Affine place = Affine::Identity();
 };
 
-/// Where a vertex comes from.
+/// The origin of a vertex.
 struct GltfVertex {
   int node = -1;
   int primitive = 0;  ///< of the node's mesh
@@ -40,8 +41,8 @@ struct GltfTriangles {
   std::vector<GltfVertex> sources;  ///< n
 };
 
-/// One shape after the other, as read_gltf says. Throws bad input (without the path) for too many
-/// triangles, corners that are not there and coordinates that are not finite.
+/// All shapes in order, as read_gltf() says. Throws bad input (without the path) for too many
+/// triangles, corners that do not exist and coordinates that are not finite.
 GltfTriangles gltf_triangles(const CheckedGltf& gltf, const std::vector<GltfShape>& shapes);
 
 }  // namespace sinew

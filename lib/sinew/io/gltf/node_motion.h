@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One animation of a glTF file: how its nodes move, in their own terms.
+// One animation of a glTF file: the motion of its nodes, relative to their parents.
+//
+//     const Affine place = gltf_node_motion(gltf, animation).at(node, time);
 #pragma once
 
 #include <vector>
@@ -9,7 +11,7 @@
 
 namespace sinew {
 
-/// What changes of a node's place over time; curves without keys: what does not.
+/// The animated properties of a node; a curve without keys: the property does not change.
 struct GltfNodeCurves {
   Curve<Vec3> translation, scale;
   RotationCurve rotation;
@@ -18,18 +20,18 @@ struct GltfNodeCurves {
 };
 
 struct GltfNodeMotion {
-  std::vector<GltfPlace> places;       ///< of each node; what a curve moves is not to be used
+  std::vector<GltfPlace> places;       ///< of each node; animated properties are invalid
   std::vector<GltfNodeCurves> curves;  ///< of each node
   std::vector<double> times;           ///< of all keys, s, ascending, each once
 
-  /// Of a node within its parent.
+  /// Transform of a node relative to its parent.
   Affine at(int node, double time) const;
 };
 
-/// Keys are the file's; channels that never change their value are taken into the places. Scales
-/// that change by less than 1e-5 of themselves count as unchanged: rounding of exporters. Throws
-/// bad input (without the path) for times that do not ascend from 0 or more, numbers that are not
-/// finite and rotations of length 0.
+/// Keys are the file's; channels of constant value are moved into `places`. Scales that change by
+/// less than a relative 1e-5 count as constant: rounding of exporters. Throws bad input (without
+/// the path) for times that are negative or do not ascend, numbers that are not finite and
+/// rotations of length 0.
 GltfNodeMotion gltf_node_motion(const CheckedGltf& gltf, std::size_t animation);
 
 }  // namespace sinew

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the nodes of a glTF file hang together, where they stand, and the pose in which its skins
-// were bound: where their joints and meshes stand at rest.
+// The hierarchy and transforms of a glTF file's nodes, and the bind pose of its skins: the
+// transforms of their joints and meshes at rest.
 //
-// A skin's inverse bind matrices I_j take its mesh's own space to that of each joint j, so that in
-// that space joint j was bound at I_j^-1. A file does not say where the mesh's space lies in the
-// scene; here M = G I of the skin's topmost joint puts it, G being the joint's place in the scene
-// as the nodes stand: the body is bound where its topmost joint stands, at the scene's scale
-// whatever units the mesh is in. A joint's place at bind is M I_j^-1. Skins that share joints are
-// one skeleton, bound where the first of them puts it.
+//     const GltfBindPose bind = gltf_bind_pose(checked_gltf("fox.glb"));
+//
+// A skin's inverse bind matrices I_j map its mesh's space to that of each joint j, so that in mesh
+// space joint j was bound at I_j^-1. A file does not say how mesh space maps to the scene; here it
+// is M = G I of the skin's topmost joint, with G the joint's transform in the scene by the nodes:
+// the body is bound at its topmost joint, at the scene's scale whatever units the mesh is in. The
+// transform of a joint at bind is M I_j^-1. Skins that share joints are one skeleton, placed by the
+// first of them.
 #pragma once
 
 #include <string>
@@ -30,10 +32,10 @@ struct GltfTree {
 /// Throws bad input (without the path) unless the nodes form trees of moderate depth.
 GltfTree gltf_tree(const GltfDocument& document);
 
-/// A node's place within its parent: x -> translation + rotation (scale x).
+/// A node's transform relative to its parent: x -> translation + rotation (scale x).
 struct GltfPlace {
   Vec3 translation = Vec3::Zero();  ///< m where nothing above scales
-  Mat3 linear = Mat3::Identity();   ///< rotation and scale; what else a matrix holds
+  Mat3 linear = Mat3::Identity();   ///< rotation and scale, or the linear part of a matrix
   Quat rotation = Quat::Identity();
   Vec3 scale = Vec3::Ones();
   bool whole = false;  ///< given as a matrix: `linear` holds, not rotation and scale
@@ -41,10 +43,10 @@ struct GltfPlace {
   Affine affine() const;
 };
 
-/// As the file has it.
+/// As given in the file.
 GltfPlace place_of(const GltfNode& node);
 
-/// Of every node, from what each has within its parent. Some may not be finite.
+/// Transforms of all nodes in the scene, from those relative to their parents. May not be finite.
 std::vector<Affine> global_places(const GltfTree& tree, const std::vector<Affine>& local);
 
 /// The factor by which a matrix scales all lengths; 0 where they differ by more than `tolerance`
@@ -62,14 +64,14 @@ struct GltfJoint {
 
 struct GltfBindPose {
   std::vector<GltfJoint> joints;  ///< of all skins in use, each once, depth first
-  std::vector<Affine> meshes;     ///< of each skin, where its meshes stand: M
-  /// Of each skin, which of `joints` its joints are; none for a skin that is not in use.
+  std::vector<Affine> meshes;     ///< of each skin, the transform M of its meshes
+  /// Of each skin, the indices of its joints in `joints`; none for a skin that is not in use.
   std::vector<std::vector<int>> places;
 };
 
 /// The skins that move a mesh of the scene; all where none does. Throws bad input (without the
 /// path) for a bind matrix that is not finite, cannot be inverted or scales unevenly, and for
-/// skins that bind a joint at places further apart than 0.1 % of the skeleton's size.
+/// skins that bind a joint at positions farther apart than 0.1 % of the skeleton's size.
 GltfBindPose gltf_bind_pose(const CheckedGltf& gltf);
 
 /// "joint 'hip' (node 3)"

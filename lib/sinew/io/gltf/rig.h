@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Skeletons, motions and the mesh they move out of glTF 2.0 files, .gltf and .glb.
+// Reads skeletons, motions and skinned meshes from glTF 2.0 files, .gltf and .glb.
+//
+//     const GltfRig fox = read_gltf_rig("fox.glb");
 //
 // Bones are the joints of all skins that move a mesh of the default scene (of all skins where none
-// does), each node once; their rest is the pose in which the skins were bound, placed and scaled
-// in the scene as node_tree.h says. Their tails are those of rig/joints.h; a joint "x" ends at its
-// child node "x_end", as Blender names ends; without one, and without joints below it, at its only
-// child node, if that has no mesh. Every animation is a clip.
-// Keys stay keys; where that cannot be (scale, moving nodes between joints) the bone is sampled,
-// as joint_motion.h says. Bones are rigid: scale that changes over time moves the heads below it,
-// but sizes nothing; stretch is not used. Morph targets do not move.
+// does), each node once; their rest is the bind pose of the skins, placed and scaled in the scene as
+// node_tree.h says. Their tails are those of <sinew/rig/skeleton.h>; a joint "x" ends at its child node "x_end",
+// as Blender names ends; without one, and without joints below it, at its only child node, if that
+// has no mesh. Every animation is a clip. Keys are kept; where that is impossible (scale, moving
+// nodes between joints) the bone is sampled, as joint_motion.h says. Bones are rigid: scale that
+// changes over time moves the heads below it, but changes no size; stretch is not used. Morph
+// targets are ignored.
 #pragma once
 
 #include <filesystem>
@@ -20,23 +22,22 @@
 namespace sinew {
 
 struct GltfRigOptions {
-  double samples_per_second =
-      60;  ///< between keys, of bones whose keys cannot be taken as they are
+  double samples_per_second = 60;  ///< between keys, of bones whose keys cannot be kept
 };
 
 struct GltfRig {
   Rig rig;
-  /// The skinned meshes of the scene in the bind pose, m; those without a skin are left out. The
-  /// triangles and places that read_gltf gives. Empty where the file holds a rig alone.
+  /// The skinned meshes of the scene in the bind pose, m, with the triangles and placement of
+  /// read_gltf(); those without a skin are left out. Empty where the file holds a rig alone.
   PolygonSoup mesh;
-  /// Of mesh.points, by the bones of the rig: up to eight sets of four of the file (JOINTS_0 to
+  /// Of mesh.points, by the bones of the rig: up to eight sets of four in the file (JOINTS_0 to
   /// JOINTS_7). A vertex whose weights are all zero has none.
   BoneWeights weights;
 };
 
-/// Throws bad input, with the path, for all that read_gltf refuses, files without a skin, skins
-/// bound with uneven scale (1 %) or apart from each other, skinned meshes without weights, and
-/// animations, weights and matrices that are damaged.
+/// Throws bad input, with the path, for all that read_gltf() refuses, files without a skin, skins
+/// bound with uneven scale (1 %) or inconsistently, skinned meshes without weights, and animations,
+/// weights and matrices that are damaged.
 GltfRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options = {});
 
 /// Whether the file has a skin, and so a rig. Throws bad input for a damaged file.

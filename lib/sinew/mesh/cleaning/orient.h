@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which side of each patch is outside.
+// Orients a surface: decides which side of each patch is outside.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,13 @@
 
 namespace sinew {
 
-// Which patches bound cavities.
-
-/// Per patch. Those whose volume decides count as shells, closed by their caps. One within another
-/// is a cavity of it where the two turn against each other in the file, with the rule `hollow` in
-/// any case; within a cavity that makes it a body again.
+/// Per patch, whether it bounds a cavity. Those whose volume decides count as shells, closed by
+/// their caps. One inside another is a cavity of it where their orientations in the file are
+/// opposite, with the rule `hollow` in any case; inside a cavity that makes it a body again.
 std::vector<bool> cavities_of(const Triangles& surface, const Patches& patches,
                               const PatchShapes& shapes, FillRule rule);
 
-// Which shells lie within which.
+// The nesting of shells.
 
 /// A body's or cavity's boundary, outward.
 struct Shell {
@@ -28,15 +26,15 @@ struct Shell {
   std::vector<Corners> caps;  ///< close it
 };
 
-/// For each box of a shell the next shell outwards, -1 where there is none: the smallest around it
-/// whose box holds its box and which holds the middles of its faces (up to 256, spread evenly), not
-/// counting those on it. Shells are asked for only where boxes lie in each other.
+/// For each box of a shell the next shell outward, -1 where there is none: the smallest whose box
+/// contains its box and which contains the centers of its faces (up to 256, spread evenly), not
+/// counting those on it. shell_of() is called only where boxes are nested.
 std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shell(int)>& shell_of);
 
 /// The faces to reverse for bodies to point outward and cavities into themselves, as clean() says.
-/// Patches whose volume says nothing turn or stay as most of the area of the others of their
-/// component does, without such as most of all others, without any by the sign of the volume of all
-/// faces about the middle of their box.
+/// Patches whose volume does not decide follow most of the area of the others in their component;
+/// without such, most of all others; without any, the sign of the volume of all faces about the
+/// center of their box.
 std::vector<bool> faces_to_turn(const Triangles& surface, std::span<const EdgeUse> uses,
                                 const Patches& patches, const Components& components,
                                 FillRule rule);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Patches: faces joined across edges that have exactly two faces. Within one, the directions of all
-// faces follow from one of them.
+// Patches: faces joined across edges of exactly two faces. The orientation of one face determines
+// that of its whole patch.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +14,16 @@ namespace sinew {
 
 struct Patches {
   std::vector<int> of_face;  ///< patch of each face; patches are numbered by their first face
-  std::vector<bool>
-      turned;  ///< faces to reverse for all of a patch to turn as most of its area does
+  std::vector<bool> turned;  ///< faces to reverse for a patch to be oriented as most of its area
   int count = 0;
-  std::size_t twisted_edges = 0;  ///< where the two faces cannot agree: each patch is cut there
+  std::size_t twisted_edges = 0;  ///< whose two faces cannot agree: the patch is cut there
 };
 
-/// Floods the faces in breadth, so that the cuts are short.
+/// By breadth-first search over the faces, so that the cuts are short.
 Patches patches_of(const Triangles& surface, std::span<const EdgeUse> uses);
 
-/// Calls visit(patch, count) for each patch that goes along the edge of these uses more often in
-/// one direction than in the other: count is positive from the low to the high point.
+/// Calls visit(patch, count) for each patch that traverses the edge of these uses more often in one
+/// direction than in the other: count is positive from the low to the high point.
 template <class Visit>
 void for_each_border(std::span<const EdgeUse> use, const Patches& patches, Visit&& visit) {
   std::vector<std::pair<int, int>> counts;
@@ -48,18 +47,18 @@ struct Components {
 
 Components components_of(const Patches& patches, std::span<const EdgeUse> uses);
 
-// What patches enclose once their holes are capped.
+// The volumes that patches enclose once their holes are capped.
 
 struct PatchShape {
   Box box;
   bool closed = true;
   double area = 0;                  ///< m^2
   Vec3 area_vector = Vec3::Zero();  ///< sum of area times normal, m^2: 0 for closed patches
-  double volume = 0;                ///< with its caps, as most of its area turns in the file, m^3
+  double volume = 0;                ///< with its caps, oriented as most of its area in the file, m^3
 
-  /// Whether the sign of the volume tells the outside. For closed patches: unless it is a rounding
-  /// error. For open ones: when the patch bends around it (a sheet has an area vector as long as
-  /// its area, a hemisphere half as long) and it is no film.
+  /// Whether the sign of the volume decides which side is outside. For closed patches: unless it is
+  /// a rounding error. For open ones: where the patch bends around it (a sheet has an area vector as
+  /// long as its area, a hemisphere half as long) and is not a thin film.
   bool decides() const;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polygons into triangles by cutting off ears. CGAL's inside test is silently wrong on quads.
+// Cuts polygons into triangles (ear clipping) and merges equal points and faces. CGAL's inside test
+// is silently wrong on quadrangles.
 #pragma once
 
 #include <array>
@@ -14,10 +15,10 @@
 
 namespace sinew {
 
-// Finds the first of equal items by hash. What it answers depends on the order of the questions
+// A hash table that finds the first of equal items. Its answers depend on the order of insertion
 // alone, not on the hashes.
 
-/// `hash` with another word mixed in, all bits into all bits.
+/// `hash` with another word mixed in.
 inline std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;  // 2^64 over the golden ratio
   return hash ^ (hash >> 32);
@@ -54,22 +55,19 @@ class FirstOf {
   std::vector<int> slots_;
 };
 
-/// The triangles of a polygon (indices into points, 3 corners or more), turning the same way. Ears
-/// are looked for in the plane across its mean normal, and none without area is cut while another
-/// can be. Throws Error (bad input) for non-convex polygons of more than 1,000 corners.
+/// The triangles of a polygon (indices into points, 3 corners or more) in the same orientation. Ears
+/// are searched in the plane normal to its mean normal; one without area is cut only where no other
+/// is left. Throws Error (bad input) for non-convex polygons of more than 1,000 corners.
 std::vector<std::array<int, 3>> triangulate(const std::vector<int>& polygon, const Points& points);
 
-// Points that are one.
-
-/// For each point the one it becomes: itself, or an earlier one. Points are taken in their order:
-/// each becomes the earliest kept one that equals it or is closer than `distance` (m; 0 or less:
-/// equal ones only), or is kept. So the kept ones are all at least that far apart, and no point
-/// moves farther than that, however long a chain of close points is.
+/// For each point the one it is merged into: itself, or an earlier one. In their order, each is
+/// merged into the earliest kept one that equals it or is closer than `distance` (m; 0 or less:
+/// equal ones only), or is kept. So the kept ones are at least that far apart, and no point moves
+/// farther than that, however long a chain of close points is.
 std::vector<int> first_within(const Points& points, double distance);
 
-// The first half of cleaning: triangles over points that differ, none collapsed, none doubled.
-
-/// Cuts, merges (points closer than `weld`, m) and drops as clean() says, counting into `counts`.
+/// The first half of clean(): triangles on distinct points, none collapsed or doubled. Points closer
+/// than `weld` (m) are merged. Counts into `counts`.
 Triangles merged_triangles(const PolygonSoup& soup, double weld, CleaningCounts& counts);
 
 }  // namespace sinew

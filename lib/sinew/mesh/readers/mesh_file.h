@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh file's bytes, taken in once.
+// The content of a mesh file, and its errors with path and line.
+//
+//     const MeshFile file = open_mesh("part.obj");
 #pragma once
 
 #include <string>
@@ -17,11 +19,11 @@ struct MeshFile {
   Error broken(int line, const std::string& what, const std::string& cure) const;
 };
 
-/// Throws Error (bad input) for anything but a non-empty regular file that fits into memory.
+/// Throws Error (bad input) unless it is a non-empty regular file that fits into memory.
 void check_mesh_file(const std::string& path);
 
-/// Reads such a file whole, without its byte order mark. Throws Error (bad input) as well where it
-/// cannot be read.
+/// Reads such a file, without its byte order mark. Throws Error (bad input) also where it cannot be
+/// read.
 MeshFile open_mesh(const std::string& path);
 
 }  // namespace sinew

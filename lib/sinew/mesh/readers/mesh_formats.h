@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of mesh formats, from which reading, error messages and help texts come. To add a
-// format, write its reader (mesh_readers.h) and add its row; one that needs another folder's reader
-// has its row where both are known (tools/scene/mesh_input.cpp).
+// The table of mesh formats, from which reading, error messages and help texts are made. To add a
+// format, write its reader (mesh_readers.h) and add its row; the rows of formats whose reader is in
+// another folder are passed as `more` (<sinew/scene/body.h>).
+//
+//     const PolygonSoup soup = read_polygons("part.stl");
 #pragma once
 
 #include <span>
@@ -14,19 +16,19 @@ namespace sinew {
 
 struct MeshFormat {
   std::string_view name;       ///< "OBJ"
-  std::string_view extension;  ///< ".obj", in small letters
+  std::string_view extension;  ///< ".obj", in lower case
   PolygonSoup (*read)(const std::string& path);
-  /// Whether a file's first words say that it is of this format; none: they never do.
+  /// Whether the first words of a file identify the format; none: they never do.
   bool (*recognizes)(std::string_view content) = nullptr;
 };
 
-/// "OBJ, OFF, STL, PLY", and the names of `more`.
+/// "OBJ, OFF, STL, PLY" and the names of `more`.
 std::string mesh_format_names(std::span<const MeshFormat> more = {});
 
-/// What the file holds, unchanged: at least one face, corners that exist, finite coordinates. The
-/// format comes from the extension, in any case; `more` are read beside OBJ, OFF (text), STL and
-/// PLY (text and binary). Throws Error (bad input) naming file, line where there is one, fault and
-/// cure, also where the first words tell of another format than the extension.
+/// The polygons of a file, unchanged: at least one face, corners that exist, finite coordinates. The
+/// extension, in either case, selects the format: OBJ, OFF (text), STL, PLY (text and binary) or one
+/// of `more`. Throws Error (bad input) naming file, line if any, fault and cure, also where the
+/// first words identify another format than the extension.
 PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more = {});
 
 }  // namespace sinew

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The readers of mesh formats, each file read once from end to end and checked on the way. What
-// mesh files contain makes most readers trip: unknown keywords, tabs, continued lines, "solid"
-// headers of binary files, counts that do not fit, indices out of range.
+// The readers of mesh formats. Each checks the file while reading it once: unknown keywords, tabs,
+// continued lines, "solid" headers of binary files, counts that do not fit, indices out of range.
+//
+//     const PolygonSoup soup = read_obj(open_mesh("part.obj"));
 #pragma once
 
 #include <sinew/core/triangles.h>
@@ -10,9 +11,9 @@
 
 namespace sinew {
 
-/// All throw Error (bad input) with the file, the line where there is one, what is wrong and what
-/// to do. No count in a file is believed before its bytes have been seen. What they give has faces
-/// of three corners or more, corners that exist and finite coordinates.
+// All throw Error (bad input) naming the file, the line if any, the fault and the cure. Every count
+// in a file is checked against its length. The result has faces of three corners or more, corners
+// that exist and finite coordinates.
 
 /// Wavefront OBJ: `v` and `f` lines with indices of either sign, continued lines joined.
 PolygonSoup read_obj(const MeshFile& file);
@@ -29,7 +30,7 @@ PolygonSoup read_ply(const MeshFile& file);
 /// The next three words as coordinates.
 Vec3 next_point(Words& words, const MeshFile& file);
 
-/// Refuses more points than faces can name, which are int.
+/// Refuses more points than an int can index.
 void refuse_too_many_points(const MeshFile& file, std::size_t points);
 
 }  // namespace sinew

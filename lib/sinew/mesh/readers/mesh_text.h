@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words and numbers of a text, with the lines they stand in.
+// Words and numbers of a text, with their line numbers.
+//
+//     Words words("v 0 1 2");
+//     const std::optional<double> x = number_in(words.next());
 #pragma once
 
 #include <cstdint>
@@ -9,7 +12,7 @@
 
 namespace sinew {
 
-/// The words of a text, one after the other, across its lines.
+/// The words of a text in order, across its lines.
 class Words {
  public:
   explicit Words(std::string_view text, int line = 1) : rest_(text), line_(line) {}
@@ -17,7 +20,7 @@ class Words {
   /// The next word, "" at the end.
   std::string_view next();
 
-  /// The line of the word that came last.
+  /// The line of the last word returned.
   int line() const { return line_; }
 
  private:
@@ -42,7 +45,7 @@ class Lines {
   int number_ = 0;
 };
 
-/// The number a word spells, infinite or NaN ones included; nothing if it is no number.
+/// The number that a word spells, including infinity and NaN; nothing where it is not a number.
 std::optional<double> number_in(std::string_view word);
 std::optional<std::int64_t> integer_in(std::string_view word);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The header of a PLY file: which numbers its body holds, in which order.
+// The header of a PLY file: the elements and properties in its body, and their number types.
+//
+//     const PlyHeader header = ply_header(open_mesh("part.ply"));
 #pragma once
 
 #include <cstdint>
@@ -48,7 +50,7 @@ struct PlyHeader {
 };
 
 /// Reads and checks the header: vertices have x, y, z, faces a list of integers vertex_indices (or
-/// vertex_index); any other element and property may stand between them.
+/// vertex_index); any other elements and properties are allowed.
 PlyHeader ply_header(const MeshFile& file);
 
 }  // namespace sinew

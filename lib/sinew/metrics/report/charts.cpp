@@ -170,7 +170,7 @@ std::span<const ChartPlan> chart_plans() {
   return plans;
 }
 
-std::span<const std::string_view> telling_metrics() {
+std::span<const std::string_view> headline_metrics() {
   static constexpr std::array<std::string_view, 8> names = {
       "pose_error_far_rms", "volume_error",     "broken_neighbors", "J_min",
       "strain_99",          "displacement_max", "speed_max",        "twist_jump_max"};
@@ -203,7 +203,7 @@ void leave_out_empty(std::vector<Chart>& charts) {
   std::erase_if(charts, has_nothing);
 }
 
-std::vector<std::size_t> drawn_places(const std::vector<double>& values) {
+std::vector<std::size_t> drawn_indices(const std::vector<double>& values) {
   const std::size_t grain = values.size() <= most_drawn ? 1 : values.size() / (most_drawn / 3) + 1;
   std::vector<std::size_t> places;
   for (std::size_t begin = 0; begin < values.size(); begin += grain) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which metrics the report draws together, in which unit, and how many of their values.
+// Which metrics the report draws in one chart, in which unit, and which of their values.
+//
+//     for (const ChartPlan& plan : chart_plans())
+//       charts.push_back(planned_chart(plan, frames, radius));
 #pragma once
 
 #include <cstddef>
@@ -14,14 +17,14 @@ namespace sinew {
 
 enum class Shown { as_is, in_radii, in_percent, since_start };
 
-/// Some scenes have nothing that a chart is about.
+/// A chart of a feature that the scene lacks is zero throughout and may be left out.
 enum class Drawn { always, unless_zero };
 
 struct ChartPlan {
   std::string_view title, note, unit;     ///< unit: "" for pure numbers
   std::vector<std::string_view> metrics;  ///< names in metrics_table(), at most six
   Shown shown = Shown::as_is;
-  std::vector<double> baselines = {0};  ///< values the scale shows in any case
+  std::vector<double> baselines = {0};  ///< values that the scale always includes
   Drawn drawn = Drawn::always;
 };
 
@@ -37,11 +40,11 @@ struct Chart {
   std::vector<Line> lines;
 };
 
-/// The report's charts, the most telling first.
+/// The report's charts, the most informative first.
 std::span<const ChartPlan> chart_plans();
 
-/// Metrics whose worst frames one looks at first; names in metrics_table().
-std::span<const std::string_view> telling_metrics();
+/// Metrics whose worst frames the report links to; names in metrics_table().
+std::span<const std::string_view> headline_metrics();
 
 /// The frames' values of a metric in the plan's unit; radius in m.
 std::vector<double> shown_values(const ChartPlan& plan, std::string_view metric,
@@ -53,13 +56,13 @@ Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames,
 /// Leaves out lines that were never measured, and charts that have nothing to draw.
 void leave_out_empty(std::vector<Chart>& charts);
 
-/// The places of the values worth drawing, in order: all of up to most_drawn, else of each of some
-/// hundred pieces the smallest, the largest, and a gap if it has any.
-std::vector<std::size_t> drawn_places(const std::vector<double>& values);
+/// Indices of the values to draw, ascending: all of up to most_drawn; of more, the smallest, the
+/// largest and a gap, if any, of each of several hundred pieces.
+std::vector<std::size_t> drawn_indices(const std::vector<double>& values);
 inline constexpr std::size_t most_drawn = 1200;
 
-/// Whether a value has a place on a chart: not-a-number is a gap, and so is what would overflow the
-/// arithmetic of a scale.
+/// Whether a value is drawn: not-a-number and values that would overflow the arithmetic of a scale
+/// are gaps.
 bool drawable(double value);
 
 }  // namespace sinew

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // report.html of a comparison: two runs beside each other on one page and in one 3D view.
+//
+//     write_file("report.html", comparison_html(input));
 #pragma once
 
 #include <array>
@@ -12,9 +14,8 @@
 
 namespace sinew {
 
-/// Both playbacks in one, the second beside the first: across the shorter of its sides, so that the
-/// page's camera sees them next to each other. Of frames that both have; names of bones get the
-/// prefixes.
+/// Both playbacks in one, of the frames that both have. The second is shifted along the shorter of
+/// its sides, so that the page's camera sees them next to each other. Bone names get the prefixes.
 Playback side_by_side(const Playback& first, const Playback& second,
                       const std::array<std::string, 2>& prefixes);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of HTML: everything a user wrote is escaped before it becomes part of a page.
+// Pieces of HTML. All text that comes from a user is escaped before it becomes part of a page.
+//
+//     const std::string heading = element("h2", escaped(title));
 #pragma once
 
 #include <initializer_list>
@@ -12,12 +14,12 @@ namespace sinew {
 /// Text for an element or a quoted attribute: & < > " ' escaped, control characters left out.
 std::string escaped(std::string_view text);
 
-/// JSON that may stand within a script element: "<" written as \u003c can neither end the element
-/// nor begin a comment.
+/// JSON that is safe in a script element: "<" written as \u003c can neither end the element nor
+/// begin a comment.
 std::string inert(std::string json);
 
-/// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded, leading
-/// slashes go, so that it can neither leave the attribute nor name another scheme or host.
+/// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded and leading
+/// slashes are removed, so that it can neither leave the attribute nor name another scheme or host.
 std::string link_to(std::string_view path);
 
 /// <tag>content</tag>; the content is markup already. `attributes`: markup as well, or empty.
@@ -34,7 +36,7 @@ std::string row(const std::string& first, const std::vector<Cell>& cells);
 
 std::string table(std::initializer_list<std::string_view> columns, const std::string& rows);
 
-/// A number for reading: four significant digits, a dash for not-a-number.
+/// A number for display: four significant digits, a dash for not-a-number.
 std::string readable(double value);
 
 /// The same with a fixed number of decimals.

@@ -26,7 +26,7 @@ Json shown(double value) {
 
 Json points_of(const std::vector<double>& across, const std::vector<double>& up) {
   Json points = Json::array();
-  for (const std::size_t i : drawn_places(up)) points.push_back({shown(across[i]), shown(up[i])});
+  for (const std::size_t i : drawn_indices(up)) points.push_back({shown(across[i]), shown(up[i])});
   return points;
 }
 
@@ -133,7 +133,7 @@ std::string page_json(const PageData& data) {
 
 std::vector<WorstFrame> worst_frames(std::span<const FrameMetrics> frames, const Summary& worst) {
   std::vector<WorstFrame> all;
-  for (const std::string_view name : telling_metrics()) {
+  for (const std::string_view name : headline_metrics()) {
     const std::size_t metric = metric_index(name);
     const auto frame = worst.metrics[metric].worst_frame;
     if (frame && std::abs(frames[*frame].*metrics_table()[metric].value) > 0)

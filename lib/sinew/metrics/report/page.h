@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the reports of a run and of a comparison have in common: the frame of the page, the sections
-// both have, and the numbers that the page's script draws.
+// The common parts of the reports of a run and of a comparison: the page itself, the sections that
+// both have, and the data that the page's script draws.
+//
+//     const std::string html = page_html({title, version, body, "metrics.csv", data, playback});
 #pragma once
 
 #include <span>
@@ -24,7 +26,7 @@ struct WorstFrame {
   double time = 0;        ///< s
 };
 
-/// What the page draws, beside the playback.
+/// The data that the page draws, besides the playback.
 struct PageData {
   std::vector<double> times;   ///< of the charts' frames, ascending, s
   std::vector<double> angles;  ///< of the bones in them, degrees
@@ -40,19 +42,19 @@ struct PageData {
 /// - worst: metric, frame, time
 std::string page_json(const PageData& data);
 
-/// The frames that the buttons beside the 3D view lead to, for each telling metric the one named
-/// by `worst`, which may be none; zeros are no worst ones.
+/// The frames that the buttons beside the 3D view show: for each headline metric its worst frame
+/// by `worst`, if any. A value of zero does not count.
 std::vector<WorstFrame> worst_frames(std::span<const FrameMetrics> frames, const Summary& worst);
 
 struct Page {
   std::string title, version;  ///< plain text
   std::string body;            ///< markup
-  std::string table;           ///< the file that has the numbers of every frame: metrics.csv
+  std::string table;           ///< the file with the numbers of every frame: metrics.csv
   PageData data;
   const Playback& playback;  ///< of no frames: the page has no 3D view
 };
 
-/// The whole page, UTF-8, with everything that draws it.
+/// The whole page, UTF-8, with its style, script and libraries.
 std::string page_html(const Page& page);
 
 /// The verdict's cards; radius in m.
@@ -66,19 +68,20 @@ std::string checks_table(std::span<const Check> checks);
 std::string described(const Metric& metric);
 std::string described(const RunMetric& metric);
 
-/// Heading, hint and the place of the charts; whether a click on them leads to a 3D view.
+/// Heading, hint and container of the charts; `with_view`: a click on one moves the 3D view to that
+/// time.
 std::string charts_section(bool with_view);
 
-/// The 3D view and its controls; `worst` stands before the buttons that lead to a frame.
+/// The 3D view and its controls; `worst` labels the buttons that show a frame.
 std::string view_section(std::string_view worst);
 
-/// Lists of facts beside each other; empty without any.
+/// Lists of facts side by side; empty where there are none.
 std::string fact_lists(const std::vector<FactGroup>& groups);
 
-/// Text to be opened, such as a scene; empty where there is none.
+/// A collapsed block of text, such as a scene; empty where there is none.
 std::string folded(const std::string& title, const std::string& text);
 
-// The texts that every page carries.
+// The files embedded in every page.
 std::string_view page_style();
 std::string_view page_script();
 std::string_view view_markup();    ///< the 3D view and its controls

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The run as the report's 3D view shows it: particles, skin and bones over time, thinned so that a
-// page of a few megabytes holds them.
+// The run as the report's 3D view shows it: particles, skin and bones over time, thinned to fit a
+// page of a few megabytes.
+//
+//     Playback playback = plan_playback(rest, frames);
+//     if (playback.wants(i)) add_frame(playback, i, rest, state, particle_values(rest, state));
 #pragma once
 
 #include <array>
@@ -23,7 +26,7 @@ struct PlaybackField {
   std::vector<double> ParticleValues::*values;
 };
 
-/// All that a playback keeps, in the order of PlaybackFrame::values.
+/// The fields of a playback, in the order of PlaybackFrame::values.
 std::span<const PlaybackField> playback_fields();
 
 struct PlaybackFrame {
@@ -34,8 +37,8 @@ struct PlaybackFrame {
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
 };
 
-/// Particles that are drawn with one radius (m): larger than their own where one is shown for
-/// several, so that the body looks filled.
+/// Consecutive particles drawn with one radius (m): larger than their own where one is shown for
+/// several, so that the body appears filled.
 struct Balls {
   std::size_t count = 0;
   double radius = 0;
@@ -56,30 +59,29 @@ struct Playback {
   bool has(std::size_t frame) const;
 };
 
-/// Around all places of all frames, m; empty where there are none.
+/// Around all positions of all frames, m; empty where there are none.
 Box box_of(const Playback& playback);
 
-/// A coarser skin out of some of a surface's own points (Rossignac and Borrel's vertex clustering):
-/// one point stays of each cell of a grid.
+/// A coarser skin on a subset of a surface's points, by vertex clustering (Rossignac and Borrel):
+/// one point is kept in each cell of a grid.
 struct ThinSurface {
   std::vector<std::uint32_t> points;      ///< of the surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
 };
 
-/// At most `most` points, all of a surface that has no more; faces that collapse go.
+/// At most `most` points, all of a surface that has no more; collapsed faces are dropped.
 ThinSurface thin_surface(const Triangles& surface, std::size_t most);
 
-/// A playback of no frames, with the choice made of what will be kept: all of a small run; of a
-/// large one frames at even distances, the first and the last among them, particles picked at
-/// random (the same ones every time) and a coarser skin. `share`: of a page's bytes that it may
-/// take.
+/// A playback without frames that selects what will be kept: all of a small run; of a large one,
+/// frames at even intervals including the first and the last, particles selected by a
+/// hash of their index, and a coarser skin. `share`: fraction of a page's bytes that it may take.
 Playback plan_playback(const RestBody& rest, std::size_t frames, double share = 1);
 
-/// Adds a frame at its place in time.
+/// Inserts a frame in order of time.
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles);
 
-/// For the page's script: places as 16-bit fractions of the playback's box, values as 8-bit
+/// For the page's script: positions as 16-bit fractions of the playback's box, values as 8-bit
 /// fractions of their range (a thousandth of the values at either end lies outside), all in base64.
 std::string playback_json(const Playback& playback);
 

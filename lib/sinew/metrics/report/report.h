@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// report.html: one page that tells what was run and what became of it. It needs no network and
-// nothing beside it but the pictures it links.
+// report.html: one page that documents a run and its results. It needs no network and no other
+// files but the pictures it links.
+//
+//     write_file("report.html", report_html(report_input(run, std::move(measured))));
 #pragma once
 
 #include <span>
@@ -36,7 +38,7 @@ struct CurveLine {
 };
 struct Curve {
   std::string title, note;  ///< what it is, and its formula
-  std::string across, up;   ///< what the axes measure, with units
+  std::string across, up;   ///< labels of the axes, with units
   std::vector<CurveLine> lines;
 };
 

@@ -33,6 +33,10 @@ Vec3 force_of(const Swirl& form, const Vec3& position, const Grain& grain) {
          softened(form.axis.normalized().cross(position - form.point), form.core);
 }
 
+Vec3 force_of(const CustomForce& form, const Vec3& position, const Grain& grain) {
+  return form.force(position, grain);
+}
+
 /// The largest force, N, and the length over which the form itself changes by as much, m.
 struct Steepness {
   double force;
@@ -44,6 +48,9 @@ Steepness steepness(const UniformAcceleration& form, const Grain& grain) {
 }
 Steepness steepness(const ForceDensity& form, const Grain& grain) {
   return {grain.volume * form.density.norm()};
+}
+Steepness steepness(const CustomForce& form, const Grain&) {
+  return {form.largest, form.length};
 }
 template <typename Form>
 Steepness steepness(const Form& form, const Grain& grain) {
@@ -73,6 +80,11 @@ void check_form(const ForceDensity& form, const std::string& name) {
 void check_form(const Attraction& form, const std::string& name) {
   require(form.point.allFinite(), name, "has a point that is not finite", "give finite numbers");
   check_core(form.acceleration, form.core, name);
+}
+void check_form(const CustomForce& form, const std::string& name) {
+  require(form.force != nullptr, name, "has no force", "give a function of position and grain");
+  require(form.largest >= 0 && form.length > 0, name, "has no bounds",
+          "give the largest force, and the length over which it changes by as much");
 }
 void check_form(const Swirl& form, const std::string& name) {
   require(form.point.allFinite(), name, "has a point that is not finite", "give finite numbers");

@@ -6,6 +6,8 @@
 //     const Vec3 force = field_force(wind, wind.scale.at(time), position, grain);
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -37,7 +39,21 @@ struct Swirl {
   double core = 0;            ///< m, > 0
 };
 
-using FieldForm = std::variant<UniformAcceleration, ForceDensity, Attraction, Swirl>;
+/// A particle as fields see it.
+struct Grain {
+  double mass;    ///< kg
+  double volume;  ///< of the body at rest, m^3
+};
+
+/// A force of one's own. It is called from several threads at once.
+struct CustomForce {
+  std::function<Vec3(const Vec3& position, const Grain& grain)> force;  ///< N
+  double largest = 0;                                        ///< bound of its size, N
+  double length = std::numeric_limits<double>::infinity();  ///< over which it changes by as much, m
+};
+
+using FieldForm =
+    std::variant<UniformAcceleration, ForceDensity, Attraction, Swirl, CustomForce>;
 
 struct ForceField {
   std::string name;
@@ -50,12 +66,6 @@ struct ForceField {
 struct Drag {
   double rate = 0;               ///< 1/s
   Vec3 velocity = Vec3::Zero();  ///< of the medium, m/s
-};
-
-/// The properties of a particle that fields act on.
-struct Grain {
-  double mass;    ///< kg
-  double volume;  ///< of the body at rest, m^3
 };
 
 /// The force on a particle at `position`, N, with the keys' value `scale`.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of written arrays. The writer takes units, component names, number types and active
-// arrays from it, the README its tables: to write one more array, add its row in arrays.cpp.
+// The table of written arrays, always or on request, from which the writer takes units, component
+// names, number types and active arrays, --arrays and output.arrays their names, and the
+// documentation its tables. To write another array, add its row in arrays.cpp.
+//
+//     const WrittenArray* row = find_written("particles", ArrayPlace::point, "velocity");
 #pragma once
 
 #include <span>
@@ -14,7 +17,7 @@ enum class ArrayPlace { point, cell, field };
 /// How numbers are stored: Int32, Float32 (Float64 in double precision), always Float64, or bytes.
 enum class ArrayNumbers { whole, real, exact, bytes };
 
-/// What a viewer shows first: the active scalars and vectors of the points.
+/// The arrays that a viewer shows first: the active scalars and vectors of the points.
 enum class ArrayRole { plain, scalars, vectors };
 
 struct WrittenArray {
@@ -36,5 +39,12 @@ const WrittenArray* find_written(std::string_view series, ArrayPlace place, std:
 
 /// "point", "cell", "field".
 std::string_view place_text(ArrayPlace place);
+
+/// The arrays of particles that are written only when somebody asks for them: F, J, stretch, ...
+std::span<const std::string_view> requestable_arrays();
+
+/// Those that a text names, in the order of the table, each once: names with commas or spaces
+/// between them, or "all". Throws bad input for any other, with the nearest name.
+std::vector<std::string_view> requested_arrays(std::string_view words);
 
 }  // namespace sinew

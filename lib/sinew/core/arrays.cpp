@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/arrays.h>
+#include <sinew/core/arrays.h>
 
 #include <algorithm>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
@@ -220,6 +223,18 @@ std::vector<WrittenArray> make_table() {
   return table;
 }
 
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  constexpr std::string_view between = ", \t";
+  for (auto at = text.find_first_not_of(between); at != text.npos;
+       at = text.find_first_not_of(between, at)) {
+    const auto end = std::min(text.find_first_of(between, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
 }  // namespace
 
 std::span<const WrittenArray> written_arrays() {
@@ -238,6 +253,31 @@ const WrittenArray* find_written(std::string_view series, ArrayPlace place, std:
 
 std::string_view place_text(ArrayPlace place) {
   return place == point ? "point" : place == cell ? "cell" : "field";
+}
+
+std::span<const std::string_view> requestable_arrays() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> found;
+    for (const WrittenArray& row : table_of_requested("values")) found.push_back(row.name);
+    return found;
+  }();
+  return names;
+}
+
+std::vector<std::string_view> requested_arrays(std::string_view text) {
+  const std::vector<std::string_view> words = words_of(text);
+  const auto names = requestable_arrays();
+  const auto asked = [&](std::string_view name) {
+    return std::find(words.begin(), words.end(), name) != words.end();
+  };
+  for (const std::string_view word : words)
+    if (word != "all" && std::find(names.begin(), names.end(), word) == names.end())
+      throw bad_input("there is no array " + shown(word) + " to ask for",
+                      suggestion(word, names) + " (or all)");
+  std::vector<std::string_view> found;
+  for (const std::string_view name : names)
+    if (asked(name) || asked("all")) found.push_back(name);
+  return found;
 }
 
 }  // namespace sinew

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/laws.h>
+
+#include <array>
+
+namespace sinew {
+namespace {
+
+double eq_1(const Material& material, double d) { return material.pair.force(d); }
+double eq_1_energy(const Material& material, double d) { return material.pair.potential(d); }
+
+/// Of eq. 1 the part below contact alone.
+double repulsion(const Material& material, double d) {
+  return d < 2 * material.pair.r ? material.pair.force(d) : 0;
+}
+double repulsion_energy(const Material& material, double d) {
+  const PairForce& pair = material.pair;
+  return d < 2 * pair.r ? pair.potential(d) - pair.potential(2 * pair.r) : 0;
+}
+
+double eq_1_bond(const Material& material, double d, double) { return material.pair.force(d); }
+double eq_1_bond_energy(const Material& material, double d, double) {
+  return material.pair.potential(d);
+}
+
+double spring(const Material& material, double d, double length) {
+  return -material.bond.stiffness * (d - length);
+}
+double spring_energy(const Material& material, double d, double length) {
+  return material.bond.stiffness / 2 * (d - length) * (d - length);
+}
+
+constexpr std::string_view bonded_remark =
+    " Rest neighbors are held by bonds instead; others feel its repulsion.";
+
+constexpr std::array<ForceLaw, 4> laws = {{
+    {MaterialModel::paper, Cohesion::all, "paper", false, false, eq_1, eq_1_energy, eq_1_bond,
+     eq_1_bond_energy, ""},
+    {MaterialModel::paper, Cohesion::initial_neighbors, "paper, initial_neighbors", false, true,
+     repulsion, repulsion_energy, eq_1_bond, eq_1_bond_energy, ""},
+    {MaterialModel::bonded, Cohesion::all, "bonded", true, true, repulsion, repulsion_energy,
+     spring, spring_energy, bonded_remark},
+    {MaterialModel::bonded_volume, Cohesion::all, "bonded_volume", true, true, repulsion,
+     repulsion_energy, spring, spring_energy, bonded_remark},
+}};
+
+}  // namespace
+
+std::span<const ForceLaw> force_laws() { return laws; }
+
+const ForceLaw& law_of(const Material& material) {
+  for (const ForceLaw& law : laws)
+    if (law.model == material.model && (law.has_bonds || law.cohesion == material.cohesion))
+      return law;
+  return laws.front();
+}
+
+}  // namespace sinew

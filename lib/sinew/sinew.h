@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All of sinew, in the order of the data's way: scene, fill, bind, simulate, write, measure.
+//
+//     const sinew::Settings scene = sinew::read_scene("configs/box_bend.yaml");
+//     sinew::simulate(scene, {"out/box_bend"});
+//
+// Link with sinew::sinew. Each header can be included by itself as <sinew/ROOM/file.h>; lib/README.md
+// lists the rooms.
+#pragma once
+
+#include <sinew/core/error.h>
+#include <sinew/core/options.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/system.h>
+#include <sinew/fill/pack.h>
+#include <sinew/io/series.h>
+#include <sinew/io/single_files.h>
+#include <sinew/io/vtu.h>
+#include <sinew/mesh/diagnosis.h>
+#include <sinew/mesh/read_surface.h>
+#include <sinew/metrics/files.h>
+#include <sinew/metrics/frame_metrics.h>
+#include <sinew/metrics/table.h>
+#include <sinew/physics/material.h>
+#include <sinew/physics/simulation.h>
+#include <sinew/physics/world/world.h>
+#include <sinew/render/figure.h>
+#include <sinew/rig/motion.h>
+#include <sinew/rig/skeleton.h>
+#include <sinew/run/compare_runs.h>
+#include <sinew/run/frame_writer.h>
+#include <sinew/run/measure_run.h>
+#include <sinew/run/simulate.h>
+#include <sinew/scene/check.h>
+#include <sinew/scene/setup.h>
+#include <sinew/settings/read_scene.h>
+#include <sinew/settings/write_scene.h>
