@@ -46,8 +46,8 @@ EQUIVALENT = [
     (r".*instruction_set\.cpp", r"__builtin_cpu_supports", r" &&", "processors that have the one have the other"),
     (r".*(group_cells|order)\.cpp", r"while \(along\(0\)", r"[\d.]+", "when a table of cells counts as too large"),
     (r".*bone_slots\.cpp", r"if \(weight\[b\] > 0\)", r"0", "the mean of one is itself"),
-    (r".*offset_lists\.cpp", r"part\.value\.resize\(wider", r"1", "room for one more"),
-    (r".*partner_lists\.cpp", r"pose\.size\(\) \+ 1, *$", r"1", "room for one carrier more"),
+    (r".*offset_lists\.cpp", r"part\.value\.resize\(outer", r"1", "room for one more"),
+    (r".*partner_lists\.cpp", r"pose\.size\(\) \+ 1, *$", r"1", "room for one frame more"),
     (r".*particle_values\.cpp", r"double near = 0, far = 0", r"0", "near is only subtracted from another near"),
 ]
 

@@ -193,7 +193,7 @@ TEST(Golden, WorldsPushAsTheyDid) {
     return ObstaclePose{{time * Vec3(0.3, 0, 0), Mat3::Identity()}, {0.3, 0, 0}, {0, 2, 0}};
   };
   Obstacle attached = obstacle(
-      walls, "rider", CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
+      walls, "attached", CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
   attached.motion = attached_to_bone(1, skeleton_of(walls.settings).bones[1], {});
   walls.world.obstacles = {
       obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, attached,
