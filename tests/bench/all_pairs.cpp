@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/all_pairs.h"
-
 #include <cmath>
 
 #include <sinew/core/parallel.h>
+
+#include "bench/all_pairs.h"
 
 namespace sinew::bench {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stepping without any search for partners: every pair is looked at, O(n^2). What the paper's cells
-// are measured against.
+// Stepping without a neighbor search: all pairs, O(n^2). The baseline for the paper's cells.
 #pragma once
 
 #include <sinew/physics/simulation.h>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/all_pairs.h"
-
 #include <gtest/gtest.h>
 
+#include "bench/all_pairs.h"
 #include "bench/states.h"
 
 namespace sinew::bench {

@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include <sinew/rig/bvh/bvh.h>
+
 #include "rig/bvh/bvh_files.h"
 
 namespace {

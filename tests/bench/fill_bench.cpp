@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which sites of a lattice lie inside a mesh of 102,400 triangles: rows of sinew beside CGAL's and
-// VTK's test of single points. `points/s` are sites of the mesh's box; `inside` tells that the
+// Which sites of a lattice are inside a mesh of 102,400 triangles: rows of sinew beside CGAL's and
+// VTK's test of single points. `points/s` are sites of the mesh's box; `inside` shows that the
 // answers agree.
 //
 //   cmake --build build --target benches
 //   build/bench/fill_bench --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 
 #include <benchmark/benchmark.h>
-
 #include <algorithm>
 
 #include <sinew/core/parallel.h>
@@ -16,6 +15,7 @@
 #include <sinew/fill/inside/inside_runs.h>
 #include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>
+
 #include "bench/vtk_inside.h"
 #include "mesh/shapes.h"
 
@@ -23,7 +23,7 @@ namespace {
 
 using namespace sinew;
 
-/// A torus, so that the box holds much that is outside.
+/// A torus: much of its box is outside.
 const Surface& closed_mesh() {
   static const Surface surface = clean(shapes::torus(1, 0.45, 320, 160));
   return surface;
@@ -79,7 +79,7 @@ void rows_of_open_mesh(benchmark::State& state, double sites) {
   });
 }
 
-/// Every site by itself; the search tree is made beforehand.
+/// Every site by itself; the search tree is built beforehand.
 void cgal(benchmark::State& state, double sites) {
   const SideOf side_of(closed_mesh().triangles);
   run(state, sites, [&](const Lattice& lattice) {

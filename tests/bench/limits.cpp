@@ -21,7 +21,7 @@ struct Vector {
   using Type [[gnu::vector_size(bytes)]] = Number;
 };
 
-/// A value that the compiler must not see through.
+/// A value that the compiler must not optimize away.
 template <class Number>
 SINEW_INLINE Number opaque(Number value) {
   volatile Number hidden = value;

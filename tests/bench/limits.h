@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What this machine can do at most: fused multiply-adds in registers, and streaming through memory.
+// The limits of this machine: fused multiply-adds in registers, and streaming through memory.
 // Compiled with contraction and for every instruction set, unlike anything in lib.
 #pragma once
 
@@ -10,11 +10,11 @@ namespace sinew::bench {
 
 enum class InstructionSet { baseline, avx2, avx512 };
 
-/// The widest that this processor has.
+/// The widest of this processor.
 InstructionSet widest();
 const char* name_of(InstructionSet set);
 
-/// Multiply-adds of independent vectors, `rounds` times over; returns the operations done, 2 for a
+/// Multiply-adds of independent vectors, `rounds` times; returns the number of operations, 2 for a
 /// multiply-add.
 double multiply_add_single(InstructionSet set, std::int64_t rounds);
 double multiply_add_double(InstructionSet set, std::int64_t rounds);

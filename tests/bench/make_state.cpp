@@ -4,7 +4,7 @@
 //     make_state CONDITION COUNT FOLDER [lammps]
 //
 // writes FOLDER/SHAPE_COUNT.state, with `lammps` also SHAPE_COUNT.data and eq1.table, and prints
-// what a script for LAMMPS has to know as JSON.
+// the parameters of a LAMMPS script as JSON.
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -17,8 +17,8 @@ namespace {
 using namespace sinew;
 using namespace sinew::bench;
 
-// LAMMPS is fastest when the table stays in its first cache; the force is then right to 1e-4 of the
-// largest.
+// LAMMPS is fastest when the table fits into the first cache; the force is then accurate to 1e-4 of
+// the largest.
 constexpr int table_rows = 1000;
 constexpr double table_begin = 0.1;  // d0; no pair of a settled body comes so close
 

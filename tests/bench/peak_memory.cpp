@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/peak_memory.h"
-
 #include <malloc.h>
-
 #include <fstream>
 #include <string>
 
 #include <sinew/core/error.h>
+
+#include "bench/peak_memory.h"
 
 namespace sinew::bench {
 namespace {
@@ -19,7 +18,7 @@ double status(const std::string& wanted) {
   throw bad_input("/proc/self/status has no line " + wanted, "measure memory on Linux");
 }
 
-/// Makes the present size the highest so far.
+/// Resets the peak to the present size.
 void forget_peak() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";

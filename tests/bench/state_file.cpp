@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/state_file.h"
-
 #include <array>
 #include <cstdint>
 #include <fstream>
 #include <string>
 
 #include <sinew/core/error.h>
+
+#include "bench/state_file.h"
 
 namespace sinew::bench {
 namespace {

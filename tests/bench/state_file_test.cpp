@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/state_file.h"
-
 #include <gtest/gtest.h>
 
+#include "bench/state_file.h"
 #include "scratch.h"
 
 namespace sinew::bench {

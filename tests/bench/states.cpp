@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/states.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "bench/states.h"
 #include "world.h"
 
 namespace sinew::bench {
@@ -13,13 +12,13 @@ namespace {
 constexpr double r = 0.010;             // m
 constexpr double turn = 90;             // degrees
 constexpr double bend_zone = 3;         // widths; the faces stretch and shrink by 26 %
-constexpr double crushed_width = 0.75;  // near the body-centered packing: 14 partners, not 12
+constexpr double crushed_width = 0.75;  // near the body-centered packing: 14 neighbors, not 12
 constexpr double strong_grip = 64;      // springs as stiff as bonds in the paper's box
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
 constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed"};
 
 struct Bar {
-  int across = 0, along = 0;  // half-planes, odd: a site lies in the middle
+  int across = 0, along = 0;  // half-planes, odd: a site is in the middle
 
   double width() const { return across * half_plane_spacing(r); }
   double length() const { return along * half_plane_spacing(r); }
@@ -86,8 +85,7 @@ Points mapped(Points points, Map&& map) {
   return points;
 }
 
-/// Where the body is bound: nothing but strong bones, bound to it as it is, would hold it bent or
-/// crushed.
+/// Where the body is bound: only strong bones, bound to it in this shape, keep it bent or crushed.
 Points rest_of(Condition condition, const Bar& bar) {
   const Points box = test::fcc_box(bar.across, bar.across, bar.along, r);
   if (condition == Condition::bent) return mapped(box, [&](const Vec3& x) { return bent(x, bar); });
@@ -95,7 +93,7 @@ Points rest_of(Condition condition, const Bar& bar) {
   return box;
 }
 
-/// Where it begins: twisted by its bones, which keep an even twist, or shaken out of its lattice.
+/// The start: twisted by its bones, which keep an even twist, or shaken out of its lattice.
 Particles start_of(Condition condition, const Bar& bar, const Body& body) {
   if (condition == Condition::flowed) return test::shaken(body.rest, body.material, r, 0);
   if (condition != Condition::twisted) return particles_at(body.rest, r, body.material.mass);
@@ -103,7 +101,7 @@ Particles start_of(Condition condition, const Bar& bar, const Body& body) {
   return particles_at(mapped(body.rest, twist), r, body.material.mass);
 }
 
-/// The written order, whatever order the stepping has left.
+/// The written order, whatever the present order.
 Particles in_written_order(const Particles& particles) {
   Particles written = particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {

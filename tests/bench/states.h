@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes of the paper's proportions in five states, held on two bones end to end: what stepping is
-// timed on. A state is an analytic map of the rest positions that follows the bones, left to
-// settle.
+// timed on. A state is an analytic map of the rest positions that follows the bones, left to relax.
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ std::string_view name_of(Condition condition);
 /// Throws bad input for another name.
 Condition condition_named(std::string_view name);
 
-/// A body, its held pose, and the map's positions, from which it is to settle.
+/// A body, its held pose, and the map's positions, from which it relaxes.
 struct Scene {
   Body body;
   Motion motion;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The states that stepping is timed on are what their names say.
-#include "bench/states.h"
-
+// The states on which stepping is timed are as their names say.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <complex>
 
@@ -11,6 +8,8 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/triangles.h>
+
+#include "bench/states.h"
 
 namespace sinew::bench {
 namespace {
@@ -82,7 +81,7 @@ TEST(States, MapsStretchBondsModerately) {
     const Scene scene = scene_of(condition, count);
     const Bonds bonds = bonds_of(scene, positions_of(scene.start));
     EXPECT_GT(bonds.shortest, 0.8) << name_of(condition);
-    EXPECT_LT(bonds.longest, 1.25) << name_of(condition);  // partners to 1.3
+    EXPECT_LT(bonds.longest, 1.25) << name_of(condition);  // neighbors to 1.3
   }
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Million particle-steps per second (Mps) of whole steps: pair forces, damping, bones, integration,
-// guards and the ledger of energies. The label is the hash of the state after the first five steps;
-// it must not depend on the number of threads. Beside them what this machine can do at most.
+// checks and the energy ledger. The label is the hash of the state after the first five steps; it
+// must not depend on the number of threads. The limits of this machine are beside them.
 //
 //   cmake --build build --target benches
 //   build/bench/step_bench --benchmark_filter=/rest/
-//   build/bench/step_bench --states=FOLDER ...      states that make_state has written there
+//   build/bench/step_bench --states=FOLDER ...      states written by make_state
 //
 // Names are step/CONDITION/PARTICLES/KIND/threads:N. tests/bench/run.sh makes tables of them.
 
 #include <benchmark/benchmark.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -18,6 +17,7 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
+
 #include "bench/all_pairs.h"
 #include "bench/limits.h"
 #include "bench/peak_memory.h"
@@ -58,7 +58,7 @@ Prepared prepare(Condition condition, std::size_t count) {
   return prepared;
 }
 
-/// The state of the last call is kept: those of all sizes together are large.
+/// The state of the last call is cached: those of all sizes together are large.
 const Prepared& prepared(Condition condition, std::size_t count) {
   static std::unique_ptr<Prepared> last;
   if (!last || last->condition != condition || last->count != count) {
@@ -68,7 +68,7 @@ const Prepared& prepared(Condition condition, std::size_t count) {
   return *last;
 }
 
-/// Stepping of one kind from a prepared state on.
+/// Stepping of one kind from a prepared state.
 class Stepper {
  public:
   Stepper(const Prepared& from, Kind kind) : from_(from) {
@@ -105,14 +105,14 @@ class Stepper {
   Forces forces_;
 };
 
-/// Steps timed in one go. Lists are built again every so many of them: enough to see the mean. The
-/// others do the same in every step.
+/// Steps timed together. Lists are rebuilt every so many of them: enough for the mean. The other
+/// steppers do the same in every step.
 int steps_per_lap(const Case& what) {
   if (what.kind == Kind::all_pairs || what.kind == Kind::cells) return 5;
   return what.count > 1'000'000 ? 40 : 100;
 }
 
-/// Lists made in a lap, its first steps included.
+/// Lists built in a lap, its first steps included.
 void count_lists(benchmark::State& state, const ListCounts& lists) {
   state.counters["rebuilds"] = static_cast<double>(lists.rebuilds);
   state.counters["prunings"] = static_cast<double>(lists.prunings);
@@ -120,7 +120,7 @@ void count_lists(benchmark::State& state, const ListCounts& lists) {
   state.counters["offsets"] = lists.inner;
 }
 
-/// Every lap begins with the same state, which else would settle during the measurement.
+/// Every lap begins with the same state, which would otherwise relax during the measurement.
 void step(benchmark::State& state, Case what) {
   const Prepared& from = prepared(what.condition, what.count);
   const int steps = steps_per_lap(what);
@@ -145,7 +145,7 @@ void step(benchmark::State& state, Case what) {
   if (what.kind == Kind::single || what.kind == Kind::binary64) count_lists(state, lists);
 }
 
-/// Memory at the peak of a simulation's making and first steps, the body's description included.
+/// Peak memory of a simulation's construction and first steps, including the body's description.
 void memory(benchmark::State& state, Case what) {
   const Prepared& from = prepared(what.condition, what.count);
   double bytes = 0;

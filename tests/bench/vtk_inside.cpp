@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/vtk_inside.h"
-
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSelectEnclosedPoints.h>
+
+#include "bench/vtk_inside.h"
 
 namespace sinew {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK's test of points against a closed surface, to compare with.
+// VTK's test of points in a closed surface, for comparison.
 #pragma once
 
 #include <cstddef>

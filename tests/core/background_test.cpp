@@ -2,7 +2,6 @@
 #include <sinew/core/background.h>
 
 #include <gtest/gtest.h>
-
 #include <atomic>
 #include <chrono>
 #include <memory>

@@ -2,7 +2,6 @@
 #include <sinew/core/base64.h>
 
 #include <gtest/gtest.h>
-
 #include <random>
 
 #include <sinew/core/parallel.h>

@@ -2,7 +2,6 @@
 #include <sinew/core/cell_grid.h>
 
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
 
@@ -25,7 +24,7 @@ std::vector<std::uint32_t> brute_force(const Points& points, const Vec3& p, doub
   return near;
 }
 
-/// What the grid finds within the range; each point may be visited once only.
+/// The points the grid finds within the range; each may be visited once only.
 std::vector<std::uint32_t> by_grid(const CellGrid& grid, const Points& points, const Vec3& p,
                                    double range) {
   std::vector<std::uint32_t> visited, near;
@@ -65,7 +64,7 @@ TEST(CellGrid, FindsWhatBruteForceFindsInClusters) {
   expect_brute_force(points, 0.1);
 }
 
-TEST(CellGrid, SurvivesStrayFarParticles) {
+TEST(CellGrid, SurvivesParticlesFarAway) {
   Points points = cloud(300, {1, 1, 1}, 7);
   points.emplace_back(1e9, -1e9, 1e9);
   points.emplace_back(-1e12, 0, 0);

@@ -2,11 +2,11 @@
 #include <sinew/core/deformation.h>
 
 #include <gtest/gtest.h>
-
 #include <random>
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+
 #include "world.h"
 
 namespace sinew {

@@ -8,7 +8,7 @@
 namespace sinew {
 namespace {
 
-TEST(Error, TellsPlaceWhatAndCureInOneLine) {
+TEST(Error, GivesPlaceWhatAndCureInOneLine) {
   const Error error = bad_input({"a.yaml", 3, 7}, "it is wrong", "right it");
   EXPECT_STREQ(error.what(), "a.yaml:3:7: it is wrong; right it");
   EXPECT_EQ(error.exit(), Exit::bad_input);

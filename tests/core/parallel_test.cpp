@@ -2,7 +2,6 @@
 #include <sinew/core/parallel.h>
 
 #include <gtest/gtest.h>
-
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -58,7 +57,7 @@ TEST(WithThreads, GivesAsManyThreadsAsAskedForBeyondTheCores) {
     std::condition_variable all_here;
     int here = 0;
     with_threads(threads, [&] {
-      // Each piece waits for all others: fewer threads would never get there.
+      // Each piece waits for all others: fewer threads would never finish.
       parallel_for(threads, 1, [&](std::size_t, std::size_t) {
         std::unique_lock lock(mutex);
         if (++here == threads) all_here.notify_all();

@@ -2,7 +2,6 @@
 #include <sinew/core/particles.h>
 
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -10,6 +9,7 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
+
 #include "world.h"
 
 namespace sinew {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/settings/table.h>
-
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
 
 #include <sinew/settings/row.h>
+#include <sinew/settings/table.h>
 
 namespace sinew {
 namespace {

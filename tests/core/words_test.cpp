@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/core/text.h>
-
 #include <gtest/gtest.h>
+
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
@@ -14,8 +14,8 @@ TEST(Shown, KeepsLettersOfAnyLanguage) {
 TEST(Shown, ReplacesControlCharactersAndWhatIsNotUtf8) {
   EXPECT_EQ(shown("a\nb\x1b[2J\x7f"), "'a?b?[2J?'");
   const auto marks = [](int count) { return '\'' + std::string(count, '?') + '\''; };
-  EXPECT_EQ(shown("\x80\xff\xC3"), marks(3));              // no letter begins or ends so
-  EXPECT_EQ(shown("\xC0\xAF\xED\xA0\x80"), marks(5));      // written too long; a surrogate
+  EXPECT_EQ(shown("\x80\xff\xC3"), marks(3));              // no letter begins or ends like this
+  EXPECT_EQ(shown("\xC0\xAF\xED\xA0\x80"), marks(5));      // overlong; a surrogate
   EXPECT_EQ(shown("\xC2\x9B\xF4\x90\x80\x80"), marks(6));  // a control; beyond the last letter
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Beams of the filled lattice bend, sag, swing and twist as beam theory says of its moduli, in the
-// limit of many particles. H is the distance of the outer planes (torsion: planes times spacing); n
-// cells across leave 1 / n and 1 / n^2 of error, which three sizes eliminate. They are 2, 4 and 6;
-// SINEW_BEAM_CELLS=4,8,16 in the environment takes others, and longer.
+// Beams of the filled lattice bend, sag, vibrate and twist as beam theory predicts from the moduli,
+// in the limit of many particles. H is the distance of the outer planes (torsion: planes times
+// spacing); n cells across leave errors of order 1 / n and 1 / n^2, which three sizes eliminate.
+// They are 2, 4 and 6; SINEW_BEAM_CELLS=4,8,16 in the environment selects others, which take
+// longer.
 #include <gtest/gtest.h>
-
 #include <Eigen/Sparse>
 #include <array>
 #include <cstdio>
@@ -12,6 +12,7 @@
 #include <memory>
 
 #include <sinew/physics/solid.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -44,7 +45,7 @@ class Beam {
   double length() const { return lengths_of_height * height_; }
   std::size_t particles() const { return rest_.size(); }
 
-  /// Loads on particles, per(i) each, N; the displacements they bring about, m.
+  /// Loads on particles, per(i) each, N; the resulting displacements, m.
   template <class Per>
   Vector displaced(const Per& per) const {
     Vector load = Vector::Zero(3 * freedoms_);
@@ -247,7 +248,7 @@ TEST(Beam, BendsSagsSwingsAndTwistsAsTheorySays) {
         << names[which] << ": " << found[which][0] << ' ' << found[which][1] << ' '
         << found[which][2];
   }
-  for (int n = 0; n < 3; ++n) {  // for the shape that such a beam fills: a plane's spacing wider
+  for (int n = 0; n < 3; ++n) {  // for the shape that such a beam fills: a plane spacing wider
     const int planes = 2 * sizes[n] + 1;
     const double narrower = std::pow((planes - 1.0) / planes, 4);
     EXPECT_NEAR(narrower / found[0][n], 1 - lack_of_bending_stiffness(planes), 0.03) << planes;

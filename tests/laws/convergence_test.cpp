@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How fast each integrator comes to motions known in closed form as its step is halved.
+// How fast each integrator converges to motions known in closed form as its step is halved.
 //
 // Both Eulers are of first order. Velocity Verlet is of second order without damping; its damping
-// answers the velocity of half a step before, which makes it first order with it.
+// uses the velocity of half a step before, which makes it first order.
 #include <gtest/gtest.h>
-
 #include <array>
 #include <complex>
 #include <functional>
@@ -16,12 +15,12 @@ namespace {
 
 constexpr double r = 0.01;
 
-/// What a free, damped oscillator does, x'' + 2 g x' + w^2 x = 0.
+/// A free, damped oscillator, x'' + 2 g x' + w^2 x = 0.
 struct Oscillator {
   double w2 = 0;  ///< 1/s^2
   double g = 0;   ///< 1/s
-  double x = 0;   ///< at first, m
-  double v = 0;   ///< at first, m/s
+  double x = 0;   ///< initially, m
+  double v = 0;   ///< initially, m/s
 
   double frequency() const { return std::sqrt(w2); }
   /// Place and velocity at a time (s).
@@ -34,7 +33,7 @@ struct Oscillator {
   }
 };
 
-/// A simulation of it, and how to read it off.
+/// A simulation of it, and how to read its state.
 struct Model {
   std::string name;
   Settings settings;
@@ -44,7 +43,7 @@ struct Model {
   std::function<std::array<double, 2>(const Simulation&)> read;
 };
 
-/// Distance from the true state after 0.8 of a swing, in lengths of the start.
+/// Distance from the true state after 0.8 of a period, in initial amplitudes.
 double error(const Model& model, int steps) {
   const Oscillator& truth = model.oscillator;
   const double time = 0.8 * 2 * pi / truth.frequency();
@@ -83,7 +82,7 @@ Model bonded_pair(double damping) {
   return model;
 }
 
-/// One particle beside a bone that moves sideways at an even speed: the radial spring.
+/// One particle beside a bone that moves sideways at constant speed: the radial spring.
 Model beside_a_bone(double damping) {
   Model model;
   model.name = "beside a bone";
@@ -115,7 +114,7 @@ Model along_a_bone(double damping) {
   model.rest = {{0, 0, 0.05}};
   const Body body = test::make_body(model.settings, model.rest);
   const BoneSprings& springs = body.springs[0];
-  // Without a side to be on, the radial spring pulls every way.
+  // Without a side, the radial spring pulls in every direction.
   const double m = body.material.mass, w2 = (springs.axial + springs.radial) / m, sag = 0.1 * r;
   model.settings.solver.gravity = {0, 0, -w2 * sag};
   model.oscillator = {w2, springs.damping / m / 2, sag, 0};
@@ -132,8 +131,8 @@ Model by(Integrator integrator, Model model) {
   return model;
 }
 
-/// What both ways of stepping serve, both ways.
-std::vector<Model> both_ways(const Model& model) {
+/// With every stepper that supports them.
+std::vector<Model> with_both_steppers(const Model& model) {
   Model cells = model;
   cells.settings = test::with_cells(model.settings);
   cells.name += ", cells";
@@ -143,14 +142,14 @@ std::vector<Model> both_ways(const Model& model) {
 std::vector<Model> damped() {
   std::vector<Model> models{bonded_pair(0.3)};
   for (const Model& model : {beside_a_bone(0.4), along_a_bone(0.4), beside_a_bone(2)})
-    for (const Model& way : both_ways(model)) models.push_back(way);
+    for (const Model& one : with_both_steppers(model)) models.push_back(one);
   return models;
 }
 
 std::vector<Model> undamped() {
   std::vector<Model> models{bonded_pair(0)};
   for (const Model& model : {beside_a_bone(0), along_a_bone(0)})
-    for (const Model& way : both_ways(model)) models.push_back(way);
+    for (const Model& one : with_both_steppers(model)) models.push_back(one);
   return models;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A slender bonded beam bends as far as the elastica does under the same end load.
+// A slender bonded beam bends as far as the elastica under the same end load.
 #include <gtest/gtest.h>
-
 #include <Eigen/Sparse>
 
 #include <sinew/physics/solid.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -15,8 +15,8 @@ using Vector = Eigen::VectorXd;
 constexpr double r = 0.01;
 constexpr int planes = 5, lengths_of_height = 20;
 
-/// A square beam, clamped at its lowest plane, that finds its balance by Newton's method: slopes of
-/// the bonds are the test's own, forces those of the simulation.
+/// A square beam, clamped at its lowest plane, that finds its equilibrium by Newton's method: the
+/// test linearizes the bonds itself, the forces are those of the simulation.
 class SlenderBeam {
  public:
   SlenderBeam()
@@ -34,7 +34,7 @@ class SlenderBeam {
 
   double length() const { return length_; }
 
-  /// Where the end's middle goes under a load (N) along x, from its place at rest.
+  /// Displacement of the end's center under a load (N) along x.
   Vec3 end_under(double load) {
     for (int n = 0; n < 30; ++n) {
       const Vector residual = loads(load) + forces();
@@ -94,7 +94,7 @@ class SlenderBeam {
   }
 
   void move(const Vector& by) {
-    // No bond may turn by much in one go: Newton's method would leave the beam's branch.
+    // No bond may rotate much in one iteration: Newton's method would leave the beam's branch.
     const double share = std::min(1.0, length_ / 10 / by.cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < rest_.size(); ++i)
       if (free_[i] >= 0)
@@ -118,8 +118,8 @@ class SlenderBeam {
   int freedoms_ = 0;
 };
 
-/// Where the end of the elastica goes, over its length: sideways, and back along the beam (elliptic
-/// integrals; Mattiasson, Int. J. Numer. Methods Eng. 17, 1981, 145).
+/// Displacement of the end of the elastica, over its length: sideways, and back along the beam
+/// (elliptic integrals; Mattiasson, Int. J. Numer. Methods Eng. 17, 1981, 145).
 struct Elastica {
   double load;  // P L^2 / (E I)
   double sideways, back;

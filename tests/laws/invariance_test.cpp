@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a body does is a matter of its shape and material: not of the time step, hardly of the
-// particles' size, and not of the unit of length.
+// The motion of a body depends on its shape and material: not on the time step, hardly on the
+// particles' size, and not on the unit of length.
 #include <gtest/gtest.h>
 
 #include <sinew/rig/skin.h>
+
 #include "world.h"
 
 namespace sinew {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The paper's box, 2,965 particles on two bones: what its figure 4 shows, in numbers.
+// The paper's box, 2,965 particles on two bones: its figure 4 in numbers.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include <sinew/core/deformation.h>
 #include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -83,7 +83,7 @@ TEST(PaperBox, BentBy90DegreesFollowsItsBoneAndSettles) {
   EXPECT_LT(rms(states[1], states[2], all), 0.2 * r) << "settled";
 }
 
-/// How far each half-plane above `from` has turned about z, in degrees, seen against its rest.
+/// How far each half-plane above `from` has rotated about z since rest, in degrees.
 std::vector<double> turns_of_planes(const Points& now, int from) {
   const Points rest = box();
   std::vector<double> sine(49, 0.0), cosine(49, 0.0), turns;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a body does knows no direction, no place, no hand, no even motion of everything, and no
-// numbers of its particles: runs that differ only in these are the same, turned, but for rounding.
+// The motion of a body does not depend on direction, place, handedness, uniform motion, or the
+// numbering of its particles: runs that differ only in these are the same, transformed, but for
+// rounding.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -31,14 +31,14 @@ Settings everything_at_once() {
 
 Points box() { return test::fcc_box(5, 5, half_planes, r); }
 
-/// A body of its own start, in the ways that serve it.
-struct Way {
+/// A body with its own start, with the steppers that support it.
+struct Case {
   std::string name;
   Settings settings;
   double tolerance;  ///< radii
 };
 
-std::vector<Way> ways() {
+std::vector<Case> cases() {
   const Settings lists = everything_at_once();
   Settings bonded = lists;
   bonded.material.model = MaterialModel::bonded_volume;
@@ -99,13 +99,13 @@ Particles moved(Particles particles, const Mat3& turn, const Vec3& shift) {
 /// Runs the scene as it is and moved: the one moved is the other.
 void expect_same_when_moved(const Mat3& turn, const Vec3& shift) {
   const Points rest = box();
-  for (const Way& way : ways()) {
-    const Particles start = shaken_box(way.settings, rest);
-    const Points here = run(way.settings, rest, start),
-                 there = run(moved(way.settings, turn, shift), test::affine(rest, turn, shift),
+  for (const Case& one : cases()) {
+    const Particles start = shaken_box(one.settings, rest);
+    const Points here = run(one.settings, rest, start),
+                 there = run(moved(one.settings, turn, shift), test::affine(rest, turn, shift),
                              moved(start, turn, shift));
-    EXPECT_LT(largest_distance(test::affine(here, turn, shift), there), way.tolerance * r)
-        << way.name;
+    EXPECT_LT(largest_distance(test::affine(here, turn, shift), there), one.tolerance * r)
+        << one.name;
   }
 }
 
@@ -117,22 +117,22 @@ TEST(Symmetry, AShiftedSceneRunsShifted) {
   expect_same_when_moved(Mat3::Identity(), {0.4, -1.7, 0.9});
 }
 
-/// A twist turns with the hand: mirrored it is the opposite one, as are angles about an axis.
+/// A twist changes sign in a mirror, as do angles about an axis.
 TEST(Symmetry, AMirroredSceneRunsMirrored) {
   const Points rest = box();
   const Mat3 mirror = Vec3(1, -1, 1).asDiagonal();
-  for (const Way& way : ways()) {
-    Settings other = moved(way.settings, mirror, Vec3::Zero());
+  for (const Case& one : cases()) {
+    Settings other = moved(one.settings, mirror, Vec3::Zero());
     for (TrackDefinition& track : other.tracks)
       for (KeyDefinition& key : track.keys) key.angle = -*key.angle, key.twist = -key.twist;
-    const Particles start = shaken_box(way.settings, rest);
-    const Points here = run(way.settings, rest, start),
+    const Particles start = shaken_box(one.settings, rest);
+    const Points here = run(one.settings, rest, start),
                  there = run(other, test::affine(rest, mirror), moved(start, mirror, Vec3::Zero()));
-    EXPECT_LT(largest_distance(test::affine(here, mirror), there), way.tolerance * r) << way.name;
+    EXPECT_LT(largest_distance(test::affine(here, mirror), there), one.tolerance * r) << one.name;
   }
 }
 
-/// The place of each point's image by y -> -y.
+/// The index of each point's image by y -> -y.
 std::vector<std::size_t> images(const Points& points) {
   std::vector<std::size_t> image;
   for (const Vec3& point : points) {
@@ -147,20 +147,20 @@ std::vector<std::size_t> images(const Points& points) {
   return image;
 }
 
-/// Without a joint zone: within one, flesh inside a bend may come to the far side of a bone's axis,
-/// 180 degrees about it from where it belongs, and rounding tells which way it is turned back.
+/// Without a joint zone: in one, tissue inside a bend may move to the far side of a bone's axis,
+/// 180 degrees from its place, and rounding decides in which direction it is rotated back.
 TEST(Symmetry, ASymmetricBodyThatBendsStaysSymmetric) {
   const Points rest = box();
   const std::vector<std::size_t> image = images(rest);
-  for (Way way : ways()) {
-    way.settings.binding.joint_zone = 0;
-    way.settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 60)})};
-    const Particles start = particles_at(rest, r, test::material_of(way.settings).mass);
-    const Points bent = run(way.settings, rest, start);
-    EXPECT_GT(largest_distance(bent, rest), 2 * r) << way.name;
+  for (Case one : cases()) {
+    one.settings.binding.joint_zone = 0;
+    one.settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 60)})};
+    const Particles start = particles_at(rest, r, test::material_of(one.settings).mass);
+    const Points bent = run(one.settings, rest, start);
+    EXPECT_GT(largest_distance(bent, rest), 2 * r) << one.name;
     for (std::size_t i = 0; i < bent.size(); ++i) {
       const Vec3 other(bent[image[i]].x(), -bent[image[i]].y(), bent[image[i]].z());
-      ASSERT_LT((bent[i] - other).norm(), way.tolerance * r) << way.name << ", particle " << i;
+      ASSERT_LT((bent[i] - other).norm(), one.tolerance * r) << one.name << ", particle " << i;
     }
   }
 }
@@ -172,27 +172,27 @@ std::vector<std::size_t> shuffled(std::size_t size) {
   return order;
 }
 
-TEST(Symmetry, RenumberedParticlesGoTheSameWays) {
+TEST(Symmetry, RenumberedParticlesMoveAlike) {
   const Points rest = box();
   const std::vector<std::size_t> order = shuffled(rest.size());
   Points other_rest;
   for (const std::size_t i : order) other_rest.push_back(rest[i]);
-  for (const Way& way : ways()) {
-    const Particles start = shaken_box(way.settings, rest);
+  for (const Case& one : cases()) {
+    const Particles start = shaken_box(one.settings, rest);
     Particles other = test::reordered(start, order);
     std::iota(other.id.begin(), other.id.end(), 0);
-    const Points a = run(way.settings, rest, start), b = run(way.settings, other_rest, other);
+    const Points a = run(one.settings, rest, start), b = run(one.settings, other_rest, other);
     for (std::size_t i = 0; i < order.size(); ++i)
-      ASSERT_LT((b[i] - a[order[i]]).norm(), way.tolerance * r) << way.name << ", " << i;
+      ASSERT_LT((b[i] - a[order[i]]).norm(), one.tolerance * r) << one.name << ", " << i;
   }
 }
 
-/// The paper's damping and the bones' know only differences of velocity.
+/// The paper's damping and the bones' depend only on differences of velocity.
 TEST(Symmetry, AnEvenMotionOfEverythingChangesNothing) {
   const Points rest = box();
   const Vec3 wind(0.3, -0.2, 0.4);
-  for (const Way& way : ways()) {
-    Settings still = way.settings;
+  for (const Case& one : cases()) {
+    Settings still = one.settings;
     still.tracks.erase(still.tracks.begin());
     Settings carried = still;
     KeyDefinition begin = test::bend_key(-1, 0), end = test::bend_key(1, 0);
@@ -206,8 +206,8 @@ TEST(Symmetry, AnEvenMotionOfEverythingChangesNothing) {
     const double time = steps * test::step_of(still, body, 0.4);
     EXPECT_LT(largest_distance(test::affine(run(still, rest, start), Mat3::Identity(), time * wind),
                                run(carried, rest, moving)),
-              way.tolerance * r)
-        << way.name;
+              one.tolerance * r)
+        << one.name;
   }
 }
 

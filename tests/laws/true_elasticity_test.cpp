@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What has bonds comes back from where the paper's body flows.
+// Bodies with bonds recover where the paper's body flows.
 #include <gtest/gtest.h>
 
 #include <sinew/core/deformation.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
 #include "world.h"
 
 namespace sinew {

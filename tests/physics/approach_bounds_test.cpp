@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What bones' motions may do to lists is bounded from above, and not by far too much.
+// The bounds on approach by the bones' motions hold, and are not far too large.
 #include <sinew/physics/lists/approach_bounds.h>
-#include <sinew/scene/rig.h>
 
 #include <numeric>
+
+#include <sinew/scene/rig.h>
 
 #include "ways.h"
 
@@ -16,7 +17,7 @@ RigidMotion random_motion(std::mt19937& random, double angle, double shift) {
   return {test::turned(test::random_vector(random), angle), shift * test::random_vector(random)};
 }
 
-/// The motion that follows `first` by a little.
+/// A motion a little after `first`.
 RigidMotion after(const RigidMotion& first, std::mt19937& random, double angle, double shift) {
   const RigidMotion more = random_motion(random, angle, shift);
   return {more.turn * first.turn, more.turn * first.shift + more.shift};
@@ -61,7 +62,7 @@ Scene two_bars() {
   return {points, lead};
 }
 
-/// Groups without any order.
+/// Groups in no order.
 Scene mixed() {
   const Points points = test::fcc_box(7, 7, 25, r);
   std::vector<std::uint32_t> lead;
@@ -112,7 +113,7 @@ TEST(Contacts, NoListedPairComesNearerThanApproachSinceAllows) {
         std::vector<RigidMotion> later;
         for (const RigidMotion& motion : earlier)
           later.push_back(after(motion, random, 0.2 * angle, 0.2 * shift));
-        const double escaped = r / 2;  // of particles from where their bones carried them
+        const double escaped = r / 2;  // distance of particles from where their bones moved them
         const double most = scene.contacts.approach_since(earlier, later, escaped);
         Points then, now;
         for (std::size_t k = 0; k < scene.points.size(); ++k) {
@@ -176,14 +177,14 @@ TEST(Contacts, ATurnBringsParticlesNearerTheFurtherTheyHaveEscaped) {
 
 TEST(Contacts, GroupsFarApartMayMoveFreelyAtFirst) {
   const Scene scene = two_bars();  // 10 r between their surfaces
-  const auto pushed = [](double way) {
-    return std::vector<RigidMotion>{{}, {Mat3::Identity(), Vec3(-way, 0, 0)}};
+  const auto pushed = [](double shift) {
+    return std::vector<RigidMotion>{{}, {Mat3::Identity(), Vec3(-shift, 0, 0)}};
   };
   EXPECT_EQ(scene.contacts.approach(pushed(2 * r)), 0);
   EXPECT_GT(scene.contacts.approach(pushed(10 * r)), range - b);
 }
 
-TEST(MotionsBetween, CarryWhatRidesOnTheBones) {
+TEST(MotionsBetween, MapPointsFixedToTheBones) {
   Settings settings = test::box_scene(25);
   KeyDefinition end = test::bend_key(1, 70);
   end.twist = 30;
@@ -207,7 +208,7 @@ TEST(MotionsBetween, CarryWhatRidesOnTheBones) {
   EXPECT_EQ(motions[2].shift, Vec3(Vec3::Zero()));
 }
 
-TEST(Drift, HoldsWhileTwiceTheWayAndTheApproachStayWithinTheSkin) {
+TEST(Drift, HoldsWhileTwiceTheDisplacementAndTheApproachAreLessThanTheSkin) {
   Drift drift(10);
   EXPECT_TRUE(drift.holds(0));
   EXPECT_FALSE(drift.holds(10));
@@ -221,7 +222,7 @@ TEST(Drift, HoldsWhileTwiceTheWayAndTheApproachStayWithinTheSkin) {
   EXPECT_FALSE(Drift().holds(0));
 }
 
-TEST(ExcessOfStep, BoundsWhatABonesVelocityDoesNotSay) {
+TEST(ExcessOfStep, BoundsTheMotionBeyondABonesVelocity) {
   std::mt19937 random(6);
   for (const Interpolation interpolation :
        {Interpolation::smooth, Interpolation::linear, Interpolation::step}) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/bone_force.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
 #include <sinew/physics/forces.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {

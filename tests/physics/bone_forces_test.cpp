@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bone forces on a whole body whose particles may have several bones, and what the bones feel.
+// Bone forces on a whole body whose particles may have several bones, and the reactions on the
+// bones.
 #include <gtest/gtest.h>
-
 #include <numeric>
 
 #include <sinew/core/parallel.h>
 #include <sinew/physics/forces.h>
 #include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -108,7 +109,7 @@ TEST(Reactions, BalanceForceMomentAndPowerOfTheBody) {
     EXPECT_LT(force.norm(), 1e-13 * scale);
     EXPECT_LT(moment.norm(), 1e-13 * scale);
     EXPECT_NEAR(power, 0, 1e-13 * scale);
-    const double entered =  // what the energy ledger adds up
+    const double entered =  // the sum in the energy ledger
         std::accumulate(forces.bone_power.begin(), forces.bone_power.end(), 0.0);
     EXPECT_NEAR(of_bones, entered, 1e-13 * scale);
   }
@@ -117,7 +118,7 @@ TEST(Reactions, BalanceForceMomentAndPowerOfTheBody) {
 TEST(Reactions, BelongToTheBoneThatPulls) {
   const Scene scene;
   Particles alone = scene.particles;
-  for (std::size_t i = 0; i < alone.size(); ++i) {  // the lower half moves as its bone wants
+  for (std::size_t i = 0; i < alone.size(); ++i) {  // the lower half moves with its bone
     if (scene.body.binding.of(i).size() > 1 || scene.body.binding.bone(i) != 0) continue;
     alone.set_position(
         i, carried(scene.body.rest[i], scene.body.skeleton.bones[0].rest, scene.pose[0].frame));
@@ -130,7 +131,7 @@ TEST(Reactions, BelongToTheBoneThatPulls) {
     (scene.body.binding.of(i).size() > 1 ? shared : upper) += forces.bone[i];
   const auto on = reactions(alone, scene.body, scene.pose);
   EXPECT_LT((on[0].force + on[1].force + upper + shared).norm(), 1e-12);
-  // Bone 0 feels nothing but its part of the shared particles.
+  // Only the shared particles act on bone 0.
   Vec3 part = Vec3::Zero();
   for (std::size_t i = 0; i < alone.size(); ++i)
     for (const Influence& held : scene.body.binding.of(i))

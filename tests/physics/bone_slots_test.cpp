@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kernel's bone forces are those of bone_force.h, wherever particles are about their bones.
+// The kernel's bone forces are those of bone_force.h, wherever particles are relative to their
+// bones.
 #include <sinew/physics/lists/bone_slots.h>
-#include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include <numeric>
+
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 
 #include "ways.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double r = 0.01;
 
-/// Two bones in the middle of a motion at time 0, weights that pass from one to the other.
+/// Two bones in the middle of a motion at time 0, with weights that change from one to the other.
 Settings moving_scene(double joint_zone = 2) {
   Settings settings = test::box_scene(25);
   settings.binding.joint_zone = joint_zone;
@@ -39,8 +41,8 @@ struct Scene {
   double stiffness() const { return body.springs[0].stiffest() + body.springs[1].stiffest(); }
 };
 
-/// Each particle where its leading bone wants it, turned about that bone by `angle` (degrees), at
-/// `share` of its distance across it and `slide` along it.
+/// Each particle at its place on its leading bone, rotated about that bone by `angle` (degrees), at
+/// `share` of its distance from the axis and displaced by `slide` along it.
 Particles about_their_bones(const Scene& scene, double angle, double share, const Vec3& slide) {
   Particles particles = test::shaken(scene.rest, scene.body.material, 0, 0.3);
   for (std::size_t i = 0; i < scene.rest.size(); ++i) {
@@ -56,9 +58,9 @@ Particles about_their_bones(const Scene& scene, double angle, double share, cons
   return particles;
 }
 
-/// The kernel's forces on particles beside those of bone_force.h: to 1e-12 of
-/// what the springs do to the largest distances there are (single precision 2e-6), and where a
-/// particle is at a distance rho from its bone, no better than its direction is known.
+/// The kernel's forces on particles beside those of bone_force.h: to 1e-12 of the spring forces at
+/// the largest distances (single precision 2e-6), and for a particle at a distance rho from its
+/// bone, no better than the accuracy of its direction.
 void expect_reference_in(Precision precision, const Scene& scene, const Particles& particles,
                          double least_rho = r) {
   Forces expected;
@@ -142,7 +144,7 @@ TEST(BoneSlots, ParticlesBornOnTheAxisAreNotTwisted) {
   int on_axis = 0;
   for (const Vec3& point : scene.rest) on_axis += std::hypot(point.x(), point.y()) < 1e-9 * r;
   ASSERT_GT(on_axis, 10);
-  // Displaced across the axis and along it they feel springs to where they were.
+  // Displaced across the axis and along it, springs pull them back.
   for (const double aside : {0.0, 1e-3 * r, r})
     expect_reference(scene, about_their_bones(scene, 0, 1, {0.1 * r, aside, 0}), 0.1 * r);
 }
@@ -201,7 +203,7 @@ TEST(BoneSlots, HoldEveryParticleByTheBonesOfItsBindingOnce) {
 
 TEST(BoneSlots, OfParticlesThatNoBoneHoldsAreNone) {
   Scene scene(moving_scene(0));
-  Binding& binding = scene.body.binding;  // every other particle is let go
+  Binding& binding = scene.body.binding;  // every other particle has no bone
   Binding loose{{0}, {}, binding.cross_section};
   for (std::size_t i = 0; i < scene.rest.size(); ++i) {
     if (i % 2 == 0) loose.influences.push_back(binding.of(i).front());

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames between bones share out the turn of a joint, and bent flesh moves on them.
+// Frames between bones divide the rotation of a joint, and bent tissue moves with them.
 #include <sinew/physics/lists/comoving_frames.h>
-#include <sinew/scene/rig.h>
 
 #include <set>
 
 #include <sinew/physics/lists/approach_bounds.h>
+#include <sinew/scene/rig.h>
+
 #include "ways.h"
 
 namespace sinew {
@@ -39,7 +40,7 @@ struct World {
   }
   Pose pose(double time) const { return pose_at(body.skeleton, motion, time); }
 
-  /// Where the particles are when the turn is shared out evenly over `zone` (m) about the joint.
+  /// Where the particles are when the rotation is divided evenly over `zone` (m) about the joint.
   Points bent(const Pose& bones, double zone) const {
     const Eigen::AngleAxisd turn(Mat3(bones[0].turn.transpose() * bones[1].turn));
     Points points;
@@ -70,7 +71,7 @@ TEST(ComovingFrames, AreTheBonesAtRest) {
     EXPECT_EQ(comoving_frames.of_particles()[k], world.body.binding.bone(k));
 }
 
-TEST(ComovingFrames, ShareOutTheTurnOfAJoint) {
+TEST(ComovingFrames, DivideTheRotationOfAJoint) {
   const World world(bar_scene(80, 30));
   const Pose bones = world.pose(1);
   const Pose all = world.comoving_frames(bones, world.bent(bones, joint)).at(bones);
@@ -85,7 +86,7 @@ TEST(ComovingFrames, ShareOutTheTurnOfAJoint) {
   }
 }
 
-TEST(ComovingFrames, CarryBentFleshCloserThanItsBones) {
+TEST(ComovingFrames, FollowBentTissueCloserThanItsBones) {
   const World world(bar_scene(80, 30));
   const Pose bones = world.pose(1);
   const Points points = world.bent(bones, joint);
@@ -103,7 +104,7 @@ TEST(ComovingFrames, CarryBentFleshCloserThanItsBones) {
   EXPECT_LT(off_comoving_frame, off_bone / 3);
 }
 
-TEST(ComovingFrames, MoveAsTheirVelocitiesSay) {
+TEST(ComovingFrames, MoveAtTheirVelocities) {
   const World world(bar_scene(120, 70));
   const Pose bones = world.pose(0.6);
   const ComovingFrames comoving_frames = world.comoving_frames(bones, world.bent(bones, joint));
@@ -122,7 +123,7 @@ TEST(ComovingFrames, MoveAsTheirVelocitiesSay) {
     }
 }
 
-TEST(ComovingFrames, OfNobodyIsTheScene) {
+TEST(ComovingFrames, OfUnboundParticlesIsTheScene) {
   World world(bar_scene(90));
   world.body.binding.first.assign(world.id.size() + 1, 0);
   world.body.binding.influences.clear();
@@ -172,8 +173,8 @@ TEST(ComovingFrames, LetListsOfATwistedBodyLast) {
   settings.tracks = {test::track("upper", {test::twist_key(0, 0), test::twist_key(1, 90)})};
   Simulation simulation = test::make_simulation(settings, test::fcc_box(7, 7, planes, r));
   while (simulation.time() < 1) simulation.step();
-  // A quarter turn carries the surface by 5 diameters: a rebuild per 0.9 of them at least, were it
-  // judged by the bones.
+  // A quarter turn moves the surface by 5 diameters: with the bones' frames alone that would be a
+  // rebuild per 0.9 of them at least.
   EXPECT_LE(simulation.list_counts().rebuilds, 5);
 }
 

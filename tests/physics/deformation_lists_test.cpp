@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whatever a body goes through, its lists hold the pairs that the cells find, at every moment
-// looked at.
+// Whatever happens to a body, its lists hold the pairs that the cells find, at every moment
+// checked.
 #include "golden.h"
 #include "ways.h"
 
 namespace sinew {
 namespace {
 
-/// A body and what happens to it, for bodies of r = 10 mm.
+/// A body and its motion, for bodies of r = 10 mm.
 struct Story {
   std::string name;
   Settings settings;
@@ -17,8 +17,8 @@ struct Story {
   double shake = 0;                 ///< at the start, in radii
   double speed = 0;                 ///< at the start, m/s
   Vec3 velocity = Vec3::Zero();     ///< at the start, of all particles, m/s
-  Vec3 aside = Vec3::Zero();        ///< of the latter half more, of the former less, m/s
-  std::int64_t least_rebuilds = 1;  ///< it goes through
+  Vec3 aside = Vec3::Zero();        ///< of the second half more, of the first less, m/s
+  std::int64_t least_rebuilds = 1;  ///< in the run
 
   friend void PrintTo(const Story& story, std::ostream* out) { *out << story.name; }
 };
@@ -102,7 +102,7 @@ Story melt() {
   return story;
 }
 
-/// Wholly disordered, still on its bones.
+/// Fully disordered, still on its bones.
 Story shake() {
   Story story{"Shake", test::box_scene(15), test::fcc_box(13, 13, 15, r)};
   story.factor = 0.2;
@@ -112,19 +112,19 @@ Story shake() {
   return story;
 }
 
-/// Ten lengths in a second, the body with it from the start.
+/// Ten lengths in a second, the body moving with it from the start.
 Story travel() {
   Story story{"Travel", test::box_scene(25), test::fcc_box(7, 7, 25, r)};
-  const Vec3 way(0, 7 * height(25), 7 * height(25));
-  story.settings.tracks = {test::track("lower", {key(0, {0, 0, 0}), key(0.5, way)}),
+  const Vec3 shift(0, 7 * height(25), 7 * height(25));
+  story.settings.tracks = {test::track("lower", {key(0, {0, 0, 0}), key(0.5, shift)}),
                            test::track("upper", {test::bend_key(0, 0), test::bend_key(0.5, 60)})};
   story.settings.tracks[0].interpolation = Interpolation::linear;
-  story.velocity = way / 0.5;
+  story.velocity = shift / 0.5;
   story.least_rebuilds = 0;
   return story;
 }
 
-/// The same way without a bone.
+/// The same without a bone.
 Story drift_away() {
   Story story{"DriftAway", test::unbound(test::box_scene(25)), test::fcc_box(7, 7, 25, r)};
   story.duration = 5;
@@ -168,7 +168,7 @@ Story jump() {
   return story;
 }
 
-/// A ball no larger than the way its particles may go unlooked at, turned by jumps.
+/// A ball no larger than the distance its particles may travel between checks, rotated in jumps.
 Story tumble() {
   Story story{"Tumble", test::box_scene(9), test::fcc_ball(3, r)};
   story.settings.bones = {{"core", "", Vec3(0, 0, -r), Vec3(0, 0, r)}};
@@ -191,7 +191,7 @@ Story moved(Story story, const Vec3& by, const std::string& name) {
   return story;
 }
 
-/// The same story told of a body `scale` times as large: it takes that much longer.
+/// The same scene for a body `scale` times as large: it takes that much longer.
 Story scaled(Story story, double scale, const std::string& name) {
   story.name = name;
   *story.settings.body.radius *= scale;
@@ -256,7 +256,7 @@ TEST_P(ListsThroughStories, HoldThePairsThatCellsFind) {
   EXPECT_GE(simulation.list_counts().rebuilds, story.least_rebuilds);
 }
 
-/// Every third particle let go by its bone.
+/// Every third particle without a bone.
 Body half_held(const Settings& settings, const Points& rest) {
   Body body = test::make_body(settings, rest);
   Binding held{{0}, {}, body.binding.cross_section};
@@ -286,8 +286,8 @@ TEST(ListsThrough, ABendOfABodyThatBonesHoldInPart) {
     }
 }
 
-/// A bar on one bone, and twelve particles around it that fly towards it, past it and at each
-/// other: led by the bar's bone, by another one that turns, or by none, but not held.
+/// A bar on one bone, and twelve particles that fly towards it, past it and at each other: led by
+/// the bar's bone, by another one that rotates, or by none, but not held.
 struct Snapshots {
   Settings settings;
   Points rest = test::fcc_box(9, 9, 33, r);
@@ -347,13 +347,13 @@ TEST(ListsThrough, AFewParticlesThatFlyThroughAMovingScene) {
     expect_pairs_through_snapshots(precision, true);
 }
 
-// No list is made anew for the bones' sake: what meets was paired while it flew.
+// No list is rebuilt because of the bones: pairs that meet were added in flight.
 TEST(ListsThrough, AFewParticlesThatFlyThroughAStillScene) {
   for (const Precision precision : test::precisions)
     expect_pairs_through_snapshots(precision, false);
 }
 
-TEST(ListsThrough, LongWaysKeepTheirPlaceInBothPrecisions) {
+TEST(ListsThrough, TravelOverLongDistancesInBothPrecisions) {
   for (const Story& story : {travel(), drift_away(), part()}) {
     Simulation doubles = begin(story, Precision::binary64);
     Simulation floats = begin(story, Precision::binary32);
@@ -373,9 +373,8 @@ std::string counts_after_250_steps(const std::string& name, Simulation simulatio
   return row + ',' + test::rounded(counts.outer) + ',' + test::rounded(counts.inner) + '\n';
 }
 
-/// A change of these numbers changes how long a run takes, not where its body goes: look whether
-/// it was meant.
-TEST(ListsThrough, StoriesAreMadeAsOftenAndAsLongAsTheyWere) {
+/// A change of these numbers changes the duration of a run, not its result.
+TEST(ListsThrough, StoriesAreBuiltAsOftenAndAsLongAsTheyWere) {
   std::string text = "story,rebuilds,prunings,checks,escaped,sorts,outer,inner\n";
   for (const Precision precision : test::precisions) {
     const std::string in = precision == Precision::binary64 ? " in double" : " in single";

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elastic constants against the closed forms of a lattice of central bonds, and against what the
-// filled lattice itself does when it is strained.
+// Elastic constants against the closed forms of a lattice of central bonds, and against the
+// strained filled lattice itself.
 #include <sinew/physics/elasticity.h>
 
 #include <gtest/gtest.h>
 
 #include <sinew/physics/solid.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -69,8 +70,8 @@ double energy_of(const Material& material, const Points& rest, const Mat3& F) {
                                                 : Solid(material, rest).energy(moved);
 }
 
-/// Energy density of the packing's inside under F, Pa: what boxes longer by four half-planes have
-/// more, in all three directions. Faces, edges and corners drop out exactly.
+/// Energy density of the inside of the packing under F, Pa: the additional energy of boxes longer
+/// by four half-planes, in all three directions. Faces, edges and corners cancel exactly.
 double energy_density(const Material& material, const Mat3& F) {
   double energy = 0;
   for (int corner = 0; corner < 8; ++corner) {

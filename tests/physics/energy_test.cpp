@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The balance of energy: what the bones put in is stored or lost, and nothing else.
+// The balance of energy: the work of the bones is stored or lost, and nothing else.
 #include <gtest/gtest.h>
 
 #include "world.h"
@@ -16,7 +16,7 @@ Settings bend_scene(Integrator integrator) {
   return settings;
 }
 
-/// What of the bones' work is neither stored nor lost, relative to the work, after `time`.
+/// The part of the bones' work that is neither stored nor lost, relative to the work, after `time`.
 double residual(const Settings& settings, double time) {
   Simulation simulation = test::make_simulation(settings, test::fcc_box(7, 7, 25, r));
   const double start = simulation.energies().stored();
@@ -103,11 +103,11 @@ TEST(Energy, OfAFreeDampedBodyIsInTheLedgerAtEveryMoment) {
 TEST(Energy, AtRestIsTheCohesionOfAllBonds) {
   Simulation simulation = test::make_simulation(test::box_scene(25), test::fcc_box(5, 5, 9, r));
   const PairForce pair = simulation.body().material.pair;
-  int partners = 0;
-  for (const int count : simulation.forces().neighbors) partners += count;
+  int neighbors = 0;
+  for (const int count : simulation.forces().neighbors) neighbors += count;
   const double cohesion = pair.k2 * std::pow(pair.b - pair.a, 3) / 6;
   const Energies energies = simulation.energies();
-  EXPECT_NEAR(energies.pair, -cohesion * partners / 2, 1e-10 * cohesion * partners);
+  EXPECT_NEAR(energies.pair, -cohesion * neighbors / 2, 1e-10 * cohesion * neighbors);
   EXPECT_NEAR(energies.kinetic, 0, 1e-25);
   EXPECT_NEAR(energies.bone, 0, 1e-25);
   EXPECT_EQ(energies.gravity, 0);

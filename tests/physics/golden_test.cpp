@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small bodies go through all that a scene can ask of the physics for some steps; where they end is
-// compared with the files in golden/.
-#include "golden.h"
-
+// Small bodies run all features of the physics for some steps; their final states are compared with
+// the files in golden/.
 #include <gtest/gtest.h>
 
 #include <sinew/physics/rest_stability.h>
@@ -11,6 +9,8 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
+#include "golden.h"
 #include "world.h"
 
 namespace sinew {
@@ -43,7 +43,7 @@ struct Story {
     settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.05, 12)})};
   }
 
-  /// Where it ends.
+  /// The final state.
   std::string end() const {
     Body body = test::make_body(settings, rest);
     body.world = std::make_shared<const World>(world);
@@ -133,7 +133,7 @@ TEST(Golden, MaterialsEndWhereTheyDid) {
     bonded.name += " that creeps and breaks";
     bonded.shake = 0.3 * r;
     std::swap(bonded.rest.front(),
-              bonded.rest[bonded.rest.size() / 2]);  // one that is held all around
+              bonded.rest[bonded.rest.size() / 2]);  // one with neighbors on all sides
     bonded.settings.material.yield_strain = 0.05;
     bonded.settings.material.creep_rate = 40;
     bonded.settings.material.breaking_strain = 0.1;
@@ -153,9 +153,9 @@ TEST(Golden, BonesPullAsTheyDid) {
   Story anchor("anchor");
   anchor.settings.binding.force = BoneForce::anchor;
   text += anchor.end();
-  for (const auto& [search, way] :
+  for (const auto& [search, word] :
        {std::pair{NeighborSearch::cells, "cells"}, {NeighborSearch::lists, "lists"}}) {
-    Story strong(std::string("strengths of each bone by ") + way);
+    Story strong(std::string("strengths of each bone by ") + word);
     strong.settings.solver.neighbor_search = search;
     strong.settings.tracks[0].keys[1].twist = 20;
     strong.settings.bones[1].stiffness = 2;
@@ -192,11 +192,11 @@ TEST(Golden, WorldsPushAsTheyDid) {
   ball.motion = [](double time, const Pose&) {
     return ObstaclePose{{time * Vec3(0.3, 0, 0), Mat3::Identity()}, {0.3, 0, 0}, {0, 2, 0}};
   };
-  Obstacle rider = obstacle(walls, "rider",
-                            CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
-  rider.motion = attached_to_bone(1, skeleton_of(walls.settings).bones[1], {});
+  Obstacle attached = obstacle(
+      walls, "attached", CapsuleShape{{side, -0.1, top - 0.01}, {side, 0.1, top - 0.01}, 0.006});
+  attached.motion = attached_to_bone(1, skeleton_of(walls.settings).bones[1], {});
   walls.world.obstacles = {
-      obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, rider,
+      obstacle(walls, "floor", PlaneShape{{0, 0, 0.3 * r}, {0.1, 0, 1}}), ball, attached,
       obstacle(
           walls, "box",
           BoxShape{{0, side + 0.015, 0.03}, {0.01, 0.018, 0.02}, test::turned({1, 2, 0}, 20)})};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What pair forces and the three dampings conserve, and how fast they damp.
+// What pair forces and the three dampings conserve, and their decay rates.
 #include <gtest/gtest.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include <sinew/physics/forces.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -146,7 +146,7 @@ double largest_rate(const Points& points, DampingForm form) {
   return rate;
 }
 
-/// The largest decay rate of a plane wave within FCC, in C/m: v = p cos(q.x) about a particle.
+/// The largest decay rate of a plane wave in FCC, in C/m: v = p cos(q.x) about a particle.
 double rate_of_wave(const Points& ball, std::size_t middle, const Vec3& q, DampingForm form) {
   const Material material = material_with(form);
   Mat3 rates;
@@ -158,7 +158,7 @@ double rate_of_wave(const Points& ball, std::size_t middle, const Vec3& q, Dampi
 }
 
 TEST(Damping, OfPlaneWavesIsAtMostTheRateOfTheModel) {
-  const Points ball = test::fcc_ball(5, r);  // the partners' own counts matter too
+  const Points ball = test::fcc_ball(5, r);  // the neighbors' own counts matter too
   const auto middle = std::min_element(ball.begin(), ball.end(),
                                        [](auto& a, auto& b) { return a.norm() < b.norm(); }) -
                       ball.begin();

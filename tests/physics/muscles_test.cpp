@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/physics/forces.h>
+
 #include "expect_error.h"
 #include "world.h"
 
@@ -22,7 +23,7 @@ Muscle everywhere(const Points& rest, const Vec3& direction) {
   return muscle;
 }
 
-/// What all muscles do to a body at `now` at one level of activation.
+/// Muscle forces on a body at `now` at one level of activation.
 struct Pulled {
   Points forces;
   FiberEnergy energy;
@@ -59,7 +60,7 @@ std::uint32_t nearest_the_middle(const Points& points) {
   return best;
 }
 
-// Of one particle alone, so that it holds for each: inner ones and those at the surface.
+// Of one particle alone, so that the law holds for each: inner ones and those at the surface.
 TEST(Muscles, TheVirialStressOfAnAffineBodyIsTheActiveStressAlongTheTurnedFiber) {
   std::mt19937 random(1);
   for (const Points& rest : {test::fcc_ball(6, r), test::hcp_ball(6, r)})
@@ -158,7 +159,7 @@ TEST(Muscles, ThePowerOfActivationIsTheChangeOfEnergyAtFixedPositions) {
   EXPECT_EQ(Pulled(muscles, rest).energy.power, 0);
 }
 
-/// A free bar along z, let come to rest under its muscle; the mean stretch of its middle.
+/// A free bar along z, at rest under its muscle; the mean stretch of its middle.
 Vec3 stretches_of_pulled_bar(int across, int along, double strength) {
   Settings scene = test::box_scene();
   scene.material.density = 1000;

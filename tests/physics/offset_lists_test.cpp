@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists of differences and the cells of blocks they are found with, against all pairs.
+// Lists of differences and the cell grids of blocks that find them, against all pairs.
 #include <sinew/physics/lists/offset_lists.h>
 
 #include <set>
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
+
 #include "ways.h"
 
 namespace sinew {
@@ -15,7 +16,7 @@ constexpr double r = 0.01;
 
 PairForce pair_of_material() { return test::material_of(test::box_scene()).pair; }
 
-/// Points in the kernel's form.
+/// Points in the kernel's layout.
 template <class Real>
 struct World {
   Units units;
@@ -40,7 +41,7 @@ struct World {
   }
 };
 
-/// For each block the differences j - i of its pairs nearer than `range`, by all pairs.
+/// For each block the differences j - i of its pairs nearer than `range`, by brute force.
 template <class Real>
 std::vector<std::set<std::int32_t>> by_all_pairs(World<Real>& world, double range) {
   const auto range2 = static_cast<Real>(range * range);
@@ -85,8 +86,8 @@ Points disordered(std::size_t count, double edge, unsigned seed) {
   return points;
 }
 
-/// Whole blocks of particles in one place each, every place hardly within `range` of the next,
-/// where a float tells places 0.2 mm apart at best.
+/// Whole blocks of coincident particles, each place barely within `range` of the next, where floats
+/// resolve 0.2 mm at best.
 Points far_beads(double range) {
   Points points;
   for (int bead = 0; bead < 20; ++bead)
@@ -94,7 +95,7 @@ Points far_beads(double range) {
   return points;
 }
 
-/// Bodies in all states that lists meet.
+/// Bodies in all states that lists encounter.
 std::vector<Points> bodies() {
   const Points lattice = test::fcc_box(9, 9, 13, r);
   Points shuffled = lattice;

@@ -2,7 +2,6 @@
 #include <sinew/physics/pair_force.h>
 
 #include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include "world.h"
@@ -10,7 +9,7 @@
 namespace sinew {
 namespace {
 
-/// Different stiffness on both sides and a gap between 2r and a, to tell all terms apart.
+/// Different stiffness on both sides and a gap between 2r and a, to distinguish all terms.
 constexpr PairForce gapped = {0.01, 3000, 50000, 0.022, 0.027};
 
 PairForce standard() { return test::material_of(test::box_scene()).pair; }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The forces found with cells against all pairs summed by definition.
+// The forces found with cells against the sums over all pairs.
 #include <gtest/gtest.h>
 
 #include <sinew/core/parallel.h>
 #include <sinew/physics/forces.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -85,7 +86,7 @@ void expect_reference_for(const Points& points, double shake) {
 }
 
 TEST(PairForces, EqualAllPairsAtRest) {
-  // A hair's breadth from rest: at rest itself neither sum is more than rounding.
+  // Slightly off rest: at rest itself both sums are rounding.
   expect_reference_for(test::fcc_box(7, 7, 15, r), 1e-6 * r);
   expect_reference_for(test::hcp_ball(7, r), 1e-6 * r);
 }
@@ -108,7 +109,7 @@ TEST(PairForces, EqualAllPairsSpreadOutAndFarFromTheOrigin) {
   expect_reference_for(test::affine(box, Mat3::Identity(), {-1e5, 1e5, 3e4}), 0.2 * r);
 }
 
-TEST(PairForces, ActOnNobodyBeyondTheRange) {
+TEST(PairForces, DoNotActBeyondTheRange) {
   const Material material = standard();
   Particles particles = particles_at({{0, 0, 0}, {material.pair.b, 0, 0}, {5, 5, 5}}, r, 1);
   for (std::size_t i = 0; i < 3; ++i) particles.set_velocity(i, {1.0 * i, 2, 3});
@@ -123,7 +124,7 @@ TEST(PairForces, ActOnNobodyBeyondTheRange) {
   }
 }
 
-TEST(PairForces, OfNobodyAreNone) {
+TEST(PairForces, OfNoParticlesAreNone) {
   Forces forces;
   pair_forces({}, standard(), forces);
   EXPECT_TRUE(forces.pair.empty());
@@ -144,7 +145,7 @@ TEST(PairForces, PushCoincidentParticlesApart) {
   }
 }
 
-TEST(PairForces, PartCoincidentParticlesTheSameWayInAnyOrder) {
+TEST(PairForces, SeparateCoincidentParticlesAlikeInAnyOrder) {
   const Particles particles = particles_at({{1, 1, 1}, {1, 1, 1}}, r, 1);
   Forces forces, swapped;
   pair_forces(particles, standard(), forces);

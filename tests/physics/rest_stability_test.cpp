@@ -2,7 +2,6 @@
 #include <sinew/physics/rest_stability.h>
 
 #include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "world.h"
@@ -48,7 +47,7 @@ TEST_P(Packings, RiseTheSameForAnySize) {
   EXPECT_NEAR(least_rise(test::material_of(settings), GetParam()), one, 1e-5 * one);
 }
 
-TEST(RestStability, AsksBothPackings) {
+TEST(RestStability, ChecksBothPackings) {
   EXPECT_TRUE(rests_stably(material_with(2, 2.6)));
   EXPECT_FALSE(rests_stably(material_with(2, 2 * std::sqrt(2.0))));
   EXPECT_FALSE(rests_stably(material_with(2.1, 2.7)));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A simulation that is saved and restored goes on with the bits of one that never stopped, wherever
-// it stops and on any number of threads, while particles are sorted and measured anew.
+// A simulation that is saved and restored continues with the bits of one that never stopped,
+// wherever it stops and on any number of threads, while particles are sorted and units chosen
+// again.
 #include <sinew/core/parallel.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
 #include "expect_error.h"
 #include "ways.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double r = 0.01;
 
-/// A world of which as many equal simulations can be begun as are needed.
+/// A world from which any number of equal simulations can be started.
 struct World {
   std::string name;
   Settings settings;
@@ -45,7 +47,7 @@ World bend(const std::string& name, Precision precision, int planes = 25) {
   return world;
 }
 
-/// Comes in no order and flows.
+/// Begins in no order and flows.
 World melt(const std::string& name, Precision precision) {
   World world{name,
               test::in(precision, test::unbound(test::box_scene(15))),
@@ -58,7 +60,7 @@ World melt(const std::string& name, Precision precision) {
   return world;
 }
 
-/// Flies so far that whole numbers need a measure of their own.
+/// Flies so far that fixed-point units must be chosen again.
 World flight(const std::string& name) {
   World world{name,
               test::in(Precision::binary32, test::unbound(test::box_scene(9))),
@@ -91,7 +93,7 @@ World tearing(const std::string& name, MaterialModel model) {
   return world;
 }
 
-/// Between a wall that comes and a wind, in a medium, held at both ends, with a muscle that
+/// Between an approaching wall and a wind, in a medium, held at both ends, with a muscle that
 /// twitches.
 World surrounded(const std::string& name, Integrator integrator) {
   World world = with(bend(name, Precision::binary64, 17), integrator);
@@ -143,35 +145,35 @@ std::vector<World> worlds() {
           surrounded("VerletSurrounded", Integrator::velocity_verlet)};
 }
 
-/// All that a simulation tells of a moment.
-struct Told {
+/// All results of a simulation at one moment.
+struct Results {
   std::uint64_t state = 0;
   std::vector<double> energies;
   Points forces;
   std::vector<int> neighbors;
   std::vector<std::int32_t> broken;
 
-  bool operator==(const Told&) const = default;
+  bool operator==(const Results&) const = default;
 };
 
-Told tell(Simulation& simulation) {
+Results results_of(Simulation& simulation) {
   const Energies of = simulation.energies();
   const Forces& forces = simulation.forces();
-  Told told{state_hash(simulation.particles()),
-            {of.kinetic, of.gravity, of.pair, of.bone, of.work_of_bones, of.dissipation, of.contact,
-             of.work_of_world},
-            {},
-            forces.neighbors,
-            {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
+  Results results{state_hash(simulation.particles()),
+                  {of.kinetic, of.gravity, of.pair, of.bone, of.work_of_bones, of.dissipation,
+                   of.contact, of.work_of_world},
+                  {},
+                  forces.neighbors,
+                  {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
   for (std::size_t i = 0; i < simulation.particles().size(); ++i)
     for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
-      told.forces.push_back((*part)[i]);
-  told.forces.insert(told.forces.end(), forces.world.begin(), forces.world.end());
-  for (const Reaction& on : simulation.reactions_of_obstacles()) told.forces.push_back(on.force);
-  return told;
+      results.forces.push_back((*part)[i]);
+  results.forces.insert(results.forces.end(), forces.world.begin(), forces.world.end());
+  for (const Reaction& on : simulation.reactions_of_obstacles()) results.forces.push_back(on.force);
+  return results;
 }
 
-/// Telling the state on the way leaves no trace.
+/// Saving the state during a run changes nothing.
 bool is_told(std::int64_t step) { return step % 5 == 0; }
 
 void go_on(Simulation& simulation, std::int64_t steps) {
@@ -183,7 +185,7 @@ void go_on(Simulation& simulation, std::int64_t steps) {
 
 class Resumed : public testing::TestWithParam<World> {};
 
-/// Past the first look at the order of the particles.
+/// Past the first check of the order of the particles.
 constexpr std::int64_t last = 1100;
 
 TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
@@ -194,7 +196,7 @@ TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
     saved.push_back(unbroken.save());
   }
   while (unbroken.steps() < last) unbroken.step();
-  const Told expected = tell(unbroken);
+  const Results expected = results_of(unbroken);
   int threads = 0;
   for (const SimulationState& state : saved)
     with_threads(1 + threads++ % 3, [&] {
@@ -202,19 +204,19 @@ TEST_P(Resumed, GoesOnWithTheBitsOfAnUnbrokenRunOnAnyNumberOfThreads) {
       resumed.restore(state);
       EXPECT_EQ(resumed.steps(), state.steps);
       while (resumed.steps() < last) resumed.step();
-      EXPECT_TRUE(tell(resumed) == expected) << "from step " << state.steps;
+      EXPECT_TRUE(results_of(resumed) == expected) << "from step " << state.steps;
     });
 }
 
-TEST_P(Resumed, TellsTheSameOfTheMomentItWasSavedAt) {
+TEST_P(Resumed, GivesTheSameResultsAtTheMomentItWasSavedAt) {
   Simulation simulation = GetParam().begin();
   for (const std::int64_t moment : {0, 3, 90}) {
     go_on(simulation, moment);
     const SimulationState state = simulation.save();
-    const Told expected = tell(simulation);
+    const Results expected = results_of(simulation);
     Simulation resumed = GetParam().begin();
     resumed.restore(state);
-    EXPECT_TRUE(tell(resumed) == expected) << "step " << moment;
+    EXPECT_TRUE(results_of(resumed) == expected) << "step " << moment;
   }
 }
 
@@ -229,13 +231,13 @@ TEST_P(Resumed, StopsAgainAndAgainWithoutATrace) {
     resumed = std::make_unique<Simulation>(GetParam().begin());
     resumed->restore(state);
   }
-  EXPECT_TRUE(tell(*resumed) == tell(unbroken));
+  EXPECT_TRUE(results_of(*resumed) == results_of(unbroken));
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Resumed, testing::ValuesIn(worlds()),
                          [](const auto& one) { return one.param.name; });
 
-TEST(Resume, GoesThroughSortsMeasuresAndBrokenBonds) {
+TEST(Resume, GoesThroughSortsUnitsAndBrokenBonds) {
   for (const Precision precision : test::precisions) {
     Simulation simulation = melt("Melt", precision).begin();
     const auto before = simulation.save().order;
@@ -306,7 +308,7 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   refuse(bend("", binary64), bad, "energies");
   bad = bend("", binary32).begin().save();
   bad.whole_numbers.length = 0;
-  refuse(bend("", binary32), bad, "measure");
+  refuse(bend("", binary32), bad, "units");
   bad = tearing("", MaterialModel::bonded).begin().save();
   bad.rest_length.pop_back();
   refuse(tearing("", MaterialModel::bonded), bad, "bonds");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same bits from every set of instructions and any number of threads, while lists are made anew
-// under way.
+// The same bits from every instruction set and any number of threads, while lists are rebuilt.
 #include <sinew/core/parallel.h>
+
 #include "ways.h"
 
 namespace sinew {
@@ -21,8 +21,8 @@ Settings bend_and_twist(int half_planes, Precision precision) {
   return settings;
 }
 
-/// All that a run tells, bit by bit.
-struct Told {
+/// All results of a run, bit by bit.
+struct Results {
   std::uint64_t state;
   std::vector<double> energies;
   Points pair, damping, bone;
@@ -30,10 +30,10 @@ struct Told {
   std::int64_t rebuilds, prunings, checks, escaped, sorts;
   double wide, narrow;
 
-  bool operator==(const Told&) const = default;
+  bool operator==(const Results&) const = default;
 };
 
-Told tell(Simulation& simulation) {
+Results results_of(Simulation& simulation) {
   const Energies energies = simulation.energies();
   const Forces& forces = simulation.forces();
   const ListCounts lists = simulation.list_counts();
@@ -53,14 +53,14 @@ Told tell(Simulation& simulation) {
           lists.inner};
 }
 
-Told run(kernel::InstructionSet set, const Settings& settings, const Points& rest, int steps,
-         double shake = 0, double speed = 0, double factor = 0.5) {
+Results run(kernel::InstructionSet set, const Settings& settings, const Points& rest, int steps,
+            double shake = 0, double speed = 0, double factor = 0.5) {
   const Body body = test::make_body(settings, rest);
   Simulation simulation =
       test::simulation_with(set, settings, rest, test::shaken(rest, body.material, shake, speed),
                             test::step_of(settings, body, factor));
   while (simulation.steps() < steps) simulation.step();
-  return tell(simulation);
+  return results_of(simulation);
 }
 
 TEST(SameBits, OfAllInstructionSetsOverABendWithATwist) {
@@ -70,7 +70,7 @@ TEST(SameBits, OfAllInstructionSetsOverABendWithATwist) {
          {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::explicit_euler}) {
       Settings settings = bend_and_twist(33, precision);
       settings.solver.integrator = integrator;
-      const Told best = run(kernel::best_instruction_set(), settings, rest, 220, 0.02 * r, 0.1);
+      const Results best = run(kernel::best_instruction_set(), settings, rest, 220, 0.02 * r, 0.1);
       EXPECT_GT(best.rebuilds, 1);
       for (const auto set : test::instruction_sets())
         EXPECT_TRUE(run(set, settings, rest, 220, 0.02 * r, 0.1) == best) << kernel::name_of(set);
@@ -85,14 +85,14 @@ TEST(SameBits, OfAllInstructionSetsForDisorderAndCoincidence) {
     Particles particles = test::shaken(lattice, body.material, 1.5 * r, 0.1);
     for (std::size_t i = 1; i < particles.size(); i += 5)
       particles.set_position(i, particles.position(i - 1));
-    std::vector<Told> told;
+    std::vector<Results> results;
     for (const auto set : test::instruction_sets()) {
       Simulation simulation = test::simulation_with(set, settings, lattice, particles,
                                                     test::step_of(settings, body, 0.1));
       while (simulation.steps() < 60) simulation.step();
-      told.push_back(tell(simulation));
+      results.push_back(results_of(simulation));
     }
-    for (const Told& other : told) EXPECT_TRUE(other == told.front());
+    for (const Results& other : results) EXPECT_TRUE(other == results.front());
   }
 }
 
@@ -102,7 +102,7 @@ TEST(SameBits, OfAllInstructionSetsForBodiesThatFillNoWholeBlocks) {
     for (const std::size_t size : {1, 2, 7, 8, 9, 15, 16, 17, 31, 33, 255, 257, 511, 513}) {
       const Settings settings = bend_and_twist(25, precision);
       const Points rest(box.begin(), box.begin() + static_cast<std::ptrdiff_t>(size));
-      const Told best = run(kernel::best_instruction_set(), settings, rest, 40, 0.1 * r, 0.05);
+      const Results best = run(kernel::best_instruction_set(), settings, rest, 40, 0.1 * r, 0.05);
       for (const auto set : test::instruction_sets())
         EXPECT_TRUE(run(set, settings, rest, 40, 0.1 * r, 0.05) == best)
             << size << " particles, " << kernel::name_of(set);
@@ -116,15 +116,15 @@ void expect_same_for_threads(Precision precision) {
   const Settings settings = bend_and_twist(71, precision);
   const Points rest = large_body();
   ASSERT_GT(rest.size(), 70000u);
-  std::optional<Told> first;
+  std::optional<Results> first;
   for (const int threads : {1, 2, 3, 8})
     with_threads(threads, [&] {
-      const Told told =
+      const Results results =
           run(kernel::best_instruction_set(), settings, rest, 16, 0.05 * r, 0.5, 0.25);
-      if (!first) first = told;
-      EXPECT_GT(told.rebuilds, 1);
-      EXPECT_GT(told.prunings, told.rebuilds);
-      EXPECT_TRUE(told == *first) << threads << " threads";
+      if (!first) first = results;
+      EXPECT_GT(results.rebuilds, 1);
+      EXPECT_GT(results.prunings, results.rebuilds);
+      EXPECT_TRUE(results == *first) << threads << " threads";
     });
 }
 
@@ -136,12 +136,12 @@ TEST(SameBits, OfAllInstructionSetsWithSeveralThreads) {
   const Points rest = test::fcc_box(41, 41, 49, r);
   ASSERT_GT(rest.size(), 40000u);
   for (const Precision precision : test::precisions) {
-    std::vector<Told> told;
+    std::vector<Results> results;
     for (const auto set : test::instruction_sets())
-      with_threads(static_cast<int>(told.size()) + 1, [&] {
-        told.push_back(run(set, bend_and_twist(49, precision), rest, 2, 0.1 * r, 0.4));
+      with_threads(static_cast<int>(results.size()) + 1, [&] {
+        results.push_back(run(set, bend_and_twist(49, precision), rest, 2, 0.1 * r, 0.4));
       });
-    for (const Told& other : told) EXPECT_TRUE(other == told.front());
+    for (const Results& other : results) EXPECT_TRUE(other == results.front());
   }
 }
 
@@ -150,7 +150,7 @@ TEST(SameBits, OfBodiesThatComeInNoOrderAndAreSorted) {
   std::shuffle(rest.begin(), rest.end(), std::mt19937(7));
   for (const Precision precision : test::precisions) {
     const Settings settings = bend_and_twist(33, precision);
-    const Told best = run(kernel::best_instruction_set(), settings, rest, 40, 0.02 * r, 0.2);
+    const Results best = run(kernel::best_instruction_set(), settings, rest, 40, 0.02 * r, 0.2);
     EXPECT_GT(best.sorts, 0);
     for (const auto set : test::instruction_sets())
       EXPECT_TRUE(run(set, settings, rest, 40, 0.02 * r, 0.2) == best) << kernel::name_of(set);
@@ -161,7 +161,7 @@ TEST(SameBits, OfBodiesThatComeInNoOrderAndAreSorted) {
   }
 }
 
-TEST(SameBits, HoweverOftenForcesAndEnergiesAreAskedFor) {
+TEST(SameBits, HoweverOftenForcesAndEnergiesAreEvaluated) {
   const Points rest = test::fcc_box(7, 7, 33, r);
   for (const Precision precision : test::precisions)
     for (const Integrator integrator :

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surfaces that obstacles are drawn with lie on their shapes.
-#include <sinew/physics/world/shapes.h>
-
+// The surfaces with which obstacles are drawn lie on their shapes.
 #include <gtest/gtest.h>
-
 #include <set>
+
+#include <sinew/physics/world/shapes.h>
 
 #include "world.h"
 
@@ -15,7 +14,7 @@ const Shape ball = SphereShape{{0.2, 0.1, -0.1}, 0.7};
 const Shape capsule = CapsuleShape{{-0.4, 0, 0.1}, {0.5, 0.3, -0.2}, 0.3};
 const Shape box = BoxShape{{0.1, -0.2, 0.3}, {0.5, 0.3, 0.8}, test::turned({1, 2, 3}, 40)};
 
-/// Every edge is gone along once each way.
+/// Every edge occurs once in each direction.
 bool is_closed(const Triangles& surface) {
   std::set<std::pair<int, int>> sides;
   for (const auto& face : surface.faces)

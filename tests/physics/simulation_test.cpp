@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/simulation.h>
-#include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
 
 #include <sinew/core/parallel.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
+
 #include "expect_error.h"
 #include "world.h"
 
@@ -61,7 +61,7 @@ TEST(FreeFall, HasTheClosedFormOfEachIntegrator) {
     const Points rest = test::fcc_box(5, 5, 5, r);
     Simulation simulation = test::simulation_from(settings, rest, particles_at(rest, r, 1), dt);
     for (int step = 0; step < n; ++step) simulation.step();
-    // Sums of dt v: the velocity after, before, or halfway of each step.
+    // Sums of dt v: the velocity after, before, or in the middle of each step.
     const double steps = integrator == Integrator::symplectic_euler ? n * (n + 1.0)
                          : integrator == Integrator::explicit_euler ? n * (n - 1.0)
                                                                     : 1.0 * n * n;
@@ -150,13 +150,13 @@ TEST(Unstable, NamesTheParticleByItsId) {
   test::expect_error(Exit::unstable, [&] { fast.step(); },
                      {"step 0 at 0 s: particle " + id + " on bone 'lower'", "0.25 r"});
   particles.set_velocity(3, {std::nan(""), 0, 0});
-  Settings undamped = settings;  // so that no neighbor is drawn into it in the same step
+  Settings undamped = settings;  // so that no neighbor is pulled along in the same step
   undamped.material.damping = 0;
   Simulation broken = test::simulation_from(undamped, rest, particles, 1e-3);
   test::expect_error(Exit::unstable, [&] { broken.step(); }, {"particle " + id, "not finite"});
 }
 
-TEST(Unstable, StaysWhereItWasAndTellsWhoFailed) {
+TEST(Unstable, StaysWhereItWasAndNamesTheParticlesThatFailed) {
   const Points rest = bar();
   for (const auto search : {NeighborSearch::lists, NeighborSearch::cells})
     for (const auto precision : {Precision::binary64, Precision::binary32}) {
@@ -210,7 +210,7 @@ TEST(Unstable, DoesNotMindTheWholeBodyMovingFastWithItsBone) {
   });
 }
 
-// Half of the body has no bone: it is judged by what changes its motion, not by the motion.
+// Half of the body has no bone: its change of motion counts, not its motion.
 Body half_bound(const Settings& settings, const Points& rest) {
   Body body = test::make_body(settings, rest);
   BindOptions options;
@@ -233,8 +233,8 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
   const Body body = half_bound(settings, rest);
   Particles particles = particles_at(rest, r, body.material.mass);
   for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, {30, 0, 0});
-  for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
-    settings.solver.neighbor_search = way;
+  for (const NeighborSearch search : {NeighborSearch::lists, NeighborSearch::cells}) {
+    settings.solver.neighbor_search = search;
     Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, 1e-3));
     EXPECT_NO_THROW({
@@ -245,10 +245,10 @@ TEST(Unstable, DoesNotMindFleshWithoutABoneMovingFast) {
 
 TEST(Unstable, StopsWhereNoBoneHoldsTheFlesh) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet})
-    for (const NeighborSearch way : {NeighborSearch::lists, NeighborSearch::cells}) {
+    for (const NeighborSearch search : {NeighborSearch::lists, NeighborSearch::cells}) {
       Settings settings = test::box_scene(25);
       settings.solver.integrator = integrator;
-      settings.solver.neighbor_search = way;
+      settings.solver.neighbor_search = search;
       const Points rest = test::fcc_box(9, 9, 25, r);
       Body body = half_bound(settings, rest);
       body.springs.assign(body.springs.size(), {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What single precision keeps: small strains, rest, the balance of energy and the shape of a bend.
+// What single precision preserves: small strains, rest, the balance of energy and the shape of a
+// bend.
 #include "ways.h"
 
 namespace sinew {
@@ -63,7 +64,7 @@ TEST(SinglePrecision, FeelsAStrainOf1e_5OnABarOf200DiametersFarFromTheOrigin) {
 TEST(SinglePrecision, FeelsTheSameForceAtBothEndsOfALongBar) {
   const LongBar bar(far_away);
   Particles stirred = particles_at(bar.rest, r, test::material_of(bar.settings).mass);
-  // Both ends pressed in alike: their forces mirror each other.
+  // Both ends are compressed alike: their forces mirror each other.
   const double push = 1e-4 * r;
   const Vec3 first = bar.rest.front(), last = bar.rest.back();
   stirred.set_position(0, first + Vec3(0, 0, push));
@@ -96,7 +97,7 @@ Settings bend_scene(Precision precision, Integrator integrator = Integrator::sym
 
 Points box() { return test::fcc_box(7, 7, 33, r); }
 
-// A bend that goes on to snap a bond somewhere parts the two by more: the snap comes a little
+// A bend that continues until a bond snaps makes the two differ by more: the bond snaps a little
 // sooner or later.
 TEST(SinglePrecision, BendsAsDoublePrecisionDoes) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
@@ -123,7 +124,7 @@ TEST(SinglePrecision, ClosesTheBalanceOfEnergyAsDoublePrecisionDoes) {
   EXPECT_NEAR(floats, doubles, 1e-3);
 }
 
-TEST(SinglePrecision, TellsTheEnergiesOfDoublePrecision) {
+TEST(SinglePrecision, GivesTheEnergiesOfDoublePrecision) {
   const Points rest = box();
   const Settings settings = bend_scene(Precision::binary32);
   const Particles particles = test::shaken(rest, test::material_of(settings), 0.3 * r, 0.1);

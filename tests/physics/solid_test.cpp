@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds, volumes, cohesion: forces are the slopes of energies, laws of conservation hold, and what
-// breaks or creeps does so as it is told.
+// Bonds, volumes, cohesion: forces are the gradients of energies, conservation laws hold, and bonds
+// break and creep as specified.
 #include <sinew/physics/solid.h>
 
 #include <gtest/gtest.h>
@@ -117,7 +117,8 @@ TEST(Solid, KeepsMomentumAndAngularMomentum) {
 }
 
 TEST(Solid, OnlyNeighborsAtRestAttractWithoutCohesion) {
-  // Two blocks that come to touch: gap of 2.3 r between the nearest, within the paper's attraction.
+  // Two blocks that approach to contact: gap of 2.3 r between the nearest, within the paper's
+  // attraction.
   const Points block = test::fcc_box(3, 3, 3, r);
   Points rest = block, touching = block;
   for (const Vec3& point : block) {
@@ -145,7 +146,7 @@ TEST(Solid, OnlyNeighborsAtRestAttractWithoutCohesion) {
   }
 }
 
-TEST(Bonds, BreakBeyondTheirStrainAndTheEnergyIsTold) {
+TEST(Bonds, BreakBeyondTheirStrainAndReportTheEnergy) {
   const Points rest = test::fcc_box(3, 3, 9, r);
   for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume}) {
     const Material material = material_of(model, 0.1);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole steps with lists and with cells: the same positions, velocities, forces and ledger to
-// rounding, and the same words when a run fails.
+// rounding, and the same message when a run fails.
 #include <sinew/core/error.h>
+
 #include "expect_error.h"
 #include "ways.h"
 
@@ -12,7 +13,7 @@ constexpr double r = 0.01;
 constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::explicit_euler,
                                       Integrator::velocity_verlet};
 
-/// Both ways of stepping, from one start.
+/// Both steppers, from one start.
 struct Both {
   Simulation lists, cells;
   double step;  ///< s
@@ -46,7 +47,7 @@ double largest_force_difference(const Points& a, const Points& b) {
 void expect_same(Both& both, double part) {
   const Particles &a = both.lists.particles(), &b = both.cells.particles();
   const Material& material = both.cells.body().material;
-  // Where all but rests, a speed of a hundredth of a radius per step is what counts.
+  // Where nearly everything is at rest, a speed of a hundredth of a radius per step counts.
   const double slow = 0.01 * material.pair.r / both.step;
   const double speed = std::max(test::largest_speed(b), slow);
   EXPECT_LE(test::largest_distance(a, b), part * material.pair.r);
@@ -191,7 +192,7 @@ Particles doubled(const Points& rest, const Material& material) {
   return particles;
 }
 
-TEST(Coincident, ParticlesPartTheSameWayWithListsAndCells) {
+TEST(Coincident, ParticlesSeparateAlikeWithListsAndCells) {
   const Points rest = test::fcc_box(5, 5, 9, r);
   const Settings settings = test::box_scene(9);
   const Body body = test::make_body(settings, rest);
@@ -206,7 +207,7 @@ TEST(Coincident, ParticlesPartTheSameWayWithListsAndCells) {
   }
 }
 
-TEST(Coincident, ParticlesPartTheSameWayInSinglePrecision) {
+TEST(Coincident, ParticlesSeparateAlikeInSinglePrecision) {
   const Points rest = test::fcc_box(5, 5, 9, r);
   const Settings settings = test::box_scene(9);
   const Body body = test::make_body(settings, rest);
@@ -238,7 +239,7 @@ TEST(Coincident, PairLeavesAlongXTheLowerIdToTheLeft) {
     }
 }
 
-/// What the run says when it fails; nothing when it does not within `steps`.
+/// The message of a run that fails; empty when it does not within `steps`.
 std::string last_words(const Settings& settings, const Points& rest, const Particles& particles,
                        double step, int steps) {
   try {
@@ -286,7 +287,7 @@ TEST(Failures, NameTheSameParticleThatIsNotFinite) {
     }
 }
 
-TEST(Failures, NameAParticleWhereSinglePrecisionHardlyTellsTheSpeed) {
+TEST(Failures, NameAParticleWhereSinglePrecisionHardlyResolvesTheSpeed) {
   const Points rest = test::fcc_box(5, 5, 25, r);
   Settings settings = test::unbound(test::in(Precision::binary32, test::box_scene(25)));
   KeyDefinition end = test::bend_key(1, 0);
@@ -316,7 +317,7 @@ TEST(Failures, APositionThatIsNotFiniteIsRefusedAtOnce) {
                        {"particle 7 ", "not finite"});
 }
 
-TEST(Failures, TellTheSameStepOfARunThatIsUnstable) {
+TEST(Failures, NameTheSameStepOfARunThatIsUnstable) {
   const Points rest = test::fcc_box(5, 5, 25, r);
   const Settings settings = moving_scene();
   const Body body = test::make_body(settings, rest);

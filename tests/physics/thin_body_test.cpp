@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies of few planes bear longer steps than the packing without end: how much longer is found
-// from both sides.
-#include <sinew/physics/time_step.h>
-
+// Bodies of few planes withstand longer steps than the infinite packing: the factor is bounded from
+// both sides.
 #include <gtest/gtest.h>
+
+#include <sinew/physics/time_step.h>
 
 #include "world.h"
 
@@ -39,7 +39,7 @@ void expect_limit(const Settings& settings, const Points& rest) {
   EXPECT_GT(growth(settings, rest, 1.05 * limit), 1e3);
 }
 
-TEST(ThinBody, BearsTheStepThatPowerIterationTells) {
+TEST(ThinBody, WithstandsTheStepOfPowerIteration) {
   for (const int planes : {2, 3, 4}) {
     const Points rest = test::fcc_box(planes, planes, 25, r);
     for (const MaterialModel model :
@@ -55,20 +55,20 @@ TEST(ThinBody, BearsTheStepThatPowerIterationTells) {
   }
 }
 
-TEST(ThinBody, BearsALongerStepThanThePacking) {
+TEST(ThinBody, WithstandsALongerStepThanThePacking) {
   const Settings settings = scene(MaterialModel::paper, DampingForm::paper, 0.5);
   const Body body = test::make_body(settings, test::fcc_box(3, 3, 25, r));
   EXPECT_GT(step_limit(Integrator::symplectic_euler, body),
             1.05 * step_limit(Integrator::symplectic_euler, body.material, body.springs));
 }
 
-TEST(ThinBody, BearsItWithVelocityVerletToo) {
+TEST(ThinBody, WithstandsItWithVelocityVerletToo) {
   Settings settings = scene(MaterialModel::paper, DampingForm::paper, 0.5);
   settings.solver.integrator = Integrator::velocity_verlet;
   expect_limit(settings, test::fcc_box(3, 11, 25, r));
 }
 
-TEST(ThinBody, ThatNothingHoldsHasTheLimitOfThePacking) {
+TEST(ThinBody, WithoutForcesHasTheLimitOfThePacking) {
   Settings settings = test::unbound(scene(MaterialModel::paper, DampingForm::paper, 0.5));
   settings.binding.bone_damping = 0;
   const Body body = test::make_body(settings, {{0.05, 0, 0.1}});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Step limits from both sides: noise on a body at rest stays small just below, and grows above.
 #include <sinew/physics/time_step.h>
-#include <sinew/scene/setup.h>
 
 #include <gtest/gtest.h>
+
+#include <sinew/scene/setup.h>
 
 #include "expect_error.h"
 #include "world.h"
@@ -114,9 +115,9 @@ TEST(StepLimit, UsesTheStifferOfContactAndTension) {
   EXPECT_LT(growth(settings, 0.97, 100), 10);
 }
 
-// Near the explicit limits noise grows slowly, and only the packing without end has the worst mode
-// of the paper's and the symmetric damping: the body's own limits lie above by up to the factor
-// given.
+// Near the explicit limits noise grows slowly, and only the infinite packing has the worst mode of
+// the paper's and the symmetric damping: the body's own limits are higher by up to the given
+// factor.
 TEST(StepLimit, OfExplicitEulerIsSetByTheLattice) {
   struct Case {
     DampingForm form;

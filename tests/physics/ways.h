@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ways of stepping side by side: lists in both precisions and every set of instructions, and
-// the cells they are held against.
+// The steppers side by side: lists in both precisions and with every instruction set, and the cells
+// that serve as reference.
 #pragma once
 
-#include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
-
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
+
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 
 #include "world.h"
 
@@ -41,7 +40,7 @@ inline double step_of(const Settings& settings, const Body& body, double factor 
   return factor * step_limit(settings.solver.integrator, body.material, body.springs);
 }
 
-/// The settings' simulation with the kernel of one set of instructions.
+/// The settings' simulation with the kernel of one instruction set.
 inline Simulation simulation_with(kernel::InstructionSet set, const Settings& settings,
                                   const Points& rest, const Particles& particles, double step) {
   const Body body = make_body(settings, rest);
@@ -63,7 +62,7 @@ inline double largest_difference_of_velocity(const Particles& a, const Particles
   return most;
 }
 
-/// What the cells find at the present positions.
+/// The forces that cells find at the present positions.
 inline Forces by_cells(Simulation& simulation, double longer = 0) {
   Material material = simulation.body().material;
   material.pair.b *= 1 + longer;
@@ -85,9 +84,9 @@ inline void expect_pairs_of_cells(Simulation& simulation) {
   }
 }
 
-/// In single precision squared distances are off by 4 parts of 2^24 at most: so much may pairs at
-/// the range be told wrong, and so much of k1 d^2 (and the steeper attraction, k2 (b - a) d, with
-/// lambda = 1) may each partner's force be off.
+/// In single precision squared distances are wrong by at most 4 parts of 2^24: by so much may pairs
+/// at the range be missed or added, and by so much of k1 d^2 (and of the steeper attraction, k2 (b
+/// - a) d, with lambda = 1) may each neighbor's force be wrong.
 inline void expect_pairs_of_cells_to_floats(Simulation& simulation) {
   const PairForce& pair = simulation.body().material.pair;
   const Forces found = simulation.forces(), expected = by_cells(simulation);

@@ -5,6 +5,7 @@
 #include <sinew/physics/world/pins.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
+
 #include "expect_error.h"
 #include "world.h"
 

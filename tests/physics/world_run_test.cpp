@@ -6,6 +6,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -50,7 +51,7 @@ class Box {
     return simulation;
   }
 
-  /// Runs, and holds the balance of energies within a share of what was put in or lost.
+  /// Runs, and keeps the balance of energies within a share of the work or losses.
   Energies balanced(double duration) const {
     Simulation simulation = run();
     const Energies start = simulation.energies();
@@ -99,7 +100,7 @@ TEST(WorldRun, AnEmptyWorldChangesNoBit) {
 TEST(WorldRun, ABodyFallsOnAFloorAndRests) {
   Box box;
   box.settings.solver.gravity = {0, 0, -9.81};
-  box.settings.material.damping = 2;  // the body's own tremble dies out sooner
+  box.settings.material.damping = 2;  // the body's own vibration decays sooner
   box.world.obstacles = {box.obstacle(PlaneShape{{0, 0, -2.5 * r}, {0, 0, 1}}, 0.5)};
   const Energies end = box.balanced(0.8);
   EXPECT_GT(end.contact, 0);
@@ -112,13 +113,13 @@ TEST(WorldRun, ABodyFallsOnAFloorAndRests) {
 TEST(WorldRun, FrictionHoldsABodyOnAnIncline) {
   Box box(false, 5);
   box.settings.solver.gravity = {2, 0, -9.6};
-  const auto way = [&](double friction) {
+  const auto speed = [&](double friction) {
     box.world.obstacles = {box.obstacle(PlaneShape{{0, 0, -0.2 * r}, {0, 0, 1}}, friction)};
     return mean_velocity(box.run(0.5).particles()).x();
   };
-  EXPECT_NEAR(way(0), 2 * 0.5, 0.02);
-  EXPECT_NEAR(way(0.1), (2 - 0.1 * 9.6) * 0.5, 0.05);
-  EXPECT_LT(std::abs(way(0.4)), 0.02);
+  EXPECT_NEAR(speed(0), 2 * 0.5, 0.02);
+  EXPECT_NEAR(speed(0.1), (2 - 0.1 * 9.6) * 0.5, 0.05);
+  EXPECT_LT(std::abs(speed(0.4)), 0.02);
 }
 
 TEST(WorldRun, AMovingWallDoesTheWorkItGives) {
@@ -146,7 +147,7 @@ TEST(WorldRun, PinsHoldWhatTheyHave) {
   EXPECT_LT(most, 2 * r);
 }
 
-TEST(WorldRun, PinsOnBonesRideAndDoTheirWork) {
+TEST(WorldRun, PinsOnBonesMoveAndDoTheirWork) {
   for (const auto integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Box box;
     box.settings.solver.integrator = integrator;
@@ -227,7 +228,7 @@ bool rests(double share) {
   return simulation.energies().kinetic < 1e-6;
 }
 
-TEST(WorldRun, TheStepLimitKnowsTheObstacles) { EXPECT_TRUE(rests(0.99)); }
+TEST(WorldRun, TheStepLimitCountsTheObstacles) { EXPECT_TRUE(rests(0.99)); }
 
 }  // namespace
 }  // namespace sinew

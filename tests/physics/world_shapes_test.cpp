@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/physics/world/shapes.h>
-#include <sinew/scene/rig.h>
-
 #include <gtest/gtest.h>
-
 #include <limits>
 
 #include <sinew/physics/world/region.h>
+#include <sinew/physics/world/shapes.h>
+#include <sinew/scene/rig.h>
+
 #include "expect_error.h"
 #include "world.h"
 
@@ -95,8 +94,8 @@ TEST(WorldShapes, InsideIsWhereTheDefinitionSaysSo) {
   }
 }
 
-// The law of a signed distance: one normal and one distance back lies the surface, and no distance
-// changes faster than the place.
+// The law of a signed distance: the surface is one distance back along the normal, and no distance
+// changes faster than the position.
 TEST(WorldShapes, TheFootOfEveryPointLiesOnTheSurface) {
   std::mt19937 random(1);
   for (const Shape& shape : all_shapes())
@@ -157,13 +156,13 @@ TEST(WorldShapes, ACapsuleWithoutLengthIsASphere) {
   }
 }
 
-TEST(WorldShapes, AMeshIsNotAskedAboutPlacesFarFromIt) {
+TEST(WorldShapes, AMeshIsNotEvaluatedFarFromIt) {
   const Shape mesh = meshed(sphere);
   const Vec3 beside = sphere.center + Vec3(sphere.radius + 0.1, 0, 0);
   EXPECT_TRUE(may_be_within(mesh, beside, 0.11));
   EXPECT_FALSE(may_be_within(mesh, beside, 0.09));
   EXPECT_TRUE(may_be_within(mesh, sphere.center, 1e-9));
-  EXPECT_TRUE(may_be_within(sphere, beside, 1e-9));  // cheap enough to ask
+  EXPECT_TRUE(may_be_within(sphere, beside, 1e-9));  // cheap enough to evaluate
 }
 
 TEST(WorldShapes, ACapsuleLiesAboutABone) {

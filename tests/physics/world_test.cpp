@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "world.h"
+#include <sinew/physics/world/world.h>
 
 #include <gtest/gtest.h>
 
 #include <sinew/core/parallel.h>
-#include <sinew/physics/world/world.h>
+
 #include "expect_error.h"
+#include "world.h"
 
 namespace sinew {
 namespace {
@@ -23,7 +24,7 @@ Obstacle rubbing(const Shape& shape) {
   return obstacle;
 }
 
-/// Something of everything, about a body at `rest`.
+/// All kinds of objects around a body at `rest`.
 World busy_world(const Points& rest) {
   World world;
   world.obstacles = {rubbing(PlaneShape{{0, 0, -4 * r}, {0, 0, 1}}),
@@ -53,7 +54,7 @@ World busy_world(const Points& rest) {
   return world;
 }
 
-/// All forces of the world in a step of dt (s) that nothing else acts in.
+/// All forces of the world in a step of dt (s) without other forces.
 void all_forces(const Particles& particles, const World& world, const WorldNow& now, double dt,
                 WorldForces& forces) {
   world_forces(particles, world, now, forces);
@@ -154,7 +155,7 @@ struct Ledger {
   double work = 0, lost = 0, kinetic = 0, contact = 0;
 };
 
-/// Follows a loose swarm through the busy world for `duration` (s). Each step is half drift, kick,
+/// Follows a loose swarm through the full world for `duration` (s). Each step is half drift, kick,
 /// half drift; forces and powers are those of its middle.
 Ledger followed(double duration, int steps) {
   const Points rest = test::fcc_ball(5, r);

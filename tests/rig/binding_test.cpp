@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/binding.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
-
 #include <numeric>
 
 #include <sinew/core/parallel.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -90,7 +90,7 @@ TEST(Binding, WeightsPassLinearlyOverTheJointZone) {
   }
 }
 
-/// A trunk with two branches, a bend, and a bone that hangs on the tip without touching it.
+/// A trunk with two branches, a bend, and a bone that is attached to the tip without touching it.
 Skeleton tree() {
   Settings settings;
   settings.bones = {{"trunk", "", Vec3(0, 0, 0), Vec3(0, 0, 0.3)},

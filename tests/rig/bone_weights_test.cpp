@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/rig/skinning.h>
-
 #include <gtest/gtest.h>
 
 #include <sinew/core/parallel.h>
+#include <sinew/rig/skinning.h>
+
 #include "world.h"
 
 namespace sinew {

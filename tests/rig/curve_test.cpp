@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/core/vector.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -19,7 +20,7 @@ Curve<double> numbers(Interpolation kind) {
   return curve;
 }
 
-/// Keys with random rotations, by the short way or by turns of up to two and a half times round.
+/// Keys with random rotations, by the shortest rotations or by up to two and a half turns.
 RotationCurve rotations(Interpolation kind, bool far) {
   std::mt19937 random(11);
   RotationCurve curve;
@@ -59,8 +60,8 @@ void expect_derivative(const RotationCurve& curve) {
   for (const double time : between_keys()) {
     const Quat before = curve.at(time - h).value, after = curve.at(time + h).value;
     const Vec3 rate = rotation_vector(after * before.conjugate()) / (2 * h);
-    const Vec3 told = curve.at(time).angular_velocity;
-    EXPECT_LT((rate - told).norm(), 1e-6 * (1 + told.norm())) << time;
+    const Vec3 spin = curve.at(time).angular_velocity;
+    EXPECT_LT((rate - spin).norm(), 1e-6 * (1 + spin.norm())) << time;
     EXPECT_NEAR(curve.at(time).value.norm(), 1, 1e-14);
   }
 }

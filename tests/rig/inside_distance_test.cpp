@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/inside_distance.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
 #include <sinew/rig/binding.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -56,7 +57,7 @@ Binding bound(const Points& rest, bool inside, double joint_zone = 0) {
   return bind_to_bones(rest, bones(), options);
 }
 
-/// Particles above `height` that the bone of the other finger holds, be it by a part.
+/// Particles above `height` that the bone of the other finger holds, even in part.
 int strangers(const Hand& hand, const Binding& binding, double height) {
   int count = 0;
   for (std::size_t i = hand.left; i < hand.crumb; ++i)
@@ -67,7 +68,7 @@ int strangers(const Hand& hand, const Binding& binding, double height) {
 
 TEST(InsideBinding, NeverBindsAFingerToItsNeighborAcrossAGap) {
   const Hand hand;
-  EXPECT_GT(strangers(hand, bound(hand.rest, false), 0), 50);  // through the air it does
+  EXPECT_GT(strangers(hand, bound(hand.rest, false), 0), 50);  // by straight distance it does
   const Binding binding = bound(hand.rest, true);
   EXPECT_EQ(strangers(hand, binding, 0), 0);
   for (std::size_t i = hand.left; i < hand.crumb; ++i) ASSERT_NE(binding.bone(i), no_bone);
@@ -80,7 +81,7 @@ TEST(InsideBinding, SharesBetweenFingersNoHigherThanTheJointZone) {
   EXPECT_EQ(strangers(hand, binding, palm_top + width), 0);
 }
 
-TEST(InsideBinding, GivesWhatNoWayReachesToTheNearestAndCountsIt) {
+TEST(InsideBinding, BindsParticlesWithoutAPathToTheNearestBoneAndCountsThem) {
   const Hand hand;
   const Binding binding = bound(hand.rest, true);
   EXPECT_EQ(binding.unreached, 1u);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/rig/motion_checks.h>
-#include <sinew/scene/rig.h>
-
 #include <gtest/gtest.h>
 
 #include <sinew/core/vector.h>
+#include <sinew/rig/motion_checks.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -19,7 +19,7 @@ Skeleton held_bone(const Vec3& axis) {
   return skeleton_of(settings);
 }
 
-/// Turns in time about axes that change themselves, far beyond what the joint allows.
+/// Rotations over time about changing axes, far beyond the joint's limits.
 Motion wild() {
   std::mt19937 random(4);
   Track track;
@@ -50,7 +50,7 @@ Angles angles_of(const Skeleton& skeleton, const BonePose& pose) {
 
 double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
 
-TEST(JointLimits, HoldTheBoneWithinThem) {
+TEST(JointLimits, RestrictTheBone) {
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 0.5)}) {
     const Skeleton skeleton = held_bone(axis);
     bool swing = false, twist = false;
@@ -82,21 +82,21 @@ TEST(JointLimits, LeaveAloneWhatTheyAllow) {
 TEST(JointLimits, VelocitiesAreThoseOfTheHeldMotion) {
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 0.5)}) {
     const Skeleton skeleton = held_bone(axis);
-    int bad = 0, samples = 0;  // where a limit is reached within the difference there is none
+    int bad = 0, samples = 0;  // near a limit the difference quotient is not the rate
     for (double time = 0.05; time < 7; time += 0.0123) {
       const double h = 1e-6;
       const Mat3 before = pose_at(skeleton, wild(), time - h)[0].turn,
                  after = pose_at(skeleton, wild(), time + h)[0].turn;
       const Vec3 rate = rotation_vector(Quat(Mat3(after * before.transpose()))) / (2 * h);
-      const Vec3 told = pose_at(skeleton, wild(), time)[0].angular_velocity;
-      bad += (rate - told).norm() > 1e-5 * (1 + told.norm());
+      const Vec3 spin = pose_at(skeleton, wild(), time)[0].angular_velocity;
+      bad += (rate - spin).norm() > 1e-5 * (1 + spin.norm());
       ++samples;
     }
     EXPECT_LE(bad, 2) << "of " << samples;
   }
 }
 
-TEST(JointLimits, ReportBoneTimeAndHowFarBeyond) {
+TEST(JointLimits, ReportBoneTimeAndExcess) {
   Skeleton skeleton = held_bone(Vec3::UnitZ());
   Motion motion;
   motion.preroll = 0.5;

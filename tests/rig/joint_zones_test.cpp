@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/joint_zones.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
-
 #include <random>
 
 #include <sinew/rig/binding.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -39,11 +39,11 @@ double largest_change(const Skeleton& skeleton, const Vec3& center, double radiu
   std::mt19937 random(3);
   double most = 0;
   for (int line = 0; line < 30; ++line) {
-    const Vec3 way = test::random_vector(random).normalized();
+    const Vec3 direction = test::random_vector(random).normalized();
     const Vec3 middle = center + radius * test::random_vector(random);
     std::vector<double> before;
     for (double s = -radius / 2; s < radius / 2; s += step) {
-      const auto weights = weights_at(skeleton, zones, middle + s * way);
+      const auto weights = weights_at(skeleton, zones, middle + s * direction);
       for (std::size_t b = 0; b < before.size(); ++b)
         most = std::max(most, std::abs(weights[b] - before[b]));
       before = weights;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which bones joints make: heads at the joints, tails by one rule, names of their own.
-#include <sinew/rig/skeleton.h>
-
+// The bones made from joints: heads at the joints, tails by one rule, unique names.
 #include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <sinew/rig/skeleton.h>
 
 #include "expect_error.h"
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/motion.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
 
 #include <sinew/rig/pose.h>
+#include <sinew/scene/rig.h>
+
 #include "expect_error.h"
 #include "world.h"
 
@@ -70,7 +71,7 @@ TEST(Pose, BendTurnsABoneAndItsChildrenAboutItsHead) {
   expect_near(pose[2].axis(), Vec3::UnitX());
 }
 
-TEST(Pose, TwistPasses180DegreesTheLongWay) {
+TEST(Pose, TwistPasses180DegreesInItsDirection) {
   Settings settings = chain(2);
   settings.tracks = {track("b1", {twist_key(0, 0), twist_key(1, 540)})};
   settings.tracks[0].interpolation = Interpolation::linear;
@@ -184,7 +185,7 @@ TEST(PoseCursor, GivesTheSameBitsInAnyOrderOfTimes) {
   for (const auto kind : every_way)
     for (const auto after : {Extrapolation::hold, Extrapolation::loop, Extrapolation::ping_pong}) {
       Settings settings = busy_chain(kind);
-      settings.tracks.erase(settings.tracks.begin() + 1);  // b1 goes with its parent
+      settings.tracks.erase(settings.tracks.begin() + 1);  // b1 follows its parent
       settings.bones[2].limits.swing = 60;
       settings.motion.extrapolation = after;
       settings.motion.preroll = 0.5;
@@ -205,7 +206,7 @@ TEST(PoseCursor, GivesTheSameBitsInAnyOrderOfTimes) {
     }
 }
 
-TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
+TEST(Pose, AnglesAboutOneAxisMayExceedAFullTurn) {
   Settings settings = chain(1);
   KeyDefinition start;  // no rotation counts as no angle
   start.time = 0;
@@ -216,7 +217,7 @@ TEST(Pose, AnglesAboutOneAxisTurnAllTheWay) {
   EXPECT_NEAR(pose_of(settings, 1.5)[0].angular_velocity.y(), radians(-360), 1e-12);
 }
 
-TEST(Pose, EulerAnglesBetweenKeysTakeTheShortWay) {
+TEST(Pose, EulerAnglesBetweenKeysTakeTheShortestRotation) {
   Settings settings = chain(1);
   KeyDefinition quarter, three_quarters;
   quarter.time = 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a clip runs in a scene: its part, its preroll, what follows its end; and what of it is warned
-// of.
+// How a clip runs in a scene: its part, its preroll, what follows its end; and the warnings.
 #include <gtest/gtest.h>
 
 #include <sinew/core/vector.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/scene/rig.h>
+
 #include "expect_error.h"
 #include "world.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/skeleton.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
+
+#include <sinew/scene/rig.h>
 
 #include "expect_error.h"
 #include "world.h"
@@ -111,7 +112,7 @@ TEST(Skeleton, RefusesConnectionsThatContradict) {
   expect_refused(loose, {"'upper'", "not connected", "; "});
 }
 
-TEST(Skeleton, RefusesATwistLimitTheWrongWayRound) {
+TEST(Skeleton, RefusesATwistLimitWithLowAboveHigh) {
   Settings settings = two_bones();
   settings.bones[1].limits.twist = {10, -10};
   expect_refused(settings, {"'upper'", "10", "-10", "; "});

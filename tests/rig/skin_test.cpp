@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/skin.h>
-#include <sinew/scene/rig.h>
 
 #include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/scene/rig.h>
+
 #include "world.h"
 
 namespace sinew {
@@ -163,7 +163,7 @@ struct Fingers {
     binding = bind_to_bones(points, skeleton, volume_per_particle(r), 0);
   }
 
-  /// How far vertices left of the gap go when the right finger alone moves by one.
+  /// How far vertices left of the gap move when the right finger alone moves by one.
   double bleeding(const Skin& skin) const {
     Points now = points;
     for (std::size_t j = right; j < now.size(); ++j) now[j].y() += 1;

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/settings/write_scene.h>
-
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -11,6 +8,8 @@
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
+#include <sinew/settings/write_scene.h>
+
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
@@ -91,7 +90,7 @@ class Chance {
     return static_cast<std::size_t>(below(static_cast<int>(list.size())));
   }
 
-  /// What the settings ask of each other.
+  /// Relations between the settings.
   void keep_the_peace(Settings& drawn) {
     drawn.body.radius.reset();
     drawn.body.count.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rig and a clip that stand in YAML files of their own.
+// A rig and a clip in YAML files of their own.
 #include <gtest/gtest.h>
 
 #include <sinew/rig/motion.h>
@@ -7,6 +7,7 @@
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/write_scene.h>
+
 #include "settings/temp_folder.h"
 
 namespace sinew {
@@ -44,7 +45,7 @@ class RigFile : public testing::Test {
   Settings read(std::vector<Override> overrides = {}) {
     return read_scene(at("scene.yaml"), overrides);
   }
-  /// What reading the scene and making its motion says.
+  /// The message of reading the scene and making its motion.
   std::string message() {
     try {
       const Settings settings = read();

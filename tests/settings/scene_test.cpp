@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rig.h>
-#include <sinew/settings/read_scene.h>
-
 #include <gtest/gtest.h>
 
 #include <sinew/rig/motion.h>
+#include <sinew/scene/rig.h>
+#include <sinew/settings/read_scene.h>
+
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
@@ -84,7 +84,7 @@ TEST_F(SceneTest, NoneIsTheParentOfARoot) {
   EXPECT_EQ(read(text).bones[0].parent, "");
 }
 
-TEST_F(SceneTest, EveryValueKnowsItsPlace) {
+TEST_F(SceneTest, EveryValueHasItsPlace) {
   const Settings settings = read(small_scene +
                                  "motion:\n"
                                  "  tracks:\n"

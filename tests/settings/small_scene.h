@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shortest scene there is, to which tests add lines; it has 8.
+// A minimal scene to which tests add lines; it has 8.
 #pragma once
 
 #include <string>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder of its own for a test, gone when the test is.
+// A temporary folder of a test, removed at its end.
 #pragma once
 
 #include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

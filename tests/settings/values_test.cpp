@@ -2,7 +2,6 @@
 #include <sinew/settings/values.h>
 
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 #include <random>

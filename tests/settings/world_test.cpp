@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/settings/read_world.h>
-
 #include <gtest/gtest.h>
 
 #include <sinew/settings/read_scene.h>
+#include <sinew/settings/read_world.h>
 #include <sinew/settings/write_scene.h>
+
 #include "expect_error.h"
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"

@@ -129,7 +129,7 @@ NeighborLists neighbors_within(const Points& points, double range) {
   std::uint64_t all = 0;
   for (const auto& piece : pieces) all += piece.size();
   if (all > UINT32_MAX)
-    throw bad_input("lists of neighbors need over 2^32 entries", "make body.radius larger");
+    throw bad_input("neighbor lists need over 2^32 entries", "make body.radius larger");
   for (std::size_t begin = points_per_piece; begin < points.size(); begin += points_per_piece)
     for (std::size_t i = begin; i < std::min(begin + points_per_piece, points.size()); ++i)
       lists.first[i + 1] += lists.first[begin];

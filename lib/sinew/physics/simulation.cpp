@@ -97,14 +97,15 @@ void Simulation::fail(const Offender& first) const {
   const auto bones = body_->binding.of(id);
   const std::string where =
       bones.empty() ? "" : " on bone '" + body_->skeleton.bones[bones.front().bone].name + "'";
-  throw Error(Exit::unstable,
-              "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
-                  std::to_string(id) + where +
-                  (first.finite ? " moved over " + three_digits(most_radii_per_step) +
-                                      (bones.empty() ? " r off its motion before in one step"
-                                                     : " r relative to its bone in one step")
-                                : std::string(" reached a value that is not finite")) +
-                  "; use solver.time_step " + three_digits(stepping_.step / 2) + " or less");
+  throw Error(
+      Exit::unstable,
+      "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
+          std::to_string(id) + where +
+          (first.finite ? " moved over " + three_digits(most_radii_per_step) +
+                              (bones.empty() ? " r relative to its previous motion in one step"
+                                             : " r relative to its bone in one step")
+                        : std::string(" reached a value that is not finite")) +
+          "; use solver.time_step " + three_digits(stepping_.step / 2) + " or less");
 }
 
 const Particles& Simulation::particles() const {

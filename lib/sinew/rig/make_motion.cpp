@@ -95,8 +95,7 @@ double time_of(std::optional<double> frame_rate, const KeyDefinition& key,
   if (!key.frame)
     throw bad_value(path, path + ".time is missing", "add time: SECONDS, or frame: NUMBER");
   if (!frame_rate)
-    throw bad_value(path + ".frame",
-                    "a key in frames, and nobody says how many there are in a second",
+    throw bad_value(path + ".frame", "a key in frames, but the frame rate is unknown",
                     "give motion: frame_rate: as in 30, or time: instead of frame:");
   return *key.frame / *frame_rate;
 }

@@ -149,11 +149,11 @@ bool stretches(const Motion& motion) {
   });
 }
 
-Motion played(Motion clip, const MotionOptions& asked) {
-  clip.extrapolation = asked.extrapolation;
-  clip.start = asked.start;
-  clip.end = asked.end;
-  clip.preroll = asked.preroll;
+Motion played(Motion clip, const MotionOptions& options) {
+  clip.extrapolation = options.extrapolation;
+  clip.start = options.start;
+  clip.end = options.end;
+  clip.preroll = options.preroll;
   const double last = last_key(clip);
   if (!clip.tracks.empty() && clip.start > 0 && clip.start >= clip.end.value_or(last))
     throw bad_value("start",

@@ -100,8 +100,8 @@ std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& m
     if (!bone.limits.any()) continue;
     LimitPassed passed;
     for (const double time : moments_of(track, motion)) {
-      LocalMotion asked = track.at(motion.start + time - motion.preroll);
-      const Excess excess = limit(bone, asked);
+      LocalMotion requested = track.at(motion.start + time - motion.preroll);
+      const Excess excess = limit(bone, requested);
       if (excess.any() && !passed.most.any()) passed.bone = track.bone, passed.time = time;
       passed.most.swing = std::max(passed.most.swing, excess.swing);
       passed.most.twist = std::max(passed.most.twist, excess.twist);
@@ -170,7 +170,7 @@ void warn_of_start(const Skeleton& skeleton, const Motion& motion, double least_
       });
   if (worst.count > 0)
     warnings.push_back(worst.text() + " does not begin at rest but " + worst.size() +
-                       " from it: the body is torn at the first step; set motion.preroll to 1, or "
+                       " from it: the body tears at the first step; set motion.preroll to 1, or "
                        "begin its keys with one that has no rotation and no translation");
 }
 
@@ -198,7 +198,7 @@ void warn_of_steps(const Skeleton& skeleton, const Motion& motion, Warnings& war
     if (steps(track.rotation) || steps(track.twist) || steps(track.translation) ||
         steps(track.stretch))
       warnings.push_back("bone '" + skeleton.bones[static_cast<std::size_t>(track.bone)].name +
-                         "' jumps from key to key: the body is torn at each; use interpolation "
+                         "' jumps from key to key: the body tears at each; use interpolation "
                          "linear, smooth or cubic");
 }
 

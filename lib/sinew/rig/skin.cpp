@@ -43,12 +43,12 @@ struct Support {
   double h = 0;
 };
 
-/// Empty where fewer than `wanted` particles are closer than `wide`.
+/// Empty where fewer than `wanted` particles are closer than `limit`.
 std::optional<Support> support_within(const CellGrid& grid, const Points& points,
-                                      const Vec3& vertex, double range, double wide,
+                                      const Vec3& vertex, double range, double limit,
                                       std::size_t wanted) {
-  std::vector<Near> near = within(grid, points, vertex, margin * wide);
-  if (near.size() < wanted || near[wanted - 1].distance >= wide) return std::nullopt;
+  std::vector<Near> near = within(grid, points, vertex, margin * limit);
+  if (near.size() < wanted || near[wanted - 1].distance >= limit) return std::nullopt;
   const double h = std::max(range, margin * near[wanted - 1].distance);
   std::erase_if(near, [&](const Near& one) { return one.distance >= h; });
   return Support{std::move(near), h};
@@ -61,12 +61,12 @@ std::vector<Support> supports_of(const Points& vertices, const Points& points, d
   const std::size_t wanted = std::min(least_particles, points.size());
   std::vector<std::uint32_t> left(vertices.size());
   std::iota(left.begin(), left.end(), 0);
-  for (double wide = range; !left.empty(); wide *= 2) {
-    const CellGrid grid(points, margin * wide);
+  for (double limit = range; !left.empty(); limit *= 2) {
+    const CellGrid grid(points, margin * limit);
     std::vector<char> found(left.size());
     parallel_for(left.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
-        if (auto support = support_within(grid, points, vertices[left[k]], range, wide, wanted))
+        if (auto support = support_within(grid, points, vertices[left[k]], range, limit, wanted))
           supports[left[k]] = *std::move(support), found[k] = 1;
     });
     std::size_t k = 0;
@@ -116,7 +116,7 @@ void add_body(Skin& skin, const Points& points, double radius) {
   const double range = rest_neighbor_range(radius);
   std::vector<char> marked(points.size());
   for (const std::uint32_t j : skin.particle) marked[j] = 1;
-  const std::vector<char> carriers = marked;
+  const std::vector<char> weighted = marked;
   const CellGrid grid(points, range);
   for (int ring = 0; ring < 2; ++ring) mark_neighbors(grid, points, range, marked);
   skin.near = indices_of(marked);
@@ -125,7 +125,7 @@ void add_body(Skin& skin, const Points& points, double radius) {
   for (const std::uint32_t j : skin.near) {
     place[j] = static_cast<std::uint32_t>(near.size());
     near.push_back(points[j]);
-    skin.carries.push_back(carriers[j]);
+    skin.weighted.push_back(weighted[j]);
   }
   for (std::uint32_t& j : skin.particle) j = place[j];
   skin.shape = rest_shape(std::move(near), range);
@@ -139,7 +139,7 @@ Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
   return rotation_part(spread);
 }
 
-Mat3 carrier(const RestShape& body, const Points& now, std::size_t j) {
+Mat3 motion_at(const RestShape& body, const Points& now, std::size_t j) {
   constexpr std::size_t least_neighbors = 4;
   if (!body.defined(j) || body.neighbors.of(j).size() < least_neighbors)
     return rotation_around(body, now, j);
@@ -214,18 +214,17 @@ Skin make_skin(const Points& vertices, const Points& points, double radius,
 Points follow(const Skin& skin, const Points& now) {
   Points near(skin.near.size());
   for (std::size_t j = 0; j < near.size(); ++j) near[j] = now[skin.near[j]];
-  std::vector<Mat3> carriers(near.size());
+  std::vector<Mat3> motions(near.size());
   parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j)
-      if (skin.carries[j]) carriers[j] = carrier(skin.shape, near, j);
+      if (skin.weighted[j]) motions[j] = motion_at(skin.shape, near, j);
   });
   Points moved(skin.rest.size(), Vec3::Zero());
   parallel_for(moved.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k) {
         const std::uint32_t j = skin.particle[k];
-        moved[i] +=
-            skin.weight[k] * (near[j] + carriers[j] * (skin.rest[i] - skin.shape.points[j]));
+        moved[i] += skin.weight[k] * (near[j] + motions[j] * (skin.rest[i] - skin.shape.points[j]));
       }
   });
   return moved;

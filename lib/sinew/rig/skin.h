@@ -26,7 +26,7 @@ struct Skin {
   /// for vertices, their neighbors, and the neighbors of those, from which their deformation
   /// follows.
   std::vector<std::uint32_t> near;
-  std::vector<char> carries;  ///< whether each of them has weights for vertices
+  std::vector<char> weighted;  ///< whether each of them has weights for vertices
   RestShape shape;  ///< of these alone; complete for those with weights and their neighbors
 };
 

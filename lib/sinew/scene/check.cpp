@@ -147,7 +147,7 @@ void warn_of_step(const StepChoice& steps, Warnings& warnings) {
     warnings.push_back(share + "the run will become unstable; use solver.time_step " +
                        three_digits(steps.limit / 2) + " or auto");
   else if (steps.factor() > 0.9)
-    warnings.push_back(share + "bent joints rattle above 0.9; use solver.time_step auto");
+    warnings.push_back(share + "bent joints oscillate above 0.9; use solver.time_step auto");
 }
 
 void warn_of_speed(double speed, Warnings& warnings) {
@@ -228,9 +228,10 @@ void warn_of_far_particles(const Body& body, Warnings& warnings) {
 
 void warn_of_unreached(const Binding& binding, Warnings& warnings) {
   if (binding.unreached > 0)
-    warnings.push_back(std::to_string(binding.unreached) +
-                       " particles are reached from no bone inside the body and follow the nearest "
-                       "through the air; close the body's gaps, or give it a bone in each piece");
+    warnings.push_back(
+        std::to_string(binding.unreached) +
+        " particles are reached from no bone inside the body and follow the nearest "
+        "by straight distance; close the body's gaps, or give it a bone in each piece");
 }
 
 void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
@@ -238,7 +239,7 @@ void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& w
   if (!choice.unsupported || setup.body.material.model != MaterialModel::paper) return;
   const auto& [key, value, supported] = *choice.unsupported;
   std::string warning = key;
-  warning += " is " + value + ", which lists of partners do not know: steps use the paper's cells";
+  warning += " is " + value + ", which neighbor lists do not support: steps use the paper's cells";
   if (solver.precision == Precision::binary32) warning += ", in double precision";
   warning += ", about " + three_digits(std::round(slowness_of_cells(solver.precision))) +
              " times slower; use " + key + ' ' + supported +

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Adds the scene's line to errors: algorithms report values, a scene has their lines.
 //
-//     const Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(bones);
-//     });
+//     const auto skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(bones); });
 #pragma once
 
 #include <string>

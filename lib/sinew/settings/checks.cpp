@@ -51,7 +51,7 @@ void check_material(const Settings& settings) {
                       "set material.model to bonded or bonded_volume, or remove it");
   if (material.cohesion != Cohesion::all && has_bonds)
     throw bad_input(settings.place("material.cohesion"),
-                    "bonded models attract none but their bonds",
+                    "bonded models attract only through their bonds",
                     "remove material.cohesion, or set material.model to paper");
   if (!material.modulus_direction) return;
   if (material.modulus_direction->norm() == 0)

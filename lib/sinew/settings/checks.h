@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Relations between settings that no single value can violate.
+// Checks that involve more than one setting.
 //
 //     apply_preset(settings);
 //     check_together(settings);

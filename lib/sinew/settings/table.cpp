@@ -96,6 +96,13 @@ std::vector<Field<Settings>> make_material() {
       field<S>("material", "b", SINEW_AT(S, material.b), "radii",
                "distance at which attraction ends; above 2.75 the packing is unstable",
                {2, 8, true}),
+  };
+}
+
+/// The rest of the section material.
+std::vector<Field<Settings>> make_damping_and_strength() {
+  using S = Settings;
+  return {
       field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
                "damping constant C on the relative velocity of neighbors", not_negative),
       field<S>("material", "damping_ratio", SINEW_AT(S, material.damping_ratio), "",
@@ -253,8 +260,8 @@ std::vector<Field<Settings>> make_output() {
 std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
   for (const auto& section :
-       {make_body(), make_material(), make_skeleton_section(), make_motion_section(),
-        make_binding(), make_world(), make_solver(), make_output()})
+       {make_body(), make_material(), make_damping_and_strength(), make_skeleton_section(),
+        make_motion_section(), make_binding(), make_world(), make_solver(), make_output()})
     all.insert(all.end(), section.begin(), section.end());
   return all;
 }

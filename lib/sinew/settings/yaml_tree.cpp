@@ -59,7 +59,7 @@ class Builder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchored_.find(anchor);
     if (found == anchored_.end())
-      throw bad_input(at(mark), "an alias inside the value it stands for", "write the value out");
+      throw bad_input(at(mark), "an alias inside its own value", "write the value out");
     count_nodes(node_count(found->second), at(mark));
     attach(found->second);
   }
@@ -141,7 +141,7 @@ class Builder : public YAML::EventHandler {
     const auto [first, is_new] = parent.lines.emplace(key.text, key.place.line);
     if (!is_new)
       throw bad_input(
-          key.place, "the key " + shown(key.text) + " stands here twice",
+          key.place, "the key " + shown(key.text) + " is given twice",
           "remove one of them (the first is on line " + std::to_string(first->second) + ")");
     parent.node.keys.push_back({key.text, key.place});
   }

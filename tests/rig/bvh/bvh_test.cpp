@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a BVH file says, in all the forms it is found in.
+// The contents of BVH files, in all the forms in which they occur.
 #include <sinew/rig/bvh/bvh.h>
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The skeleton and the clip that a BVH file gives: closed forms of two joints, options, limits.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <sinew/rig/bvh/bvh.h>
+
 #include "expect_error.h"
 #include "rig/bvh/bvh_files.h"
 
@@ -19,7 +19,7 @@ Mat3 turned(int axis, double angle) {
   return Eigen::AngleAxisd(radians(angle), Vec3::Unit(axis)).toRotationMatrix();
 }
 
-/// Options under which the file's directions are the scene's.
+/// Options for which the file's directions are the scene's.
 BvhOptions as_is() {
   BvhOptions options;
   options.up = "z";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clips of data/motions move the bones as the scenes they were made from do.
 #include <gtest/gtest.h>
-
 #include <map>
 #include <string>
 

@@ -11,7 +11,7 @@ struct PairSums {
   Triple<L> force = none<L>();       ///< eq. 1
   Triple<L> velocities = none<L>();  ///< of the neighbors
   typename L::V count = L::all(0);
-  typename L::V energy = L::all(0);  ///< half of each pair's; only when asked for
+  typename L::V energy = L::all(0);  ///< half of each pair's; only where requested
 };
 
 /// f / d of eq. 1 in all lanes, for d < b, from the squared distance.

@@ -33,7 +33,7 @@ void check_pin(const Pin& pin, const std::string& name, int bones) {
   check_region(pin.region, name);
   if (pin.bone != no_bone && (pin.bone < 0 || pin.bone >= bones))
     throw bad_input(
-        name + " is carried by bone " + std::to_string(pin.bone) + " of " + std::to_string(bones),
+        name + " is fixed to bone " + std::to_string(pin.bone) + " of " + std::to_string(bones),
         "name a bone of the skeleton");
 }
 

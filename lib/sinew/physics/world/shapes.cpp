@@ -73,7 +73,7 @@ void check_size(double size, const std::string& what, const std::string& name) {
 }
 
 void check_place(const Vec3& place, const std::string& what) {
-  require(place.allFinite(), what, " stands at a place that is not finite", "give finite numbers");
+  require(place.allFinite(), what, " is at a place that is not finite", "give finite numbers");
 }
 
 void check_solid(const PlaneShape& plane, const std::string& what) {
@@ -103,7 +103,7 @@ void check_solid(const BoxShape& box, const std::string& what) {
 
 void check_solid(const MeshShape& mesh, const std::string& what) {
   require(static_cast<bool>(mesh.distance), what, " is a mesh without distances",
-          "give the function that measures them");
+          "give its distance function");
   require(!mesh.bounds.isEmpty() && mesh.bounds.min().allFinite() && mesh.bounds.max().allFinite(),
           what, " is a mesh without bounds", "give the box that holds it");
 }

@@ -58,7 +58,7 @@ class Hierarchy {
   void open_joint() {
     const std::size_t position = text_.position();
     if (open_.size() == deepest)
-      throw text_.wrong("more than 200 joints in each other", "check the braces");
+      throw text_.wrong("more than 200 joints nested in each other", "check the braces");
     if (joints_.size() == most_joints)
       throw text_.wrong("more than 10000 joints", "leave out what does not move");
     BvhJoint joint;
@@ -233,7 +233,7 @@ void refuse_rest(BvhText& text, const Bvh& bvh, std::string_view frames) {
   const std::size_t channels = bvh.channels(), more = words_in(text.rest());
   text.next();
   refuse_odd_line(text, bvh, frames);
-  throw text.wrong("after the last of " + std::to_string(bvh.frames) + " frames stand " +
+  throw text.wrong("after the last of " + std::to_string(bvh.frames) + " frames there are " +
                        std::to_string(more) + " more words, where a frame has " +
                        std::to_string(channels) + " values",
                    "correct the number of frames, or export the file again");

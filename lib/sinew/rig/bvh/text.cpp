@@ -111,7 +111,7 @@ bool BvhText::take(std::string_view word) {
 void BvhText::expect(std::string_view word, const char* cure) {
   const std::string_view found = next();
   if (same_word(found, word)) return;
-  std::string what = found.empty() ? "the file ends" : shown(found) + " stands here";
+  std::string what = found.empty() ? "the file ends" : shown(found) + " is here";
   throw wrong(what + " where " + shown(word) + " belongs", cure);
 }
 
