@@ -18,15 +18,15 @@ namespace fs = std::filesystem;
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 1;
 constexpr std::size_t name_size = 8;
-// Bonds have 12 neighbors at rest, from both sides; the rest is for positions, velocities, order.
+// Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
 
 Error refused(const std::string& what) {
   return bad_input(what, "remove the file to go on from an older checkpoint");
 }
 
-/// Walks through all values of a checkpoint in the order of the file, which a writer and a reader
-/// share: transfer(name, value or list of values).
+/// Visits all values of a checkpoint in the order of the file, for both the writer and the reader:
+/// transfer(name, value or list of values).
 template <class State, class Transfer>
 void walk(State& checkpoint, Transfer&& transfer) {
   auto& run = checkpoint.run;
@@ -125,7 +125,7 @@ class Writer {
   Hash hash_;
 };
 
-/// What the sections will take.
+/// Size of all sections.
 class Size {
  public:
   template <class Value>
@@ -175,7 +175,7 @@ class Reader {
     return value;
   }
   std::size_t left() const { return text_.size(); }
-  /// The size of an element of the next section but `skipped`, or 0.
+  /// The element size of the section after `skipped` others, or 0.
   std::uint64_t element_of(std::string_view name) const {
     Reader ahead = *this;
     while (ahead.left() > 0) {
@@ -198,7 +198,7 @@ class Reader {
     if (size == 0 || count > text_.size() / size) throw refused("a section is torn");
     text_.remove_prefix(size * count);
   }
-  /// Elements of the section that begins here; they are there.
+  /// The elements of the section that begins here, which are present.
   std::size_t head(std::string_view expected, std::uint64_t size) {
     if (name() != expected) throw refused("section '" + std::string(expected) + "' is missing");
     const auto found = one<std::uint64_t>(), count = one<std::uint64_t>();
@@ -227,7 +227,7 @@ std::uint64_t hash_of(std::string_view bytes) {
   return hash.value();
 }
 
-/// The sections of a file that is whole.
+/// The sections of a complete file.
 std::string_view checked(std::string_view text) {
   if (text.size() < head_size + tail_size || text.substr(0, magic.size()) != magic)
     throw refused("it is not a checkpoint");
@@ -303,7 +303,7 @@ void Checkpoints::write(const Checkpoint& checkpoint) {
   if (failed)
     throw not_written(folder_.string(), "cannot be created (" + failed.message() + ")",
                       "choose a place you may write to");
-  // The frames before it must not be lost when it is not.
+  // The earlier frames must be on disk before the checkpoint is.
   sync_all(folder_);
   write_checkpoint(file_of(folder_, next_), checkpoint);
   next_ = 1 - next_;

@@ -73,7 +73,7 @@ struct Within {
   double near = 0, far = 0;
 };
 
-/// How many of value(k) for k < count, squares of distances, are within each.
+/// Numbers of value(k), squared distances for k < count, within each range.
 template <class Squared>
 Within count_within(std::size_t count, double near, double far, const Squared& squared) {
   Within found;
@@ -106,7 +106,7 @@ Mat3 virial(double force, const Vec3& apart, double d) {
   return -force / d * apart * apart.transpose();
 }
 
-/// Of a particle's own volume: the stress of U = (K_v / 2) V0 w (J - 1)^2, over V0.
+/// Of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2: the stress, over V0.
 Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
   if (rest.stiffened.empty() || rest.stiffened[i] == 0) return Mat3::Zero();
   const double J = deformation_gradient(rest.shape, now, i).determinant();
@@ -198,7 +198,7 @@ Values<9> row_by_row(const Mat3& T) {
   return out;
 }
 
-/// of(i), n numbers, for every particle.
+/// of(i), N numbers, for every particle.
 template <std::size_t n, class Of>
 Column filled(std::string_view name, std::size_t particles, const Of& of) {
   std::vector<double> values(n * particles);
@@ -260,7 +260,7 @@ Column inverted(std::string_view name, const std::vector<double>& J) {
   return column(std::string(name), std::move(flags));
 }
 
-/// One of those that frames are measured with.
+/// One of the values that frames are measured with.
 Column scalar(std::string_view name, const ParticleValues& values) {
   using V = ParticleValues;
   constexpr std::array<std::pair<std::string_view, std::vector<double> V::*>, 6> members{
@@ -274,7 +274,7 @@ Column scalar(std::string_view name, const ParticleValues& values) {
   const auto* member = std::find_if(members.begin(), members.end(),
                                     [&](const auto& one) { return one.first == name; });
   std::vector<double> copy = values.*member->second;
-  copy.resize(values.J.size(), not_measured);  // stresses that are not known
+  copy.resize(values.J.size(), not_measured);  // stresses that are not defined
   return column(std::string(name), std::move(copy));
 }
 

@@ -99,14 +99,14 @@ std::vector<Bound> bound_particles(const RestInput& input, const std::vector<Joi
     Bound bound{static_cast<std::uint32_t>(i), input.bone[i]};
     bound.foot = nearest_on(input.bones[bound.bone], input.positions[i]);
     bound.distance = (input.positions[i] - bound.foot).norm();
-    // By the foot and not the particle: the zone is a slab across the bones, corners included.
+    // By the foot and not the particle: the zone is a slab across the bones, including corners.
     bound.far = !near_joint(zones, bound.foot);
     all.push_back(bound);
   }
   return all;
 }
 
-/// How much a particle's own volume resists: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
+/// Weight of a particle's volume stiffness: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
 /// A = sum dX dX^T over its neighbors; less at the surface, where neighbors are few.
 std::vector<double> volume_weights(const RestShape& shape, double radius) {
   const double full = 4 * nearest_distance(radius) * nearest_distance(radius);

@@ -50,7 +50,7 @@ Json lists_of(const ListCounts& counts) {
           {"escaped", counts.escaped}};
 }
 
-/// Keeps what a run that is resumed has spent and when it began.
+/// Restores the times that a resumed run has spent and when it began.
 void go_on_from(const Json& before, Json& record) {
   for (const char* key : {"started", "seconds"})
     if (before.contains(key)) record[key] = before[key];
@@ -159,7 +159,7 @@ void RunLog::fail(const std::string& status, const std::string& why) {
     write_record(folder_, record_);
     log(status + ": " + why);
   } catch (const Error&) {
-    // The error being told matters more than that the disk takes no word of it.
+    // The original error is reported; that the log cannot be written is ignored.
   }
 }
 

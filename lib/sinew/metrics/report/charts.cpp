@@ -145,7 +145,7 @@ bool has_nothing(const Chart& chart) {
   });
 }
 
-/// The places from begin to end that are worth drawing; whichever of them there are.
+/// The indices from begin to end that are drawn, as far as they exist.
 std::set<std::size_t> telling_places(const std::vector<double>& values, std::size_t begin,
                                      std::size_t end) {
   std::optional<std::size_t> low, high, gap;

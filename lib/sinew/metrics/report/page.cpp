@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Seven digits are more than a screen can show.
+/// Seven digits exceed the resolution of a screen.
 Json shown(double value) {
   if (!drawable(value)) return nullptr;
   std::array<char, 32> text;
@@ -56,7 +56,7 @@ bool has_bones(const std::vector<double>& angles) {
   return std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; });
 }
 
-// The browser itself holds the page to this: no request to anywhere but for the pictures beside it.
+// The browser enforces this: no requests except for the pictures beside the page.
 constexpr std::string_view only_this_file =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "img-src 'self' file: data:; media-src 'self' file:; style-src 'unsafe-inline'; "

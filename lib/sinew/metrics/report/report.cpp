@@ -47,7 +47,7 @@ PageData drawn_data(const ReportInput& input) {
   return data;
 }
 
-/// What of the run the 3D view leaves out.
+/// What the 3D view leaves out of the run.
 std::string thinned_text(const Playback& playback) {
   const auto share = [](std::size_t kept, std::size_t all, const char* what) {
     return kept == all ? "all " + std::to_string(all) + what
