@@ -14,8 +14,8 @@ namespace {
 using Warnings = std::vector<std::string>;
 
 constexpr double much_lost = 0.01;           // of the volume
-constexpr double much_missed = 0.05;         // of the count asked for
-constexpr double huge = 100, minute = 1e-3;  // m: outside of these a unit may have been mistaken
+constexpr double much_missed = 0.05;         // of the requested count
+constexpr double huge = 100, minute = 1e-3;  // m: outside of these the unit may be wrong
 
 std::string counted(std::size_t count, const std::string& what, const std::string& many) {
   return std::to_string(count) + ' ' + (count == 1 ? what : many);
@@ -33,8 +33,8 @@ void warn_of_holes(const FillReport& report, Warnings& warnings) {
       "holes, if the body bulges in or out there");
 }
 
-/// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is no
-/// scatter.
+/// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is
+/// significant.
 double scatter(double area, double radius) {
   return 0.9 * std::sqrt(area / (4 * radius * radius)) * volume_per_particle(radius);
 }
@@ -54,7 +54,7 @@ void warn_of_lost_volume(const FillReport& report, const Surface& surface, Warni
                           "more")));
 }
 
-/// A body thinner than its particles still holds a layer of them.
+/// A body thinner than its particles still contains a layer of them.
 void warn_of_gained_volume(const FillReport& report, const Surface& surface, Warnings& warnings) {
   if (!report.volume_of_mesh) return;
   const double gained = report.packed.volume - report.volume;

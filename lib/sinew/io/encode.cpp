@@ -112,7 +112,7 @@ ValueRange range_of(const FileArray& array, int components) {
 namespace {
 
 constexpr std::size_t blocks_per_piece = 16;  // enough to amortize a compressor of its own
-constexpr int fastest = 1;                    // slower levels do not compress floats of moving bodies better
+constexpr int fastest = 1;  // slower levels do not compress floats of moving bodies better
 
 class Compressor {
  public:

@@ -234,8 +234,8 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   const std::vector<Element> points{points_element(data, format)};
   const auto cells = cell_elements(data);
   NewFile file(path);
-  // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read appended
-  // data, not even in base64: only data in the elements is safe.
+  // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read
+  // appended data, not even in base64: only data in the elements is safe.
   VtuText text(file, format.encoding);
   text.add(vtu_opening(format.encoding));
   text.add_group("FieldData", "", field);

@@ -118,8 +118,8 @@ class Elements {
   std::string_view left_, last_;
   std::string path_;
   std::vector<XmlElement> elements_;
-  bool open_ = false;     // the last tag read begins the last element read
-  bool at_last_ = false;  // that element is the one to stop at
+  bool open_ = false;     ///< the last tag read begins the last element read
+  bool at_last_ = false;  ///< that element is the one to stop at
   std::exception_ptr thrown_;
 };
 

@@ -45,7 +45,7 @@ void check_soup(const PolygonSoup& soup) {
 
 namespace {
 
-constexpr double largest_coordinate = 1e90;  // its cube and sums of that are still numbers
+constexpr double largest_coordinate = 1e90;  // its cube and sums of cubes do not overflow
 
 void refuse_empty(const Surface& surface) {
   if (!surface.triangles.faces.empty()) return;

@@ -46,7 +46,7 @@ constexpr std::array table = {
 /// Errors in the position of one particle.
 struct Miss {
   double radial = 0, pose = 0;  ///< m
-  double twist = not_measured;  // rad; not for a particle on the axis
+  double twist = not_measured;  ///< rad; not for a particle on the axis
 };
 
 constexpr double on_axis = 1e-9;  // of l0: closer to the axis a particle has no angle about it

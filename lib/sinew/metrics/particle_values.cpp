@@ -89,8 +89,8 @@ void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& no
                      std::span<const Neighbor> neighbors, std::size_t i) {
   const double near = rest_neighbor_range(rest.radius), far = rest.interaction_range;
   const auto before = rest.shape.neighbors.of(i);
-  const Within all =
-      count_within(neighbors.size(), near, far, [&](std::size_t k) { return neighbors[k].squared; });
+  const Within all = count_within(neighbors.size(), near, far,
+                                  [&](std::size_t k) { return neighbors[k].squared; });
   const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
     return (now[i] - now[before[k]]).squaredNorm();
   });
@@ -144,7 +144,7 @@ double von_mises(const Mat3& stress) {
 }
 
 void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                   std::vector<Neighbor>& found) {
+                    std::vector<Neighbor>& found) {
   found.clear();
   grid.for_each_near(now[i], [&](std::uint32_t j) {
     const Vec3 apart = now[i] - now[j];
@@ -198,7 +198,7 @@ Values<9> row_by_row(const Mat3& T) {
   return out;
 }
 
-/// of(i), N numbers, for every particle.
+/// of(i), n numbers, for every particle.
 template <std::size_t n, class Of>
 Column filled(std::string_view name, std::size_t particles, const Of& of) {
   std::vector<double> values(n * particles);

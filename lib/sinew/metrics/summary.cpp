@@ -13,8 +13,8 @@ namespace sinew {
 
 namespace {
 
-constexpr double still_turn = 0.01;  // degrees: less than a smooth motion turns in its first frame
-constexpr double still_shift = 1e-3;      // radii
+constexpr double still_turn = 0.01;   // degrees: less than a smooth motion turns in its first frame
+constexpr double still_shift = 1e-3;  // radii
 constexpr double settled_within = 0.2;    // radii
 constexpr std::size_t fewest_frames = 3;  // with two there is nothing between start and end
 
@@ -154,7 +154,7 @@ void add_worst_particles(Summary& summary,
 namespace {
 
 struct Scale {
-  double good, fair;                 // the largest values that count as such
+  double good, fair;                 ///< the largest values that count as such
   std::array<const char*, 3> words;  ///< for good, fair, poor
 };
 

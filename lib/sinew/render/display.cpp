@@ -76,7 +76,8 @@ bool start_xvfb(const std::string& name) {
 void ensure_display() {
   if (display_answers()) return;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    // Not the first free number: a display that is just ending there would take over the new socket.
+    // Not the first free number: a display that is just ending there would take over the new
+    // socket.
     std::string name = ":";
     name += std::to_string(100 + (getpid() + 7919 * attempt) % 50000);
     if (!start_xvfb(name)) continue;

@@ -16,7 +16,7 @@ struct Layout {
   int margin = 0;
   int top = 0;             ///< of the panels
   int wide = 0, high = 0;  ///< each panel
-  int foot = 0;            // top of caption and color bar
+  int foot = 0;            ///< top of caption and color bar
 };
 
 Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options) {
@@ -62,14 +62,14 @@ Image figure(const std::vector<Panel>& panels, const FigureOptions& options) {
 namespace {
 
 struct Column {
-  Box frame;  // as wide as its snapshots, as high as all of them
+  Box frame;  ///< as wide as its snapshots, as high as all of them
   int x = 0, width = 0;
 };
 
 /// Layout of the sheet, pixels.
 struct SheetLayout {
   std::vector<Column> columns;
-  std::vector<int> rows;  // top of the panels of each
+  std::vector<int> rows;  ///< top of the panels of each
   int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
   TextStyle text;
 };

@@ -61,8 +61,8 @@ void pale(Image& image) {
 /// Sizes in a picture.
 struct Painter::Sizes {
   double pixel;  ///< m
-  double grain;  // unit of shadows and bones: a particle's radius, m
-  double line;   // width of the skin's edges, in rendered pixels
+  double grain;  ///< unit of shadows and bones: a particle's radius, m
+  double line;   ///< width of the skin's edges, in rendered pixels
 };
 
 Painter::Painter(const Triangles& rest, ColorScale scale)

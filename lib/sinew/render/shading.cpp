@@ -17,7 +17,7 @@ namespace sinew {
 namespace {
 
 struct Side {
-  int face, corner;  // the side from this corner of the face to the next
+  int face, corner;  ///< the side from this corner of the face to the next
 };
 using Sides =
     std::map<Shading::Edge, std::vector<Side>>;  // ordered: pictures do not depend on hashing

@@ -141,8 +141,8 @@ void FrameWriter::begin_arrays(const OutputSettings& output, const Body& body) {
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {
-    // The queue has space, so the previous frame of this slot is written: at most one job is pending,
-    // the last one.
+    // The queue has space, so the previous frame of this slot is written: at most one job is
+    // pending, the last one.
     Moved& frame = moved_[taken_ % moved_.size()];
     take(simulation, time, frame);
     ++taken_;

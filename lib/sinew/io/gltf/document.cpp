@@ -162,7 +162,7 @@ class Field {
     return name;
   }
 
-  bool flag() const {  // false where it is missing
+  bool flag() const {  ///< false where it is missing
     if (given() && !value_->is_boolean()) throw wrong(name_, *value_, "true or false");
     return given() && value_->get<bool>();
   }

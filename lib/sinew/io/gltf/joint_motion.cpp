@@ -26,9 +26,10 @@ Mat3 bound_turn(const GltfBindPose& bind, int joint) {
 
 /// The link from a joint's parent joint (from the scene for a topmost one) to the joint.
 struct GltfLink {
-  Affine between = Affine::Identity();  // transform of the static nodes between the two
-  double scale = 1;                     // of lengths, by the parent joint and all above
-  bool exact = true;  // nothing between the two moves; scales are constant, even and do not mirror
+  Affine between = Affine::Identity();  ///< transform of the static nodes between the two
+  double scale = 1;                     ///< of lengths, by the parent joint and all above
+  bool exact =
+      true;  ///< nothing between the two moves; scales are constant, even and do not mirror
 };
 
 std::vector<Affine> still_places(const GltfNodeMotion& nodes) {
@@ -130,10 +131,10 @@ void put_sample(const GltfBindPose& bind, int index, double time, const std::vec
                                      (bound_head(bind, index) - bound_head(bind, parent)));
 }
 
-/// Adds samples at all keys and `rate` times a second, linear between, to the tracks of joints whose
-/// links are not exact: G B^-1 (G the node's transform, B the bind) places the head, and the nearest
-/// rotation turns the bone. Throws bad input (without the path) where that takes more than 2e7 node
-/// transforms.
+/// Adds samples at all keys and `rate` times a second, linear between, to the tracks of joints
+/// whose links are not exact: G B^-1 (G the node's transform, B the bind) places the head, and the
+/// nearest rotation turns the bone. Throws bad input (without the path) where that takes more than
+/// 2e7 node transforms.
 void put_samples(const GltfBindPose& bind, const GltfTree& tree, const GltfNodeMotion& nodes,
                  const std::vector<GltfLink>& links, double rate, std::vector<Track>& tracks) {
   std::vector<Affine> local(nodes.places.size());

@@ -84,7 +84,7 @@ std::vector<Affine> inverse_binds(const CheckedGltf& gltf, std::size_t skin_inde
 /// The joints of all skins in use, each with the nearest one above it.
 std::vector<GltfJoint> joints_of(const GltfDocument& document, const GltfTree& tree,
                                  const std::vector<bool>& used) {
-  std::vector<int> place(document.nodes.size(), -1);  // index of nodes that are joints; of others: of the nearest joint above
+  std::vector<int> place(document.nodes.size(), -1);  // index in joints; else of the joint above
   std::vector<bool> is_joint(document.nodes.size());
   for (std::size_t i = 0; i < used.size(); ++i)
     for (const int node : used[i] ? document.skins[i].joints : std::vector<int>())

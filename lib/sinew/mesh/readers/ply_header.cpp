@@ -124,7 +124,7 @@ void find_corners(const MeshFile& file, PlyElement& faces) {
   property->corners = true;
 }
 
-/// Marks what the body's reader needs.
+/// Marks the properties that the body's reader needs.
 void find_mesh(const MeshFile& file, PlyHeader& header) {
   std::int64_t vertices = 0, faces = 0;
   for (PlyElement& element : header.elements) {
