@@ -97,7 +97,7 @@ Exit measure_folder(const Options& options, const Common& common) {
     say(common,
         "warning: only " + std::to_string(run.frames()) + " of " +
             std::to_string(run.frames_named) +
-            " frames are in all series (a run still going, or cut off); these are measured");
+            " frames are in all series (a run in progress, or interrupted); these are measured");
   Measured measured = measure_run(run, how);
   write_tables(run.folder, measured);
   record_stage(run.folder, "measuring", watch.lap());

@@ -61,7 +61,7 @@ void refuse_without_volume(const Triangles& surface) {
   const double enclosed = volume(surface), skin = area(surface);
   const double size = bounds(surface.points).diagonal().norm();
   if (!std::isfinite(enclosed) || !std::isfinite(skin * size))
-    throw bad_input("the surface is too large for numbers to hold its volume",
+    throw bad_input("the surface is too large for its volume to be computed",
                     "scale it down, or set its unit");
   if (enclosed > rounding_of_volume * skin * size) return;
   throw bad_input("the surface encloses a volume of " + number_text(enclosed) +
@@ -137,7 +137,7 @@ double refuse_without_inside(const BodySpace& space, const PackOptions& options)
   const double share = ambiguous_share(space.surface);
   if (share > most_ambiguous)
     throw bad_input("the surface has no inside: " + three_digits(100 * share) +
-                        " % of the places in its box lie neither clearly inside nor outside (the "
+                        " % of the points in its box lie neither clearly inside nor outside (the "
                         "most is " +
                         three_digits(100 * most_ambiguous) + " %)",
                     "close its holes, or give a thickness to fill a layer along it");
@@ -159,7 +159,7 @@ double wanted_radius(const BodySpace& space, const PackOptions& options) {
 void refuse_empty(const BodySpace& space, const PackOptions& options, const FilledSites& filled) {
   const double radius = filled.lattice.radius;
   if (const std::size_t inside = count_of(filled.inside.runs); inside > 0)
-    throw bad_input("all " + std::to_string(inside) + " places for particles lie within " +
+    throw bad_input("all " + std::to_string(inside) + " lattice sites inside lie within " +
                         three_digits(clearance_of(options, radius)) + " m of the surface",
                     "give a smaller clearance or radius");
   const double fits = radius_that_fits(space, options, radius);

@@ -29,7 +29,7 @@ void warn_of_holes(const FillReport& report, Warnings& warnings) {
       "the surface is open: " + counted(report.border.holes, "hole", "holes") +
       " with a border of " + three_digits(report.border.length) +
       " m; inside is where the winding number is above 0.5, and " + percent(report.ambiguous) +
-      " of the places in the box are ambiguous; weld points that almost meet, or close the "
+      " of the points in the box are ambiguous; weld points that almost meet, or close the "
       "holes, if the body bulges in or out there");
 }
 
@@ -69,7 +69,7 @@ void warn_of_gained_volume(const FillReport& report, const Surface& surface, War
 
 std::string why_missed(const FillReport& report) {
   if (report.kept_out > 0)
-    return counted(report.kept_out, "place inside lies", "places inside lie") +
+    return counted(report.kept_out, "site inside is", "sites inside are") +
            " too close to the surface; give a smaller clearance (or keep: center), or a radius";
   if (report.layer)
     return "the layer's volume is not its thickness times the area of the faces; give a radius";
@@ -82,13 +82,13 @@ void warn_of_missed_count(const FillReport& report, Warnings& warnings) {
   const double wanted = *report.wanted;
   if (std::abs(static_cast<double>(report.particles) - wanted) <= much_missed * wanted) return;
   warnings.push_back(counted(report.particles, "particle", "particles").append(" instead of the ") +
-                     std::to_string(*report.wanted) + " asked for: " + why_missed(report));
+                     std::to_string(*report.wanted) + " requested: " + why_missed(report));
 }
 
 void warn_of_overlaps(const FillReport& report, Warnings& warnings) {
   if (!report.verification || report.verification->mismatches == 0 || report.deepest < 2) return;
   warnings.push_back(counted(report.verification->mismatches, "place", "places") +
-                     " differ from CGAL, which takes out what two parts of the mesh both cover");
+                     " differ from CGAL, which excludes what two parts of the mesh both cover");
 }
 
 void warn_of_lost_bodies(const FillReport& report, Warnings& warnings) {

@@ -189,13 +189,13 @@ class Reader {
 
  private:
   std::string_view name() {
-    if (text_.size() < name_size) throw refused("a section is torn");
+    if (text_.size() < name_size) throw refused("a section is truncated");
     const std::string_view padded = text_.substr(0, name_size);
     text_.remove_prefix(name_size);
     return padded.substr(0, std::min(padded.find('\0'), name_size));
   }
   void drop(std::uint64_t size, std::uint64_t count) {
-    if (size == 0 || count > text_.size() / size) throw refused("a section is torn");
+    if (size == 0 || count > text_.size() / size) throw refused("a section is truncated");
     text_.remove_prefix(size * count);
   }
   /// The elements of the section that begins here, which are present.
@@ -203,17 +203,17 @@ class Reader {
     if (name() != expected) throw refused("section '" + std::string(expected) + "' is missing");
     const auto found = one<std::uint64_t>(), count = one<std::uint64_t>();
     if (found != size || count > text_.size() / size)
-      throw refused("section '" + std::string(expected) + "' is torn");
+      throw refused("section '" + std::string(expected) + "' is truncated");
     return count;
   }
   template <class Element>
   void fill(std::string_view name, Element* to, std::size_t count) {
     if (head(name, sizeof(Element)) != count)
-      throw refused("section '" + std::string(name) + "' is torn");
+      throw refused("section '" + std::string(name) + "' is truncated");
     take(to, count * sizeof(Element));
   }
   void take(void* to, std::size_t bytes) {
-    if (bytes > text_.size()) throw refused("it is torn");
+    if (bytes > text_.size()) throw refused("it is truncated");
     if (bytes > 0) std::memcpy(to, text_.data(), bytes);
     text_.remove_prefix(bytes);
   }
@@ -239,7 +239,7 @@ std::string_view checked(std::string_view text) {
     throw refused("its format is of version " + std::to_string(version) + ", not " +
                   std::to_string(format_version));
   if (head.one<std::uint64_t>() != text.size())
-    throw refused("it is torn: it has " + std::to_string(text.size()) + " bytes");
+    throw refused("it is truncated or too long: it has " + std::to_string(text.size()) + " bytes");
   const std::string_view body = text.substr(0, text.size() - tail_size);
   if (Reader(text.substr(body.size())).one<std::uint64_t>() != hash_of(body))
     throw refused("its checksum is wrong");
@@ -252,7 +252,7 @@ Checkpoint parsed(std::string_view text, std::uint64_t particles) {
   if (reader.element_of("position") == sizeof(std::int32_t))
     checkpoint.state.moving = MovingInSingle();
   walk(checkpoint, reader);
-  if (reader.left() > 0) throw refused("it goes on after its last section");
+  if (reader.left() > 0) throw refused("it continues after its last section");
   if (checkpoint.run.particles != particles)
     throw refused("it is of " + std::to_string(checkpoint.run.particles) + " particles, not " +
                   std::to_string(particles));

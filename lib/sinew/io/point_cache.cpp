@@ -33,7 +33,7 @@ std::uint32_t word_of(const char* bytes) {
 }
 
 Error no_cache(const std::filesystem::path& path) {
-  return bad_input({path.string()}, "is no whole point cache", "run the scene again");
+  return bad_input({path.string()}, "is not a complete point cache", "run the scene again");
 }
 
 }  // namespace

@@ -34,12 +34,12 @@ void check_surface(const Triangles& surface) {
   const int points = static_cast<int>(surface.points.size());
   for (const auto& face : surface.faces)
     for (const int corner : face)
-      require(corner >= 0 && corner < points, "a triangle of the surface names a point it lacks");
+      require(corner >= 0 && corner < points, "a triangle of the surface refers to a missing point");
 }
 
 void check(const RestInput& input) {
   require(!input.positions.empty(), "the body has no particles");
-  require(all_finite(input.positions), "the body has a particle that is not at a finite place");
+  require(all_finite(input.positions), "the body has a particle at a position that is not finite");
   require(std::isfinite(input.radius) && input.radius > 0, "the particle radius is not above 0");
   require(std::isfinite(input.interaction_range) && input.interaction_range > 0,
           "the interaction range is not above 0");

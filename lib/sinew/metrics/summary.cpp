@@ -162,7 +162,7 @@ struct Scale {
 constexpr Scale volume_scale{
     0.02, 0.1, {"keeps its volume", "volume changes visibly", "collapses"}};
 constexpr Scale pose_scale{2, 5, {"follows its bones", "lags behind its bones", "lost its bones"}};
-constexpr Scale broken_scale{0.01, 0.05, {"stays in one piece", "flows a little", "comes apart"}};
+constexpr Scale broken_scale{0.01, 0.05, {"stays in one piece", "flows a little", "breaks apart"}};
 constexpr Scale inverted_scale{0, 3, {"nothing is inside out", "a few folds", "folds into itself"}};
 constexpr Scale residual_scale{0.2, 1, {"returns to its shape", "keeps a trace", "stays deformed"}};
 constexpr Scale tip_scale{1, 5, {"turns with its bone", "turns a little off", "does not follow"}};
@@ -185,7 +185,7 @@ VerdictItem last_item(std::span<const FrameMetrics> frames, const Summary& summa
     return judged("residual after the return", residual, with_unit(residual, 2, " r"),
                   residual_scale);
   const double tip = frames.back().tip_angle, off = std::abs(tip - frames.back().bone_angle);
-  return judged("turn of the tip at the end", off, with_unit(tip, 1, "°"), tip_scale);
+  return judged("rotation of the tip at the end", off, with_unit(tip, 1, "°"), tip_scale);
 }
 
 }  // namespace

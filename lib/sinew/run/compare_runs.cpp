@@ -86,11 +86,11 @@ std::vector<std::string> remarks_on(const Side& first, const Side& second, const
   if (!same.particles)
     remarks.push_back("The particles are not the same (" +
                       counted(first.rest.shape.points, second.rest.shape.points, "of them") +
-                      ", or at other places at rest): no distance between them is taken.");
+                      ", or at other positions at rest): no distance between them is computed.");
   if (!same.surface)
     remarks.push_back("The surfaces are not the same mesh (" +
                       counted(first.run.surface.points, second.run.surface.points, "points") +
-                      "): only nearest places are compared.");
+                      "): only nearest points are compared.");
   const std::size_t lone = first.run.frames() + second.run.frames() - 2 * pairs;
   if (lone > 0)
     remarks.push_back(std::to_string(lone) +

@@ -56,16 +56,16 @@ Curve pair_curve(const Material& material) {
 
 Curve energy_curve(const PairForce& pair) {
   Curve curve{"Energy of two particles", "", "distance d in r", "phi in J", {}};
-  curve.note = "Its slope is the force; how deep it is says what it takes to part two particles.";
+  curve.note = "Its slope is the force; its depth is the energy that separates two particles.";
   curve.lines.push_back(sampled("energy", 1.5, 1.15 * pair.b / pair.r,
                                 [&](double d) { return pair.potential(d * pair.r); }));
   return curve;
 }
 
 Curve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
-  Curve curve{"Pull of a bone on a particle", "", "away from its place, in r", "force in N", {}};
+  Curve curve{"Force of a bone on a particle", "", "away from its place, in r", "force in N", {}};
   const bool anchored = springs.front().form == BoneForce::anchor;
-  curve.note = anchored ? "f = −k_b (x − q), q the place the bone would carry the particle to."
+  curve.note = anchored ? "f = −k_b (x − q), q its position in the rigid pose of the bone."
                         : "Radial: f = −k_b (|x − p| − l0), p the nearest point of the bone.";
   constexpr std::size_t most_bones = 6;  // as many lines as can be distinguished
   for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)

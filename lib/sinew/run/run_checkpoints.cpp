@@ -31,7 +31,7 @@ std::string trimmed(const std::string& line) {
 }
 
 Error another_run(const std::string& what) {
-  return bad_input("--resume goes on with the same run only: " + what,
+  return bad_input("--resume continues the same run only: " + what,
                    "give what the run began with, or replace the run with --force");
 }
 

@@ -117,7 +117,7 @@ void RunLog::describe(const StepperChoice& way) {
   record_["precision"] = name_of(way.precision);
   record_["neighbor_search"] = name_of(way.search);
   record_["instruction_set"] = kernel::name_of(way.instructions);
-  log(std::string("steps in ") + name_of(way.precision) + " precision, partners by " +
+  log(std::string("steps in ") + name_of(way.precision) + " precision, neighbors by " +
       name_of(way.search) + ", instructions " + kernel::name_of(way.instructions) +
       (way.unsupported ? ", for " + way.unsupported->key + " is " + way.unsupported->value : ""));
 }

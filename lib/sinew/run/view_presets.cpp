@@ -73,7 +73,7 @@ Mat3 view_named(const std::string& text) {
     return view_towards({x, y, z});
   }
   if (read != 3 || !towards.allFinite() || towards.isZero(0))
-    throw bad_input(shown(text) + " is no direction of a camera",
+    throw bad_input(shown(text) + " is not a camera direction",
                     "give three numbers, not all zero: --camera 1,-2,0.5");
   return view_towards(towards);
 }

@@ -48,7 +48,7 @@ Json parsed(std::string_view text) {
   } catch (const Json::parse_error& error) {
     throw damaged_gltf("its JSON is damaged at byte " + std::to_string(error.byte));
   } catch (const Json::out_of_range&) {
-    throw damaged_gltf("its JSON holds a number too large for any computer");
+    throw damaged_gltf("its JSON holds a number that is too large");
   }
 }
 

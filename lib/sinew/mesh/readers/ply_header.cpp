@@ -80,7 +80,7 @@ class HeaderReader {
   }
 
   void property(Words& words) {
-    if (header_.elements.empty()) throw broken("a property stands before any element");
+    if (header_.elements.empty()) throw broken("a property precedes the first element");
     std::string_view word = words.next();
     PlyProperty property;
     if (word == "list") {

@@ -21,7 +21,7 @@ std::string header(const RunComparison& compared) {
   const std::string line =
       std::to_string(compared.differences.size()) + " frames of the same times, from " +
       readable(compared.differences.front().time) + " s to " +
-      readable(compared.differences.back().time) + " s. Differences are b less a. One r is " +
+      readable(compared.differences.back().time) + " s. Differences are b minus a. One r is " +
       readable(compared.first.radius) + " m, the radius of a particle of a.";
   return element("header", element("h1", escaped(compared.first.name) + " and " +
                                              escaped(compared.second.name)) +
@@ -123,7 +123,7 @@ std::string differences_table(const RunComparison& compared) {
                                         {"b − a", readable(compared.summary.*metric.value)}});
   return element("h2", "Differences") +
          table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows) +
-         element("h2", "Of the whole runs") + table({"metric", "a", "b", "b − a"}, run_rows);
+         element("h2", "Metrics of the whole runs") + table({"metric", "a", "b", "b − a"}, run_rows);
 }
 
 constexpr double gap = 0.15;  // between the two, relative to the size of the first
@@ -206,7 +206,7 @@ std::string comparison_html(const ComparisonInput& input) {
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
       playback_section(input) + charts_section(!input.playback.frames.empty()) +
-      differences_table(compared) + element("h2", "What differs in the scenes") +
+      differences_table(compared) + element("h2", "Differences between the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +
       folded("The resolved scene of " + name_of(compared, true), input.second_scene);

@@ -128,18 +128,18 @@ std::vector<std::uint32_t> stand_ins(const Triangles& surface, std::size_t most)
 std::span<const PlaybackField> playback_fields() {
   using V = ParticleValues;
   static constexpr std::array fields = {
-      PlaybackField{"displacement", "m", "Way from the place at rest", &V::displacement},
+      PlaybackField{"displacement", "m", "Distance from the position at rest", &V::displacement},
       PlaybackField{"speed", "m/s", "Size of the velocity", &V::speed},
       PlaybackField{"J", "", "Local volume ratio; below zero inside out", &V::J},
       PlaybackField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
       PlaybackField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
-      PlaybackField{"D2min", "m²", "Motion that is not affine: flow", &V::D2min},
+      PlaybackField{"D2min", "m²", "Nonaffine motion: flow", &V::D2min},
       PlaybackField{"neighbors", "", "Particles within the interaction range", &V::neighbors},
-      PlaybackField{"turnover", "", "Neighbors lost and won, over those at rest", &V::turnover},
-      PlaybackField{"distance to rigid pose", "m", "From where its bone alone would carry it",
+      PlaybackField{"turnover", "", "Neighbors lost and gained, over those at rest", &V::turnover},
+      PlaybackField{"distance to rigid pose", "m", "Distance from the rigid pose of its bone",
                     &V::pose_error},
       PlaybackField{"weight of its bone", "",
-                    "Share the bone it follows has in it; 1: that one alone", &V::weight},
+                    "Weight of the bone it follows; 1: that one alone", &V::weight},
   };
   return fields;
 }

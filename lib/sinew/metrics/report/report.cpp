@@ -69,7 +69,7 @@ std::string playback_section(const ReportInput& input) {
 std::string curves_section(const ReportInput& input) {
   if (input.curves.empty()) return "";
   return element("section",
-                 element("h2", "The laws with this scene's numbers") +
+                 element("h2", "The force laws of this scene") +
                      element("div", "", "class=\"charts\" id=\"curves\""),
                  "class=\"needs-script\"");
 }
@@ -95,7 +95,7 @@ std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& 
     run_rows += row(described(metric), {{"value", readable(summary.*metric.value)}});
   return element("h2", "All metrics") +
          table({"metric", "min", "max", "mean", "final", "worst frame"}, rows) +
-         element("h2", "Of the whole run") + table({"metric", "value"}, run_rows);
+         element("h2", "Metrics of the whole run") + table({"metric", "value"}, run_rows);
 }
 
 }  // namespace
