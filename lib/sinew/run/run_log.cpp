@@ -113,13 +113,14 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
       " s, factor " + number_text(steps.factor()));
 }
 
-void RunLog::describe(const StepperChoice& way) {
-  record_["precision"] = name_of(way.precision);
-  record_["neighbor_search"] = name_of(way.search);
-  record_["instruction_set"] = kernel::name_of(way.instructions);
-  log(std::string("steps in ") + name_of(way.precision) + " precision, neighbors by " +
-      name_of(way.search) + ", instructions " + kernel::name_of(way.instructions) +
-      (way.unsupported ? ", for " + way.unsupported->key + " is " + way.unsupported->value : ""));
+void RunLog::describe(const StepperChoice& choice) {
+  record_["precision"] = name_of(choice.precision);
+  record_["neighbor_search"] = name_of(choice.search);
+  record_["instruction_set"] = kernel::name_of(choice.instructions);
+  log(std::string("steps in ") + name_of(choice.precision) + " precision, neighbors by " +
+      name_of(choice.search) + ", instructions " + kernel::name_of(choice.instructions) +
+      (choice.unsupported ? ", for " + choice.unsupported->key + " is " + choice.unsupported->value
+                          : ""));
 }
 
 void RunLog::spend(const std::string& stage, double seconds) {
