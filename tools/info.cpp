@@ -14,7 +14,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
-#include <sinew/settings/read_rig.h>
+#include <sinew/settings/sections.h>
 #include <sinew/settings/read_scene.h>
 
 #include "command/body_options.h"

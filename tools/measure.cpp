@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; or a comparison of two runs.
-#include <sinew/core/file.h>
 #include <sinew/core/arrays.h>
+#include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>

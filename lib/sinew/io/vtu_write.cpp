@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
-#include <sinew/core/arrays.h>
 #include <sinew/io/encode.h>
 #include <sinew/io/vtu.h>
 

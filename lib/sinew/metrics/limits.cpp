@@ -65,8 +65,7 @@ void read_subject(Limit& limit, std::string_view subject, std::string_view expre
     const std::string_view form = trimmed(subject.substr(0, open));
     const auto found = std::find(over_names.begin() + 1, over_names.end(), form);
     if (found == over_names.end() || subject.back() != ')')
-      throw unreadable(expression,
-                       "only min(), max(), mean() and final() can enclose a metric");
+      throw unreadable(expression, "only min(), max(), mean() and final() can enclose a metric");
     limit.over = static_cast<Over>(found - over_names.begin());
     subject = trimmed(subject.substr(open + 1, subject.size() - open - 2));
   }

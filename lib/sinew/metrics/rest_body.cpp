@@ -34,7 +34,8 @@ void check_surface(const Triangles& surface) {
   const int points = static_cast<int>(surface.points.size());
   for (const auto& face : surface.faces)
     for (const int corner : face)
-      require(corner >= 0 && corner < points, "a triangle of the surface refers to a missing point");
+      require(corner >= 0 && corner < points,
+              "a triangle of the surface refers to a missing point");
 }
 
 void check(const RestInput& input) {

@@ -16,7 +16,8 @@ constexpr Color slate{44, 58, 92}, ivory{250, 244, 230};
 void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& options) {
   const auto [small, large] = std::minmax(options.width, options.height);
   if (small < 16 || large > 8192)
-    throw bad_input("a picture cannot have that size", "choose 16 to 8192 pixels in both directions");
+    throw bad_input("a picture cannot have that size",
+                    "choose 16 to 8192 pixels in both directions");
   if (!snapshot.values.empty() && snapshot.values.size() != snapshot.particles.size())
     throw bad_input("a snapshot has not one value per particle", "give one each, or none");
   for (const int point : skin.source)

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include <sinew/core/parallel.h>
 #include <sinew/core/arrays.h>
+#include <sinew/core/parallel.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/run_files.h>

@@ -4,9 +4,9 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
-#include <sinew/core/arrays.h>
 #include <sinew/run/run_record.h>
 #include <sinew/settings/table.h>
 

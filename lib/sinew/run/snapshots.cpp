@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/core/arrays.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>

@@ -123,7 +123,8 @@ std::string differences_table(const RunComparison& compared) {
                                         {"b − a", readable(compared.summary.*metric.value)}});
   return element("h2", "Differences") +
          table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows) +
-         element("h2", "Metrics of the whole runs") + table({"metric", "a", "b", "b − a"}, run_rows);
+         element("h2", "Metrics of the whole runs") +
+         table({"metric", "a", "b", "b − a"}, run_rows);
 }
 
 constexpr double gap = 0.15;  // between the two, relative to the size of the first

@@ -106,8 +106,9 @@ std::string footer(const Page& page) {
   const std::string line = "Written by sinew " + page.version +
                            ". The same numbers, frame by frame, are in " + page.table +
                            "; metrics.json has their summary.";
-  return element("footer", element("p", escaped(line)) +
-                               folded("Licenses of the libraries in this page", std::string(licenses())));
+  return element("footer",
+                 element("p", escaped(line)) +
+                     folded("Licenses of the libraries in this page", std::string(licenses())));
 }
 
 /// Name, unit, meaning and formula.

@@ -138,8 +138,8 @@ std::span<const PlaybackField> playback_fields() {
       PlaybackField{"turnover", "", "Neighbors lost and gained, over those at rest", &V::turnover},
       PlaybackField{"distance to rigid pose", "m", "Distance from the rigid pose of its bone",
                     &V::pose_error},
-      PlaybackField{"weight of its bone", "",
-                    "Weight of the bone it follows; 1: that one alone", &V::weight},
+      PlaybackField{"weight of its bone", "", "Weight of the bone it follows; 1: that one alone",
+                    &V::weight},
   };
   return fields;
 }

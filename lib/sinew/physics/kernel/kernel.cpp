@@ -2,7 +2,7 @@
 // The kernel's functions for one set of instructions: this source is compiled once for each, with
 // its flags, and SINEW_INSTRUCTIONS naming it.
 #include <sinew/physics/kernel/functions.h>
-#include <sinew/physics/kernel/tables.h>
+#include <sinew/physics/kernel/kernel.h>
 
 #define SINEW_JOIN(name, set) name##_##set
 #define SINEW_NAME(name, set) SINEW_JOIN(name, set)

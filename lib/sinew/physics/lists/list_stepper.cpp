@@ -62,8 +62,8 @@ void ListStepper<Real>::place_bones(const Pose& pose) {
 
 template <class Real>
 kernel::Holds<Real> ListStepper<Real>::holds() const {
-  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
-          bones_.data()};
+  const auto& [first, slots, held, shares, center] = slots_;
+  return {first.data(), slots.data(), held.data(), shares.data(), bones_.data()};
 }
 
 template <class Real>
@@ -126,7 +126,6 @@ ListCounts ListStepper<Real>::counts() const {
 
 template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
-  // Per unit of mass and in the kernel's units; converted to watts.
   const double watts =
       mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
   StepSums sums;
@@ -166,8 +165,8 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
-  const double rounding = sizeof(Real) == 4 ? 1e-5 : 0;
-  const double most = most_radii_per_step * body_->material.pair.r * (1 - rounding);
+  const double most = most_radii_per_step * body_->material.pair.r *
+                      (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < caller_.size(); ++k) {
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
@@ -313,13 +312,12 @@ bool ListStepper<Real>::sort() {
 template <class Real>
 bool ListStepper<Real>::change_units() {
   if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
-  const std::size_t n = caller_.size();
   units_box_ = state_.box(units_, particles_per_thread);
   traveled_ = 0;
   if (sinew::covers<Real>(units_, units_box_)) return false;
   const Units before =
       std::exchange(units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
-  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
+  parallel_split(caller_.size(), particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       state_.set_velocity(k, state_.velocity(k, before), units_);
       state_.set_position(k, state_.position(k, before), units_);
