@@ -160,8 +160,7 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   return sums;
 }
 
-/// The particles that failed in the step, in the caller's order; where rounding leaves none, the
-/// fastest.
+/// The particles that failed, in the caller's order; where rounding leaves none, the fastest.
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
