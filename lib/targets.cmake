@@ -45,11 +45,12 @@ endfunction()
 
 # sinew_umbrella(ROOMS): sinew::sinew, which brings all of them, with <sinew/sinew.h>.
 function(sinew_umbrella)
-  add_library(sinew INTERFACE)
-  add_library(sinew::sinew ALIAS sinew)
+  add_library(sinew_all INTERFACE)
+  add_library(sinew::sinew ALIAS sinew_all)
+  set_target_properties(sinew_all PROPERTIES EXPORT_NAME sinew)
   list(TRANSFORM ARGN PREPEND sinew_ OUTPUT_VARIABLE rooms)
-  target_link_libraries(sinew INTERFACE ${rooms})
-  install(TARGETS sinew EXPORT sinew)
+  target_link_libraries(sinew_all INTERFACE ${rooms})
+  install(TARGETS sinew_all EXPORT sinew)
   install(FILES lib/sinew/sinew.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew)
 endfunction()
 

@@ -51,9 +51,11 @@ LONGEST_README = 150
 GIVEN_UP = {
     r"\b[Nn]eighbour": "neighbor", r"\b[Cc]olour": "color", r"\b[Cc]entre[sd]?\b": "center", r"\b[Mm]etres?\b": "meter",
     r"\b[Gg]rey\b": "gray", r"\b[Bb]ehaviour": "behavior", r"\b[Ll]icence": "license",
-    r"\bsift": "prune", r"\bcarriers?\b": "co-moving frame", r"\briders?\b": "particles", r"\bstrays?\b|\bastray\b": "escaped particle",
-    r"EnergyBook|\bbook\b": "ledger", r"StepWay|\bstep_way\b": "stepper choice", r"\b[Uu]nserved\b": "unsupported",
-    r"\btold_at\b": "with_context", r"\balbum\b": "figure set", r"\bplates?\b": "figure", r"\bfilm\b": "playback",
+    r"\bsift": "prune", r"\b[Cc]arrier_?[Ss]lots?\b|\bCarriers\b": "co-moving frames", r"\bRiders\b": "MovingParticles",
+    r"\bstrays\b|\bstrayed\b": "escaped particles",
+    r"EnergyBook": "ledger", r"StepWay|\bstep_way\b": "stepper choice", r"\b[Uu]nserved\b": "unsupported",
+    r"\btold_at\b": "with_context", r"\balbum\b": "figure set", r"\b(Plate|DrawnLook)\b": "figure, view preset",
+    r"\b[Ff]ilm_|\bFilm": "playback",
     r"\bwide list|\bnarrow list": "outer or inner list", r"asked of CGAL|asks CGAL": "checked against CGAL",
     r"whole or not at all": "atomically",
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-check: what a run would need, and what is doubtful in its scene, without running it.
+// sinew-check: the resources a run would need, and doubtful settings of its scene.
 #include <algorithm>
 #include <cmath>
 
@@ -22,11 +22,11 @@ namespace {
 
 using namespace sinew;
 
-// The trial's lists serve for all its steps; of a body that bends they have to be made again.
+// The trial's lists are valid for all its steps; those of a deforming body must be rebuilt.
 constexpr double slower_with_lists_in_motion = 1.8;
 
-/// Particle-steps per second, tried out on the spot with bones at rest; what is usual where the
-/// body does not bear it.
+/// Particle-steps per second, measured in a trial with bones at rest; a typical value where the
+/// body becomes unstable.
 double speed_at_rest(const Settings& settings, Setup setup, const Particles& particles,
                      std::vector<std::string>& warnings) {
   const double usual = usual_speed(stepper_choice(settings.solver, setup.body, setup.motion));
@@ -89,7 +89,7 @@ void add_material(const Material& material, Results& results) {
   results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
 }
 
-/// Across the thinnest bone's part of the body.
+/// Across the thinnest part of the body around a bone.
 void add_planes(const Body& body, Results& results) {
   double least = 0;
   std::string name;

@@ -40,7 +40,7 @@ Settings settings_for_mesh(const Options& options, const Common& common) {
     throw bad_input("the size of the particles is given twice", "keep one of --radius and --count");
   if (sizes == 0)
     throw bad_input("a mesh needs --radius or --count",
-                    "say how large the particles are, or how many; see sinew fill --help");
+                    "give the size or the number of particles; see sinew fill --help");
   return settings_of_mesh(options.input, overrides);
 }
 

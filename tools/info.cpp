@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-info: what is in a mesh, a rig, a clip or a scene, and what is wrong with it.
+// sinew-info: the content of a mesh, rig, clip or scene, and its defects.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
-#include <sinew/settings/read_rig.h>
+#include <sinew/settings/sections.h>
 #include <sinew/settings/read_scene.h>
 
 #include "command/body_options.h"
@@ -45,7 +45,7 @@ double largest_speed(const Skeleton& skeleton, const Clip& clip) {
   return fastest;
 }
 
-/// The step that a body of the default material takes by itself, s.
+/// The default time step of a body of the default material, s.
 double usual_step(double radius) {
   const MaterialOptions settings;
   const Material material =
@@ -116,7 +116,7 @@ Clip clip_of(Motion motion, std::string name, std::optional<double> frame_rate) 
 void add_rig_alone_info(const Settings& settings, const std::string& name,
                         std::optional<double> radius, Results& results) {
   if (!settings.bones.empty()) return add_rig_info({skeleton_of(settings), {}}, radius, results);
-  Skeleton named;  // whose bones a clip moves
+  Skeleton named;  // of the bones that a clip moves
   Json moves = Json::array();
   for (const TrackDefinition& track : settings.tracks) {
     if (std::find(moves.begin(), moves.end(), track.bone) != moves.end()) continue;
@@ -160,7 +160,7 @@ void add_radii(double inside, const Diagnosis& diagnosis, Results& results) {
     results.add("radius_for_thinnest_part", *diagnosis.thinnest / surely_filled_thickness(1), "m");
 }
 
-/// One number for each face: the worst that is wrong with it.
+/// One number per face: its worst defect.
 std::int32_t face_defect(const Defects& defects, std::size_t face) {
   if (defects.flat[face]) return 6;
   if (!defects.intersecting.empty() && defects.intersecting[face]) return 5;
@@ -236,11 +236,11 @@ void add_scene(const Settings& settings, Results& results) {
 BodyOptions body_of_mesh(const Options& options, const Common& common) {
   std::vector<Override> overrides = common.overrides;
   for (const Override& one : options.body.overrides()) overrides.push_back(one);
-  overrides.push_back({"body.count", "1000", "--count 1000"});  // not used, but a body needs one
+  overrides.push_back({"body.count", "1000", "--count 1000"});  // not used, but required of a body
   return settings_of_mesh(options.path, overrides).body;
 }
 
-/// Whether the file was a rig or a clip of YAML, which holds nothing else.
+/// Whether the file is a rig or clip in YAML, without anything else.
 bool add_rig_alone(const Options& options, Results& results) {
   if (!is_scene(options.path)) return false;
   const auto alone = read_rig_alone(options.path);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install_packages.sh build|test|bench ...: installs with apt-get what is missing of the Debian packages that
-# building, testing or the benchmarks ask for.
+# install_packages.sh build|test|bench ...: installs with apt-get the missing Debian packages for
+# building, testing or the benchmarks.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
-// run; or what two runs have in common, and what not.
-#include <sinew/core/file.h>
+// run; or a comparison of two runs.
 #include <sinew/core/arrays.h>
+#include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
@@ -59,7 +59,7 @@ void print_results(const Measured& measured, bool as_json) {
   results.print(as_json);
 }
 
-/// Limits that were passed are told one by one.
+/// Reports limits that were exceeded one by one.
 Exit told(const std::vector<Check>& checks) {
   Exit exit = Exit::done;
   for (const Check& check : checks) {
@@ -97,7 +97,7 @@ Exit measure_folder(const Options& options, const Common& common) {
     say(common,
         "warning: only " + std::to_string(run.frames()) + " of " +
             std::to_string(run.frames_named) +
-            " frames are in all series (a run still going, or cut off); these are measured");
+            " frames are in all series (a run in progress, or interrupted); these are measured");
   Measured measured = measure_run(run, how);
   write_tables(run.folder, measured);
   record_stage(run.folder, "measuring", watch.lap());

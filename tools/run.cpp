@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-run: the whole job, each part by its own program.
+// sinew-run: fills, simulates, measures, renders and reports, each by its own program.
 #include <filesystem>
 
 #include <sinew/run/run_folder.h>
@@ -47,7 +47,7 @@ Words measure_words(const Common& common, const std::string& folder) {
   return words;
 }
 
-/// Runs one part and takes over what it found out. Its own error line has been printed by itself.
+/// Runs one part and collects its results. It prints its own error message.
 Exit do_part(const std::string& command, const Words& words, Results& results) {
   const ChildEnd end = run_child(command, words);
   const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
@@ -67,7 +67,7 @@ Exit run(const Options& options, const Common& common) {
   Results results;
   results.add("folder", folder);
   Exit exit = do_part("simulate", simulate_words(options, common, folder), results);
-  // The report shows the pictures, so they come first.
+  // The report includes the pictures, so they are made first.
   if (exit == Exit::done) exit = do_part("render", render_words(options, common, folder), results);
   if (exit == Exit::done) exit = do_part("measure", measure_words(common, folder), results);
   if (exit == Exit::done) results.add("report", folder + "/report.html");

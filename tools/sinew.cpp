@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew COMMAND ...: becomes the program sinew-COMMAND that lies beside it, so that each command
+// sinew COMMAND ...: executes the program sinew-COMMAND in the same folder, so that each command
 // loads only its own packages.
 #include <unistd.h>
 
@@ -59,7 +59,7 @@ std::string name_of(const std::string& word) {
                          : suggestion(word, names) + " (see sinew --help)");
 }
 
-/// Does not return but by throwing.
+/// Returns only by throwing.
 Exit become(const std::string& name, const std::vector<char*>& rest) {
   const auto program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("sinew-" + name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-view: becomes ParaView, started on sinew's own scripts. Those in a run's folder are for
-// other machines: whatever a folder from elsewhere holds, nothing in it is run.
+// sinew-view: starts ParaView with sinew's own scripts. Those in a run's folder are for other
+// machines: nothing in a folder from elsewhere is executed.
 #include <unistd.h>
 
 #include <cerrno>
@@ -47,7 +47,7 @@ void declare(CLI::App& app, Options& options) {
       ->type_name("FILE.png");
 }
 
-/// What the script understands.
+/// The options of the script.
 std::vector<std::string> words_of(const Options& options) {
   std::vector<std::string> words;
   const auto add = [&](const char* name, const std::string& value) {
@@ -66,7 +66,7 @@ std::vector<std::string> words_of(const Options& options) {
   return words;
 }
 
-/// One text that a shell would split into these words.
+/// A text that a shell would split into these words.
 std::string quoted(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {
@@ -85,7 +85,7 @@ fs::path program_named(const std::string& name) {
               name + " is not installed; install it with: apt-get install paraview");
 }
 
-/// Where ParaView's Python may lie by itself: Debian's package of it cannot be installed beside
+/// Folders that may hold ParaView's Python: Debian's package of it cannot be installed beside
 /// VTK's, which sinew is built with.
 std::vector<fs::path> private_places() {
   const fs::path modules = "usr/lib/python3/dist-packages";
@@ -96,7 +96,7 @@ std::vector<fs::path> private_places() {
   return places;
 }
 
-/// Debian's ParaView has its Python in a package of its own; others bring it along.
+/// Debian's ParaView has its Python in a separate package; others include it.
 void find_python(const fs::path& program) {
   std::error_code none;
   const std::string given = std::getenv("PYTHONPATH") ? std::getenv("PYTHONPATH") : "";
@@ -127,7 +127,7 @@ void check_screen() {
         "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
 }
 
-/// In the build and where sinew is installed alike.
+/// Both in the build and where sinew is installed.
 fs::path own_script(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const fs::path script = program.parent_path().parent_path() / "share/sinew" / name;
@@ -136,7 +136,7 @@ fs::path own_script(const std::string& name) {
   return script;
 }
 
-/// Does not return but by throwing.
+/// Returns only by throwing.
 Exit become(const fs::path& program, std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -13,7 +13,7 @@ tests/tools/get_paraview_python.sh "$build/paraview-python"
 ctest --test-dir "$build" --parallel "$(nproc)" --exclude-regex '^tools\.package$' "$@" ||
   echo "coverage.sh: some tests failed" >&2
 # Counters of lines that several threads run may come out negative: gcovr is told to go on.
-gcovr --root . --filter lib/ --gcov-ignore-parse-errors \
+gcovr --root . --filter lib/sinew/ --gcov-ignore-parse-errors \
   --json-summary "$build/coverage.json" --txt "$build/coverage.txt" "$build"
 /usr/bin/python3 - "$build/coverage.json" <<'END'
 import collections
@@ -22,7 +22,7 @@ import sys
 
 rooms = collections.defaultdict(lambda: [0, 0])
 for file in json.load(open(sys.argv[1]))["files"]:
-    for name in (file["filename"].split("/")[1], "all of lib"):
+    for name in (file["filename"].split("/")[2], "all of lib"):
         rooms[name][0] += file["line_covered"]
         rooms[name][1] += file["line_total"]
 for name, (covered, total) in sorted(rooms.items(), key=lambda room: room[0] == "all of lib"):

@@ -44,7 +44,7 @@ def files_of(folder):
 
 
 def all_mutants(source, room):
-    return [mutant for path in files_of(source / "lib" / room)
+    return [mutant for path in files_of(source / "lib" / "sinew" / room)
             for mutant in mutants_of(str(path.relative_to(source)), path.read_text())]
 
 

@@ -229,7 +229,7 @@ TEST(Pack, FindsTheRadiusForACount) {
 /// The warning that names the count, or "".
 std::string miss_told(const Filling& filling, int wanted) {
   for (const std::string& warning : filling.report.warnings)
-    if (warning.find("the " + std::to_string(wanted) + " asked for") != std::string::npos)
+    if (warning.find("the " + std::to_string(wanted) + " requested") != std::string::npos)
       return warning;
   return {};
 }

@@ -88,7 +88,7 @@ TEST_F(CheckpointFile, ComesBackToTheLastBit) {
 TEST_F(CheckpointFile, IsRefusedCutAtAnyByte) {
   const std::string bytes = bytes_of(sample());
   for (std::size_t size = 0; size < bytes.size(); ++size) expect_refused(bytes.substr(0, size));
-  expect_refused(bytes + '\0', {"torn"});
+  expect_refused(bytes + '\0', {"too long"});
 }
 
 TEST_F(CheckpointFile, IsRefusedWithAnyByteFlipped) {
@@ -137,7 +137,7 @@ TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {
   const std::size_t at = bytes.find("order") + 16;
   const std::uint64_t huge = UINT64_MAX / 2;
   std::memcpy(bytes.data() + at, &huge, 8);
-  expect_refused(resealed(bytes), {"section is torn"});
+  expect_refused(resealed(bytes), {"section is truncated"});
 }
 
 TEST_F(CheckpointFile, InTurnLeavesTheOlderOneWhole) {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sinew/core/error.h>
 #include <sinew/core/arrays.h>
+#include <sinew/core/error.h>
 #include "world.h"
 
 namespace sinew::test {

@@ -207,7 +207,7 @@ TEST(Verdict, JudgesTheTipWhereThereIsNoReturn) {
   frames[0].tip_angle = 87;
   frames[0].bone_angle = 90;
   const VerdictItem item = verdict(frames, summarize(frames, r), r)[4];
-  EXPECT_EQ(item.label, "turn of the tip at the end");
+  EXPECT_EQ(item.label, "rotation of the tip at the end");
   EXPECT_EQ(item.value, "87.0°");
   EXPECT_EQ(item.level, Level::fair);
   EXPECT_EQ(verdict(frames, summarize(frames, r), r)[0].level, Level::unknown);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include <sinew/settings/checks.h>
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/row.h>
+#include <sinew/settings/sections.h>
 #include <sinew/settings/table.h>
 #include <sinew/settings/write_scene.h>
 

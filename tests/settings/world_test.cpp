@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/settings/read_scene.h>
-#include <sinew/settings/read_world.h>
+#include <sinew/settings/sections.h>
 #include <sinew/settings/write_scene.h>
 
 #include "expect_error.h"

@@ -83,7 +83,7 @@ class Stops(SmallRun):
         self.assert_one_line(done, 2, "duration: 2", "duration: 3")
         for file in (self.out / "checkpoint").iterdir():
             file.write_bytes(file.read_bytes()[:-1])
-        self.assert_one_line(self.simulate("--resume", "--set", "solver.duration=2", check=2), 2, "torn")
+        self.assert_one_line(self.simulate("--resume", "--set", "solver.duration=2", check=2), 2, "truncated")
         self.simulate("--force", "--set", "solver.duration=0")
         self.assertEqual(list((self.out / "checkpoint").iterdir()), [])
 

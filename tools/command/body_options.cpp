@@ -56,7 +56,7 @@ std::string help_of(const Row& row) {
 
 void BodyFlags::declare(CLI::App& app, Kind kind) {
   const auto wanted = wanted_rows(kind);
-  given_.resize(wanted.size());  // options keep the places of their values
+  given_.resize(wanted.size());  // options keep pointers to their values
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Row& row = *wanted[i];
     Given& one = given_[i];

@@ -17,7 +17,7 @@ namespace sinew {
 
 namespace {
 
-volatile std::sig_atomic_t asked = 0;  // the one thing a signal handler may touch
+volatile std::sig_atomic_t asked = 0;  // the only state a signal handler may change
 
 void remember(int) { asked = 1; }
 
@@ -31,7 +31,7 @@ bool ignores_hangup() {
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = remember;
-  // The kernel and the shell both tell of a terminal that is closed: the second time means no more.
+  // Both the kernel and the shell report a closed terminal: the second signal adds nothing.
   if (!ignores_hangup()) sigaction(SIGHUP, &action, nullptr);
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
@@ -42,11 +42,11 @@ bool stop_asked() { return asked != 0; }
 
 namespace {
 
-volatile pid_t child_of_signals = 0;  // whom a signal handler passes signals on to
+volatile pid_t child_of_signals = 0;  // to which a signal handler forwards signals
 
 void pass_on(int signal, siginfo_t* origin, void*) {
-  // Of Ctrl-C the terminal tells all programs in the foreground itself, and a second time would end
-  // the child; that it is closed it may tell this one alone.
+  // The terminal sends Ctrl-C to all programs in the foreground, and forwarding it would end the
+  // child by a second signal; a hangup may be sent to this process alone.
   const bool received_already = signal != SIGHUP && origin->si_code == SI_KERNEL;
   if (child_of_signals > 0 && !received_already) ::kill(child_of_signals, signal);
 }
@@ -63,7 +63,7 @@ void pass_signals_on() {
 [[noreturn]] void become(const std::string& program, const std::vector<char*>& arguments,
                          int output, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(1);  // it died before it could be watched
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before it could be watched
   ::dup2(output, STDOUT_FILENO);
   ::execv(program.c_str(), arguments.data());
   ::_exit(127);
@@ -103,7 +103,7 @@ ChildEnd run_child(const std::string& command, const std::vector<std::string>& a
 
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start;
-  pass_signals_on();  // exec gives the child the usual ones back
+  pass_signals_on();  // exec resets the handlers in the child
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child > 0) child_of_signals = child;

@@ -27,8 +27,8 @@ struct ChildEnd {
   std::string output;  ///< its standard output
 };
 
-/// Runs sinew-COMMAND from the folder of this program and waits. SIGINT and SIGTERM are forwarded to
-/// it. Throws bad input where it cannot be started.
+/// Runs sinew-COMMAND from the folder of this program and waits. SIGINT and SIGTERM are forwarded
+/// to it. Throws bad input where it cannot be started.
 ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments);
 
 }  // namespace sinew

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-/// What the options are read into.
+/// The variables that options are parsed into.
 struct Given {
   Common common;
   std::vector<std::string> sets;
@@ -65,7 +65,7 @@ Error unknown_option(const CLI::App& app, const std::string& see_help) {
                    close.empty() ? see_help : "did you mean " + close + "?");
 }
 
-/// Reads the command line. Throws bad input; false when --help or --version said it all.
+/// Parses the command line. Throws bad input; false where --help or --version was printed.
 bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
   try {
     app.parse(argc, argv);
@@ -101,7 +101,7 @@ Exit parse_and_run(int argc, char** argv, const About& about,
 int tell(Exit exit, std::string message) {
   std::replace_if(
       message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; },
-      ' ');  // names from files may hold any
+      ' ');  // names from files may contain control characters
   std::fprintf(stderr, "sinew: %s\n", message.c_str());
   return static_cast<int>(exit);
 }
@@ -109,7 +109,7 @@ int tell(Exit exit, std::string message) {
 }  // namespace
 
 int run_reporting_errors(const std::function<Exit()>& job) {
-  // A file that may not grow any more is an error of its write, not the end of the program.
+  // SIGXFSZ must not end the program: exceeding a file size limit is an error of the write.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return static_cast<int>(job());

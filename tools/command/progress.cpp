@@ -10,8 +10,8 @@
 namespace sinew {
 namespace {
 
-constexpr auto between_lines = std::chrono::milliseconds(100);  // a terminal needs no more
-constexpr double worth_telling = 0.05;  // share of the time that writing holds up the stepping
+constexpr auto between_lines = std::chrono::milliseconds(100);  // often enough for a terminal
+constexpr double worth_telling = 0.05;  // share of the time that the simulation waits for writing
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));

@@ -14,8 +14,8 @@ namespace sinew {
 
 enum class ProgressStyle { none, lines, rewritten };
 
-/// One line rewritten on a terminal, otherwise one line per tenth of the run; nothing when quiet. No
-/// colors and no escape sequences, so NO_COLOR and plain terminals are respected.
+/// One line rewritten on a terminal, otherwise one line per tenth of the run; nothing when quiet.
+/// No colors and no escape sequences, so NO_COLOR and plain terminals are respected.
 ProgressStyle progress_style(bool quiet);
 
 /// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts

@@ -59,7 +59,7 @@ void print_out(const std::string& text) {
   if (std::fflush(stdout) == 0 && written) return;
   throw not_written("standard output",
                     "cannot be written (" + std::generic_category().message(errno) + ")",
-                    "send it to a place with space left");
+                    "write to a disk with free space");
 }
 
 }  // namespace sinew

@@ -12,7 +12,7 @@
 namespace sinew {
 namespace {
 
-/// One key, all in words.
+/// One key as text.
 struct Row {
   std::string name, unit, standard, values, help;
 };
@@ -33,7 +33,7 @@ std::string short_text(const FieldValue& value, std::string_view absent) {
 template <class Owner>
 Row words_of(const Field<Owner>& row) {
   Rules rules = rules_of(row);
-  rules.unit = rules.absent = {};  // they have columns of their own
+  rules.unit = rules.absent = {};  // they have their own columns
   return {std::string(row.name), std::string(row.unit),
           row.required ? "required" : short_text(row.get(Owner{}), row.absent), values_text(rules),
           std::string(row.help)};

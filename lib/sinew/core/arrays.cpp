@@ -81,7 +81,7 @@ std::vector<WrittenArray> table_of_particles() {
   };
 }
 
-/// What particles get where output.arrays, or sinew measure --arrays, asks for it.
+/// Additional arrays of particles, by output.arrays or sinew measure --arrays.
 std::vector<WrittenArray> table_of_requested(const char* series) {
   return {
       {series, point, "F", "1", full_tensor, real, plain,

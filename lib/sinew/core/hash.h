@@ -26,6 +26,10 @@ class Hash {
 };
 
 /// 16 hexadecimal digits.
-std::string hash_text(std::uint64_t hash);
+inline std::string hash_text(std::uint64_t hash) {
+  std::string text(16, '0');
+  for (int digit = 15; digit >= 0; --digit, hash >>= 4) text[digit] = "0123456789abcdef"[hash & 15];
+  return text;
+}
 
 }  // namespace sinew

@@ -31,14 +31,14 @@ double ambiguous_share(const Surface& surface) {
 
 namespace {
 
-// A volume this small against area times size is what rounding leaves of a flat body.
+// A volume this small relative to area times size is the rounding error of a flat body.
 constexpr double rounding_of_volume = 1e-13;
-// Bytes while filling and writing: positions, velocities, counts and their copies on the way out.
+// Bytes while filling and writing: positions, velocities, counts and their copies for output.
 constexpr double bytes_per_particle = 150, bytes_per_row = 100;
 constexpr double most_ids = std::numeric_limits<std::int32_t>::max();
 constexpr double farthest_origin = 1e4;  // lengths of the body
-constexpr double enough = 100;           // particles of a radius that is proposed
-constexpr double finest = 400;  // radii along the box, when a radius that fits is looked for
+constexpr double enough = 100;           // particles at a proposed radius
+constexpr double finest = 400;  // radii along the box, in the search for a radius that fits
 
 const char* const thicken = "give a thickness to fill a layer along the surface";
 
@@ -49,7 +49,7 @@ double rounded(double value, double (*to)(double)) {  // to two digits
 
 double rounded_down(double radius) { return rounded(radius, std::floor); }
 
-/// Bytes needed to fill `volume` within `box`.
+/// Bytes needed to fill `volume` in `box`.
 double bytes_needed(const Box& box, double volume, double radius) {
   return volume / volume_per_particle(radius) * bytes_per_particle +
          lattice_size(box, radius).rows * bytes_per_row;
@@ -61,7 +61,7 @@ void refuse_without_volume(const Triangles& surface) {
   const double enclosed = volume(surface), skin = area(surface);
   const double size = bounds(surface.points).diagonal().norm();
   if (!std::isfinite(enclosed) || !std::isfinite(skin * size))
-    throw bad_input("the surface is too large for numbers to hold its volume",
+    throw bad_input("the surface is too large for its volume to be computed",
                     "scale it down, or set its unit");
   if (enclosed > rounding_of_volume * skin * size) return;
   throw bad_input("the surface encloses a volume of " + number_text(enclosed) +
@@ -84,14 +84,14 @@ void refuse_too_many(const Box& box, double volume, double radius) {
 }
 
 void refuse_too_large(double volume, double radius) {
-  if (volume / volume_per_particle(radius) >= 0.5) return;  // 1 less rounding for a count of 1
+  if (volume / volume_per_particle(radius) >= 0.5) return;  // 1 minus rounding for a count of 1
   throw bad_input(
       "the radius " + three_digits(radius) + " m is too large for a body of " +
           three_digits(volume) + " m^3: it holds less than one particle",
       "a radius of " + three_digits(rounded_down(radius_for_count(volume, enough))) + " m fits");
 }
 
-/// A radius below `radius` at which sites do lie inside: it is halved until some do. 0: none found.
+/// A radius below `radius` at which sites lie inside, by halving it; 0 where none is found.
 double radius_that_fits(const BodySpace& space, const PackOptions& options, double radius) {
   const double longest = space.box.sizes().maxCoeff();
   PackOptions tried = options;
@@ -103,7 +103,7 @@ double radius_that_fits(const BodySpace& space, const PackOptions& options, doub
   return 0;
 }
 
-/// A layer much thicker than the body, or a lattice so far away that its sites have no digits left.
+/// Refuses a layer much thicker than the body, and a lattice too far away for its sites' precision.
 void refuse_out_of_place(const BodySpace& space, const PackOptions& options) {
   const Box box = bounds(space.surface.triangles.points);
   const double longest = box.sizes().maxCoeff();
@@ -120,7 +120,7 @@ void refuse_out_of_place(const BodySpace& space, const PackOptions& options) {
                     "give an origin near the body");
 }
 
-/// About the volume that will be filled, m^3.
+/// Estimate of the volume that will be filled, m^3.
 double volume_to_fill(const BodySpace& space, const PackOptions& options) {
   if (options.thickness) return area(space.surface.triangles) * *options.thickness;
   return volume_inside(space.surface);
@@ -137,7 +137,7 @@ double refuse_without_inside(const BodySpace& space, const PackOptions& options)
   const double share = ambiguous_share(space.surface);
   if (share > most_ambiguous)
     throw bad_input("the surface has no inside: " + three_digits(100 * share) +
-                        " % of the places in its box lie neither clearly inside nor outside (the "
+                        " % of the points in its box lie neither clearly inside nor outside (the "
                         "most is " +
                         three_digits(100 * most_ambiguous) + " %)",
                     "close its holes, or give a thickness to fill a layer along it");
@@ -159,7 +159,7 @@ double wanted_radius(const BodySpace& space, const PackOptions& options) {
 void refuse_empty(const BodySpace& space, const PackOptions& options, const FilledSites& filled) {
   const double radius = filled.lattice.radius;
   if (const std::size_t inside = count_of(filled.inside.runs); inside > 0)
-    throw bad_input("all " + std::to_string(inside) + " places for particles lie within " +
+    throw bad_input("all " + std::to_string(inside) + " lattice sites inside lie within " +
                         three_digits(clearance_of(options, radius)) + " m of the surface",
                     "give a smaller clearance or radius");
   const double fits = radius_that_fits(space, options, radius);

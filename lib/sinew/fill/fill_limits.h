@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks before and after filling, of surfaces and options that cannot be filled. All refusals throw
-// Error (bad input) with the decisive number and the cure.
+// Checks before and after filling, of surfaces and options that cannot be filled. All refusals
+// throw Error (bad input) with the decisive number and the cure.
 //
 //     const double radius = wanted_radius(BodySpace(surface, options), options);
 #pragma once
@@ -21,12 +21,12 @@ double volume_inside(const Surface& surface);
 /// integer: 0 for closed surfaces, near 1 where there is no inside.
 double ambiguous_share(const Surface& surface);
 
-/// Above this share of ambiguous points a surface has no inside: open shells that can be filled reach
-/// 0.64, random triangles have 0.77, a Moebius strip has 0.87.
+/// Above this share of ambiguous points a surface has no inside: open shells that can be filled
+/// reach 0.64, random triangles have 0.77, a Moebius strip has 0.87.
 inline constexpr double most_ambiguous = 0.7;
 
-/// Refuses surfaces without an inside, unless a layer is to be filled. Returns the share of ambiguous
-/// points.
+/// Refuses surfaces without an inside, unless a layer is to be filled. Returns the share of
+/// ambiguous points.
 double refuse_without_inside(const BodySpace& space, const PackOptions& options);
 
 /// The radius by the options, m. Refuses one that needs more particles than memory or 32-bit ids

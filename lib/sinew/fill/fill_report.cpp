@@ -8,7 +8,7 @@
 namespace sinew {
 namespace {
 
-/// Lengths in a body of that size (m), 0 where they are but rounding.
+/// Lengths in a body of that size (m), 0 where they are only rounding.
 double without_rounding(double length, double size) {
   constexpr double rounding = 1e-13;  // of sums over a million particles
   return std::abs(length) <= rounding * size ? 0 : length;
@@ -39,7 +39,7 @@ void add_defects(std::vector<ReportRow>& rows, const FillReport& report) {
     rows.push_back({"deepest_overlap", count_of(report.deepest), "parts at one place"});
 }
 
-/// Only where it tells more than the totals.
+/// Only where it adds to the totals.
 void add_bodies(std::vector<ReportRow>& rows, const FillReport& report) {
   constexpr std::size_t most = 100;
   if (report.bodies.size() < 2 || report.bodies.size() > most) return;

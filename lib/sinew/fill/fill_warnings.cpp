@@ -14,8 +14,8 @@ namespace {
 using Warnings = std::vector<std::string>;
 
 constexpr double much_lost = 0.01;           // of the volume
-constexpr double much_missed = 0.05;         // of the count asked for
-constexpr double huge = 100, minute = 1e-3;  // m: outside of these a unit may have been mistaken
+constexpr double much_missed = 0.05;         // of the requested count
+constexpr double huge = 100, minute = 1e-3;  // m: outside of these the unit may be wrong
 
 std::string counted(std::size_t count, const std::string& what, const std::string& many) {
   return std::to_string(count) + ' ' + (count == 1 ? what : many);
@@ -29,12 +29,12 @@ void warn_of_holes(const FillReport& report, Warnings& warnings) {
       "the surface is open: " + counted(report.border.holes, "hole", "holes") +
       " with a border of " + three_digits(report.border.length) +
       " m; inside is where the winding number is above 0.5, and " + percent(report.ambiguous) +
-      " of the places in the box are ambiguous; weld points that almost meet, or close the "
+      " of the points in the box are ambiguous; weld points that almost meet, or close the "
       "holes, if the body bulges in or out there");
 }
 
-/// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is no
-/// scatter.
+/// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is
+/// significant.
 double scatter(double area, double radius) {
   return 0.9 * std::sqrt(area / (4 * radius * radius)) * volume_per_particle(radius);
 }
@@ -54,7 +54,7 @@ void warn_of_lost_volume(const FillReport& report, const Surface& surface, Warni
                           "more")));
 }
 
-/// A body thinner than its particles still holds a layer of them.
+/// A body thinner than its particles still contains a layer of them.
 void warn_of_gained_volume(const FillReport& report, const Surface& surface, Warnings& warnings) {
   if (!report.volume_of_mesh) return;
   const double gained = report.packed.volume - report.volume;
@@ -69,7 +69,7 @@ void warn_of_gained_volume(const FillReport& report, const Surface& surface, War
 
 std::string why_missed(const FillReport& report) {
   if (report.kept_out > 0)
-    return counted(report.kept_out, "place inside lies", "places inside lie") +
+    return counted(report.kept_out, "site inside is", "sites inside are") +
            " too close to the surface; give a smaller clearance (or keep: center), or a radius";
   if (report.layer)
     return "the layer's volume is not its thickness times the area of the faces; give a radius";
@@ -82,13 +82,13 @@ void warn_of_missed_count(const FillReport& report, Warnings& warnings) {
   const double wanted = *report.wanted;
   if (std::abs(static_cast<double>(report.particles) - wanted) <= much_missed * wanted) return;
   warnings.push_back(counted(report.particles, "particle", "particles").append(" instead of the ") +
-                     std::to_string(*report.wanted) + " asked for: " + why_missed(report));
+                     std::to_string(*report.wanted) + " requested: " + why_missed(report));
 }
 
 void warn_of_overlaps(const FillReport& report, Warnings& warnings) {
   if (!report.verification || report.verification->mismatches == 0 || report.deepest < 2) return;
   warnings.push_back(counted(report.verification->mismatches, "place", "places") +
-                     " differ from CGAL, which takes out what two parts of the mesh both cover");
+                     " differ from CGAL, which excludes what two parts of the mesh both cover");
 }
 
 void warn_of_lost_bodies(const FillReport& report, Warnings& warnings) {

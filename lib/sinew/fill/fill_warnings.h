@@ -12,8 +12,8 @@
 
 namespace sinew {
 
-/// One sentence each, with the decisive number and a cure. Examines the surface only where a part of
-/// it was not filled.
+/// One sentence each, with the decisive number and a cure. Examines the surface only where a part
+/// of it was not filled.
 std::vector<std::string> warnings_of(const FillReport& report, const Surface& surface);
 
 /// A warning where a body of that length (m) is so large or so small that its unit may be wrong.

@@ -16,9 +16,9 @@ namespace sinew {
 namespace {
 
 constexpr double coarse_sites = 50000;
-constexpr double well_met = 0.02;  // a count, relative
+constexpr double well_met = 0.02;  // relative error of a count that is accepted
 constexpr int most_rounds = 6;
-constexpr double most_shrink = 3;  // more would be many times the sites that were asked for
+constexpr double most_shrink = 3;  // more would be many times the requested sites
 
 FilledSites fill_at(const BodySpace& space, const PackOptions& options, double radius) {
   FilledSites filled{lattice_in(space.box, options.packing, radius, space.lattice_origin), {}, {}};
@@ -30,7 +30,7 @@ FilledSites fill_at(const BodySpace& space, const PackOptions& options, double r
   filled.runs = filled.inside.runs;
   const double within = clearance_of(options, radius);
   if (within >= space.box.sizes().minCoeff() / 2)
-    filled.runs.clear();  // no place is so deep
+    filled.runs.clear();  // no point is so deep
   else if (within > 0)
     filled.runs =
         runs_without(filled.runs, runs_near(filled.lattice, space.surface.triangles, within));
@@ -110,7 +110,7 @@ class Counter {
 
   std::size_t sites() const { return site_.back(); }
 
-  /// Adds to the counts of a run's sites, and notes the earlier runs that it touches.
+  /// Adds to the counts of a run's sites, and records the earlier runs that it touches.
   void count(std::size_t index, std::int32_t* neighbors, std::vector<Pair>& pairs) const {
     const Run& run = runs_[index];
     const LatticeRow& row = lattice_.rows[run.row];
@@ -149,8 +149,8 @@ class Counter {
 
   const Lattice& lattice_;
   const std::vector<Run>& runs_;
-  std::vector<std::size_t> first_run_;  ///< of each row
-  std::vector<std::size_t> site_;       ///< before each run
+  std::vector<std::size_t> first_run_;  ///< index of each row's first run
+  std::vector<std::size_t> site_;       ///< number of sites before each run
 };
 
 /// Numbers the groups by their first run.

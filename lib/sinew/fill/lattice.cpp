@@ -10,7 +10,7 @@ namespace sinew {
 
 namespace {
 
-/// Of which all coordinates are multiples: sums of two coordinates still fit into 53 bits.
+/// Unit of all coordinates: sums of two coordinates still fit into 53 bits.
 double quantum(const Box& box, const Vec3& origin, const Vec3& unit) {
   const double farthest =
       std::max({box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff(),
@@ -23,14 +23,14 @@ Vec3 rounded(const Vec3& v, double quantum) {
   return (v / quantum).array().round().matrix() * quantum;
 }
 
-/// Steps from the origin to a side of the box. Rounding must not lose a site on the surface.
+/// Steps from the origin to a side of the box. Rounding must not exclude a site on the surface.
 int steps(double length, double unit) { return static_cast<int>(std::floor(length / unit + 1e-9)); }
 
 bool odd(int i) { return i % 2 != 0; }
 
 int floor_third(int i) { return i >= 0 ? i / 3 : -((2 - i) / 3); }
 
-/// Rows along (1, 1, 0) of the sites with i + j + k even: i - j stays the same in each.
+/// Rows along (1, 1, 0) of the sites with i + j + k even: i - j is constant in each.
 void add_fcc_layer(Lattice& lattice, int k) {
   const LatticePlace &low = lattice.low, &high = lattice.high;
   int across = low[0] - high[1];
@@ -44,7 +44,7 @@ void add_fcc_layer(Lattice& lattice, int k) {
   lattice.layers.push_back(layer);
 }
 
-/// Rows along x in steps of 2 r; layers alternate, every second one lies in the first one's dips.
+/// Rows along x in steps of 2 r; layers alternate, every second one above the first one's hollows.
 void add_hcp_layer(Lattice& lattice, int k) {
   const LatticePlace &low = lattice.low, &high = lattice.high;
   const int dip = odd(k) ? 1 : 0;
@@ -125,8 +125,9 @@ Lattice lattice_in(const Box& box, Packing packing, double radius,
   Lattice lattice;
   lattice.packing = packing;
   lattice.radius = radius;
-  lattice.unit = (unit / step).array().ceil().matrix() * step;  // up: spacing is at least 2r, and
-                                                                // a face n planes off stays out
+  lattice.unit =
+      (unit / step).array().ceil().matrix() * step;  // up: spacing is at least 2r, and
+                                                     // a face n layers away stays outside
   lattice.origin = rounded(center, step);
   lattice.along = fcc ? LatticePlace{1, 1, 0} : LatticePlace{2, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {
@@ -146,7 +147,7 @@ LatticeSize lattice_size(const Box& box, double radius) {
 
 namespace {
 
-/// A number near the middle of low .. high whose difference to any double between them is exact; 0
+/// A number near the center of low .. high whose difference to any double between them is exact; 0
 /// where they are near 0 already.
 double exact_shift(double low, double high) {
   const double nearest = std::min(std::abs(low), std::abs(high)), size = high - low;

@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-/// The inertia that belongs to second moments: integral of (x.x 1 - x x^T).
+/// The inertia from second moments: integral of (x.x 1 - x x^T).
 Mat3 inertia_of(const Mat3& second) { return second.trace() * Mat3::Identity() - second; }
 
 }  // namespace
@@ -17,7 +17,7 @@ Vec3 Moments::principal() const {
 }
 
 Moments moments_of(const Triangles& surface) {
-  const Vec3 middle = bounds(surface.points).center();  // keeps digits far from the origin
+  const Vec3 middle = bounds(surface.points).center();  // preserves precision far from the origin
   Moments sum;
   Vec3 first = Vec3::Zero();
   Mat3 second = Mat3::Zero();

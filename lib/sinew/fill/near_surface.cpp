@@ -11,7 +11,7 @@ namespace sinew {
 
 namespace {
 
-/// Within rounding of the direction of the rows: the tilt of a side that may be left out.
+/// Tilt of a side against the rows that is within rounding: such a side may be left out.
 constexpr double no_tilt = 1e-15;
 
 void add(Interval& all, const Interval& part) {
@@ -31,8 +31,8 @@ void keep(Interval& part, double slope, double offset) {
 
 Interval everything() { return {-HUGE_VAL, HUGE_VAL}; }
 
-/// Of length 1, zero for corners on one line. That of a thin face is known to a few digits only,
-/// but must not lean along the face's longest side, where the lever is long.
+/// Of length 1, zero for collinear corners. That of a thin face has few significant digits, but
+/// must not lean along the face's longest side, where the lever arm is long.
 Vec3 unit_normal(const Vec3& edge, const Vec3& next_edge, const Vec3& longest) {
   Vec3 normal = edge.cross(next_edge);
   const double squared_length = longest.squaredNorm();
@@ -97,7 +97,7 @@ DilatedTriangle::Side DilatedTriangle::side(const Vec3& edge, const Vec3& normal
 
 Interval DilatedTriangle::along(double across, double up) const {
   Interval all;
-  Corners from;  // from the corners to the row's point where along is the corner's
+  Corners from;  // from the corners to the row's point at which `along` equals the corner's
   for (int i = 0; i < 3; ++i)
     from[i] = {-corners_[i].x(), across - corners_[i].y(), up - corners_[i].z()};
   for (int i = 0; i < 3; ++i) {
@@ -115,7 +115,7 @@ void DilatedTriangle::add_ball(const Vec3& from, double along, Interval& all) co
   add(all, {along - half, along + half});
 }
 
-/// Keeps what lies between the planes across a side through its ends; x counts from `shift` before
+/// Keeps the part between the planes normal to a side at its ends; x counts from `shift` before
 /// its corner.
 void DilatedTriangle::keep_beside(const Side& side, const Vec3& from, double shift,
                                   Interval& part) {
@@ -124,8 +124,8 @@ void DilatedTriangle::keep_beside(const Side& side, const Vec3& from, double shi
   keep(part, -side.edge.x(), side.squared_length - beside);
 }
 
-/// With x along from the side's corner, t the place beside the side and h the distance from its
-/// line, both seen along the rows: |x - slope t| <= stretch sqrt(d^2 - h^2), cut at both ends.
+/// With x along the row from the side's corner, t the position beside the side and h the distance
+/// from its line, both in projection: |x - slope t| <= stretch sqrt(d^2 - h^2), cut at both ends.
 void DilatedTriangle::add_cylinder(const Side& side, const Vec3& from, double along,
                                    Interval& all) const {
   if (side.squared_length == 0) return;
@@ -156,7 +156,7 @@ void DilatedTriangle::add_slab(const Corners& from, Interval& all) const {
     keep(part, inward.x(),
          inward.x() * shift(i) + from[i].y() * inward.y() + from[i].z() * inward.z());
   }
-  // The sides of a face without area are parallel and would not end.
+  // The sides of a face without area are parallel, so the slab would be unbounded.
   keep_beside(sides_[longest_], from[longest_], shift(longest_), part);
   add(all, {corners_[0].x() + part.low, corners_[0].x() + part.high});
 }
@@ -178,8 +178,8 @@ namespace {
 constexpr int tile_edge = 16;  // layers, and rows of each
 constexpr std::size_t faces_at_a_time = 1024, points_at_a_time = 8192;
 
-/// Parts the rows into tiles, so that what is kept at a time stays small and each row has one
-/// thread. All faces that a tile's rows may meet are put down to it first.
+/// Divides the rows into tiles, so that working memory stays small and each row belongs to one
+/// thread. All faces that may meet a tile's rows are assigned to it first.
 class Rasterizer {
  public:
   Rasterizer(const Lattice& lattice, const Triangles& surface, double distance)
@@ -295,7 +295,7 @@ class Rasterizer {
     found.add(rows_.sites(row, body.along(across, up)));
   }
 
-  /// Counts, then places: a row's runs all come from one tile.
+  /// Counts, then fills: a row's runs all come from one tile.
   std::vector<Run> in_order(const std::vector<std::vector<Run>>& found) const {
     std::vector<std::size_t> next(lattice_.rows.size() + 1, 0);
     for (const auto& tile : found)
@@ -312,8 +312,8 @@ class Rasterizer {
   RowRanges rows_;
   double distance_;
   int tiles_up_, tiles_across_;
-  Points points_;                   ///< of the surface, turned
-  std::vector<std::size_t> first_;  ///< of each tile's faces, and one past the last's end
+  Points points_;                   ///< of the surface, in the lattice's axes
+  std::vector<std::size_t> first_;  ///< index of each tile's first face, and the total number
   std::vector<int> faces_;
 };
 

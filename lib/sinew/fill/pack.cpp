@@ -50,7 +50,7 @@ Particles particles_in(const FilledSites& filled, const Placement& placement) {
   return particles;
 }
 
-/// The body of each particle: the mesh's where it is closed, else what hangs together.
+/// The body of each particle: the mesh's where it is closed, else the connected component.
 std::vector<std::int32_t> components_of(const FilledSites& filled, const Touching& touching) {
   std::vector<std::int32_t> component;
   component.reserve(touching.neighbors.size());
@@ -106,7 +106,7 @@ void report_neighbors(const Touching& touching, const Lattice& lattice, FillRepo
   report.mean_distance = sum / 12 / nearest_distance(lattice.radius);
 }
 
-/// The mass stands for the mesh's volume where particles fill just that, else for their own.
+/// The mass is that of the mesh's volume where the particles fill just that, else of their own.
 void report_mass(Particles& particles, const PackOptions& options, FillReport& report) {
   report.packed = moments_of(particles, volume_per_particle(report.radius));
   report.volume_of_mesh = report.closed && report.deepest <= 1 && report.shallowest >= 0 &&

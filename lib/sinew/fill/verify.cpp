@@ -36,7 +36,7 @@ struct SideOf::Tree {
     side = std::make_unique<CGAL::Side_of_triangle_mesh<Mesh, Kernel>>(tree);
   }
 
-  /// Each face with corners of its own: crossings need no connections, and none can fail.
+  /// Each face has its own corners: crossings need no connectivity, and building cannot fail.
   void add(const Point& a, const Point& b, const Point& c) {
     if (CGAL::collinear(a, b, c)) return;
     mesh.add_face(mesh.add_vertex(a), mesh.add_vertex(b), mesh.add_vertex(c));

@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-/// In quotes where a comma or a quote would end it (RFC 4180).
+/// In quotes where it contains a comma or a quote (RFC 4180).
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";
@@ -23,7 +23,7 @@ constexpr std::string_view head =
     "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n";
 constexpr std::uint64_t largest_table = std::uint64_t{4} << 30;  // bytes
 
-/// Bytes of the first `rows` rows, the head included. Names in quotes may hold line ends.
+/// Bytes of the first `rows` rows including the header. Names in quotes may hold line ends.
 std::uint64_t size_of_rows(const std::filesystem::path& path, std::size_t rows) {
   const std::string text = read_file(path, largest_table);
   bool quoted = false;

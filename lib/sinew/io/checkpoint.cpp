@@ -18,15 +18,15 @@ namespace fs = std::filesystem;
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 1;
 constexpr std::size_t name_size = 8;
-// Bonds have 12 neighbors at rest, from both sides; the rest is for positions, velocities, order.
+// Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
 
 Error refused(const std::string& what) {
   return bad_input(what, "remove the file to go on from an older checkpoint");
 }
 
-/// Walks through all values of a checkpoint in the order of the file, which a writer and a reader
-/// share: transfer(name, value or list of values).
+/// Visits all values of a checkpoint in the order of the file, for both the writer and the reader:
+/// transfer(name, value or list of values).
 template <class State, class Transfer>
 void walk(State& checkpoint, Transfer&& transfer) {
   auto& run = checkpoint.run;
@@ -125,7 +125,7 @@ class Writer {
   Hash hash_;
 };
 
-/// What the sections will take.
+/// Size of all sections.
 class Size {
  public:
   template <class Value>
@@ -175,7 +175,7 @@ class Reader {
     return value;
   }
   std::size_t left() const { return text_.size(); }
-  /// The size of an element of the next section but `skipped`, or 0.
+  /// The element size of the section after `skipped` others, or 0.
   std::uint64_t element_of(std::string_view name) const {
     Reader ahead = *this;
     while (ahead.left() > 0) {
@@ -189,31 +189,31 @@ class Reader {
 
  private:
   std::string_view name() {
-    if (text_.size() < name_size) throw refused("a section is torn");
+    if (text_.size() < name_size) throw refused("a section is truncated");
     const std::string_view padded = text_.substr(0, name_size);
     text_.remove_prefix(name_size);
     return padded.substr(0, std::min(padded.find('\0'), name_size));
   }
   void drop(std::uint64_t size, std::uint64_t count) {
-    if (size == 0 || count > text_.size() / size) throw refused("a section is torn");
+    if (size == 0 || count > text_.size() / size) throw refused("a section is truncated");
     text_.remove_prefix(size * count);
   }
-  /// Elements of the section that begins here; they are there.
+  /// The elements of the section that begins here, which are present.
   std::size_t head(std::string_view expected, std::uint64_t size) {
     if (name() != expected) throw refused("section '" + std::string(expected) + "' is missing");
     const auto found = one<std::uint64_t>(), count = one<std::uint64_t>();
     if (found != size || count > text_.size() / size)
-      throw refused("section '" + std::string(expected) + "' is torn");
+      throw refused("section '" + std::string(expected) + "' is truncated");
     return count;
   }
   template <class Element>
   void fill(std::string_view name, Element* to, std::size_t count) {
     if (head(name, sizeof(Element)) != count)
-      throw refused("section '" + std::string(name) + "' is torn");
+      throw refused("section '" + std::string(name) + "' is truncated");
     take(to, count * sizeof(Element));
   }
   void take(void* to, std::size_t bytes) {
-    if (bytes > text_.size()) throw refused("it is torn");
+    if (bytes > text_.size()) throw refused("it is truncated");
     if (bytes > 0) std::memcpy(to, text_.data(), bytes);
     text_.remove_prefix(bytes);
   }
@@ -227,7 +227,7 @@ std::uint64_t hash_of(std::string_view bytes) {
   return hash.value();
 }
 
-/// The sections of a file that is whole.
+/// The sections of a complete file.
 std::string_view checked(std::string_view text) {
   if (text.size() < head_size + tail_size || text.substr(0, magic.size()) != magic)
     throw refused("it is not a checkpoint");
@@ -239,7 +239,7 @@ std::string_view checked(std::string_view text) {
     throw refused("its format is of version " + std::to_string(version) + ", not " +
                   std::to_string(format_version));
   if (head.one<std::uint64_t>() != text.size())
-    throw refused("it is torn: it has " + std::to_string(text.size()) + " bytes");
+    throw refused("it is truncated or too long: it has " + std::to_string(text.size()) + " bytes");
   const std::string_view body = text.substr(0, text.size() - tail_size);
   if (Reader(text.substr(body.size())).one<std::uint64_t>() != hash_of(body))
     throw refused("its checksum is wrong");
@@ -252,7 +252,7 @@ Checkpoint parsed(std::string_view text, std::uint64_t particles) {
   if (reader.element_of("position") == sizeof(std::int32_t))
     checkpoint.state.moving = MovingInSingle();
   walk(checkpoint, reader);
-  if (reader.left() > 0) throw refused("it goes on after its last section");
+  if (reader.left() > 0) throw refused("it continues after its last section");
   if (checkpoint.run.particles != particles)
     throw refused("it is of " + std::to_string(checkpoint.run.particles) + " particles, not " +
                   std::to_string(particles));
@@ -303,7 +303,7 @@ void Checkpoints::write(const Checkpoint& checkpoint) {
   if (failed)
     throw not_written(folder_.string(), "cannot be created (" + failed.message() + ")",
                       "choose a place you may write to");
-  // The frames before it must not be lost when it is not.
+  // The earlier frames must be on disk before the checkpoint is.
   sync_all(folder_);
   write_checkpoint(file_of(folder_, next_), checkpoint);
   next_ = 1 - next_;

@@ -56,8 +56,8 @@ class Checkpoints {
   /// Replaces the older one. Creates the folder. Throws not written.
   void write(const Checkpoint& checkpoint);
 
-  /// The newest complete one, nothing where there is no file. `complaint` names one that is damaged.
-  /// Throws bad input where all are damaged. Removes incomplete temporary files.
+  /// The newest complete one, nothing where there is no file. `complaint` names one that is
+  /// damaged. Throws bad input where all are damaged. Removes incomplete temporary files.
   std::optional<Checkpoint> newest(std::uint64_t particles, std::string& complaint);
 
  private:

@@ -14,8 +14,8 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t blocks_per_piece = 16;  // enough to pay for a decompressor of its own
-constexpr std::uint64_t largest_block = std::uint64_t{1} << 30;  // what LZ4 can count, by far
+constexpr std::size_t blocks_per_piece = 16;  // enough to amortize a decompressor of its own
+constexpr std::uint64_t largest_block = std::uint64_t{1} << 30;  // below the limit of LZ4
 
 class Decompressor {
  public:
@@ -24,7 +24,7 @@ class Decompressor {
     if (!lz4_ && !zlib_) throw std::bad_alloc();
   }
 
-  /// Whether a block is `count` bytes compressed, which are put at `to`.
+  /// Decompresses a block to `to`; whether it has `count` bytes.
   bool decompress(std::string_view block, unsigned char* to, std::size_t count) const {
     if (!lz4_)
       return libdeflate_zlib_decompress(zlib_.get(), block.data(), block.size(), to, count,
@@ -52,7 +52,7 @@ Decoded owned(std::uint64_t count) {
   return to;
 }
 
-/// Takes `count` bytes, encoded by themselves, from the beginning of `data`.
+/// Takes `count` bytes, encoded separately, from the beginning of `data`.
 std::optional<Decoded> take(std::string_view& data, const Coding& coding, std::uint64_t count) {
   if (count > data.size()) return std::nullopt;
   const std::size_t length = coding.base64 ? base64_size(count) : count;
@@ -66,18 +66,18 @@ std::optional<Decoded> take(std::string_view& data, const Coding& coding, std::u
 }
 
 std::uint64_t word_at(std::string_view bytes, std::size_t at, std::size_t size) {
-  std::uint64_t word = 0;  // of which the lower bytes come first, as everywhere in the file
+  std::uint64_t word = 0;  // little endian, as everywhere in the file
   std::memcpy(&word, bytes.data() + at * size, size);
   return word;
 }
 
-/// Blocks of compressed data, all of `size` bytes but the last one.
+/// Compressed blocks, all of `size` bytes but the last one.
 struct Blocks {
   std::uint64_t size = 0;
-  std::vector<std::uint64_t> starts{0};  ///< of each, compressed, and the end of the last one
+  std::vector<std::uint64_t> starts{0};  ///< of each compressed block, and the end of the last one
 };
 
-/// From the counts before them: their number, their size, that of the last one where it is shorter
+/// From the counts before them: their number, their size, that of the last one if it is shorter
 /// (else 0) and the compressed size of each.
 std::optional<Blocks> take_blocks(std::string_view& data, const Coding& coding,
                                   std::uint64_t count) {
@@ -124,7 +124,7 @@ std::optional<Decoded> decompressed(std::string_view data, const Coding& coding,
   return to;
 }
 
-/// Behind the number of its bytes.
+/// Data after the number of their bytes.
 std::optional<Decoded> plain(std::string_view data, const Coding& coding, std::uint64_t count) {
   auto all = take(data, coding, coding.word + count);
   if (!all || word_at(all->bytes, 0, coding.word) != count) return std::nullopt;

@@ -18,7 +18,7 @@ namespace sinew {
 
 namespace {
 
-// Files say LittleEndian and hold the bytes as they stand in memory.
+// Files declare LittleEndian and hold the bytes as they are in memory.
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t values_per_piece = 4096;
@@ -45,7 +45,7 @@ ValueRange range_of_stored(const Stored* values, std::size_t count, std::size_t 
         squares += static_cast<double>(values[i + k]) * static_cast<double>(values[i + k]);
       value = std::sqrt(squares);
     }
-    if (value < range.low) range.low = value;  // false for what is not a number
+    if (value < range.low) range.low = value;  // false for not-a-number
     if (value > range.high) range.high = value;
   }
   return range;
@@ -95,7 +95,7 @@ ValueRange range_of(const FileArray& array, int components) {
   const std::size_t piece = values_per_piece * width;
   std::vector<ValueRange> parts((array.count + piece - 1) / piece);
   parallel_for(array.count, piece, [&](std::size_t begin, std::size_t end) {
-    // of doubles, for their alignment
+    // an array of doubles, for alignment
     std::vector<double> values(((end - begin) * array.size + sizeof(double) - 1) / sizeof(double));
     auto* bytes = reinterpret_cast<unsigned char*>(values.data());
     array.put(begin, end, bytes);
@@ -111,8 +111,8 @@ ValueRange range_of(const FileArray& array, int components) {
 
 namespace {
 
-constexpr std::size_t blocks_per_piece = 16;  // enough to pay for a compressor of its own
-constexpr int fastest = 1;                    // moving floats gain nothing from the slower levels
+constexpr std::size_t blocks_per_piece = 16;  // enough to amortize a compressor of its own
+constexpr int fastest = 1;  // slower levels do not compress floats of moving bodies better
 
 class Compressor {
  public:
@@ -126,7 +126,7 @@ class Compressor {
                 : libdeflate_zlib_compress_bound(zlib_.get(), count);
   }
 
-  /// Returns the bytes put at `to`, which has room for most(count).
+  /// Returns the bytes written to `to`, which has space for most(count).
   std::size_t compress(const unsigned char* from, std::size_t count, char* to) const {
     if (!lz4_) return libdeflate_zlib_compress(zlib_.get(), from, count, to, most(count));
     return static_cast<std::size_t>(LZ4_compress_fast(reinterpret_cast<const char*>(from), to,
@@ -148,7 +148,7 @@ std::string bytes_of(const std::vector<std::uint64_t>& counts) {
   return {reinterpret_cast<const char*>(counts.data()), counts.size() * sizeof counts[0]};
 }
 
-/// Blocks [begin, end) one after the other; their sizes go to `sizes`.
+/// Appends blocks [begin, end); writes their sizes to `sizes`.
 std::string compressed(const FileArray& array, Encoding encoding, std::size_t begin,
                        std::size_t end, std::uint64_t* sizes) {
   const Compressor compressor(encoding);

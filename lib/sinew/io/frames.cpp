@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-/// Length of an axis stub in lengths of its bone: well seen beside it, short enough not to tangle.
+/// Length of an axis relative to its bone: visible beside it, short enough not to overlap others.
 constexpr double stub = 0.25;
 constexpr std::size_t particles_per_piece = 4096;
 
@@ -20,7 +20,7 @@ Dataset dataset_at(Moment moment) {
   return data;
 }
 
-/// value(i) of the particles in their order, put into the written order.
+/// value(i) of the particles in their order, rearranged into the written order.
 template <class Value>
 Column written_column(const char* name, const Particles& particles, const Value& value) {
   assert(particles.id.size() == particles.size());
@@ -94,7 +94,7 @@ std::vector<Column> columns_of(const Energies& energies) {
           single("work_of_world", energies.work_of_world)};
 }
 
-/// W X Y Z, with W >= 0: of the two quaternions of a rotation always the same one.
+/// W X Y Z, with W >= 0: the unique one of a rotation's two quaternions.
 Column orientation_column(const Pose& pose) {
   std::vector<double> values;
   for (const BonePose& bone : pose) {

@@ -33,7 +33,7 @@ std::uint32_t word_of(const char* bytes) {
 }
 
 Error no_cache(const std::filesystem::path& path) {
-  return bad_input({path.string()}, "is no whole point cache", "run the scene again");
+  return bad_input({path.string()}, "is not a complete point cache", "run the scene again");
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ PointCache::PointCache(const std::filesystem::path& path, std::size_t points, st
   add_bytes(1, header);
   add_bytes(static_cast<std::uint32_t>(points), header);
   add_bytes(bits_of(0), header);  // first frame
-  add_bytes(bits_of(1), header);  // frames from sample to sample
+  add_bytes(bits_of(1), header);  // frames per sample
   add_bytes(0, header);           // samples
   file_.add(header.data(), header.size());
 }

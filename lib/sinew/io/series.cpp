@@ -31,7 +31,7 @@ double time_of(const std::string& text) {
   return time;
 }
 
-/// A PVD from elsewhere must not make us read files outside its folder.
+/// A PVD from elsewhere must not cause reads outside its folder.
 void check_inside(const std::filesystem::path& file) {
   bool inside = !file.empty() && file.is_relative();
   for (const auto& part : file) inside = inside && part != "..";
@@ -84,7 +84,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Often enough to follow a run by eye, seldom enough not to matter beside the frames.
+/// Often enough to follow a run, rarely enough to be negligible beside the frames.
 constexpr std::chrono::seconds pvd_pause{1};
 constexpr std::size_t values_per_piece = 1 << 15;
 
@@ -118,7 +118,7 @@ void refuse_not_finite(const Dataset& frame, const std::string& series, double m
         refuse(column.name);
 }
 
-/// Only files that a series of this name writes: what else lies there is not ours to remove.
+/// Only files that a series of this name writes; others are not removed.
 void remove_older(const fs::path& folder, const std::string& series,
                   const std::vector<PvdRow>& kept) {
   const std::regex ours("\\.?" + series + "_[0-9]{6,}\\.vtu(\\.tmp)?");
@@ -138,7 +138,7 @@ Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
   keep(kept);
   try {
     fs::create_directories(folder_ / format_.series);
-    // The PVD loses its rows first: at no time it names a file that is not there.
+    // The PVD is truncated first: it never lists a file that does not exist.
     if (!rows_.empty()) write_pvd();
     remove_older(folder_, format_.series, rows_);
   } catch (const fs::filesystem_error& error) {
@@ -161,7 +161,7 @@ Series::~Series() {
   try {
     close();
   } catch (const Error&) {
-    // An error is on its way already, or the caller did not want to know.
+    // An exception is already in flight, or the caller ignores errors.
   }
 }
 

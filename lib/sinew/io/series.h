@@ -21,8 +21,8 @@ struct PvdRow {
   std::string file;  ///< relative to the PVD's folder
 };
 
-/// The rows of a PVD file. Throws bad input, naming the file, where it is not a PVD, a time is not a
-/// number, or a row points outside the folder (an absolute path, or one with "..").
+/// The rows of a PVD file. Throws bad input, naming the file, where it is not a PVD, a time is not
+/// a number, or a row points outside the folder (an absolute path, or one with "..").
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
 
 /// The text of a PVD with these rows.

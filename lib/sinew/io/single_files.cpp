@@ -64,7 +64,7 @@ namespace {
 
 Error refused(const std::string& what) { return bad_input(what, "fill the body again"); }
 
-/// The one positive value that all particles share.
+/// The one positive value that all particles have.
 double shared(const std::vector<Column>& columns, const char* name) {
   const std::vector<double>& values = numbers(columns, name);
   const double value = values.front();

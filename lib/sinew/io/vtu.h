@@ -22,7 +22,7 @@ struct VtuFormat {
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;  ///< Float64 for every real number
   std::string series;             ///< which rows of the table apply
-  double radius = 0;  ///< of the particles, m; beyond 1e4 radii Float32 is too coarse
+  double radius = 0;              ///< of the particles, m; beyond 1e4 radii Float32 is too coarse
 };
 
 /// Writes `path` atomically. Throws not written, naming the file.

@@ -17,12 +17,12 @@ constexpr std::string_view appended_path = "VTKFile/AppendedData";
 
 using Names = std::initializer_list<const char*>;
 
-/// What the file says of itself, and its arrays yet encoded.
+/// The attributes of the file, and its arrays still encoded.
 struct VtuFile {
   std::vector<XmlElement> elements;
   VtuArrays arrays;
 
-  /// Those within a group of the grid, such as "Piece/PointData".
+  /// Those in a group of the grid, such as "Piece/PointData".
   std::vector<const XmlElement*> group(const std::string& name) const {
     const std::string numbers = std::string(in_grid) + name + "/DataArray";
     const std::string words = std::string(in_grid) + name + "/Array";
@@ -36,7 +36,7 @@ struct VtuFile {
 void check_start_and_end(std::string_view text) {
   if (!text.starts_with('<') || text.substr(0, 4096).find("<VTKFile") == text.npos)
     throw vtu_refused("it is not a VTK XML file");
-  // A writer that was stopped leaves a file without its last tag.
+  // An interrupted writer leaves a file without its last tag.
   if (!text.substr(0, text.find_last_not_of(" \t\r\n") + 1).ends_with("</VTKFile>"))
     throw vtu_refused("it is cut short");
 }
@@ -156,7 +156,7 @@ bool is_wanted(const XmlElement& array, const std::optional<Names>& names) {
   return !names || std::find(names->begin(), names->end(), array.attribute("Name")) != names->end();
 }
 
-/// All arrays of the points where `names` is none.
+/// All point arrays where `names` is nullptr.
 Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
   const XmlElement& piece = piece_of(file);
   const auto points = file.arrays.count(piece, "NumberOfPoints");

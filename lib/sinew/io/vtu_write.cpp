@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
-#include <sinew/core/arrays.h>
 #include <sinew/io/encode.h>
 #include <sinew/io/vtu.h>
 
 namespace sinew {
 namespace {
 
-/// Float32 has 24 bits: beyond this many radii a particle would move in steps of a thousandth of r.
+/// Float32 has 24 bits: beyond this many radii its resolution is coarser than a thousandth of r.
 constexpr double float32_reach = 1e4;
 constexpr std::size_t points_per_piece = 8192;
 constexpr std::size_t bytes_per_write = 1 << 20;
@@ -25,7 +25,7 @@ bool beyond_float32(const Points& points, double radius) {
          }) > 0;
 }
 
-/// An array with what its element says of it.
+/// An array with the attributes of its element.
 struct Element {
   std::string name;
   int components = 1;
@@ -76,7 +76,7 @@ Element points_element(const Dataset& data, const VtuFormat& format) {
   return {"Points", 3, row, reals(first, 3 * data.points.size(), row, float64)};
 }
 
-/// Cells of the dataset's kind first, then its lines.
+/// Cells of the dataset's kind, then its lines.
 std::vector<Element> cell_elements(const Dataset& data) {
   const auto size = static_cast<std::size_t>(data.kind);
   const std::size_t corners = data.connectivity.size(), alike = corners / size;
@@ -95,7 +95,7 @@ std::vector<Element> cell_elements(const Dataset& data) {
           {"types", 1, nullptr, bytes_array(data.cells(), type)}};
 }
 
-/// ` Scalars="bone" Vectors="displacement"`, as far as there are such.
+/// ` Scalars="bone" Vectors="displacement"`, where there are any.
 std::string active_arrays(const std::vector<Element>& elements) {
   std::string scalars, vectors;
   for (const Element& element : elements) {
@@ -211,7 +211,7 @@ class VtuText {
   std::uint64_t offset_ = 0;  ///< of the next array in the appended data
 };
 
-/// All up to the field data.
+/// All parts up to the field data.
 std::string vtu_opening(Encoding encoding) {
   std::string tag =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
@@ -234,8 +234,8 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   const std::vector<Element> points{points_element(data, format)};
   const auto cells = cell_elements(data);
   NewFile file(path);
-  // Appended data, base64 too, is lost on ParaView 5.11 with an expat of 2024 or later, which
-  // Debian 12 has by its updates: only data within the elements is safe.
+  // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read
+  // appended data, not even in base64: only data in the elements is safe.
   VtuText text(file, format.encoding);
   text.add(vtu_opening(format.encoding));
   text.add_group("FieldData", "", field);

@@ -14,13 +14,13 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_elements = 200'000;  // of some hundred bytes of memory each
+constexpr std::size_t most_elements = 200'000;  // of about a hundred bytes each
 constexpr std::size_t longest_path = 1000;      // characters; bounds the depth, too
 constexpr std::size_t longest_tag = 1 << 20;    // bytes
 
 Error refused(const std::string& what) { return bad_input(what, "write the file again"); }
 
-/// Of the tag at the beginning of `xml`, behind its '>'; those in quotes are passed over.
+/// Length of the tag at the beginning of `xml`, including its '>'; those in quotes are skipped.
 std::size_t length_of_tag(std::string_view xml) {
   constexpr std::string_view comment = "<!--", comment_end = "-->";
   if (xml.starts_with(comment)) {
@@ -58,7 +58,7 @@ class Elements {
  private:
   using Parser = std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)>;
 
-  /// expat gets whole tags, each with the text before it unless that is an element's own.
+  /// Passes expat whole tags, each with the text before it unless that is an element's own.
   void read_tag() {
     std::size_t tag = std::min(left_.find('<'), left_.size());
     if (open_) {
@@ -96,7 +96,7 @@ class Elements {
     at_last_ = path_ == last_;
   }
 
-  /// No exception must leave through expat, which is C.
+  /// Exceptions must not pass through expat, which is C.
   static void begun(void* self, const char* name, const char** attributes) {
     auto& elements = *static_cast<Elements*>(self);
     try {
@@ -118,8 +118,8 @@ class Elements {
   std::string_view left_, last_;
   std::string path_;
   std::vector<XmlElement> elements_;
-  bool open_ = false;     ///< the tag read last begins the element read last
-  bool at_last_ = false;  ///< which is the one to stop at
+  bool open_ = false;     ///< the last tag read begins the last element read
+  bool at_last_ = false;  ///< that element is the one to stop at
   std::exception_ptr thrown_;
 };
 

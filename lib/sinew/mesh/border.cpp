@@ -70,7 +70,7 @@ namespace {
 
 constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 
-/// The points of each group as nodes, with the edges that leave them.
+/// The points of each group as nodes, with their outgoing edges.
 class BorderGraph {
  public:
   explicit BorderGraph(std::vector<BorderEdge> edges) : edges_(std::move(edges)) {
@@ -91,7 +91,7 @@ class BorderGraph {
   int point(std::size_t node) const { return places_[node].second; }
   bool exhausted(std::size_t node) const { return next_[node] == begin_[node + 1]; }
 
-  /// Takes the next edge that leaves a node; gives the node it comes to.
+  /// Takes the next outgoing edge of a node; returns the node at its end.
   std::size_t step(std::size_t node) {
     const std::pair<int, int> wanted = {group(node), edges_[next_[node]++].to};
     return static_cast<std::size_t>(std::lower_bound(places_.begin(), places_.end(), wanted) -
@@ -107,7 +107,7 @@ class BorderGraph {
   std::vector<std::size_t> begin_;           ///< per node, its first edge, and one past all
 };
 
-/// The loop that ends a walk which has come back to its node at `begin`; the walk loses it.
+/// Splits off the loop of a walk that has returned to its node at `begin`.
 Loop cut_off(const BorderGraph& graph, std::vector<std::size_t>& walk, std::size_t begin) {
   Loop loop{graph.group(walk[begin]), {}};
   for (std::size_t i = begin; i < walk.size(); ++i) loop.points.push_back(graph.point(walk[i]));

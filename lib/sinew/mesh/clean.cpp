@@ -45,7 +45,7 @@ void check_soup(const PolygonSoup& soup) {
 
 namespace {
 
-constexpr double largest_coordinate = 1e90;  // its cube and sums of that are still numbers
+constexpr double largest_coordinate = 1e90;  // its cube and sums of cubes do not overflow
 
 void refuse_empty(const Surface& surface) {
   if (!surface.triangles.faces.empty()) return;
@@ -60,7 +60,7 @@ void refuse_large(const Points& points) {
   for (const Vec3& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
   if (largest <= largest_coordinate) return;
   throw bad_input("a coordinate is " + three_digits(largest) + " m from 0, more than 1e+90 m",
-                  "give a body of a size that numbers can hold");
+                  "scale the body down, or set its unit");
 }
 
 void turn(Surface& surface, std::vector<EdgeUse>& uses) {

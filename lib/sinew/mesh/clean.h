@@ -10,8 +10,8 @@
 
 namespace sinew {
 
-/// Throws Error (bad input) unless the soup has faces, each of three corners or more that are points
-/// of it, and finite coordinates.
+/// Throws Error (bad input) unless the soup has faces, each of three corners or more that are
+/// points of it, and finite coordinates.
 void check_soup(const PolygonSoup& soup);
 
 struct CleaningOptions {
@@ -23,11 +23,11 @@ struct CleaningOptions {
 /// without defects keeps its points in file order), drops collapsed faces, merges doubled ones in
 /// either orientation, makes orientations agree across edges of two faces, following most of the
 /// area, and turns bodies outward by the sign of the volume they enclose once their holes are
-/// capped. Pieces too flat to decide follow the others. A shell inside another one is a cavity where
-/// its orientation in the file is opposite; with the rule `hollow` every second shell is one. Shells
-/// that cut each other are separate bodies. Holes, crowded edges and self-intersections are counted,
-/// never refused. Throws Error (bad input), naming the decisive number and a cure, where no face is
-/// left or coordinates are too large for volumes to be computed.
+/// capped. Pieces too flat to decide follow the others. A shell inside another one is a cavity
+/// where its orientation in the file is opposite; with the rule `hollow` every second shell is one.
+/// Shells that cut each other are separate bodies. Holes, crowded edges and self-intersections are
+/// counted, never refused. Throws Error (bad input), naming the decisive number and a cure, where
+/// no face is left or coordinates are too large for volumes to be computed.
 Surface clean(const PolygonSoup& soup, const CleaningOptions& options = {});
 
 }  // namespace sinew

@@ -18,7 +18,7 @@ namespace sinew {
 
 namespace {
 
-// Distances are rounded anyway, and nobody asks which side of anything they decide.
+// Distances are rounded anyway, and no side is decided by them.
 using RoundedKernel = CGAL::Simple_cartesian<double>;
 using RoundedFaces = std::vector<RoundedKernel::Triangle_3>;
 using RoundedPrimitive = CGAL::AABB_triangle_primitive<RoundedKernel, RoundedFaces::const_iterator>;
@@ -30,7 +30,7 @@ RoundedKernel::Point_3 rounded_point(const Vec3& p) { return {p.x(), p.y(), p.z(
 
 struct NearestFace::Tree {
   RoundedFaces faces;
-  std::vector<std::size_t> number;  ///< of each in the surface
+  std::vector<std::size_t> number;  ///< of each face in the surface
   Boxes boxes;
 };
 
@@ -69,7 +69,7 @@ using Node = CGAL::AABB_node<Traits>;
 
 constexpr int places = 2000, stride = 617;  // coprime: any first part of them is spread as well
 constexpr double thin_share = 0.01;
-// Looked at on all lines, some seconds: usual are some hundreds a line, fans of needles have all.
+// Boxes visited by all lines, some seconds: hundreds per line are usual, in fans of needles all.
 constexpr std::size_t most_boxes = 20'000'000;
 
 Kernel::Point_3 point_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
@@ -79,9 +79,9 @@ struct Probing {
   Vec3 point, inward;
 };
 
-/// Places that each stand for the same area, in scattered order.
+/// Points that each represent the same area, in scattered order.
 std::vector<Probing> spread(const Triangles& surface) {
-  std::vector<double> until;  // area up to and with each face
+  std::vector<double> until;  // cumulative area, including each face
   double sum = 0;
   for (const auto& face : surface.faces) until.push_back(sum += face_area(surface, face));
   std::vector<Probing> result;
@@ -90,7 +90,7 @@ std::vector<Probing> spread(const Triangles& surface) {
     const auto found = std::upper_bound(until.begin(), until.end(), (k + 0.5) / places * sum);
     const int face = static_cast<int>(std::min(found, until.end() - 1) - until.begin());
     const auto& [a, b, c] = surface.faces[face];
-    double ignored;  // within large faces, a sequence that fills the plane evenly
+    double ignored;  // inside large faces, a sequence that fills the plane evenly
     double u = std::modf(k * 0.7548776662466927, &ignored);
     double v = std::modf(k * 0.5698402909980532, &ignored);
     if (u + v > 1) u = 1 - u, v = 1 - v;
@@ -101,7 +101,7 @@ std::vector<Probing> spread(const Triangles& surface) {
   return result;
 }
 
-/// Takes the faces a line meets on a walk through the tree.
+/// Collects the faces that a line meets in a traversal of the tree.
 struct Probe {
   bool go_further() const { return true; }
   bool do_intersect(const Kernel::Line_3& line, const Node& node) {
@@ -116,10 +116,10 @@ struct Probe {
   std::vector<Faces::const_iterator> met;
 };
 
-/// Where a line meets a face: how far along, and whether it comes out of the body there.
+/// A crossing of a line with a face: distance, and whether the line leaves the body there.
 struct Crossing {
   double distance;
-  int out;  ///< 1, or -1 where it goes in
+  int out;  ///< 1, or -1 where it enters
 };
 
 class Rays {
@@ -136,15 +136,15 @@ class Rays {
     tree_.rebuild(faces_.cbegin(), faces_.cend());
   }
 
-  /// From a place to where as many parts are left as were entered; nothing where the place lies
-  /// within another part, or there is no end.
+  /// Distance from a point to where as many parts are left as were entered; nothing where the point
+  /// is inside another part, or the line does not leave.
   std::optional<double> thickness(const Probing& place) {
     std::vector<Crossing> crossings = crossings_of(place);
     std::sort(crossings.begin(), crossings.end(),
               [](const Crossing& a, const Crossing& b) { return a.distance < b.distance; });
     int outside = 0, parts = 1;
     for (const Crossing& crossing : crossings)
-      if (crossing.distance < 0) outside -= crossing.out;  // seen in the other direction
+      if (crossing.distance < 0) outside -= crossing.out;  // behind the point
     if (outside != 0) return std::nullopt;
     for (const Crossing& crossing : crossings)
       if (crossing.distance >= 0 && (parts -= crossing.out) == 0) return crossing.distance;

@@ -19,13 +19,13 @@ int third_corner(const std::array<int, 3>& face, int a, int b) {
   return a;
 }
 
-/// By where they leave.
+/// Sorted by their start.
 std::vector<HoleEdge> open_edges(const Triangles& surface) {
   std::vector<HoleEdge> open;
   const std::vector<EdgeUse> uses = edge_uses(surface);
   for_each_edge(uses, [&](std::span<const EdgeUse> use) {
     const int count = net_count(use), low = use[0].low, high = use[0].high;
-    if (low == high || count == 0) return;  // a face with a corner twice has a side of one point
+    if (low == high || count == 0) return;  // a face with a repeated corner has a side of one point
     const bool forward = count > 0;
     const auto one = std::find_if(use.begin(), use.end(),
                                   [&](const EdgeUse& side) { return side.forward == forward; });
@@ -46,8 +46,8 @@ struct Way {
   int edge;
 };
 
-/// Where a way meets itself at a point, it is two holes when both parts turn the same way. A part
-/// that turns against the rest goes around an island in a hole.
+/// A path that meets itself at a point is two holes where both parts have the same orientation. A
+/// part of the opposite orientation encircles an island in a hole.
 class PinchCutter {
  public:
   explicit PinchCutter(const Points& points) : points_(points), place_(points.size(), -1) {}
@@ -82,7 +82,7 @@ class PinchCutter {
   }
 
   const Points& points_;
-  std::vector<int> place_;  ///< per point, of the last edge of the rest that leaves it
+  std::vector<int> place_;  ///< per point, of the last outgoing edge of the rest
 };
 
 class Walker {
@@ -107,7 +107,7 @@ class Walker {
   }
 
  private:
-  /// As many edges come to each point as leave it.
+  /// Each point has as many incoming as outgoing edges.
   std::vector<int> next_edges() const {
     std::vector<int> coming(edges_.size()), next(edges_.size());
     std::iota(coming.begin(), coming.end(), 0);
@@ -123,8 +123,8 @@ class Walker {
     return next;
   }
 
-  /// Clockwise around a point, by edges that come to it and those from `first` on that
-  /// leave it.
+  /// Clockwise around a point: the incoming edges and the outgoing ones from `first`
+  /// on.
   std::vector<Way> ways(std::span<const int> coming, int first) const {
     const int point = edges_[first].from;
     const bool known = normals_[point].squaredNorm() > 0.5;
@@ -146,8 +146,8 @@ class Walker {
     return all;
   }
 
-  /// A hole lies on the left of its edges, clockwise from the one that comes to the one that
-  /// leaves: matched as brackets are, from where they close as many as they open.
+  /// A hole is on the left of its edges, clockwise from the incoming to the outgoing one: they are
+  /// matched as brackets, starting where as many are closed as opened.
   static void join(std::vector<Way> clockwise, std::vector<int>& next) {
     int depth = 0, least = 0;
     auto start = clockwise.begin();

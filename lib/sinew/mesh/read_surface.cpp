@@ -45,7 +45,7 @@ PolygonSoup soup_of(const Triangles& triangles) {
   return soup;
 }
 
-/// Cleans again what a repair has made; what was done to the file is still told.
+/// Cleans the result of a repair again; keeps the counts of the first cleaning.
 Surface cleaned_again(const Surface& before, const Triangles& repaired, FillRule rule) {
   Surface surface = clean(soup_of(repaired), {0, rule});
   const CleaningCounts again = surface.cleaning;
@@ -55,7 +55,7 @@ Surface cleaned_again(const Surface& before, const Triangles& repaired, FillRule
   return surface;
 }
 
-/// A loose face is closed by its own back: both go, they enclose nothing.
+/// A single face is closed by its own reverse: both are dropped, as they enclose nothing.
 void drop_closed_sheets(HoleClosing& closing) {
   std::vector<std::array<int, 3>>& faces = closing.triangles.faces;
   std::map<std::array<int, 3>, int> uses;

@@ -23,10 +23,10 @@ using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Face = std::array<int, 3>;
 
 constexpr std::size_t most_edges = 1000;       // CGAL's tables grow with the square
-constexpr std::size_t most_edges_cubic = 100;  // all triangles instead of Delaunay's: the cube
+constexpr std::size_t most_edges_cubic = 100;  // all triangles instead of Delaunay's: cubic time
 
 struct Corners {
-  int a, b, c;  ///< places in a hole
+  int a, b, c;  ///< indices into a hole
   Corners(int first, int second, int third) : a(first), b(second), c(third) {}
 };
 
@@ -34,7 +34,7 @@ class Closer {
  public:
   explicit Closer(Triangles& surface) : surface_(surface) {}
 
-  /// Faces that go along the hole's edges.
+  /// Faces on the hole's edges.
   void close(const Hole& hole) {
     if (hole.size() == 3) return add(hole, {0, 1, 2});
     const auto found = triangulated(hole);
@@ -55,7 +55,7 @@ class Closer {
     return {p.x(), p.y(), p.z()};
   }
 
-  /// Nothing where CGAL finds nothing.
+  /// Nothing where CGAL finds no triangulation.
   std::vector<Corners> triangulated(const Hole& hole) const {
     std::vector<Corners> faces;
     if (hole.size() > most_edges) return faces;
@@ -65,7 +65,8 @@ class Closer {
       if (edge.opposite >= 0) opposite.push_back(point(edge.opposite));
     }
     if (opposite.size() < points.size()) opposite.clear();
-    // Said to be optional, but where the first point equals the last CGAL takes that for it.
+    // Documented as optional, but where the first point equals the last CGAL assumes that it is
+    // given.
     points.push_back(points.front());
     if (!opposite.empty()) opposite.push_back(opposite.front());
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
@@ -115,8 +116,8 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-constexpr double offset_share = 1.0 / 30;       // of alpha: what CGAL takes where none is given
-constexpr double faces_per_square = 2.5;        // of edge alpha: measured, where nothing leaks
+constexpr double offset_share = 1.0 / 30;       // of alpha: CGAL's default
+constexpr double faces_per_square = 2.5;        // of edge alpha: measured, without leaks
 constexpr double most_faces = 1e6;              // minutes
 constexpr std::size_t most_points = 2'000'000;  // some GB, where it leaks into every corner
 
@@ -175,7 +176,7 @@ Triangles triangles_of(const Mesh& mesh, const Vec3& origin) {
 }
 
 Triangles wrapped(const Triangles& surface, double alpha) {
-  const Vec3 middle = bounds(surface.points).center();  // far from 0 digits would be missing
+  const Vec3 middle = bounds(surface.points).center();  // far from 0 precision would be lost
   std::vector<Point> points;
   points.reserve(surface.points.size());
   for (const Vec3& point : surface.points) {
@@ -190,7 +191,7 @@ Triangles wrapped(const Triangles& surface, double alpha) {
   return triangles_of(mesh, middle);
 }
 
-/// What an open surface encloses once its holes are capped; 0 for a closed one.
+/// The volume that an open surface encloses once its holes are capped; 0 for a closed one.
 double volume_behind_holes(const Triangles& surface) {
   const Triangles caps = caps_of(border_loops(edge_uses(surface)), surface.points);
   if (caps.faces.empty()) return 0;

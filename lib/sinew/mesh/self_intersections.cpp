@@ -20,9 +20,9 @@ using Point = Kernel::Point_3;
 using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 using Face = std::array<int, 3>;
 
-constexpr std::size_t least_tests = 2'000'000, tests_per_face = 20;  // usual are 5 to 12
+constexpr std::size_t least_tests = 2'000'000, tests_per_face = 20;  // 5 to 12 are usual
 
-/// Brings corners that both faces have to the front, in the same order; returns how many.
+/// Moves the corners that both faces share to the front, in the same order; returns their number.
 int align(Face& a, Face& b) {
   int shared = 0;
   for (int i = 0; i < 3; ++i) {
@@ -42,7 +42,7 @@ class PairTest {
   bool meet(Face a, Face b) const {
     const int shared = align(a, b);
     if (shared == 0) return CGAL::do_intersect(triangle(a), triangle(b));
-    if (shared == 1)  // beyond the corner they share, one's far side must cross the other
+    if (shared == 1)  // beyond the shared corner, the far side of one must cross the other
       return !aside(a, b) && !aside(b, a) &&
              (CGAL::do_intersect(triangle(a), Kernel::Segment_3(point(b[1]), point(b[2]))) ||
               CGAL::do_intersect(triangle(b), Kernel::Segment_3(point(a[1]), point(a[2]))));
@@ -56,7 +56,7 @@ class PairTest {
   CGAL::Bbox_3 box(const Face& face) const { return triangle(face).bbox(); }
 
  private:
-  /// Whether all of b but the corner they share lies on one side of a's plane: the usual case.
+  /// Whether all of b but the shared corner is on one side of a's plane: the usual case.
   bool aside(const Face& a, const Face& b) const {
     const auto side = [&](int i) {
       return CGAL::orientation(point(a[0]), point(a[1]), point(a[2]), point(i));
@@ -64,7 +64,7 @@ class PairTest {
     return side(b[1]) != CGAL::COPLANAR && side(b[1]) == side(b[2]);
   }
 
-  /// Two faces at one edge overlap only when one is folded flat onto the other.
+  /// Two faces at one edge overlap only where one is folded flat onto the other.
   bool folded(const Face& a, const Face& b) const {
     const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(b[2]);
     return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
@@ -78,7 +78,7 @@ class PairTest {
   const Points& points_;
 };
 
-/// What is tested: a face, or a part of one.
+/// A tested face, or a part of one.
 struct Part {
   Face corners;
   int face;
@@ -100,7 +100,7 @@ Middles middles_of(const Triangles& surface, const PairTest& test) {
   return middles;
 }
 
-/// Cuts a face until none of its sides has a point in its middle.
+/// Cuts a face until none of its sides has a point between its ends.
 void add_parts(const Part& part, const Middles& middles, std::vector<Part>& parts) {
   for (int i = 0; i < 3; ++i) {
     const int from = part.corners[i], to = part.corners[(i + 1) % 3],
@@ -125,7 +125,7 @@ std::vector<Part> parts_of(const Triangles& surface, const PairTest& test) {
 
 struct Enough {};
 
-/// Takes pairs of boxes and keeps those whose parts meet.
+/// Receives pairs of boxes and keeps those whose parts intersect.
 class Search {
  public:
   Search(const Triangles& surface, const PairTest& test, std::size_t most)

@@ -21,9 +21,9 @@ struct SelfIntersections {
 };
 
 /// Searches until `most` pairs are found or 2 10^6 pairs of faces whose boxes meet are tested (20
-/// per face, if that is more): long thin faces may have as many as the square of their number. Faces
-/// without area are left out. Where one lies along a side of another face, with a point between the
-/// side's ends, the other counts as two faces that share that point.
+/// per face, if that is more): long thin faces may have as many as the square of their number.
+/// Faces without area are left out. Where one lies along a side of another face, with a point
+/// between the side's ends, the other counts as two faces that share that point.
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most = 100000);
 
 /// Per face, whether its corners lie on one line: exact, by CGAL's predicates.

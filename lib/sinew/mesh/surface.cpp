@@ -5,7 +5,7 @@ namespace sinew {
 
 namespace {
 
-/// The part of a loop from its point `from` to its point `to`, whose chord the rest of the cap has.
+/// The cap of the part of a loop from point `from` to point `to`; its chord belongs to the rest.
 void cut_off(int first, int from, int to, Triangles& caps) {
   if (to - from < 2) return;
   const int middle = from + (to - from) / 2;
@@ -32,7 +32,7 @@ Triangles caps_of(std::span<const Loop> loops, const Points& points) {
 std::vector<double> component_volumes(const Surface& surface) {
   std::vector<double> sums(surface.components);
   const Points& points = surface.triangles.points;
-  const Vec3 middle = bounds(points).center();  // keeps digits far from the origin
+  const Vec3 middle = bounds(points).center();  // preserves precision far from the origin
   for (std::size_t i = 0; i < surface.triangles.faces.size(); ++i) {
     const auto& [a, b, c] = surface.triangles.faces[i];
     const Vec3 p = points[a] - middle, q = points[b] - middle, r = points[c] - middle;

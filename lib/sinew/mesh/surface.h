@@ -18,8 +18,8 @@ namespace sinew {
 
 // Caps, which close holes.
 
-/// Adds to `caps` faces on copies of the loop's points, traversing its edges in the other direction.
-/// The loop is halved recursively, so that most faces are small and near the border.
+/// Adds to `caps` faces on copies of the loop's points, traversing its edges in the other
+/// direction. The loop is halved recursively, so that most faces are small and near the border.
 void add_cap(const Loop& loop, const Points& points, Triangles& caps);
 
 /// All of them, in the order of the loops.

@@ -15,7 +15,7 @@ namespace sinew {
 
 namespace {
 
-// Nearer to the surface than this, over its size, the way to it has no direction.
+// Relative to the surface's size: closer points have no direction to the surface.
 constexpr double nearness = 1e-9;
 
 std::vector<Corners> corners_of(const Triangles& surface) {
@@ -66,7 +66,7 @@ constexpr std::size_t piece = 256;
 // Exact for quadratics over a triangle.
 constexpr double corner_weight = 1.0 / 12, center_weight = 3.0 / 4;
 
-/// place(i) for all i < count, and how far each is from a surface.
+/// place(i) for all i < count, and the distance of each from a surface.
 template <class Place>
 std::vector<double> distances(std::size_t count, const NearestFace& to, const Place& place) {
   std::vector<double> found(count);
@@ -92,7 +92,7 @@ OneWay one_way(const Triangles& from, const NearestFace& to) {
   const auto at_corners = distances(from.points.size(), to, corner);
   const auto at_centers = distances(from.faces.size(), to, center);
   OneWay all;
-  for (std::size_t f = 0; f < from.faces.size(); ++f) {  // in order, for the same bits every time
+  for (std::size_t f = 0; f < from.faces.size(); ++f) {  // in order, for the same bits
     const double area = face_area(from, from.faces[f]);
     double sum = center_weight * at_centers[f];
     all.farthest = std::max(all.farthest, at_centers[f]);

@@ -11,7 +11,7 @@ namespace {
 constexpr int leaf_faces = 4;
 constexpr double nearness = 1e-10;
 
-/// Rays go along z of a frame that no mesh has its faces along.
+/// Rays run along z of a frame in which faces of usual meshes are oblique.
 const Mat3& frame() {
   static const Mat3 turned = Quat(0.7236, 0.3517, -0.4931, 0.2871).normalized().toRotationMatrix();
   return turned;
@@ -23,18 +23,18 @@ Box box_of(const Corners& face) {
   return box;
 }
 
-/// 1 where the side from `a` to `b` passes the point on its right upwards, -1 downwards, else 0.
+/// 1 where the side from `a` to `b` passes the point on its right upward, -1 downward, else 0.
 int pass(const Vec3& a, const Vec3& b, const Vec3& point) {
   const bool up = a.y() <= point.y() && b.y() > point.y();
   const bool down = b.y() <= point.y() && a.y() > point.y();
   if (!up && !down) return 0;
-  const Vec3 &low = up ? a : b, &high = up ? b : a;  // for both faces of the side the same
+  const Vec3 &low = up ? a : b, &high = up ? b : a;  // the same for both faces of the side
   const double turn =
       (high.x() - low.x()) * (point.y() - low.y()) - (point.x() - low.x()) * (high.y() - low.y());
   return turn > 0 ? (up ? 1 : -1) : 0;
 }
 
-/// How often the face goes around the point, seen along z.
+/// Signed crossing of the ray along z from the point with the face.
 int turns(const Corners& f, const Vec3& point) {
   return pass(f[0], f[1], point) + pass(f[1], f[2], point) + pass(f[2], f[0], point);
 }

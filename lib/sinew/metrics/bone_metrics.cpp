@@ -43,13 +43,13 @@ constexpr std::array table = {
                "mean J where |c - joint| > sqrt(A_B) / 2", &M::volume_far_ratio},
 };
 
-/// What is wrong with the place of one particle.
+/// Errors in the position of one particle.
 struct Miss {
   double radial = 0, pose = 0;  ///< m
-  double twist = not_measured;  ///< rad; not about the axis itself
+  double twist = not_measured;  ///< rad; not for a particle on the axis
 };
 
-constexpr double on_axis = 1e-9;  // of l0: nearer than that a particle has no direction to turn
+constexpr double on_axis = 1e-9;  // of l0: closer to the axis a particle has no angle about it
 
 Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) {
   const RigidFrame& before = rest.bones[bound.bone].rest;
@@ -116,7 +116,7 @@ std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& s
     for (std::size_t k = begin; k < end; ++k) misses[k] = miss_of(rest, state, rest.bound[k]);
   });
   std::vector<Misses> bones(rest.bones.size());
-  for (std::size_t k = 0; k < misses.size(); ++k) {  // in order, for the same bits every time
+  for (std::size_t k = 0; k < misses.size(); ++k) {  // in order, for the same bits
     const Bound& bound = rest.bound[k];
     Misses& bone = bones[bound.bone];
     add(bone, misses[k], bound.far);

@@ -33,7 +33,7 @@ Json json_of(std::span<const Check> checks) {
   return all;
 }
 
-/// The file's text; names that are no UTF-8 are made so.
+/// The file's text; names that are not UTF-8 are converted.
 std::string json_text(const Json& file) {
   return file.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

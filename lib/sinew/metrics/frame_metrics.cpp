@@ -30,7 +30,7 @@ void check(const RestBody& rest, const FrameState& state) {
                                                        " bones and the body " +
                                                        std::to_string(rest.bones.size()));
   require(state.broken_bonds.empty() || state.broken_bonds.size() == n,
-          "tells the broken bonds of " + std::to_string(state.broken_bonds.size()) +
+          "has the broken bonds of " + std::to_string(state.broken_bonds.size()) +
               " particles and the body has " + std::to_string(n));
   for (std::size_t i = 0; i < state.broken_bonds.size(); ++i)
     require(0 <= state.broken_bonds[i] &&

@@ -16,7 +16,7 @@ namespace sinew {
 namespace {
 
 constexpr std::array<std::string_view, 5> over_names{"", "min", "max", "mean", "final"};
-// Longer ones first: ">" would eat the start of ">=".
+// Longer ones first: ">" would match the start of ">=".
 constexpr std::array<std::pair<std::string_view, Comparison>, 5> operators{
     {{">=", Comparison::at_least},
      {"<=", Comparison::at_most},
@@ -65,8 +65,7 @@ void read_subject(Limit& limit, std::string_view subject, std::string_view expre
     const std::string_view form = trimmed(subject.substr(0, open));
     const auto found = std::find(over_names.begin() + 1, over_names.end(), form);
     if (found == over_names.end() || subject.back() != ')')
-      throw unreadable(expression,
-                       "only min(), max(), mean() and final() can stand around a metric");
+      throw unreadable(expression, "only min(), max(), mean() and final() can enclose a metric");
     limit.over = static_cast<Over>(found - over_names.begin());
     subject = trimmed(subject.substr(open + 1, subject.size() - open - 2));
   }
@@ -90,14 +89,14 @@ bool passed(Comparison comparison, double value, double limit) {
   return false;
 }
 
-/// How near a value is to passing the limit: larger is nearer.
+/// How near a value is to violating the limit: larger is nearer.
 double nearness(const Limit& limit, double value) {
   if (limit.comparison == Comparison::equal) return -std::abs(value - limit.value);
   const bool up = limit.comparison == Comparison::above || limit.comparison == Comparison::at_least;
   return up ? value : -value;
 }
 
-/// The first frame whose value is nearest to passing, of those that were measured.
+/// The measured frame whose value is nearest to violating the limit, the first of several.
 template <class Nearness>
 std::optional<std::size_t> nearest_frame(std::span<const FrameMetrics> frames, const Metric& metric,
                                          const Nearness& near) {

@@ -73,7 +73,7 @@ struct Within {
   double near = 0, far = 0;
 };
 
-/// How many of value(k) for k < count, squares of distances, are within each.
+/// Numbers of value(k), squared distances for k < count, within each range.
 template <class Squared>
 Within count_within(std::size_t count, double near, double far, const Squared& squared) {
   Within found;
@@ -89,8 +89,8 @@ void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& no
                      std::span<const Neighbor> neighbors, std::size_t i) {
   const double near = rest_neighbor_range(rest.radius), far = rest.interaction_range;
   const auto before = rest.shape.neighbors.of(i);
-  const Within all =
-      count_within(neighbors.size(), near, far, [&](std::size_t k) { return neighbors[k].squared; });
+  const Within all = count_within(neighbors.size(), near, far,
+                                  [&](std::size_t k) { return neighbors[k].squared; });
   const Within kept = count_within(before.size(), near, far, [&](std::size_t k) {
     return (now[i] - now[before[k]]).squaredNorm();
   });
@@ -106,7 +106,7 @@ Mat3 virial(double force, const Vec3& apart, double d) {
   return -force / d * apart * apart.transpose();
 }
 
-/// Of a particle's own volume: the stress of U = (K_v / 2) V0 w (J - 1)^2, over V0.
+/// Of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2: the stress, over V0.
 Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
   if (rest.stiffened.empty() || rest.stiffened[i] == 0) return Mat3::Zero();
   const double J = deformation_gradient(rest.shape, now, i).determinant();
@@ -144,7 +144,7 @@ double von_mises(const Mat3& stress) {
 }
 
 void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                   std::vector<Neighbor>& found) {
+                    std::vector<Neighbor>& found) {
   found.clear();
   grid.for_each_near(now[i], [&](std::uint32_t j) {
     const Vec3 apart = now[i] - now[j];
@@ -260,7 +260,7 @@ Column inverted(std::string_view name, const std::vector<double>& J) {
   return column(std::string(name), std::move(flags));
 }
 
-/// One of those that frames are measured with.
+/// One of the values that frames are measured with.
 Column scalar(std::string_view name, const ParticleValues& values) {
   using V = ParticleValues;
   constexpr std::array<std::pair<std::string_view, std::vector<double> V::*>, 6> members{
@@ -274,7 +274,7 @@ Column scalar(std::string_view name, const ParticleValues& values) {
   const auto* member = std::find_if(members.begin(), members.end(),
                                     [&](const auto& one) { return one.first == name; });
   std::vector<double> copy = values.*member->second;
-  copy.resize(values.J.size(), not_measured);  // stresses that are not known
+  copy.resize(values.J.size(), not_measured);  // stresses that are not defined
   return column(std::string(name), std::move(copy));
 }
 

@@ -49,7 +49,7 @@ struct Neighbor {
 
 /// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
 void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                   std::vector<Neighbor>& found);
+                    std::vector<Neighbor>& found);
 
 /// The virial stress of particle i, Pa: of all forces between particles and the volume force of
 /// each. The body's pair force must be known; `neighbors` are those within b at least.

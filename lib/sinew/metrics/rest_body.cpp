@@ -34,12 +34,13 @@ void check_surface(const Triangles& surface) {
   const int points = static_cast<int>(surface.points.size());
   for (const auto& face : surface.faces)
     for (const int corner : face)
-      require(corner >= 0 && corner < points, "a triangle of the surface names a point it lacks");
+      require(corner >= 0 && corner < points,
+              "a triangle of the surface refers to a missing point");
 }
 
 void check(const RestInput& input) {
   require(!input.positions.empty(), "the body has no particles");
-  require(all_finite(input.positions), "the body has a particle that is not at a finite place");
+  require(all_finite(input.positions), "the body has a particle at a position that is not finite");
   require(std::isfinite(input.radius) && input.radius > 0, "the particle radius is not above 0");
   require(std::isfinite(input.interaction_range) && input.interaction_range > 0,
           "the interaction range is not above 0");
@@ -99,14 +100,14 @@ std::vector<Bound> bound_particles(const RestInput& input, const std::vector<Joi
     Bound bound{static_cast<std::uint32_t>(i), input.bone[i]};
     bound.foot = nearest_on(input.bones[bound.bone], input.positions[i]);
     bound.distance = (input.positions[i] - bound.foot).norm();
-    // By the foot and not the particle: the zone is a slab across the bones, corners included.
+    // By the foot and not the particle: the zone is a slab across the bones, including corners.
     bound.far = !near_joint(zones, bound.foot);
     all.push_back(bound);
   }
   return all;
 }
 
-/// How much a particle's own volume resists: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
+/// Weight of a particle's volume stiffness: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
 /// A = sum dX dX^T over its neighbors; less at the surface, where neighbors are few.
 std::vector<double> volume_weights(const RestShape& shape, double radius) {
   const double full = 4 * nearest_distance(radius) * nearest_distance(radius);

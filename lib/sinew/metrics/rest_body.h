@@ -71,10 +71,10 @@ struct RestBody {
   double rest_pairs() const { return static_cast<double>(shape.neighbors.neighbor.size()) / 2; }
 };
 
-/// Checks the input and computes the rest. Throws bad input for sizes that do not agree, indices out
-/// of range, numbers that are not finite, or a surface without area.
-/// A joint zone reaches half a width of the body, sqrt(A_B) / 2, along the bones from each joint;
-/// A_B is the volume bound to a bone over its length, the larger of the two that meet counts.
+/// Checks the input and computes the rest. Throws bad input for sizes that do not agree, indices
+/// out of range, numbers that are not finite, or a surface without area. A joint zone reaches half
+/// a width of the body, sqrt(A_B) / 2, along the bones from each joint; A_B is the volume bound to
+/// a bone over its length, the larger of the two that meet counts.
 RestBody rest_body(RestInput input);
 
 /// Whether every coordinate is finite.

@@ -48,7 +48,7 @@ class Cut {
  private:
   bool above(int point) const { return height_[point] >= 0; }
 
-  /// Seen from outside with the axis upwards, the ring enters a face where its edge leads down.
+  /// Seen from outside with the axis upward, the ring enters a face where its edge descends.
   void add(const std::array<int, 3>& face) {
     Edge in{}, out{};
     int crossed = 0;
@@ -61,7 +61,7 @@ class Cut {
     if (crossed == 2) next_[in] = out;
   }
 
-  /// Follows the ring from an edge on; empty where it does not come back (a hole of the surface).
+  /// Follows the ring from an edge; empty where it does not close (at a hole of the surface).
   Ring taken(const Edge start) {
     Ring ring;
     Edge edge = start;

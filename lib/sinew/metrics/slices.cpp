@@ -12,9 +12,9 @@ namespace sinew {
 namespace {
 
 constexpr double same_direction = 1e-6;  // sine of the angle up to which axes count as parallel
-constexpr double same_line = 1e-3;       // of the bone's length: how far heads may lie beside it
-constexpr double in_a_line = 1e-6;       // ratio of spreads below which a slice has no turn
-constexpr std::size_t fewest = 4;        // particles of a slice
+constexpr double same_line = 1e-3;  // of the bone's length: largest offset of heads from the line
+constexpr double in_a_line = 1e-6;  // ratio of spreads below which a slice has no rotation
+constexpr std::size_t fewest = 4;   // particles of a slice
 
 using Members = std::vector<std::uint32_t>;
 
@@ -25,7 +25,7 @@ bool continues(const MeasuredBone& bone, const MeasuredBone& first) {
          offset.cross(first.axis()).norm() < same_line * bone.length;
 }
 
-/// The first bone of the straight chain each bone belongs to.
+/// The first bone of each bone's straight chain.
 std::vector<int> chain_starts(std::span<const MeasuredBone> bones) {
   std::vector<int> starts;
   for (std::size_t i = 0; i < bones.size(); ++i) {
@@ -78,7 +78,7 @@ void add_chain(Slices& slices, const Members& members, const Points& rest,
   }
 }
 
-/// The two outermost half-planes; the cut lies midway between the second and the third.
+/// The two outermost half-planes; the cut is midway between the second and the third.
 Slice tip_of(const Members& members, const Points& rest, const MeasuredBone& bone,
              double thickness) {
   double end = -std::numeric_limits<double>::infinity();

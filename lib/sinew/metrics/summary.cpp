@@ -13,8 +13,8 @@ namespace sinew {
 
 namespace {
 
-constexpr double still_turn = 0.01;  // degrees: below what a smooth motion turns in its first frame
-constexpr double still_shift = 1e-3;      // radii
+constexpr double still_turn = 0.01;   // degrees: less than a smooth motion turns in its first frame
+constexpr double still_shift = 1e-3;  // radii
 constexpr double settled_within = 0.2;    // radii
 constexpr std::size_t fewest_frames = 3;  // with two there is nothing between start and end
 
@@ -52,10 +52,10 @@ double settling_time(const Hold& hold, std::span<const double> times, double rad
 
 namespace {
 
-constexpr double same_turn = 0.1;    // degrees up to which a bone counts as back at rest
+constexpr double same_turn = 0.1;    // degrees: a bone within this of its rest pose counts as back
 constexpr double same_shift = 1e-3;  // radii, likewise for its head
 
-/// How bad a value is: larger is worse.
+/// The badness of a value: larger is worse.
 double badness(const Metric& metric, double value) {
   if (metric.worse == Worse::smaller) return -value;
   return metric.worse == Worse::magnitude ? std::abs(value) : value;
@@ -90,9 +90,9 @@ double residual_after_return(std::span<const FrameMetrics> frames, double radius
   return left && at_rest(frames.back(), radius) ? frames.back().displacement_rms : not_measured;
 }
 
-/// How far the tip's turn goes beyond its last value in a hold, on the side it did not come from.
+/// By how much the tip overshoots its last angle in a hold, on the side opposite to its start.
 double overshoot_of(const Hold& hold, std::span<const FrameMetrics> frames) {
-  if (hold.first == 0) return not_measured;  // it came from nowhere
+  if (hold.first == 0) return not_measured;  // there is no earlier angle
   const auto tip = [&](std::size_t i) { return frames[i].tip_angle; };
   const double end = tip(hold.last), before = tip(hold.first - 1);
   const double way = end > before ? 1 : -1;
@@ -154,15 +154,15 @@ void add_worst_particles(Summary& summary,
 namespace {
 
 struct Scale {
-  double good, fair;                 ///< the largest values that still count as such
+  double good, fair;                 ///< the largest values that count as such
   std::array<const char*, 3> words;  ///< for good, fair, poor
 };
 
-// What the paper's own body reaches when all goes well lies at the upper end of "fair" or below.
+// The values that the paper's body reaches in a good run are at the upper end of "fair" or below.
 constexpr Scale volume_scale{
     0.02, 0.1, {"keeps its volume", "volume changes visibly", "collapses"}};
 constexpr Scale pose_scale{2, 5, {"follows its bones", "lags behind its bones", "lost its bones"}};
-constexpr Scale broken_scale{0.01, 0.05, {"stays in one piece", "flows a little", "comes apart"}};
+constexpr Scale broken_scale{0.01, 0.05, {"stays in one piece", "flows a little", "breaks apart"}};
 constexpr Scale inverted_scale{0, 3, {"nothing is inside out", "a few folds", "folds into itself"}};
 constexpr Scale residual_scale{0.2, 1, {"returns to its shape", "keeps a trace", "stays deformed"}};
 constexpr Scale tip_scale{1, 5, {"turns with its bone", "turns a little off", "does not follow"}};
@@ -185,7 +185,7 @@ VerdictItem last_item(std::span<const FrameMetrics> frames, const Summary& summa
     return judged("residual after the return", residual, with_unit(residual, 2, " r"),
                   residual_scale);
   const double tip = frames.back().tip_angle, off = std::abs(tip - frames.back().bone_angle);
-  return judged("turn of the tip at the end", off, with_unit(tip, 1, "°"), tip_scale);
+  return judged("rotation of the tip at the end", off, with_unit(tip, 1, "°"), tip_scale);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Corners corners(const Points& points, const std::array<int, 3>& face) {
 
 Vec3 area_vector(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]) / 2; }
 
-/// Of a ratio, how far it is from one whichever way.
+/// Deviation of a ratio from one, in either direction.
 double either_way(double ratio) { return std::max(ratio, 1 / ratio); }
 
 /// The two edges from the first corner, in the triangle's own plane; the first along x.
@@ -75,7 +75,7 @@ double dirichlet(const Corners& rest, const Corners& now) {
 
 std::array<double, 2> face_stretches(const Corners& rest, const Corners& now) {
   const Eigen::Matrix2d F = flattened(now) * flattened(rest).inverse();
-  // Both faces were laid down with the first edge along x: F(1, 0) is 0.
+  // Both faces have their first edge along x: F(1, 0) is 0.
   const double like = std::hypot(F(0, 0) + F(1, 1), F(0, 1));
   const double unlike = std::hypot(F(0, 0) - F(1, 1), F(0, 1));
   return {(like + unlike) / 2, std::abs(like - unlike) / 2};

@@ -170,7 +170,7 @@ constexpr std::array run_table = {
     RunMetric{"settling_time", "s", "Longest time the body takes to settle after its bones stop",
               "until sqrt(mean |x - x_end|^2) stays below 0.2 r", &Summary::settling_time},
     RunMetric{"overshoot", "deg", "Rotation of the tip beyond its final angle",
-              "max over holds of tip_angle past its last value, in the direction it came",
+              "max over holds of tip_angle beyond its last value, in its direction of approach",
               &Summary::overshoot},
     RunMetric{"momentum_drift", "kg m/s", "Largest change of the linear momentum since the start",
               "max |P - P0|; bones and gravity change it too", &Summary::momentum_drift},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of laws of force between particles. The steppers, the metrics and the report's curves
-// take a law from here: to add one, add its choice in core/options.h and its row in laws.cpp.
+// The one table of laws of force between particles. The steppers, the metrics and the report's
+// curves take a law from here: to add one, add its choice in core/options.h and its row in
+// laws.cpp.
 //
 //     const ForceLaw& law = law_of(material);
 //     const double newtons = law.force(material, 2.1 * material.pair.r);

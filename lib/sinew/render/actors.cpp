@@ -72,7 +72,7 @@ void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Sh
   mapper->SetInputData(net(points, edges));
   vtkProperty& look = add_actor(renderer, *mapper, edge_color);
   look.LightingOff();
-  look.SetOpacity(opacity);  // below 1 it leaves the depths alone: lines cast no shadows
+  look.SetOpacity(opacity);  // below 1 depths are not written: lines cast no shadows
   look.SetLineWidth(static_cast<float>(width));
 }
 
@@ -82,7 +82,7 @@ double mean_length(const Points& points, const std::vector<Shading::Edge>& edges
   return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
 }
 
-/// Off the surface along its normals, or it would hide half of each line.
+/// Lifted off the surface along its normals, which would otherwise hide half of each line.
 Points lifted(const Triangles& surface, double by) {
   Points points = surface.points;
   const Points normals = point_normals(surface);
@@ -168,7 +168,7 @@ void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& sk
 
 void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
              const LineStyle& style) {
-  constexpr double wide_enough = 7;  // pixels between lines, below which they gray the skin
+  constexpr double wide_enough = 7;  // pixels between lines: closer ones would gray the skin
   if (mean_length(snapshot.surface.points, skin.lines) < wide_enough * style.pixel) return;
   add_lines(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
 }
@@ -191,7 +191,7 @@ void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness
   }
   add_tubes(renderer, tubes, 0.3 * thickness, color);
   add_balls(renderer, joints, 0.55 * thickness, color);
-  for (int k = 0; k < 3; ++k)  // the one along the bone sheathes it
+  for (int k = 0; k < 3; ++k)  // the one along the bone covers it
     add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, axis_colors[k]);
 }
 

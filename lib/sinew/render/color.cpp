@@ -42,8 +42,8 @@ Color from_oklab(const Vec3& lab) {
   return color;
 }
 
-/// The hues a map goes through: those by S. van der Walt and N. Smith (2015), cividis by
-/// J. Nunez, C. Anderton and R. Renslow (2018), at even steps.
+/// The key colors of a map: those by S. van der Walt and N. Smith (2015), cividis by
+/// J. Nunez, C. Anderton and R. Renslow (2018), evenly spaced.
 std::vector<Color> stops_of(ColorMap map) {
   switch (map) {
     case ColorMap::indigo:
@@ -70,7 +70,7 @@ std::vector<Color> stops_of(ColorMap map) {
   return {};
 }
 
-/// Along the line through the map's hues, by the length walked in Oklab.
+/// Along the polyline through the map's key colors, by length in Oklab.
 ColorTable make_table(ColorMap map) {
   const std::vector<Color> stops = stops_of(map);
   std::vector<double> length(stops.size(), 0);

@@ -16,15 +16,15 @@
 namespace sinew {
 namespace {
 
-constexpr int not_found = 127;  // as shells say it
+constexpr int not_found = 127;  // exit code, as in shells
 
 Error no_display(const std::string& why) {
   return Error(Exit::not_written,
                "no display to draw on: " + why + "; install it with: apt-get install xvfb");
 }
 
-/// The connection stays open while the program runs: a server whose last client leaves starts anew,
-/// and refuses for that moment whom it served before.
+/// The connection stays open while the program runs: a server whose last client disconnects resets,
+/// and meanwhile refuses connections.
 bool display_answers() {
   static Display* connection = nullptr;
   if (!connection && std::getenv("DISPLAY")) connection = XOpenDisplay(nullptr);
@@ -34,8 +34,8 @@ bool display_answers() {
 /// In the child: becomes the display `name` and writes to `report` when it is ready.
 [[noreturn]] void become_xvfb(pid_t parent, const char* name, int report, const char* report_text) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(1);  // it died before it could be watched
-  setsid();                           // Ctrl-C is for the program that draws, not for its display
+  if (getppid() != parent) _exit(1);  // the parent ended before it could be watched
+  setsid();                           // Ctrl-C must reach the drawing program, not the display
   const int null = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
   fcntl(report, F_SETFD, 0);
@@ -44,7 +44,7 @@ bool display_answers() {
   _exit(errno == ENOENT ? not_found : 1);
 }
 
-/// Whether a whole line comes before the other end closes.
+/// Whether a whole line is received before the other end closes.
 bool line_comes(int file) {
   char byte = 0;
   ssize_t count = 0;
@@ -53,7 +53,7 @@ bool line_comes(int file) {
   return count > 0;
 }
 
-/// Starts a display of that name, which dies with this process; whether it is ready.
+/// Starts a display of that name, which ends with this process; returns whether it is ready.
 bool start_xvfb(const std::string& name) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw no_display("too many open files to start Xvfb");
@@ -76,7 +76,8 @@ bool start_xvfb(const std::string& name) {
 void ensure_display() {
   if (display_answers()) return;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    // Not the first free number: a display that is just ending there takes the next one's socket.
+    // Not the first free number: a display that is just ending there would take over the new
+    // socket.
     std::string name = ":";
     name += std::to_string(100 + (getpid() + 7919 * attempt) % 50000);
     if (!start_xvfb(name)) continue;

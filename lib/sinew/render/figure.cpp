@@ -16,7 +16,7 @@ struct Layout {
   int margin = 0;
   int top = 0;             ///< of the panels
   int wide = 0, high = 0;  ///< each panel
-  int foot = 0;            ///< where caption and colors begin
+  int foot = 0;            ///< top of caption and color bar
 };
 
 Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options) {
@@ -66,10 +66,10 @@ struct Column {
   int x = 0, width = 0;
 };
 
-/// Where everything lies on the sheet, pixels.
+/// Layout of the sheet, pixels.
 struct SheetLayout {
   std::vector<Column> columns;
-  std::vector<int> rows;  ///< where the panels of each begin
+  std::vector<int> rows;  ///< top of the panels of each
   int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
   TextStyle text;
 };

@@ -59,7 +59,7 @@ void copy_flipped(const Image& image, vtkImageData& out) {
 void write_png(const Image& image, const std::string& path) {
   vtkNew<vtkImageData> data;
   copy_flipped(image, *data);
-  vtkNew<vtkPNGWriter> writer;  // to memory: VTK does not notice a full disk
+  vtkNew<vtkPNGWriter> writer;  // to memory: VTK does not detect a full disk
   writer->SetInputData(data);
   writer->WriteToMemoryOn();
   writer->Write();

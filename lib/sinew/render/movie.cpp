@@ -72,7 +72,7 @@ void check(const MovieOptions& options) {
 
 }  // namespace
 
-/// The child process, which reads frames from `input` and complains into `complaints`.
+/// The child process, which reads frames from `input` and writes errors to `complaints`.
 struct Movie::Encoder {
   std::string path;
   NewFile file;
@@ -96,7 +96,7 @@ Movie::Encoder::~Encoder() {
 }
 
 void Movie::Encoder::start(const MovieOptions& options) {
-  int ends[2];  // a socket rather than a pipe: writing to a dead child is an error, not a signal
+  int ends[2];  // a socket, not a pipe: writing to an ended child is an error, not a signal
   if (!complaints || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     fail(std::strerror(errno), "free some space or memory");
   input = ends[0];
@@ -134,7 +134,7 @@ void Movie::Encoder::send(const std::vector<std::uint8_t>& bytes) {
   }
 }
 
-/// Ends the input and waits for the child; whether it ended well.
+/// Ends the input and waits for the child; returns whether it succeeded.
 bool Movie::Encoder::wait() {
   if (input >= 0) close(std::exchange(input, -1));
   if (process == 0) return false;

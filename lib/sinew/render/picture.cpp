@@ -16,7 +16,8 @@ constexpr Color slate{44, 58, 92}, ivory{250, 244, 230};
 void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& options) {
   const auto [small, large] = std::minmax(options.width, options.height);
   if (small < 16 || large > 8192)
-    throw bad_input("a picture cannot have that size", "choose 16 to 8192 pixels each way");
+    throw bad_input("a picture cannot have that size",
+                    "choose 16 to 8192 pixels in both directions");
   if (!snapshot.values.empty() && snapshot.values.size() != snapshot.particles.size())
     throw bad_input("a snapshot has not one value per particle", "give one each, or none");
   for (const int point : skin.source)
@@ -25,7 +26,7 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
                       "draw one run at a time");
 }
 
-/// The exposure with its hollows darkened; not to black: some light always gets in.
+/// The exposure with its hollows darkened, but never to black.
 Image with_shadows(const Exposure& exposure, double radius) {
   constexpr float strength = 1.1F, least = 0.3F;
   Image image = exposure.image;
@@ -38,7 +39,7 @@ Image with_shadows(const Exposure& exposure, double radius) {
   return image;
 }
 
-/// Lets `over` shine through where it covers anything.
+/// Blends `over` into the image where it covers anything.
 void shine_through(Image& image, const Exposure& over, float strength) {
   for (std::size_t i = 0; i < over.coverage.size(); ++i)
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -49,7 +50,7 @@ void shine_through(Image& image, const Exposure& over, float strength) {
     }
 }
 
-/// So far towards white that what is put over it stands out.
+/// Lightened toward white, so that what is drawn over it is visible.
 void pale(Image& image) {
   constexpr float left = 0.45F;
   for (std::uint8_t& part : image.rgb)
@@ -58,11 +59,11 @@ void pale(Image& image) {
 
 }  // namespace
 
-/// How large and thick things are drawn.
+/// Sizes in a picture.
 struct Painter::Sizes {
   double pixel;  ///< m
-  double grain;  ///< what shadows and bones are measured by: a particle's radius, m
-  double line;   ///< of the skin's edges, in drawn pixels
+  double grain;  ///< unit of shadows and bones: a particle's radius, m
+  double line;   ///< width of the skin's edges, in rendered pixels
 };
 
 Painter::Painter(const Triangles& rest, ColorScale scale)

@@ -17,7 +17,7 @@ namespace sinew {
 namespace {
 
 struct Side {
-  int face, corner;  ///< the side goes from this corner of the face to the next
+  int face, corner;  ///< the side from this corner of the face to the next
 };
 using Sides =
     std::map<Shading::Edge, std::vector<Side>>;  // ordered: pictures do not depend on hashing
@@ -114,7 +114,7 @@ Shading make_shading(const Triangles& rest) {
 
 namespace {
 
-constexpr int samples = 16, rotations = 16;  // a 4 x 4 pattern of turns, blurred away afterwards
+constexpr int samples = 16, rotations = 16;  // a 4 x 4 pattern of rotations, blurred afterwards
 
 struct Offset {
   int x, y;
@@ -122,7 +122,7 @@ struct Offset {
 };
 using Discs = std::array<std::array<Offset, samples>, rotations>;
 
-/// A sunflower's seeds, evenly over the disc, once for each turn.
+/// A sunflower pattern, evenly over the disc, once for each rotation.
 Discs make_discs(double radius, double pixel) {
   constexpr double golden_angle = 2.399963;
   Discs discs;
@@ -137,13 +137,13 @@ Discs make_discs(double radius, double pixel) {
   return discs;
 }
 
-/// Infinite outside of the picture, as where there is nothing.
+/// Infinite outside of the picture, as in the background.
 float depth_at(const DepthImage& image, int x, int y) {
   const bool inside = x >= 0 && y >= 0 && x < image.width && y < image.height;
   return inside ? image.at(x, y) : std::numeric_limits<float>::infinity();
 }
 
-/// Change of depth per pixel: of the two sides the flatter one, as the other may be another thing.
+/// Change of depth per pixel: of both sides the smaller, since the other may be another object.
 float slope(float before, float here, float after) {
   const float left = here - before, right = after - here;
   const float flatter = std::abs(left) < std::abs(right) ? left : right;
@@ -160,8 +160,8 @@ float hidden(const DepthImage& image, const Discs& discs, float radius, int x, i
   for (const auto& [dx, dy, distance] : discs[order[4 * (y % 4) + x % 4]]) {
     const float plane = here + along_x * static_cast<float>(dx) + along_y * static_cast<float>(dy);
     const float above = plane - depth_at(image, x + dx, y + dy);
-    if (!(above > 0.04F * radius)) continue;  // also nothing there: infinitely far below
-    const float near = radius / std::max(radius, above);  // what is far in front hides less
+    if (!(above > 0.04F * radius)) continue;  // includes the background: infinitely far below
+    const float near = radius / std::max(radius, above);  // objects far in front hide less
     sum += near * near * above / std::hypot(above, distance);
   }
   return sum / samples;

@@ -18,7 +18,7 @@
 namespace sinew {
 namespace {
 
-/// A light that moves with the viewer, who looks from (0, 0, 1) at the origin.
+/// A light that moves with the viewer, who is at (0, 0, 1) and looks at the origin.
 void add_light(vtkRenderer& renderer, const Vec3& from, double strength, const Vec3& color) {
   vtkNew<vtkLight> light;
   light->SetLightTypeToCameraLight();
@@ -33,10 +33,10 @@ void add_lights(vtkRenderer& renderer) {
   renderer.AutomaticLightCreationOff();
   add_light(renderer, {-0.35, 0.55, 1.0}, 0.84, {1.0, 0.99, 0.97});  // key
   add_light(renderer, {1.0, 0.25, 0.7}, 0.54, {0.95, 0.97, 1.0});    // fill, cool
-  add_light(renderer, {-0.2, -0.6, 1.0}, 0.24, {1.0, 0.98, 0.95});   // as from the ground
+  add_light(renderer, {-0.2, -0.6, 1.0}, 0.24, {1.0, 0.98, 0.95});   // from below
 }
 
-/// The box in the view's directions that fills the picture.
+/// The box in the view's axes that fills the picture.
 Box filled(const Box& frame, int width, int height, double scale) {
   const Vec3 center = frame.isEmpty() ? Vec3::Zero() : Vec3(frame.center());
   const double deep = frame.isEmpty() ? 1 : frame.sizes().z() / 2;
@@ -65,7 +65,7 @@ struct Stage::Parts {
   vtkNew<vtkRenderStepsPass> steps;
   vtkNew<vtkOpenGLFXAAPass> smoothing;
   Box box;        // in the picture
-  int times = 1;  // drawn so many times larger than the picture
+  int times = 1;  // rendered this many times larger than the picture
 
   int width() const { return window->GetSize()[0]; }
   int height() const { return window->GetSize()[1]; }
@@ -83,10 +83,10 @@ Image Stage::Parts::pixels() const {
   return image;
 }
 
-/// Depths at every picture's pixel, coverage over all that was drawn for it.
+/// Depth at every pixel of the picture, coverage averaged over the rendered pixels.
 void Stage::Parts::measure(Exposure& exposure) const {
   const int wide = width(), high = height(), columns = wide / times, rows = high / times;
-  vtkNew<vtkFloatArray> buffer;  // 0 (near) .. 1 (nothing there)
+  vtkNew<vtkFloatArray> buffer;  // 0 (near) .. 1 (background)
   window->GetZbufferData(0, 0, wide - 1, high - 1, buffer);
   const float* z = buffer->GetPointer(0);
   const auto deep = static_cast<float>(box.sizes().z());

@@ -31,7 +31,7 @@ void blend(std::uint8_t* pixel, const std::uint8_t* over) {
         static_cast<std::uint8_t>((opacity * over[c] + (255 - opacity) * pixel[c] + 127) / 255);
 }
 
-/// `x` is the left end, `baseline` what the letters stand on.
+/// `x` is the left end, `baseline` that of the letters.
 void write_line(Image& image, const std::string& line, int x, int baseline,
                 const TextStyle& style) {
   vtkNew<vtkImageData> letters;

@@ -22,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same_place = 1e-6;        // radii: two bodies began alike
+constexpr double same_place = 1e-6;        // radii: two bodies have the same rest positions
 constexpr double same_float_place = 1e-3;  // radii: likewise, of surfaces read from Float32
 
-/// One of the two runs, with what is known of it before the other.
+/// One of the two runs, with the data needed before reading the other.
 struct Side {
   explicit Side(const fs::path& folder) : run(open_run({folder})), rest(rest_of(run)) {}
 
@@ -60,7 +60,7 @@ bool began_alike(const Points& one, const Points& other, double tolerance) {
   return true;
 }
 
-/// Which points are the same in both runs, so that their distance means something.
+/// The points that both runs have in common, so that distances between them are meaningful.
 struct Alike {
   bool particles = false, surface = false;
 };
@@ -86,11 +86,11 @@ std::vector<std::string> remarks_on(const Side& first, const Side& second, const
   if (!same.particles)
     remarks.push_back("The particles are not the same (" +
                       counted(first.rest.shape.points, second.rest.shape.points, "of them") +
-                      ", or at other places at rest): no distance between them is taken.");
+                      ", or at other positions at rest): no distance between them is computed.");
   if (!same.surface)
     remarks.push_back("The surfaces are not the same mesh (" +
                       counted(first.run.surface.points, second.run.surface.points, "points") +
-                      "): only nearest places are compared.");
+                      "): only nearest points are compared.");
   const std::size_t lone = first.run.frames() + second.run.frames() - 2 * pairs;
   if (lone > 0)
     remarks.push_back(std::to_string(lone) +
@@ -125,7 +125,7 @@ void add_snapshot(Side& side, std::size_t number, const FrameState& state) {
     add_frame(side.playback, number, side.rest, state, particle_values(side.rest, state));
 }
 
-/// What takes both runs at once: distances into the second one's metrics, and the playbacks.
+/// What needs both runs at once: distances, added to the second one's metrics, and the playbacks.
 void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, const Alike& same) {
   for (Side* side : {&first, &second})
     side->playback = plan_playback(side->rest, pairs.size(), 0.5);

@@ -31,7 +31,7 @@ ColorScale FigureSet::scale() const {
     scale.high = std::max(scale.high, drawn(run).range.high);
   }
   if (options_.range) scale.low = (*options_.range)[0], scale.high = (*options_.range)[1];
-  if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing has moved
+  if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing moves
   return scale;
 }
 
@@ -105,7 +105,7 @@ void FigureSet::sheet() {
   }
   SheetOptions sheet;
   sheet.view = options_.view;
-  sheet.width = options_.width * 5 / 4;  // several moments want more room
+  sheet.width = options_.width * 5 / 4;  // several moments need more space
   sheet.row_height = options_.height * 7 / 9;
   if (of_body()) {
     write_png(contact_sheet(painters_[0], over_time[0], sheet), place("contact_sheet.png"));
@@ -119,7 +119,7 @@ void FigureSet::sheet() {
 
 void FigureSet::movie() {
   MovieOptions movie;
-  movie.width = options_.width & ~1;  // H.264 wants even sizes
+  movie.width = options_.width & ~1;  // H.264 requires even sizes
   movie.height = options_.height & ~1;
   const double interval = runs_.front()->files().settings.output.interval;
   movie.frames_per_second = std::clamp(1 / interval, 0.1, 240.0);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include <sinew/core/parallel.h>
 #include <sinew/core/arrays.h>
+#include <sinew/core/parallel.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/run_files.h>
@@ -30,7 +30,7 @@ std::vector<std::int32_t> bones_of_vertices(const Skin& skin,
   return bones;
 }
 
-/// Copies into room that is there already.
+/// Copies into memory that is already allocated.
 template <class T>
 void copy(const std::vector<T>& from, std::vector<T>& to) {
   to.resize(from.size());
@@ -71,7 +71,7 @@ std::vector<double> powers_of(const std::vector<Reaction>& reactions) {
   return powers;
 }
 
-/// Force and moment on each bone, kept apart.
+/// Force and moment on each bone, in separate lists.
 struct ReactionColumns {
   Points force, moment;
 
@@ -146,8 +146,8 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {
-    // There is room, so the frame that was here before is written: one job at most is under way,
-    // the last one.
+    // The queue has space, so the previous frame of this slot is written: at most one job is
+    // pending, the last one.
     Moved& frame = moved_[taken_ % moved_.size()];
     take(simulation, time, frame);
     ++taken_;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double same_time = 1e-6;  // s
 
-/// The skin with each point carried by its bone; nothing where a point has none.
+/// The skin with each point moved rigidly by its bone; nothing where a point has none.
 std::optional<Triangles> rigid_pose(const RunFiles& run, const FrameState& state) {
   Triangles posed{Points(run.surface.points.size()), run.surface.faces};
   for (std::size_t i = 0; i < posed.points.size(); ++i) {
@@ -54,7 +54,7 @@ void add_gap(FrameMetrics& out, const GapMetrics& to, const Triangles& surface,
   out.*to.mean = gap.mean;
 }
 
-/// Point by point, where both are the same mesh.
+/// Point by point, where both have the same mesh.
 void add_point_distances(FrameMetrics& out, const Triangles& surface, const Triangles& other) {
   if (surface.faces != other.faces || surface.points.size() != other.points.size()) return;
   const Statistics apart = statistics(surface.points.size(), [&](std::size_t i) {
@@ -112,7 +112,7 @@ void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameStat
 
 namespace {
 
-/// Frames that one goes to look at are in the playback even where it leaves others out.
+/// Worst frames are added to the playback even where it leaves others out.
 void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& run) {
   for (const std::string_view name : headline_metrics()) {
     const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
@@ -122,14 +122,14 @@ void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   }
 }
 
-/// What the frames were like in order, beside their metrics.
+/// Data of all frames in order, besides their metrics.
 struct Course {
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<double> times;
   std::vector<std::vector<std::int64_t>> worst_particles;
 };
 
-/// Arrays that were asked for, beside the run's own series.
+/// Requested arrays, in addition to the run's own series.
 class ValueSeries {
  public:
   ValueSeries(const RunFiles& run, const std::vector<std::string_view>& arrays) : arrays_(arrays) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int samples = 300;
 
-/// y at even steps of x, low and high included.
+/// y at evenly spaced x, both ends included.
 template <class Law>
 CurveLine sampled(const char* name, double low, double high, const Law& law) {
   CurveLine line{name, {}, {}};
@@ -57,18 +57,18 @@ Curve pair_curve(const Material& material) {
 
 Curve energy_curve(const PairForce& pair) {
   Curve curve{"Energy of two particles", "", "distance d in r", "phi in J", {}};
-  curve.note = "Its slope is the force; how deep it is says what it takes to part two particles.";
+  curve.note = "Its slope is the force; its depth is the energy that separates two particles.";
   curve.lines.push_back(sampled("energy", 1.5, 1.15 * pair.b / pair.r,
                                 [&](double d) { return pair.potential(d * pair.r); }));
   return curve;
 }
 
 Curve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
-  Curve curve{"Pull of a bone on a particle", "", "away from its place, in r", "force in N", {}};
+  Curve curve{"Force of a bone on a particle", "", "away from its place, in r", "force in N", {}};
   const bool anchored = springs.front().form == BoneForce::anchor;
-  curve.note = anchored ? "f = −k_b (x − q), q the place the bone would carry the particle to."
+  curve.note = anchored ? "f = −k_b (x − q), q its position in the rigid pose of the bone."
                         : "Radial: f = −k_b (|x − p| − l0), p the nearest point of the bone.";
-  constexpr std::size_t most_bones = 6;  // as many lines as can be told apart
+  constexpr std::size_t most_bones = 6;  // as many lines as can be distinguished
   for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)
     curve.lines.push_back(sampled(skeleton.bones[b].name.c_str(), -2, 2,
                                   [&](double x) { return -springs[b].radial * x * r; }));
@@ -109,7 +109,7 @@ std::string with_unit(double value, const char* unit) {
   return three_digits(value) + (*unit ? std::string(" ") + unit : "");
 }
 
-/// A value of JSON for people.
+/// A JSON value as text.
 std::string shown_value(const nlohmann::ordered_json& value) {
   if (value.is_number_float()) return three_digits(value.get<double>());
   if (value.is_string()) return value.get<std::string>();
@@ -119,7 +119,7 @@ std::string shown_value(const nlohmann::ordered_json& value) {
   return list;
 }
 
-/// The report of the fill, as body.vtu keeps it.
+/// The report of the fill, from body.vtu.
 FactGroup fill_facts(const std::string& body_meta) {
   FactGroup group{"Filling", {}};
   const auto meta = nlohmann::ordered_json::parse(body_meta, nullptr, false);
@@ -169,7 +169,7 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
           fill_facts(body_meta)};
 }
 
-/// "0.533 s" for the picture of frame 16, else the file's own name.
+/// "0.533 s" for the picture of frame 16, else the file name.
 std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
   const std::string name = picture.stem().string();
   const auto digits = name.find_first_of("0123456789");
@@ -178,7 +178,7 @@ std::string caption_of(const std::filesystem::path& picture, const Measured& mea
   return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
 }
 
-/// The pictures that render has left: the contact sheet, then single moments in order.
+/// The pictures in the folder: the contact sheet, then single moments in order.
 std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
   std::vector<Picture> pictures;
   std::error_code none;

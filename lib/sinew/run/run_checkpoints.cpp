@@ -13,7 +13,7 @@
 namespace sinew {
 namespace {
 
-/// Lines of a resolved scene that say something of the results, without their comments.
+/// Lines of a resolved scene that affect the results, without comments.
 std::vector<std::string> deciding_lines(const std::string& resolved) {
   std::vector<std::string> lines;
   std::istringstream text(resolved);
@@ -31,7 +31,7 @@ std::string trimmed(const std::string& line) {
 }
 
 Error another_run(const std::string& what) {
-  return bad_input("--resume goes on with the same run only: " + what,
+  return bad_input("--resume continues the same run only: " + what,
                    "give what the run began with, or replace the run with --force");
 }
 
@@ -40,7 +40,7 @@ void add(const Triangles& surface, Hash& hash) {
   for (const auto& face : surface.faces) hash.add(face.data(), sizeof face);
 }
 
-/// The body at rest, what holds it, and its skin.
+/// The body at rest, its attachment, and its skin.
 std::uint64_t body_hash(const Body& body, const Triangles& surface) {
   Hash hash;
   for (const Vec3& point : body.rest) hash.add(point.data(), 3 * sizeof(double));
@@ -52,7 +52,7 @@ std::uint64_t body_hash(const Body& body, const Triangles& surface) {
   return hash.value();
 }
 
-/// The bones at moments of the run, and the obstacles around it.
+/// The bones at sampled times of the run, and the obstacles around it.
 std::uint64_t motion_hash(const Setup& setup) {
   constexpr int moments = 1000;
   const double end = setup.steps.step * setup.steps.per_frame * setup.frames;

@@ -24,7 +24,7 @@ std::vector<PvdRow> rows_of(const RunFolder& folder, const char* series) {
   return read_pvd(folder.path / (std::string(series) + ".pvd"));
 }
 
-/// Runs `job`; what it throws is told of `file`.
+/// Runs `job`; errors it throws name `file`.
 template <class Job>
 auto told_of(const std::filesystem::path& file, Job&& job) {
   try {
@@ -40,7 +40,7 @@ Error of_another_body(const std::filesystem::path& file, const char* what) {
                    "run the scene again with --force");
 }
 
-/// The rows of a series that a scene may ask for.
+/// The rows of an optional series.
 std::vector<PvdRow> rows_if_there(const RunFolder& folder, const char* series) {
   std::error_code unreachable;
   const bool there =
@@ -108,9 +108,9 @@ void read_surface_points(const RunFiles& run, std::size_t index, RunFrame& frame
   frame.surface_points = std::move(data.points);
 }
 
-/// Axes that are no rotation, or a length that is none, would be measured without a word.
+/// Refuses axes that are not a rotation and lengths that are not positive.
 void check_bone(const RigidFrame& bone, double length, std::size_t index) {
-  constexpr double rounding = 1e-3;  // of single precision, by far
+  constexpr double rounding = 1e-3;  // far above that of single precision
   const Mat3 product = bone.rotation.transpose() * bone.rotation;
   if (!product.isIdentity(rounding) || !(std::isfinite(length) && length > 0))
     throw bad_input("bone " + std::to_string(index) + " has no length or axes at no right angles",
@@ -135,7 +135,7 @@ void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
   });
 }
 
-/// Rows of frames that not all series have go; those that stay are of the same times.
+/// Drops rows of frames that some series lack; checks that the others have the same times.
 void trim_rows(RunFiles& run) {
   const std::array<std::pair<const char*, std::vector<PvdRow>*>, 3> series{
       {{"particles.pvd", &run.particle_rows},

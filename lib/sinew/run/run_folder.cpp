@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Names a run writes below its folder; in DIR/NAME/ only what is numbered as a run numbers it.
+/// Names that a run writes in its folder; in DIR/NAME/ only files numbered as a run numbers them.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|report\\.html|"
@@ -36,7 +36,7 @@ bool written_by_a_run(const fs::path& relative) {
   return std::regex_match(relative.generic_string(), ours);
 }
 
-/// Checkpoints first: without them nobody goes on with what is half gone.
+/// Checkpoints first: without them a partly removed run cannot be resumed.
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
@@ -69,7 +69,7 @@ void remove_old_run(const RunFolder& folder) {
     throw not_written(file.string(), "cannot be removed (" + failed.message() + ")",
                       "remove it by hand or choose another folder with -o");
   };
-  // Until all is gone something says whose files these are. A new name needs no space.
+  // Until all files are removed, something marks them as a run's. Renaming needs no disk space.
   if (fs::exists(folder.record(), failed)) fs::rename(folder.record(), folder.old_record(), failed);
   if (failed) give_up(folder.record());
   for (const fs::path& file : files_of_run(folder)) {
@@ -82,9 +82,9 @@ void remove_old_run(const RunFolder& folder) {
 
 void refuse_foreign_files(const RunFolder& folder) {
   for (const fs::path& file : files_of_run(folder)) {
-    // Of a run killed before it had its record.
+    // Of a run killed before it had written its record.
     if (file.filename().string().front() == '.' && file.extension() == ".tmp") continue;
-    throw bad_input(Place{file.string()}, "is there, but no run.json of a run beside it",
+    throw bad_input(Place{file.string()}, "exists, but no run.json of a run beside it",
                     "choose another folder with -o, or move the file away");
   }
 }
@@ -107,7 +107,7 @@ std::string this_process() {
   return "process " + std::to_string(::getpid()) + " on " + host.data();
 }
 
-/// What a lock says of its holder: one line of letters, whatever stands there.
+/// The holder named in a lock: one line of printable characters.
 std::string holder_of(int lock) {
   std::array<char, 400> text{};
   const ssize_t size = ::pread(lock, text.data(), text.size(), 0);

@@ -40,8 +40,9 @@ RunFolder run_folder(const std::filesystem::path& scene, const std::filesystem::
 /// Creates the folder. Throws not written.
 void create(const RunFolder& folder);
 
-/// Removes the files of an older run and nothing else; the body is kept, since it may fit the scene.
-/// If killed in between, it leaves a folder that it can be applied to again. Throws not written.
+/// Removes the files of an older run and nothing else; the body is kept, since it may fit the
+/// scene. If killed in between, it leaves a folder that it can be applied to again. Throws not
+/// written.
 void remove_old_run(const RunFolder& folder);
 
 /// Throws bad input where a folder that no run has used holds a file that a run would replace.

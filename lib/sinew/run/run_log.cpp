@@ -4,9 +4,9 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
-#include <sinew/core/arrays.h>
 #include <sinew/run/run_record.h>
 #include <sinew/settings/table.h>
 
@@ -50,7 +50,7 @@ Json lists_of(const ListCounts& counts) {
           {"escaped", counts.escaped}};
 }
 
-/// Keeps what a run that is resumed has spent and when it began.
+/// Restores the times that a resumed run has spent and when it began.
 void go_on_from(const Json& before, Json& record) {
   for (const char* key : {"started", "seconds"})
     if (before.contains(key)) record[key] = before[key];
@@ -113,13 +113,14 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
       " s, factor " + number_text(steps.factor()));
 }
 
-void RunLog::describe(const StepperChoice& way) {
-  record_["precision"] = name_of(way.precision);
-  record_["neighbor_search"] = name_of(way.search);
-  record_["instruction_set"] = kernel::name_of(way.instructions);
-  log(std::string("steps in ") + name_of(way.precision) + " precision, partners by " +
-      name_of(way.search) + ", instructions " + kernel::name_of(way.instructions) +
-      (way.unsupported ? ", for " + way.unsupported->key + " is " + way.unsupported->value : ""));
+void RunLog::describe(const StepperChoice& choice) {
+  record_["precision"] = name_of(choice.precision);
+  record_["neighbor_search"] = name_of(choice.search);
+  record_["instruction_set"] = kernel::name_of(choice.instructions);
+  log(std::string("steps in ") + name_of(choice.precision) + " precision, neighbors by " +
+      name_of(choice.search) + ", instructions " + kernel::name_of(choice.instructions) +
+      (choice.unsupported ? ", for " + choice.unsupported->key + " is " + choice.unsupported->value
+                          : ""));
 }
 
 void RunLog::spend(const std::string& stage, double seconds) {
@@ -159,7 +160,7 @@ void RunLog::fail(const std::string& status, const std::string& why) {
     write_record(folder_, record_);
     log(status + ": " + why);
   } catch (const Error&) {
-    // The error being told matters more than that the disk takes no word of it.
+    // The original error is reported; that the log cannot be written is ignored.
   }
 }
 

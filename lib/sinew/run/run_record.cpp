@@ -41,7 +41,7 @@ bool is_count(const nlohmann::ordered_json& value) {
   return value.is_number_unsigned() && value.get<std::uint64_t>() <= 1'000'000'000;
 }
 
-/// Whether it is of sinew, and what a run that goes on takes from it is of the right kind.
+/// Whether it is a record of sinew, with values of the right type where a resumed run reads them.
 bool is_record(const nlohmann::ordered_json& record) {
   using Json = nlohmann::ordered_json;
   return record.is_object() && record.value("program", Json()) == "sinew" &&
@@ -72,7 +72,7 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
   try {
     lock.emplace(folder);
   } catch (const Error&) {
-    return;  // a run still going on writes its record itself; a folder for reading keeps its own
+    return;  // a run in progress writes its own record; a read-only folder keeps its record
   }
   auto record = read_record(folder);
   if (!record["seconds"].is_object()) record["seconds"] = nlohmann::ordered_json::object();

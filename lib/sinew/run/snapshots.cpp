@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/core/arrays.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
@@ -116,8 +116,8 @@ DrawnValues::Range DrawnValues::range_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return value != value; });
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const std::size_t stray = values.size() / 100;
-  const double low = values[stray], high = values[values.size() - 1 - stray];
+  const std::size_t outliers = values.size() / 100;
+  const double low = values[outliers], high = values[values.size() - 1 - outliers];
   return {values.front() >= 0 && low < high / 2 ? 0 : low, high};
 }
 
@@ -127,10 +127,10 @@ Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& 
 
 namespace {
 
-constexpr std::size_t most_arrows = 900;  // more of them hide each other
+constexpr std::size_t most_arrows = 900;  // more would hide each other
 constexpr double longest_arrow = 0.25;    // of the body's longest side
 constexpr double shortest_arrow = 0.1;    // of the longest: shorter ones are dots
-constexpr double least_turn = 0.01;       // rad: below it no bone tells the story
+constexpr double least_turn = 0.01;       // rad: below it the bones do not move
 constexpr std::size_t moments_without_turn = 5;
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {
@@ -142,7 +142,7 @@ double largest_turn(const RunFiles& run, const RunFrame& frame) {
   return most;
 }
 
-/// Evenly over all frames, the first and the last among them.
+/// Evenly over all frames, including the first and the last.
 std::vector<std::size_t> spread_over(std::size_t frames) {
   const std::size_t count = std::min(frames, moments_without_turn);
   std::vector<std::size_t> chosen;
@@ -206,7 +206,7 @@ std::vector<std::size_t> DrawnRun::key_frames() const {
   return frames;
 }
 
-/// The cut stands upright across the viewer's direction at rest and bends with the body, so that
+/// The cut is vertical, across the viewer's direction at rest, and deforms with the body, so that
 /// the same particles are seen at all times.
 void DrawnRun::cut_open(Snapshot& snapshot) const {
   const Points rest = positions_of(run_.body.particles);

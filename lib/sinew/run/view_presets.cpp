@@ -34,7 +34,7 @@ constexpr std::array<NamedView, 6> views = {{{"three_quarter", {0.42, -1, 0.36}}
                                              {"right", {1, 0, 0}},
                                              {"top", {0, 0, 1}}}};
 
-/// The entry of that name in a table, or an error that says what is `wanted`.
+/// The entry of that name in a table, or an error naming what is `wanted`.
 template <class Table>
 const auto& entry_named(const Table& table, const std::string& name, const char* wanted) {
   std::vector<std::string_view> names;
@@ -73,7 +73,7 @@ Mat3 view_named(const std::string& text) {
     return view_towards({x, y, z});
   }
   if (read != 3 || !towards.allFinite() || towards.isZero(0))
-    throw bad_input(shown(text) + " is no direction of a camera",
+    throw bad_input(shown(text) + " is not a camera direction",
                     "give three numbers, not all zero: --camera 1,-2,0.5");
   return view_towards(towards);
 }

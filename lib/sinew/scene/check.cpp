@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <system_error>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
-#include <sinew/core/arrays.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/solid.h>
 #include <sinew/physics/world/world.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/settings/checks.h>
+#include <sinew/settings/sections.h>
 
 #include <array>
 #include <string>

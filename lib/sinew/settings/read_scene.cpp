@@ -4,9 +4,7 @@
 #include <array>
 
 #include <sinew/core/text.h>
-#include <sinew/settings/checks.h>
-#include <sinew/settings/read_rig.h>
-#include <sinew/settings/read_world.h>
+#include <sinew/settings/sections.h>
 #include <sinew/settings/table.h>
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/values.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/settings/read_world.h>
+#include <sinew/settings/sections.h>
 
 #include <set>
 #include <string>
@@ -83,35 +83,28 @@ void require(bool given, const std::string& path, const std::string& key, const 
                     "add " + key + ':');
 }
 
-/// Throws unless the keys that a shape needs are given.
+bool is_given(const ObstacleSettings& obstacle, std::string_view key) {
+  for (const auto& field : obstacle_fields())
+    if (field.name == key) {
+      const FieldValue value = field.get(obstacle);
+      const auto* text = std::get_if<std::string>(&value);
+      return !std::holds_alternative<std::monostate>(value) && !(text && text->empty());
+    }
+  return false;
+}
+
+/// Throws unless the keys that a shape needs are given, and sound.
 void check_shape(const ObstacleSettings& obstacle, const std::string& path,
                  const Settings& settings) {
-  const auto need = [&](bool given, const char* key, const char* shape) {
-    require(given, path, key, shape, settings);
-  };
-  switch (obstacle.shape) {
-    case ObstacleShape::plane:
-      if (obstacle.normal.norm() == 0)
-        throw bad_input(settings.place(path + ".normal"), "a direction without length",
-                        "give [x, y, z], not all zero");
-      return;
-    case ObstacleShape::sphere:
-      need(obstacle.center.has_value(), "center", "sphere");
-      return need(obstacle.radius.has_value(), "radius", "sphere");
-    case ObstacleShape::capsule:
-      need(obstacle.from.has_value(), "from", "capsule");
-      need(obstacle.to.has_value(), "to", "capsule");
-      return need(obstacle.radius.has_value(), "radius", "capsule");
-    case ObstacleShape::box:
-      need(obstacle.center.has_value(), "center", "box");
-      need(obstacle.size.has_value(), "size", "box");
-      if (!(obstacle.size->array() > 0).all())
-        throw bad_input(settings.place(path + ".size"), "a box without size along an axis",
-                        "give three lengths above 0");
-      return;
-    case ObstacleShape::mesh:
-      return need(!obstacle.mesh.empty(), "mesh", "mesh");
-  }
+  const ObstacleShapeRow& shape = obstacle_shapes()[static_cast<std::size_t>(obstacle.shape)];
+  for (const std::string_view key : shape.needs)
+    require(is_given(obstacle, key), path, std::string(key), std::string(shape.name), settings);
+  if (obstacle.normal.norm() == 0)
+    throw bad_input(settings.place(path + ".normal"), "a direction without length",
+                    "give [x, y, z], not all zero");
+  if (obstacle.size && !(obstacle.size->array() > 0).all())
+    throw bad_input(settings.place(path + ".size"), "a box without size along an axis",
+                    "give three lengths above 0");
 }
 
 void read_obstacle(const YamlNode& item, const std::string& path, ObstacleSettings& obstacle,

@@ -173,6 +173,6 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
 
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
 #define SINEW_AT(Owner, member) \
-  [](Owner & owner) -> auto& { return owner.member; }
+  [](Owner & owner) -> auto& { return (owner).member; }
 
 }  // namespace sinew::rows

@@ -70,6 +70,15 @@ std::span<const Field<ValueKeySettings>> strength_fields();    ///< world.fields
 std::span<const Field<MuscleSettings>> muscle_fields();        ///< world.muscles[]
 std::span<const Field<ValueKeySettings>> activation_fields();  ///< world.muscles[].keys[]
 
+/// A shape of obstacles: the word for it, and the keys that it needs.
+struct ObstacleShapeRow {
+  std::string_view name;
+  std::vector<std::string_view> needs;
+};
+
+/// In the order of ObstacleShape.
+std::span<const ObstacleShapeRow> obstacle_shapes();
+
 /// The order of sections in a scene.
 std::span<const std::string_view> sections();
 

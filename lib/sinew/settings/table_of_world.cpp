@@ -7,12 +7,18 @@ namespace {
 
 using namespace rows;
 
+std::vector<std::string_view> shape_names() {
+  std::vector<std::string_view> names;
+  for (const ObstacleShapeRow& shape : obstacle_shapes()) names.push_back(shape.name);
+  return names;
+}
+
 std::vector<Field<ObstacleSettings>> make_obstacles() {
   using O = ObstacleSettings;
   return {
       required(field<O>("", "name", SINEW_AT(O, name), "", "unique name of the obstacle")),
       required(choice<O>(
-          "", "shape", SINEW_AT(O, shape), {"plane", "sphere", "capsule", "box", "mesh"},
+          "", "shape", SINEW_AT(O, shape), shape_names(),
           "shape of the obstacle; a plane is solid behind it, the others are solid inside")),
       field<O>("", "point", SINEW_AT(O, point), "m", "plane: any point on it"),
       field<O>("", "normal", SINEW_AT(O, normal), "",
@@ -144,6 +150,15 @@ std::vector<Field<ValueKeySettings>> make_value_keys(std::string_view name, std:
 }
 
 }  // namespace
+
+std::span<const ObstacleShapeRow> obstacle_shapes() {
+  static const std::vector<ObstacleShapeRow> shapes = {{"plane", {}},
+                                                       {"sphere", {"center", "radius"}},
+                                                       {"capsule", {"from", "to", "radius"}},
+                                                       {"box", {"center", "size"}},
+                                                       {"mesh", {"mesh"}}};
+  return shapes;
+}
 
 std::span<const Field<ObstacleSettings>> obstacle_fields() {
   static const auto table = make_obstacles();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/settings/write_scene.h>
 
-#include <sinew/settings/checks.h>
-#include <sinew/settings/read_world.h>
+#include <sinew/settings/sections.h>
 #include <sinew/settings/text_file.h>
 
 namespace sinew {

@@ -31,7 +31,7 @@ namespace {
 
 constexpr int unknown = -1;
 
-/// The one component around a place that no cavity has taken away, or `unknown`.
+/// The one component around a point that no cavity excludes, or `unknown`.
 int only_one(const Depths& depths) {
   int found = unknown;
   for (const auto& [component, depth] : depths.around()) {
@@ -42,7 +42,7 @@ int only_one(const Depths& depths) {
   return found;
 }
 
-/// Follows a row and finds owners of cavities that have none yet. False when it learnt nothing.
+/// Follows a row and finds owners of cavities that have none yet. False where it found none.
 bool learn(std::span<const Crossing> row, const Surface& surface, std::vector<int>& owner) {
   Depths depths;
   bool learnt = false;
@@ -67,9 +67,8 @@ std::vector<int> owners_of(const Surface& surface, const RowCrossings& crossings
   std::size_t missing = 0;
   for (int i = 0; i < surface.components; ++i)
     if (volumes[i] < 0) owner[i] = unknown, ++missing;
-  for (bool learnt = missing > 0;
-       learnt && std::count(owner.begin(), owner.end(), unknown) >
-                     0;) {  // cavities within cavities take more than one round
+  for (bool learnt = missing > 0; learnt && std::count(owner.begin(), owner.end(), unknown) >
+                                                0;) {  // nested cavities take more than one round
     learnt = false;
     for (std::size_t row = 0; row + 1 < crossings.first.size(); ++row)
       learnt = learn(crossings.of(row), surface, owner) || learnt;
@@ -81,7 +80,7 @@ std::vector<int> owners_of(const Surface& surface, const RowCrossings& crossings
 
 namespace {
 
-/// Many parts that overlap in many rows do so in the same pairs.
+/// Parts that overlap in many rows do so in the same pairs.
 void drop_repeated(std::vector<std::array<int, 2>>& overlaps) {
   constexpr std::size_t many = 4096;
   if (overlaps.size() < many) return;

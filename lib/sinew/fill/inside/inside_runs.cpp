@@ -23,7 +23,7 @@ std::vector<SweptRows> all_rows(std::size_t rows, const Sweep& sweep) {
   return found;
 }
 
-/// Every so many sites, about `samples` of them.
+/// Every n-th site, about `samples` of them.
 std::vector<RowSite> spread_sites(const Lattice& lattice) {
   const std::uint64_t step = std::max<std::uint64_t>(1, lattice.sites() / samples);
   std::vector<RowSite> chosen;

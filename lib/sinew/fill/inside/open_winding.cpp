@@ -14,7 +14,7 @@ constexpr int caps_in_a_leaf = 4;
 
 Vec3 area_of(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
 
-/// From the origin to the line a b between its ends.
+/// Distance of the origin from the segment a b.
 double distance(const Vec3& a, const Vec3& b) {
   const Vec3 way = b - a;
   const double square = way.squaredNorm();
@@ -52,7 +52,7 @@ OpenWinding::OpenWinding(const Lattice& lattice, const Triangles& caps,
   for (std::size_t i = 0; i < sorted_.size(); ++i) place_[sorted_[i].face] = static_cast<int>(i);
 }
 
-/// A side that no other cap goes along, in the other direction.
+/// A side that no other cap traverses in the other direction.
 void OpenWinding::find_border() {
   std::vector<std::array<int, 2>> sides;
   for (const auto& face : caps_.faces)
@@ -66,7 +66,8 @@ void OpenWinding::find_border() {
     }
 }
 
-/// Halves by the middles' order along the longest side of their box; ties by the file's order.
+/// Halves by the order of the centers along the longest side of their box; ties by the file's
+/// order.
 int OpenWinding::build(int first, int last) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back(summary(first, last));
@@ -125,7 +126,7 @@ OpenWinding::View OpenWinding::view(std::size_t row, int site) const {
 }
 
 OpenWinding::Share OpenWinding::sum(const View& view, double farness, double& doubt) const {
-  std::array<int, 64> waiting;  // halving keeps the tree below that depth
+  std::array<int, 64> waiting;  // the tree is shallower, by halving
   int count = 0;
   Share all{0, std::numeric_limits<double>::infinity()};
   waiting[count++] = 0;
@@ -168,15 +169,15 @@ int OpenWinding::before(const View& view, int first, int last) const {
   return sum;
 }
 
-/// What a corner is to the eye: along the row, across, up.
+/// A corner relative to the site: along the row, across, up.
 struct OpenWinding::Ray {
   Vec3 to;
   double length;
-  double rest;  ///< length + to.x(), also where that is almost nothing
+  double rest;  ///< length + to.x(), accurate also near cancellation
   bool on_row;  ///< the row meets the corner
 };
 
-/// A row that meets a corner is shifted a little across, and by much less up.
+/// A row that meets a corner is shifted infinitesimally across, and by much less up.
 OpenWinding::Ray OpenWinding::ray(const View& view, const Vec3& corner) const {
   Ray ray{frame_.turned_between(view.site_at, corner), 0, 0, false};
   ray.length = ray.to.norm();
@@ -207,7 +208,7 @@ OpenWinding::Share OpenWinding::strips(const View& view, const Cap& cap) const {
   return {-sum / (2 * pi), clearance};
 }
 
-/// a x b along the row, with a sign that holds even where rounding leaves none.
+/// a x b along the row, with a sign that is right also where rounding cancels it.
 double OpenWinding::turn(const View& view, const Cap& cap, int corner, const Ray& a,
                          const Ray& b) const {
   const double one = a.to.y() * b.to.z(), other = a.to.z() * b.to.y();
@@ -223,15 +224,15 @@ double OpenWinding::turn(const View& view, const Cap& cap, int corner, const Ray
 
 namespace {
 
-/// A site that was looked at.
+/// An evaluated site.
 struct Looked {
   int site;
-  double margin;     ///< of the winding number above one half
-  double clearance;  ///< from the border, in sites
+  double margin;     ///< winding number minus one half
+  double clearance;  ///< distance from the border, in sites
 };
 
-/// Away from the border the winding number is smooth: where two places are no farther from each
-/// other than from the border, and their margins differ by little, those between have their sign.
+/// Away from the border the winding number is smooth: where two sites are no farther from each
+/// other than from the border, and their margins differ by little, sites between have their sign.
 bool smooth_between(const Looked& a, const Looked& b) {
   const double least = std::min(std::abs(a.margin), std::abs(b.margin));
   return std::abs(a.margin - b.margin) < least / 4 && b.site - a.site < a.clearance + b.clearance;
@@ -251,7 +252,7 @@ void between(const Looked& a, const Looked& b, const Look& look, RowRuns& runs) 
   between(middle, b, look, runs);
 }
 
-/// In steps that double away from both ends of first .. last - 1.
+/// In steps that double, from both ends of first .. last - 1.
 std::vector<int> doubling_from_both_ends(int first, int last) {
   std::vector<int> sites = {first, last - 1};
   for (int step = 1; step < (last - first) / 2; step *= 2) {
@@ -289,8 +290,8 @@ double OpenSweep::winding(std::size_t row, int site) const {
   return sum + (winding_.none() ? 0 : winding_.share(row, site, {0.02, 1e9}).value);
 }
 
-/// Between two crossings the winding number changes smoothly, faster near the surface: looked at
-/// in steps that double away from both ends, then between them where a doubt is left.
+/// Between two crossings the winding number varies smoothly, faster near the surface: it is
+/// evaluated in steps that double from both ends, then between them where it remains undecided.
 void OpenSweep::add_between(std::size_t row, int first, int last, int sum, RowRuns& runs) const {
   if (first >= last) return;
   const std::vector<int> sites = doubling_from_both_ends(first, last);

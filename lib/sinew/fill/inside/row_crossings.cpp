@@ -44,7 +44,7 @@ namespace {
 
 constexpr std::size_t faces_at_a_time = 4096, rows_at_a_time = 512;
 
-/// A point of the surface as the rows see it.
+/// A point of the surface in the frame of the rows.
 struct Corner {
   double x, across, up;
 };
@@ -54,7 +54,7 @@ struct RowCrossing {
   Crossing crossing;
 };
 
-/// What a piece of the faces came to.
+/// The result for a part of the faces.
 struct Found {
   std::vector<RowCrossing> crossings;
   std::vector<RowSite> on_surface;
@@ -64,11 +64,11 @@ struct Reach {
   double low, high;
 };
 
-/// A row as a point among the corners, on the left or right of each side of a face.
+/// A row as a point relative to a face's corners, on the left or right of each side.
 struct Sides {
   std::array<int, 3> sign;         ///< exact; 0: on the side's line
-  std::array<double, 3> leverage;  ///< of the corner opposite to each side: its share of the area
-  double tolerance;                ///< of the leverages together
+  std::array<double, 3> leverage;  ///< barycentric weight of the corner opposite to each side
+  double tolerance;                ///< of the sum of weights
 };
 
 class Caster {
@@ -107,7 +107,7 @@ class Caster {
     int layer, row;
   };
 
-  // Whole numbers from `at` on, and up to it; a little more than rounding asks for.
+  // Integers from `at` on, and up to it, enlarged by a margin above rounding errors.
   static int first_index(double at, int last) {
     return static_cast<int>(std::ceil(std::clamp(at - 1e-6, 0.0, last + 1.0)));
   }
@@ -128,7 +128,7 @@ class Caster {
     return {low, high};
   }
 
-  /// Where a face can be met on the height `up`: never less than the truth.
+  /// Bounds on where a face can be met at height `up`; may be too large.
   Reach across_reach(int face, double up) const {
     Reach reach{HUGE_VAL, -HUGE_VAL};
     for (int side = 0; side < 3; ++side) {
@@ -185,7 +185,7 @@ class Caster {
         {static_cast<std::int32_t>(index), {site, face, -turn * frame_.handedness()}});
   }
 
-  /// The row lies in the face's plane: only the sites on the face count.
+  /// The row lies in the face's plane: only sites on the face count.
   void touch(int face, std::size_t index, Found& found) const {
     const LatticeRow& row = lattice_.rows[index];
     const auto [low, high] = site_reach(face, row);
@@ -194,14 +194,14 @@ class Caster {
         found.on_surface.push_back({static_cast<std::int32_t>(index), n});
   }
 
-  /// The sites of the row that the face reaches along it, a few more included.
+  /// The sites of the row in the face's extent along it, enlarged by a few.
   std::pair<int, int> site_reach(int face, const LatticeRow& row) const {
     const auto [low, high] = std::minmax({corner(face, 0).x, corner(face, 1).x, corner(face, 2).x});
     return {first_index(frame_.site_at(row, low) - 1, row.sites - 1),
             last_index(frame_.site_at(row, high) + 1, row.sites - 1)};
   }
 
-  /// The row's first site at or beyond its meeting with the face; a site on it is noted.
+  /// The row's first site at or beyond its crossing with the face; a site on the face is recorded.
   int first_beyond(int face, std::size_t index, const Sides& at, int turn, Found& found) const {
     const LatticeRow& row = lattice_.rows[index];
     const double area = at.leverage[0] + at.leverage[1] + at.leverage[2];
@@ -223,7 +223,7 @@ class Caster {
     return search(face, index, {low, high}, turn * frame_.handedness(), found);
   }
 
-  /// Halves the sites low .. high, of which those beyond the face's plane follow the others.
+  /// Bisects the sites low .. high, of which those beyond the face's plane follow the others.
   int search(int face, std::size_t index, std::pair<int, int> sites, int facing,
              Found& found) const {
     const LatticeRow& row = lattice_.rows[index];
@@ -261,7 +261,7 @@ std::vector<Found> cast_all(const Lattice& lattice, const Triangles& surface) {
   return found;
 }
 
-/// Counts, then places: the order within a row comes from sorting it.
+/// Counts, then fills: sorting determines the order in a row.
 void sort_into_rows(const std::vector<Found>& found, RowCrossings& rows) {
   for (const Found& piece : found)
     for (const RowCrossing& one : piece.crossings) ++rows.first[one.row + 1];

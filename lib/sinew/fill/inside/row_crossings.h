@@ -19,8 +19,8 @@
 
 namespace sinew {
 
-// A lattice projected along its rows: each row is a point (across, up) of a plane, in which the rows
-// of a layer are evenly spaced.
+// A lattice projected along its rows: each row is a point (across, up) of a plane, in which the
+// rows of a layer are evenly spaced.
 
 inline constexpr double rounding = 1.2e-16;  // relative error of one operation, slightly enlarged
 

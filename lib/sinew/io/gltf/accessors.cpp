@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-/// The bytes may stand anywhere.
+/// Reads a number from unaligned bytes.
 template <class Number>
 double number_at(const char* from, bool normalized) {
   Number number;
@@ -37,7 +37,7 @@ double number_at(const char* from, GltfNumber number, bool normalized) {
   return 0;
 }
 
-/// Over the others.
+/// Replaces elements by the sparse ones.
 void put_sparse(const CheckedGltf& gltf, const GltfAccessor& accessor, double* values) {
   const GltfSparse& sparse = *accessor.sparse;
   const int parts = components_of(accessor.type);

@@ -34,7 +34,7 @@ bool is_short(GltfNumber number) {
   return number == GltfNumber::uint8 || number == GltfNumber::uint16;
 }
 
-/// Four for each vertex, as joints or as weights.
+/// Four per vertex, of joints or of weights.
 void check_influences(const GltfDocument& document, const GltfPrimitive& primitive, int index,
                       bool weights, const std::string& user) {
   const GltfAccessor& accessor = accessor_of(document, index, user);
@@ -70,7 +70,7 @@ void check_times(const GltfDocument& document, const GltfSampler& sampler,
     throw damaged_gltf(user + "'s times are not SCALAR of 5126");
 }
 
-/// Rotations may be given in parts of the largest whole number.
+/// Rotations may be given as normalized integers.
 bool is_value(const GltfAccessor& values, GltfPath path) {
   if (values.type != (path == GltfPath::rotation ? "VEC4" : "VEC3")) return false;
   if (values.number == GltfNumber::float32) return true;

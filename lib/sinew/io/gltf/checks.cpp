@@ -14,7 +14,7 @@
 namespace sinew {
 namespace {
 
-/// What is drawn onto a shape, or lights it, leaves the shape alone.
+/// Extensions about appearance and light, which do not change shapes.
 bool leaves_shapes(std::string_view extension) {
   constexpr std::array<std::string_view, 8> harmless = {
       "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
@@ -31,7 +31,7 @@ std::string cure_for(std::string_view extension) {
   return "export without it";
 }
 
-/// glTF 2, and no extension required that changes shapes.
+/// glTF 2 without required extensions that change shapes.
 void check_version(const GltfDocument& document) {
   const auto is_2 = [](std::string_view version) { return version.starts_with("2."); };
   if (!is_2(document.version) || document.least_version > "2.0")
@@ -43,7 +43,7 @@ void check_version(const GltfDocument& document) {
       throw bad_input("it needs the extension " + shown(extension), cure_for(extension));
 }
 
-/// Every view lies in its buffer; then the buffers become one: views count from its start.
+/// Every view lies in its buffer; then the buffers are joined: views count from the start.
 void join_buffers(GltfDocument& document) {
   std::vector<std::int64_t> starts = {0};
   for (const GltfBuffer& buffer : document.buffers) starts.push_back(starts.back() + buffer.size);
@@ -61,13 +61,13 @@ void join_buffers(GltfDocument& document) {
   document.buffers.clear();
 }
 
-/// Whether indices may be given in such numbers.
+/// Whether indices may be of that number type.
 bool counts(GltfNumber number) {
   return number == GltfNumber::uint8 || number == GltfNumber::uint16 ||
          number == GltfNumber::uint32;
 }
 
-/// That `count` elements of `size` bytes from `offset` on lie in the view.
+/// Checks that `count` elements of `size` bytes from `offset` lie in the view.
 void check_extent(const GltfDocument& document, const std::string& user, int view_index,
                   std::int64_t offset, std::int64_t count, std::int64_t size) {
   check_index(view_index, document.views, user, "bufferView");
@@ -103,7 +103,7 @@ void check_accessor(const GltfDocument& document, std::size_t index) {
                sparse.count, size);
 }
 
-/// The indices of a sparse accessor, checked before, are within it.
+/// Checks the indices of a sparse accessor, which must have been checked.
 void check_sparse(const CheckedGltf& gltf, std::size_t index) {
   const GltfAccessor& accessor = gltf.document.accessors[index];
   const GltfSparse& sparse = *accessor.sparse;
@@ -165,12 +165,12 @@ void check_node(const GltfDocument& document, std::size_t index) {
   const std::string user = nth("nodes", index);
   if (node.mesh >= 0) check_index(node.mesh, document.meshes, user, "mesh");
   if (node.skin >= 0) check_index(node.skin, document.skins, user, "skin");
-  const auto& m = node.matrix;  // column by column: these are the last row
+  const auto& m = node.matrix;  // column-major: these are the last row
   if (!m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
     throw damaged_gltf(user + "'s matrix does not end in the row 0 0 0 1");
 }
 
-/// The topmost nodes of the default scene: of the first one where none is named, every node without
+/// The topmost nodes of the default scene: of the first one where none is named, all nodes without
 /// parent where there are no scenes.
 std::vector<int> roots_of_scene(const GltfDocument& document, const GltfTree& tree) {
   if (document.scene >= 0) check_index(document.scene, document.scenes, "scene", "scene");
@@ -182,7 +182,7 @@ std::vector<int> roots_of_scene(const GltfDocument& document, const GltfTree& tr
   return roots;
 }
 
-/// All nodes of the scene, parents first; its topmost ones have no parents and are there once.
+/// All nodes of the scene, parents first; its topmost ones must have no parents and occur once.
 std::vector<int> shown_nodes(const GltfDocument& document, const GltfTree& tree) {
   std::vector<int> shown = roots_of_scene(document, tree);
   std::vector<bool> listed(document.nodes.size());
@@ -230,7 +230,7 @@ const GltfAccessor& accessor_of(const GltfDocument& document, int index, const s
 }
 
 CheckedGltf checked_gltf(const std::filesystem::path& path) {
-  std::string file = read_file(path, most_gltf_bytes);  // its errors name the path themselves
+  std::string file = read_file(path, most_gltf_bytes);  // its errors name the path
   try {
     return checked(gltf_container(std::move(file), path.extension()), path.parent_path());
   } catch (const Error& error) {

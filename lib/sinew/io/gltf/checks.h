@@ -33,8 +33,9 @@ CheckedGltf checked_gltf(const std::filesystem::path& path);
 // The checks for rigs. All throw bad input without the path, naming the faulty element:
 // "accessors[3]".
 
-/// Indices exist; joints are nodes, each once; there are enough inverse bind matrices; surfaces have
-/// joints and weights of the right type for every vertex. Accessors and meshes must be checked.
+/// Indices exist; joints are nodes, each once; there are enough inverse bind matrices; surfaces
+/// have joints and weights of the right type for every vertex. Accessors and meshes must be
+/// checked.
 void check_gltf_skins(const GltfDocument& document);
 
 /// Indices exist; times and values are of the right type and number; no property of a node follows

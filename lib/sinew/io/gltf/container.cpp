@@ -20,7 +20,7 @@ constexpr std::size_t header_size = 12;                                    // ma
 constexpr std::size_t chunk_header_size = 8;                               // length, kind
 constexpr std::uint32_t json_kind = 0x4E4F534A, binary_kind = 0x004E4942;  // "JSON", "BIN\0"
 
-/// A little-endian number; there must be four bytes.
+/// A little-endian number; four bytes must be present.
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
   for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
@@ -71,7 +71,7 @@ Error too_short(std::int64_t size, std::size_t there) {
                    "export it again");
 }
 
-/// The first `size` bytes of what follows "data:".
+/// The first `size` bytes of a data URI, after "data:".
 std::string decoded(std::string_view data, std::size_t size) {
   const auto comma = data.find(',');
   const Error not_base64 = bad_input("a buffer's data is not in base64", "export it again");
@@ -103,7 +103,7 @@ std::string without_percents(std::string_view uri) {
   return text;
 }
 
-/// Whether a path without detours stays in the folder it starts from.
+/// Whether a normalized path stays in the folder it starts from.
 bool stays_below(const fs::path& path) {
   return !path.empty() && path.is_relative() && *path.begin() != "..";
 }

@@ -19,13 +19,13 @@ struct GltfContainer {
   std::optional<std::string> binary;  ///< the binary chunk of a GLB
 };
 
-/// The content of a file of that extension (".gltf", ".glb", in any case). Throws bad input (without
-/// the path) where it is neither, is truncated, or has the other's extension.
+/// The content of a file of that extension (".gltf", ".glb", in any case). Throws bad input
+/// (without the path) where it is neither, is truncated, or has the other's extension.
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension);
 
-/// All buffers concatenated, each of its declared length. `binary` is the GLB's chunk, `folder` that
-/// of the glTF file: buffers in files must lie there or below. Throws bad input (without the path)
-/// for buffers that are missing, too short, or too long in total.
+/// All buffers concatenated, each of its declared length. `binary` is the GLB's chunk, `folder`
+/// that of the glTF file: buffers in files must lie there or below. Throws bad input (without the
+/// path) for buffers that are missing, too short, or too long in total.
 std::vector<char> gltf_bytes(const std::vector<GltfBuffer>& buffers,
                              const std::optional<std::string>& binary,
                              const std::filesystem::path& folder);

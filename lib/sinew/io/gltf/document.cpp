@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest = 100;               // real files nest to about 10
-constexpr std::int64_t most_values = 4e6;  // each takes some 100 bytes once parsed
+constexpr int deepest = 100;               // real files are nested to about 10
+constexpr std::int64_t most_values = 4e6;  // each takes about 100 bytes once parsed
 constexpr std::size_t most_items = 100'000;
 
 /// Index of the quote that ends the string beginning at `at`.
@@ -26,7 +26,7 @@ std::size_t end_of_string(std::string_view json, std::size_t at) {
   return at;
 }
 
-/// Before parsing: what is nested deeply is later copied and freed by recursion.
+/// Checked before parsing: deeply nested values are later copied and freed by recursion.
 void check_extent(std::string_view json) {
   int depth = 0;
   std::int64_t values = 0;
@@ -48,11 +48,11 @@ Json parsed(std::string_view text) {
   } catch (const Json::parse_error& error) {
     throw damaged_gltf("its JSON is damaged at byte " + std::to_string(error.byte));
   } catch (const Json::out_of_range&) {
-    throw damaged_gltf("its JSON holds a number too large for any computer");
+    throw damaged_gltf("its JSON holds a number that is too large");
   }
 }
 
-/// The integer that a JSON number stands for: 100 may be written 1e2.
+/// The integer that a JSON number represents: 100 may be written 1e2.
 std::optional<std::int64_t> integer_in(const Json& value) {
   constexpr double most_exact = 9007199254740992;  // 2^53
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) return std::nullopt;
@@ -90,9 +90,9 @@ double number_in(const Json& value, const std::string& name) {
   return number;
 }
 
-/// A value, or the lack of one, and its name in messages: "accessors[3].count". Every function
-/// throws bad input for a value of another kind. Numbers and texts that are not given are refused
-/// as well, lists that are not given are empty.
+/// A value, possibly missing, and its name in messages: "accessors[3].count". Every function throws
+/// bad input for a value of another type. Missing numbers and texts are refused as well; missing
+/// lists are empty.
 class Field {
  public:
   explicit Field(const Json& root) : value_(&root) {}
@@ -154,7 +154,7 @@ class Field {
   }
   std::string text_or_none() const { return given() ? text() : std::string(); }
 
-  /// Of an object, "" where it has none. It will be printed: what no line can hold becomes '?'.
+  /// Of an object, "" where it has none. Characters that cannot be printed in a line become '?'.
   std::string given_name() const {
     std::string name = (*this)["name"].text_or_none();
     const auto unprintable = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
@@ -162,7 +162,7 @@ class Field {
     return name;
   }
 
-  bool flag() const {  ///< false where it is not given
+  bool flag() const {  ///< false where it is missing
     if (given() && !value_->is_boolean()) throw wrong(name_, *value_, "true or false");
     return given() && value_->get<bool>();
   }
@@ -202,7 +202,7 @@ GltfView view_in(const Field& field) {
 }
 
 GltfNumber kind_in(const Field& field) {
-  constexpr int signed_int32 = 5124;  // OpenGL has it, glTF does not
+  constexpr int signed_int32 = 5124;  // in OpenGL, not in glTF
   const std::int64_t number = field.whole(5120, 5126);
   if (number == signed_int32) throw damaged_gltf(field.name() + " is 5124");
   return static_cast<GltfNumber>(number);
@@ -277,7 +277,7 @@ GltfSkin skin_in(const Field& field) {
           field["skeleton"].index_or_none()};
 }
 
-/// The value that a word of the list stands for.
+/// The value of a word in the list.
 template <class Value>
 Value word_in(const Field& field, std::initializer_list<std::pair<const char*, Value>> words) {
   const std::string text = field.text();
@@ -297,7 +297,7 @@ GltfSampler sampler_in(const Field& field) {
   return sampler;
 }
 
-/// Weights are those of morph targets, pointers lead to things that are no nodes.
+/// Weights are those of morph targets; pointers refer to other things than nodes.
 GltfChannel channel_in(const Field& field) {
   const Field target = field["target"];
   const GltfPath path = word_in<GltfPath>(target["path"], {{"translation", GltfPath::translation},

@@ -28,7 +28,7 @@ class Corners {
     indices_.emplace(gltf, indices);
   }
 
-  /// Calls visit(a, b, c) for each triangle, all turned the same way.
+  /// Calls visit(a, b, c) for each triangle, all in the same orientation.
   template <class Visit>
   void for_each_triangle(const Visit& visit) const {
     if (mode_ == GltfMode::triangles)
@@ -37,7 +37,7 @@ class Corners {
       for (std::int64_t i = 1; i + 1 < count_; ++i) visit(at(0), at(i), at(i + 1));
     if (mode_ == GltfMode::triangle_strip)
       for (std::int64_t i = 0; i + 2 < count_; ++i) {
-        // Every other triangle turns the other way; flat ones only lead the strip elsewhere.
+        // Every second triangle is reversed; degenerate ones only connect parts of the strip.
         const std::int64_t a = at(i), b = at(i + 1 + i % 2), c = at(i + 2 - i % 2);
         if (a != b && b != c && c != a) visit(a, b, c);
       }
@@ -48,10 +48,10 @@ class Corners {
 
   GltfMode mode_;
   std::int64_t count_;
-  std::optional<GltfElements> indices_;  // none: the vertices as they come
+  std::optional<GltfElements> indices_;  // none: the vertices in their order
 };
 
-/// Adds the triangles of one primitive to a soup, and of its vertices those they use.
+/// Adds the triangles of one primitive to a soup, with the vertices they use.
 class Paste {
  public:
   Paste(std::vector<double> positions, const GltfShape& shape, int primitive,
@@ -90,7 +90,7 @@ class Paste {
   const GltfShape& shape_;
   int primitive_;
   bool mirrors_;
-  std::vector<int> places_;  // of vertices in the soup, -1 for those not used yet
+  std::vector<int> places_;  // of vertices in the soup, -1 for unused ones
   GltfTriangles& triangles_;
 };
 
@@ -129,7 +129,7 @@ Size size_of(const GltfDocument& document, const GltfMesh& mesh) {
   return size;
 }
 
-/// A small file can place one mesh many thousand times.
+/// A small file can instance one mesh many thousand times.
 void check_size(const CheckedGltf& gltf, const std::vector<GltfShape>& shapes) {
   constexpr double vertex = 64, triangle = 56;  // bytes
   std::vector<Size> sizes;
@@ -155,7 +155,7 @@ bool is_skinned(const CheckedGltf& gltf) {
   return false;
 }
 
-/// A skin's bind pose puts its meshes, their nodes do not.
+/// Skinned meshes are placed by the skin's bind pose, not by their nodes.
 std::vector<GltfShape> shapes_of(const CheckedGltf& gltf) {
   std::vector<Affine> local;
   for (const GltfNode& node : gltf.document.nodes) local.push_back(place_of(node).affine());

@@ -10,12 +10,12 @@ namespace sinew {
 namespace {
 
 constexpr double uneven = 1e-4;      // of a node's scale; more is not rounding
-constexpr double most_places = 2e7;  // some 10 s
+constexpr double most_places = 2e7;  // about 10 s
 constexpr double still = 1e-6;       // rad, and of the skeleton's size
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// Where a joint's head was bound, and how it was turned there; no joint (-1) is the scene.
+/// The position of a joint's head at bind, and its rotation; no joint (-1) is the scene.
 Vec3 bound_head(const GltfBindPose& bind, int joint) {
   return joint < 0 ? Vec3::Zero() : Vec3(bind.joints[at(joint)].bind.translation());
 }
@@ -24,11 +24,12 @@ Mat3 bound_turn(const GltfBindPose& bind, int joint) {
   return joint < 0 ? Mat3::Identity() : nearest_rotation(bind.joints[at(joint)].bind.linear());
 }
 
-/// From a joint's parent joint (from the scene for a topmost one) to the joint.
+/// The link from a joint's parent joint (from the scene for a topmost one) to the joint.
 struct GltfLink {
-  Affine between = Affine::Identity();  ///< what static nodes between the two do
-  double scale = 1;                     ///< by which all from the parent joint up scales lengths
-  bool exact = true;  ///< nothing between the two moves; sizes stay, are even and do not mirror
+  Affine between = Affine::Identity();  ///< transform of the static nodes between the two
+  double scale = 1;                     ///< of lengths, by the parent joint and all above
+  bool exact =
+      true;  ///< nothing between the two moves; scales are constant, even and do not mirror
 };
 
 std::vector<Affine> still_places(const GltfNodeMotion& nodes) {
@@ -37,7 +38,7 @@ std::vector<Affine> still_places(const GltfNodeMotion& nodes) {
   return places;
 }
 
-/// For each node, whether all nodes down to it keep an even size.
+/// For each node, whether it and all nodes above keep an even scale.
 std::vector<bool> even_nodes(const GltfTree& tree, const GltfNodeMotion& nodes) {
   std::vector<bool> even(tree.parents.size());
   for (const int node : tree.order) {
@@ -48,7 +49,7 @@ std::vector<bool> even_nodes(const GltfTree& tree, const GltfNodeMotion& nodes) 
   return even;
 }
 
-/// For each node, what the nodes between it and the nearest joint above do.
+/// For each node, the transform of the nodes between it and the nearest joint above.
 std::vector<GltfLink> links_of_nodes(const GltfBindPose& bind, const GltfTree& tree,
                                      const GltfNodeMotion& nodes,
                                      const std::vector<Affine>& local) {
@@ -106,7 +107,7 @@ std::vector<double> sample_times(const GltfNodeMotion& nodes, double rate) {
   return times;
 }
 
-/// How a joint has moved since it was bound.
+/// The motion of a joint since it was bound.
 struct Moved {
   Mat3 turn = Mat3::Identity();
   Vec3 head = Vec3::Zero();
@@ -130,10 +131,10 @@ void put_sample(const GltfBindPose& bind, int index, double time, const std::vec
                                      (bound_head(bind, index) - bound_head(bind, parent)));
 }
 
-/// Puts samples at all keys and `rate` times a second, linear between, into the tracks of joints
-/// whose links are not exact: G B^-1 (G where the joint's node is, B where it was bound) puts the
-/// head, and the rotation nearest to it turns the bone. Throws bad input (without the path) where
-/// that takes more than 2e7 places of nodes.
+/// Adds samples at all keys and `rate` times a second, linear between, to the tracks of joints
+/// whose links are not exact: G B^-1 (G the node's transform, B the bind) places the head, and the
+/// nearest rotation turns the bone. Throws bad input (without the path) where that takes more than
+/// 2e7 node transforms.
 void put_samples(const GltfBindPose& bind, const GltfTree& tree, const GltfNodeMotion& nodes,
                  const std::vector<GltfLink>& links, double rate, std::vector<Track>& tracks) {
   std::vector<Affine> local(nodes.places.size());

@@ -19,14 +19,14 @@ using Floats = std::vector<float>;
 constexpr std::size_t most_samples = 500;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-/// A list of one.
+/// A JSON list of one element.
 Json listed(Json only) {
   Json list = Json::array();
   list.push_back(std::move(only));
   return list;
 }
 
-/// The samples that are taken, ascending: all, or every so many and the last.
+/// The samples taken, ascending: all, or every n-th and the last.
 std::vector<std::size_t> taken_samples(const CachedPoints& cache) {
   if (cache.samples() == 0 || cache.points() == 0)
     throw bad_input("the point cache is empty", "run the scene again");
@@ -45,7 +45,7 @@ Floats turned(Floats xyz) {
   return xyz;
 }
 
-/// The moments of the surface, as glTF has them.
+/// The samples of the surface in glTF's axes.
 class Moments {
  public:
   explicit Moments(const std::filesystem::path& cache)
@@ -55,7 +55,7 @@ class Moments {
   std::size_t targets() const { return taken_.size() - 1; }
   const Floats& first() const { return first_; }
 
-  /// Ways of the points from the first moment to that of a target.
+  /// Displacements of the points from the first sample to that of a target.
   Floats target(std::size_t index) {
     Floats ways = turned(cache_.sample(taken_[index + 1]));
     for (std::size_t i = 0; i < ways.size(); ++i) ways[i] -= first_[i];
@@ -69,7 +69,7 @@ class Moments {
     return times;
   }
 
-  /// Of each target at each moment: one after the other is the whole.
+  /// The weights of all targets at each sample: one target at a time has weight 1.
   Floats weights() const {
     Floats weights(taken_.size() * targets(), 0);
     for (std::size_t k = 0; k < targets(); ++k) weights[(k + 1) * targets() + k] = 1;
@@ -82,7 +82,7 @@ class Moments {
   Floats first_;
 };
 
-/// What the file's binary part will hold, one view for each accessor.
+/// The layout of the file's binary part, one view per accessor.
 class Contents {
  public:
   int add(GltfNumber number, const char* type, std::size_t count, Json more = Json::object()) {
@@ -133,7 +133,7 @@ Json animation_of(const Floats& times, std::size_t targets, Contents& contents) 
   return animation;
 }
 
-/// The file's JSON; announces the data in the order in which write_data writes it.
+/// The file's JSON; declares the data in the order in which write_data() writes it.
 Json describe(Moments& moments, std::size_t corners, double interval, Contents& contents) {
   Json surface = {{"indices", contents.add(GltfNumber::uint32, "SCALAR", corners)}};
   surface["attributes"] = {{"POSITION", contents.add_points(moments.first())}};
@@ -142,7 +142,7 @@ Json describe(Moments& moments, std::size_t corners, double interval, Contents& 
   Json json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = listed({{"nodes", listed(0)}});
   json["nodes"] = listed({{"name", "surface"}, {"mesh", 0}});
-  Json mesh = {{"primitives", listed(surface)}};  // weights are 0 by default, but VTK counts them
+  Json mesh = {{"primitives", listed(surface)}};  // weights default to 0, but VTK counts them
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
   json["meshes"] = listed(mesh);
   if (moments.targets() > 0)

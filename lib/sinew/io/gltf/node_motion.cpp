@@ -34,7 +34,7 @@ Interpolation interpolation_of(const GltfSampler& sampler) {
   return Interpolation::linear;
 }
 
-/// Spreads the file's values over a curve: one for each key, or in-tangent, value and out-tangent.
+/// Distributes the file's values over a curve: one per key, or in-tangent, value and out-tangent.
 template <class Curve, class Make>
 Curve curve_of(const CheckedGltf& gltf, const GltfSampler& sampler, const std::string& user,
                std::size_t parts, const Make& make) {
@@ -87,7 +87,7 @@ bool is_still(const RotationCurve& curve) {
          std::all_of(curve.out.begin(), curve.out.end(), none);
 }
 
-/// A curve that moves, or its one value.
+/// An animated curve, or its constant value.
 template <class Curve, class Value>
 void put(Curve curve, bool still, Curve& moving, Value& place) {
   if (still) place = curve.values[0];

@@ -11,8 +11,8 @@
 namespace sinew {
 namespace {
 
-constexpr int deepest = 1000;    // the longest ropes have 200
-constexpr double uneven = 0.01;  // single precision and exporters' rounding stay far below
+constexpr int deepest = 1000;    // the longest chains have about 200
+constexpr double uneven = 0.01;  // far above single precision and exporters' rounding
 constexpr double apart = 0.001;  // of the skeleton's size
 
 /// Each node's parent, -1 for none.
@@ -28,7 +28,7 @@ std::vector<int> parents_of(const GltfDocument& document) {
   return parents;
 }
 
-/// Without recursion; children in the file's order. Leaves out nodes that go in circles.
+/// Without recursion; children in the file's order. Leaves out nodes in cycles.
 std::vector<int> depth_first(const GltfDocument& document, const std::vector<int>& parents) {
   std::vector<int> order, waiting;
   for (std::size_t i = parents.size(); i-- > 0;)
@@ -42,7 +42,7 @@ std::vector<int> depth_first(const GltfDocument& document, const std::vector<int
   return order;
 }
 
-/// What the order has not met goes in circles.
+/// Nodes missing from the order are in cycles.
 void check_tree(const GltfTree& tree) {
   std::vector<int> depth(tree.parents.size());
   for (const int node : tree.order) {
@@ -84,7 +84,7 @@ std::vector<Affine> inverse_binds(const CheckedGltf& gltf, std::size_t skin_inde
 /// The joints of all skins in use, each with the nearest one above it.
 std::vector<GltfJoint> joints_of(const GltfDocument& document, const GltfTree& tree,
                                  const std::vector<bool>& used) {
-  std::vector<int> place(document.nodes.size(), -1);  // of nodes that are joints; above: of others
+  std::vector<int> place(document.nodes.size(), -1);  // index in joints; else of the joint above
   std::vector<bool> is_joint(document.nodes.size());
   for (std::size_t i = 0; i < used.size(); ++i)
     for (const int node : used[i] ? document.skins[i].joints : std::vector<int>())
@@ -117,7 +117,7 @@ void check_bind(const GltfDocument& document, const GltfJoint& joint) {
                   "apply its scale before binding");
 }
 
-/// Puts skins into the scene one after the other.
+/// Places the skins in the scene one by one.
 class Binder {
  public:
   explicit Binder(const CheckedGltf& gltf) : document_(gltf.document) {
@@ -139,7 +139,7 @@ class Binder {
   GltfBindPose pose() const { return pose_; }
 
  private:
-  /// By its first joint that another skin has bound already, else by its topmost one.
+  /// By its first joint that another skin has already bound, else by its topmost one.
   Affine place_of_skin(const std::vector<int>& places, const std::vector<Affine>& inverses) const {
     std::size_t top = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {

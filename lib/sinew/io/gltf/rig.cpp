@@ -18,10 +18,10 @@ namespace {
 
 constexpr int most_sets = 8;  // exporters write one or two
 
-/// A small file can use the same numbers many thousand times.
+/// A small file can refer to the same numbers many thousand times.
 void check_size(const GltfDocument& document) {
   constexpr double key = 100, node = 1000;  // bytes
-  constexpr double most_visits = 1e8;       // of nodes, some 10 s
+  constexpr double most_visits = 1e8;       // of nodes, about 10 s
   constexpr std::size_t most_animations = 10000;
   double bytes = node * static_cast<double>(document.nodes.size()), keys = 0;
   for (const GltfAnimation& animation : document.animations)
@@ -45,8 +45,8 @@ const GltfNode& node_of(const GltfDocument& document, int node) {
   return document.nodes[static_cast<std::size_t>(node)];
 }
 
-/// Where the bone of a joint ends, as far as its nodes tell: at the child that is named its end,
-/// or, where no joints hang on it, at its only one.
+/// The end of a joint's bone by its nodes: at the child named as its end, or, where it has no child
+/// joints, at its only child.
 std::optional<Vec3> end_of(const GltfDocument& document, const GltfJoint& joint, bool is_leaf) {
   const GltfNode& node = node_of(document, joint.node);
   std::string end = node.name;
@@ -71,7 +71,7 @@ Skeleton skeleton_in(const GltfDocument& document, const GltfBindPose& bind) {
   return skeleton_of(joints);
 }
 
-/// Sets the clip's frames where its keys follow each other evenly.
+/// Sets the clip's frames where its keys are evenly spaced.
 void count_frames(const std::vector<double>& times, Clip& clip) {
   constexpr double uneven = 0.01;  // of a frame; times are in single precision
   if (times.size() < 2) return;
@@ -149,7 +149,7 @@ std::vector<Set> sets_of(const CheckedGltf& gltf, const GltfPrimitive& primitive
   return sets;
 }
 
-/// A new one is 0.
+/// Initialized to 0 where it is new.
 double& weight_of(int bone, std::vector<BoneWeight>& weights) {
   for (BoneWeight& weight : weights)
     if (weight.bone == bone) return weight.weight;

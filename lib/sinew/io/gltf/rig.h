@@ -4,13 +4,13 @@
 //     const GltfRig fox = read_gltf_rig("fox.glb");
 //
 // Bones are the joints of all skins that move a mesh of the default scene (of all skins where none
-// does), each node once; their rest is the bind pose of the skins, placed and scaled in the scene as
-// node_tree.h says. Their tails are those of <sinew/rig/skeleton.h>; a joint "x" ends at its child node "x_end",
-// as Blender names ends; without one, and without joints below it, at its only child node, if that
-// has no mesh. Every animation is a clip. Keys are kept; where that is impossible (scale, moving
-// nodes between joints) the bone is sampled, as joint_motion.h says. Bones are rigid: scale that
-// changes over time moves the heads below it, but changes no size; stretch is not used. Morph
-// targets are ignored.
+// does), each node once; their rest is the bind pose of the skins, placed and scaled in the scene
+// as node_tree.h says. Their tails are those of <sinew/rig/skeleton.h>; a joint "x" ends at its
+// child node "x_end", as Blender names ends; without one, and without joints below it, at its only
+// child node, if that has no mesh. Every animation is a clip. Keys are kept; where that is
+// impossible (scale, moving nodes between joints) the bone is sampled, as joint_motion.h says.
+// Bones are rigid: scale that changes over time moves the heads below it, but changes no size;
+// stretch is not used. Morph targets are ignored.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The two views side by side, and from where they look."""
+"""The two views side by side, and their cameras."""
 import math
 
 from paraview.simple import *
@@ -7,7 +7,7 @@ from paraview.simple import *
 INK = [0.16, 0.18, 0.22]
 PAPER_TOP = [0.86, 0.89, 0.93]
 PAPER = [0.98, 0.98, 0.99]
-# What the body may fill of the picture's width and height; the color bar stands below it.
+# The part of the picture's width and height that the body may fill, above the color bar.
 WIDE, TALL = 0.9, 0.8
 
 
@@ -45,7 +45,7 @@ def bounds_of(source):
 
 
 def middle_and_size(corners):
-    """Of the box around all corners: its middle, and the longest of its sides."""
+    """The center of the box around all corners, and its longest side."""
     low, high = ([pick(corner[k] for corner in corners) for k in range(3)] for pick in (min, max))
     return [(a + b) / 2 for a, b in zip(low, high)], max(b - a for a, b in zip(low, high))
 
@@ -60,7 +60,7 @@ def unit(a):
 
 
 def look_at(view, corners, back, aspect):
-    """From the direction `back`, z up, as near as all corners allow."""
+    """Places the camera in the direction `back`, z up, as near as all corners allow."""
     back = unit(back)
     across = unit([-back[1], back[0], 0]) if back[0] or back[1] else [1, 0, 0]
     up = [back[1] * across[2] - back[2] * across[1], back[2] * across[0] - back[0] * across[2],

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Follows in ParaView a run that is still going: shows the newest frame as soon as it is there.
+"""Follows a run in progress in ParaView: shows the newest frame as soon as it is written.
 
     paraview live.py                                        in the window
-    pvbatch live.py --frames 10 --picture out.png           ten frames as they come, and a picture
-    pvbatch live.py --help                                  what else can be chosen
+    pvbatch live.py --frames 10 --picture out.png           the next ten frames, and a picture
+    pvbatch live.py --help                                  all options
 
-Looks as view.py does. It asks for new frame files ten times a second; those of a run appear whole
-or not at all. The range of colors grows with the run. When the run is over, open view.py.
+The layout is that of view.py. New frame files, which a run writes atomically, are looked for ten
+times a second. The range of colors grows with the run. When the run has ended, open view.py.
 """
 import time
 import types
@@ -18,7 +18,7 @@ SERIES = ["particles", "surface", "bones", "frames", "obstacles"]
 
 
 class Follower:
-    """Knows the newest frame that all series have, and reads it."""
+    """Finds the newest frame that all series have, and reads it."""
 
     def __init__(self, folder, options):
         self.folder, self.options = folder, options
@@ -44,7 +44,7 @@ class Follower:
             time.sleep(0.1)
 
     def newest(self):
-        """A run that was started again begins anew."""
+        """Number of the newest frame; starts over for a restarted run."""
         if self.number >= 0 and not self.complete(self.number):
             self.number = self.ranged = -1
         while self.complete(self.number + 1):
@@ -62,7 +62,7 @@ class Follower:
                 return False
             if series == "particles":
                 self.grow_colors()
-        except OSError:  # a run that starts anew removes its files
+        except OSError:  # a restarted run removes its files
             return False
         return True
 
@@ -78,7 +78,7 @@ class Follower:
         self.shown[series] = stamp
 
     def grow_limits(self):
-        """Takes in the frames since the last time; whether that changed anything."""
+        """Includes the frames since the last call; returns whether that changed the limits."""
         before = self.limits
         for number in range(self.ranged + 1, self.number + 1):
             low, high = range_in(array_or_stop(self.path("particles", number), self.options.array))
@@ -94,7 +94,7 @@ class Follower:
 
 
 def live_source(series):
-    """It finds the follower as a module of Python's: a source's script is a text of its own."""
+    """Its script is run separately and imports the follower as a Python module."""
     source = LiveProgrammableSource(registrationName=series)
     source.OutputDataSetType = "vtkUnstructuredGrid"
     find = "import sinew_live\n"
@@ -123,7 +123,7 @@ def scene_of(folder, follower, options):
 
 
 def roomier(scene):
-    """A box around the body at rest with room to bend: where it will go is not known yet."""
+    """A box around the body at rest with space to bend: its motion is not yet known."""
     reach = 0.6 * scene.size
     return [tuple(m + math.copysign(min(reach, 3 * abs(c - m)), c - m)
                   for c, m in zip(corner, scene.middle)) for corner in scene.corners]
@@ -137,7 +137,7 @@ def refresh(sources):
 
 
 def follow_in_batch(follower, sources, options):
-    """Without a window nobody asks the sources for news, so this does; prints a line per frame."""
+    """Updates the sources, as the window does otherwise; prints a line per frame."""
     RenderAllViews()
     shown = 1
     print(f"frame {follower.shown['particles'][0]}", flush=True)
@@ -156,10 +156,10 @@ def follow_in_batch(follower, sources, options):
 
 def main():
     options = arguments(
-        "Follows a run that is still going.",
-        (["--frames"], {"type": int, "default": 1, "help": "end after so many, under pvbatch"}),
+        "Follows a run in progress.",
+        (["--frames"], {"type": int, "default": 1, "help": "number of frames, under pvbatch"}),
         (["--patience"], {"type": float, "default": 60, "help": "how long to wait for a frame, s"}),
-        (["--picture"], {"metavar": "FILE.png", "help": "leave a picture of the last one there"}))
+        (["--picture"], {"metavar": "FILE.png", "help": "write a picture of the last one"}))
     folder = run_folder()
     global follower
     follower = Follower(folder, options)
@@ -177,8 +177,8 @@ def main():
 
 
 def main_in_a_module():
-    """Once more, as the module sinew_live: ParaView runs the text of a source in the main module, and
-    puts numpy's max, dot and others there."""
+    """Runs this file again as the module sinew_live: ParaView runs the script of a source in the main
+    module, and imports numpy's max, dot and others there."""
     path = os.path.join(run_folder(), SCRIPT)
     module = sys.modules["sinew_live"] = types.ModuleType("sinew_live")
     with open(path, encoding="utf-8") as text:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the parts of a run look."""
+"""Representations and colors of the parts of a run."""
 import paraview.simple
 from paraview.simple import *
 
@@ -11,10 +11,10 @@ BONE = [0.98, 0.93, 0.80]
 OBSTACLE = [0.62, 0.60, 0.58]
 FORCE = [0.86, 0.30, 0.10]
 RED_GREEN_BLUE = [0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92]
-# Lightness grows with the value, and the lowest is still light enough to see the spheres' shading.
+# Lightness increases with the value, and the lowest color still shows the spheres' shading.
 COLORS = [(0.0, 0.27, 0.33, 0.62), (0.25, 0.17, 0.52, 0.70), (0.5, 0.25, 0.71, 0.60),
            (0.75, 0.67, 0.83, 0.38), (1.0, 0.99, 0.84, 0.22)]
-# A sphere lit from the upper left on each splat; beyond its outline there is nothing.
+# A sphere lit from the upper left on each splat; fragments outside its outline are discarded.
 SPHERE = """//VTK::Color::Impl
 vec2 at = offsetVCVSOutput.xy;
 float outside = dot(at, at);
@@ -25,7 +25,7 @@ float shine = 0.25 * pow(max(dot(normal, normalize(vec3(-0.19, 0.27, 0.95))), 0.
 ambientColor = ambientColor * (0.25 + 0.75 * light) + vec3(shine);
 diffuseColor = diffuseColor * (0.25 + 0.75 * light) + vec3(shine);
 """
-MOST_ARROWS = 1500  # more of them hide each other
+MOST_ARROWS = 1500  # more would hide each other
 
 
 def as_spheres(shown):
@@ -36,8 +36,8 @@ def as_spheres(shown):
 
 
 def cut_body(source, options, scene):
-    """The particles beyond a plane across an axis. It bends with the body, so that the same particles
-    are seen at all times. Change the threshold to move it."""
+    """The particles beyond a plane across an axis. It deforms with the body, so that the same
+    particles are seen at all times. Change the threshold to move it."""
     if options.cut == "none":
         return source
     axis = options.cut.upper()
@@ -64,7 +64,7 @@ def color_table(options, limits):
     spread_colors(colors, *limits)
     if options.colormap:
         if not colors.ApplyPreset(options.colormap, True):
-            stop(f"ParaView has no colors '{options.colormap}'; its Color Map Editor lists them")
+            stop(f"ParaView has no color map '{options.colormap}'; its Color Map Editor lists them")
         colors.RescaleTransferFunction(*limits)
     return colors
 
@@ -93,7 +93,7 @@ def show_particles(source, view, options, array, limits):
 
 
 def letters(options, share):
-    """The size of letters in a picture, pixels."""
+    """The font size in a picture, pixels."""
     return max(9, round(share * options.size[1]))
 
 
@@ -168,7 +168,7 @@ def show_heads(source, view, radius):
 
 
 def force_arrows(source, scene, name):
-    """An arrow at some of the particles; the longest of all times is a fifth of the body."""
+    """Arrows at some of the particles; the longest at any time is a fifth of the body."""
     arrows = Glyph(registrationName="force arrows", Input=source, GlyphType="Arrow")
     arrows.OrientationArray = ["POINTS", name]
     arrows.ScaleArray = ["POINTS", name]
@@ -198,7 +198,7 @@ def show_time(note, view, options):
 
 
 def show_all(sources, options, scene):
-    """`sources` by the names of their series. Left the cut-away body, right the bones within the
+    """`sources` by the names of their series. Left: the body cut open; right: the bones inside the
     translucent skin. Returns the layout and its left view."""
     paraview.simple._DisableFirstRenderCameraReset()  # it would undo look_at()
     layout, left, right = two_views()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The words of the command line that view.py and live.py share."""
+"""The command line options that view.py and live.py share."""
 import argparse
 import os
 import shlex
@@ -9,20 +9,20 @@ from look import *
 
 
 def arguments(description, *more):
-    """Of the command line under pvbatch; of the variable SINEW_VIEW in ParaView's window too."""
+    """From the command line under pvbatch; in ParaView's window also from SINEW_VIEW."""
     parser = argparse.ArgumentParser(prog=SCRIPT, description=description)
     for words, how in more:
         parser.add_argument(*words, **how)
-    parser.add_argument("--array", default="displacement", help="what colors the particles")
+    parser.add_argument("--array", default="displacement", help="array that colors the particles")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
-                        help="values of the lowest and highest color; all of the run's if not given")
+                        help="values of the lowest and highest color; by default the range in the run")
     parser.add_argument("--colormap", help="a color map of ParaView, 'Viridis (matplotlib)'")
     parser.add_argument("--cut", choices=["x", "y", "z", "none"], default="y",
                         help="axis across which the body is cut open")
     parser.add_argument("--forces", nargs="?", const="force_pair", metavar="NAME",
                         help="show arrows of that force, by default force_pair")
     parser.add_argument("--camera", type=float, nargs=3, default=[-0.46, -0.84, 0.29],
-                        metavar=("X", "Y", "Z"), help="direction towards the viewer")
+                        metavar=("X", "Y", "Z"), help="direction toward the viewer")
     parser.add_argument("--size", type=int, nargs=2, default=[1920, 1000], metavar=("W", "H"))
     words = shlex.split(os.environ.get("SINEW_VIEW", ""))
     if sys.argv and sys.argv[0].endswith(".py"):

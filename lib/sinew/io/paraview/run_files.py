@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The files of a run: where they lie, and what must be known of them before anything is shown."""
+"""The files of a run: their folder, and the data needed before anything is shown."""
 import mmap
 import os
 import re
@@ -23,7 +23,7 @@ def program():
 
 
 def run_folder():
-    """Where the series lie: the folder that sinew view names, or that of this script. In ParaView's
+    """The folder of the series: the one that sinew view names, or that of this script. In ParaView's
     window a script does not know its own path."""
     places = [globals().get("__file__", "")] + sys.argv
     try:
@@ -41,8 +41,8 @@ def run_folder():
 
 
 def described_array(path, name):
-    """What a VTU file says of one of its points' arrays: its attributes and its unit, without the
-    data. None where there is no such array."""
+    """The attributes and the unit of a point array in a VTU file, without its data. None where there
+    is no such array."""
     with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as text:
         begin = text.find(b'Name="' + name.encode() + b'"', max(0, text.find(b"<PointData")))
         if begin < 0:
@@ -70,13 +70,13 @@ def body_at_rest(folder):
 
 
 class Scene:
-    """What must be known before anything is shown."""
+    """The data needed before anything is shown."""
 
     def __init__(self, folder):
         bounds, self.count = body_at_rest(folder)
         self.corners = corners_of(bounds)  # of the boxes around the body at all times
         self.middle, self.size = middle_and_size(self.corners)
-        self.array = {}         # what its file says of the array shown
+        self.array = {}         # attributes of the array shown
         self.limits = (0, 1)    # its lowest and highest value
         self.strongest = 0      # the largest of the forces shown, N
 

@@ -2,9 +2,9 @@
 """Opens this run in ParaView.
 
     paraview view.py                             in the window
-    pvbatch view.py --picture out.png            a picture of the most deformed moment
+    pvbatch view.py --picture out.png            a picture of the most deformed frame
     pvbatch view.py --picture out.png --time 1   of that moment (s)
-    pvbatch view.py --help                       what else can be chosen
+    pvbatch view.py --help                       all options
 
 Left the body, cut open: particles as spheres of their true size, colored by one array. Right the
 bones with their x, y, z axes in red, green, blue inside the translucent surface. In the window,
@@ -56,7 +56,7 @@ def time_note(source):
 
 
 def scene_of(folder, frames, particles, options):
-    """The run as a whole, and the moment at which the array is largest."""
+    """The scene of a run, and the time at which the array is largest."""
     scene = Scene(folder)
     scene.array = array_or_stop(frames[0][1], options.array)
     ranges = ranges_over_time(frames, options.array)
@@ -70,8 +70,8 @@ def scene_of(folder, frames, particles, options):
 
 def main():
     options = arguments("Opens this run in ParaView.",
-                        (["--picture"], {"metavar": "FILE.png", "help": "leave a picture there"}),
-                        (["--time"], {"type": float, "help": "moment of the picture, s"}))
+                        (["--picture"], {"metavar": "FILE.png", "help": "write a picture to this file"}),
+                        (["--time"], {"type": float, "help": "time of the picture, s"}))
     folder = run_folder()
     frames = frame_files(folder, "particles")
     if not frames:

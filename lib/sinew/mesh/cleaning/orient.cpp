@@ -15,7 +15,7 @@ namespace sinew {
 
 namespace {
 
-/// Which of the faces are of which patch.
+/// The faces of each patch.
 class Grouped {
  public:
   Grouped(const std::vector<int>& group_of, int groups)
@@ -41,7 +41,7 @@ Corners corners_of(const Triangles& triangles, int face, bool turned) {
   return {triangles.points[a], triangles.points[turned ? c : b], triangles.points[turned ? b : c]};
 }
 
-/// For each patch that decides the next one around it; -1 for none.
+/// For each patch that decides, the next one around it; -1 for none.
 std::vector<int> outer_patches(const Triangles& surface, const Patches& patches,
                                const PatchShapes& shapes) {
   std::vector<int> patch_of;  // each shell's
@@ -74,7 +74,7 @@ std::vector<int> outer_patches(const Triangles& surface, const Patches& patches,
 std::vector<bool> cavities_of(const Triangles& surface, const Patches& patches,
                               const PatchShapes& shapes, FillRule rule) {
   const std::vector<int> outer = outer_patches(surface, patches, shapes);
-  std::vector<int> order;  // those within others: a shell's box is larger than those in it
+  std::vector<int> order;  // nested boxes: a shell's box is larger than those in it
   for (std::size_t patch = 0; patch < outer.size(); ++patch)
     if (outer[patch] >= 0) order.push_back(static_cast<int>(patch));
   const auto size = [&](int patch) { return shapes.shape[patch].box.volume(); };
@@ -97,7 +97,7 @@ bool holds(const Box& outer, const Box& inner) {
   return outer.contains(inner) && outer.sizes() != inner.sizes();
 }
 
-/// By where boxes begin along x; of two that begin at the same place the longer one comes first.
+/// By the start of boxes along x; of two with the same start the longer one is first.
 std::vector<int> swept(std::span<const Box> boxes) {
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -108,7 +108,7 @@ std::vector<int> swept(std::span<const Box> boxes) {
   return order;
 }
 
-/// Calls visit(box, around) for each box with those that hold it, the smallest first.
+/// Calls visit(box, around) for each box with those that contain it, the smallest first.
 template <class Visit>
 void for_each_held(std::span<const Box> boxes, Visit&& visit) {
   std::vector<int> open, around;
@@ -170,7 +170,7 @@ std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shel
 
 namespace {
 
-/// Whether the faces as a whole enclose less than nothing.
+/// Whether the volume enclosed by all faces is negative.
 bool inside_out(const Triangles& surface, const Patches& patches) {
   const Box box = bounds(surface.points);
   double volume = 0;
@@ -179,7 +179,7 @@ bool inside_out(const Triangles& surface, const Patches& patches) {
   return volume < -volume_rounding(area(surface), box);
 }
 
-/// Of patches that decide, the area of those that turn less that of those that stay.
+/// Of patches that decide, the area of those reversed minus that of the others.
 struct Vote {
   bool cast = false;
   double excess = 0;
@@ -190,7 +190,7 @@ struct Vote {
   }
 };
 
-/// Lets patches that do not decide follow.
+/// Orients patches that do not decide like the others.
 void follow(std::vector<bool>& turn, const Triangles& surface, const Patches& patches,
             const PatchShapes& shapes, const Components& components) {
   std::vector<int> component(patches.count);

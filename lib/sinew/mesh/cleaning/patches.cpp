@@ -14,7 +14,7 @@ namespace {
 
 struct Neighbor {
   int face = -1;
-  bool against = false;  ///< whether the two go along their edge in the same direction
+  bool against = false;  ///< whether the two traverse their edge in the same direction
 };
 
 /// Up to three per face.
@@ -35,9 +35,9 @@ std::vector<std::array<Neighbor, 3>> neighbors_of(std::size_t faces,
   return neighbors;
 }
 
-/// From the direction of each patch's first face to that of most of its area.
+/// From the orientation of each patch's first face to that of most of its area.
 void follow_most(Patches& patches, const Triangles& surface) {
-  std::vector<double> excess(patches.count, 0);  // of area turned against the first face
+  std::vector<double> excess(patches.count, 0);  // of area oriented against the first face
   for (std::size_t i = 0; i < surface.faces.size(); ++i)
     excess[patches.of_face[i]] +=
         (patches.turned[i] ? 1 : -1) * face_area(surface, surface.faces[i]);
@@ -82,7 +82,7 @@ Patches patches_of(const Triangles& surface, std::span<const EdgeUse> uses) {
 }
 
 Components components_of(const Patches& patches, std::span<const EdgeUse> uses) {
-  std::vector<int> parent(patches.count);  // patches joined to trees whose roots are their firsts
+  std::vector<int> parent(patches.count);  // union-find trees, rooted at the first patch of each
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int patch) {
     while (parent[patch] != patch) patch = parent[patch] = parent[parent[patch]];
@@ -107,7 +107,7 @@ Components components_of(const Patches& patches, std::span<const EdgeUse> uses) 
 namespace {
 
 // Area vector over area. Pieces of a sphere, a torus and a bumpy ball from which 5 % to 60 % of the
-// faces are taken at random enclose the right sign up to 0.75; from 0.8 on some do not.
+// faces are removed at random have the right sign of volume up to 0.75; from 0.8 on some do not.
 constexpr double flattest = 0.7;
 // Volume over area^(3/2): 0.09 for a sphere, 0.004 for a plate of 1 : 1 : 0.01.
 constexpr double thinnest = 1e-3;

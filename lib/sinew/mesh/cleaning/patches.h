@@ -54,11 +54,11 @@ struct PatchShape {
   bool closed = true;
   double area = 0;                  ///< m^2
   Vec3 area_vector = Vec3::Zero();  ///< sum of area times normal, m^2: 0 for closed patches
-  double volume = 0;                ///< with its caps, oriented as most of its area in the file, m^3
+  double volume = 0;  ///< with its caps, oriented as most of its area in the file, m^3
 
   /// Whether the sign of the volume decides which side is outside. For closed patches: unless it is
-  /// a rounding error. For open ones: where the patch bends around it (a sheet has an area vector as
-  /// long as its area, a hemisphere half as long) and is not a thin film.
+  /// a rounding error. For open ones: where the patch bends around it (a sheet has an area vector
+  /// as long as its area, a hemisphere half as long) and is not a thin film.
   bool decides() const;
 };
 

@@ -14,9 +14,9 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-constexpr std::size_t most_corners = 1000;  // cutting ears takes up to corners^3 steps
+constexpr std::size_t most_corners = 1000;  // ear clipping takes up to corners^3 steps
 
-/// Newell's normal: the mean over all corners, so that a bent polygon has one too.
+/// Newell's normal: the mean over all corners, defined for bent polygons too.
 Vec3 normal_of(const std::vector<int>& polygon, const Points& points) {
   Vec3 normal = Vec3::Zero();
   const Vec3& origin = points[polygon[0]];
@@ -34,7 +34,7 @@ class EarCutter {
  public:
   EarCutter(const std::vector<int>& polygon, const Points& points) : left_(polygon) {
     const Vec3 normal = normal_of(polygon, points);
-    int drop;  // the axis that is most across the polygon
+    int drop;  // the axis closest to the polygon's normal
     normal.cwiseAbs().maxCoeff(&drop);
     const int u = (drop + 1) % 3, v = (drop + 2) % 3;
     for (const int corner : polygon) {
@@ -69,7 +69,7 @@ class EarCutter {
                       "export the mesh as triangles");
     for (std::size_t i = 0; i < left_.size(); ++i)
       if (turn_at(i) > 0 && empty(i, blunt)) return i;
-    return 0;  // crosses itself or has no area: any cut is as good
+    return 0;  // self-intersecting or without area: any cut is as good
   }
 
   bool empty(std::size_t ear, const std::vector<std::size_t>& blunt) const {
@@ -111,13 +111,13 @@ std::vector<int> first_equal(const Points& points) {
   return first;
 }
 
-/// The points kept so far in cubes of twice the distance: eight of them hold all close ones, and
-/// none holds many.
+/// The points kept so far in cubes of twice the distance: eight of them contain all close ones, and
+/// none contains many.
 class KeptPoints {
  public:
   KeptPoints(const Points& points, double distance)
       : points_(points), distance_(distance), cells_(points.size()), next_(points.size(), -1) {
-    double largest = 0;  // their numbers must not overflow
+    double largest = 0;  // cell indices must not overflow
     for (const Vec3& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
     edge_ = std::max(2 * distance, largest * 1e-300);
   }
@@ -146,7 +146,7 @@ class KeptPoints {
  private:
   Vec3 cell_of(const Vec3& p) const { return (p / edge_).array().floor(); }
 
-  /// Towards the nearer neighbor along each axis: 1 or -1.
+  /// Toward the nearer neighbor along each axis: 1 or -1.
   Vec3 side_of(const Vec3& p, const Vec3& cell) const {
     const Vec3 within = p / edge_ - cell;
     return within.unaryExpr([](double x) { return x < 0.5 ? -1.0 : 1.0; });
@@ -159,7 +159,7 @@ class KeptPoints {
   const Points& points_;
   double distance_, edge_;
   FirstOf cells_;          ///< the first kept point of each cell
-  std::vector<int> next_;  ///< the others of its cell, one after the other
+  std::vector<int> next_;  ///< the others of its cell, as a linked list
 };
 
 }  // namespace
@@ -170,7 +170,7 @@ std::vector<int> first_within(const Points& points, double distance) {
   KeptPoints kept(points, distance);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int self = static_cast<int>(i);
-    if (first[i] != self) {  // goes where its equal has gone
+    if (first[i] != self) {  // merged like its equal
       first[i] = first[first[i]];
       continue;
     }
@@ -187,8 +187,8 @@ namespace {
 
 using Face = std::array<int, 3>;
 
-/// The same triangles wherever the polygon begins and whichever way it turns: polygons that double
-/// each other are cut into triangles that do.
+/// The same triangles for any first corner and orientation of the polygon, so that duplicate
+/// polygons are cut into duplicate triangles.
 std::vector<Face> cut_alike(std::vector<int> polygon, const Points& points) {
   const auto at = [&](int i) { return std::tie(points[i][0], points[i][1], points[i][2]); };
   std::rotate(
@@ -203,7 +203,7 @@ std::vector<Face> cut_alike(std::vector<int> polygon, const Points& points) {
   return parts;
 }
 
-/// 1. Polygons into triangles.
+/// 1. Cuts polygons into triangles.
 std::vector<Face> cut(const PolygonSoup& soup, CleaningCounts& counts) {
   std::vector<Face> faces;
   faces.reserve(soup.polygons.size());
@@ -218,7 +218,7 @@ std::vector<Face> cut(const PolygonSoup& soup, CleaningCounts& counts) {
   return faces;
 }
 
-/// 2. Equal and close points become one.
+/// 2. Merges equal and close points.
 void merge_points(std::vector<Face>& faces, const Points& points, double weld,
                   CleaningCounts& counts) {
   const std::vector<int> first = first_within(points, weld);
@@ -228,7 +228,7 @@ void merge_points(std::vector<Face>& faces, const Points& points, double weld,
     for (int& corner : face) corner = first[corner];
 }
 
-/// 3. Faces that have lost a corner go.
+/// 3. Drops faces that have lost a corner.
 void drop_collapsed(std::vector<Face>& faces, CleaningCounts& counts) {
   counts.faces_collapsed = std::erase_if(
       faces, [](const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
@@ -241,7 +241,7 @@ Face sorted(Face face) {
   return face;
 }
 
-/// 4. Of faces with the same corners the first stays.
+/// 4. Keeps the first of faces with the same corners.
 void drop_doubled(std::vector<Face>& faces, CleaningCounts& counts) {
   FirstOf first_of(faces.size());
   int kept = 0;
@@ -257,7 +257,7 @@ void drop_doubled(std::vector<Face>& faces, CleaningCounts& counts) {
   faces.resize(kept);
 }
 
-/// 5. Points that no face uses go; the others keep their order.
+/// 5. Drops points without faces; the others keep their order.
 Triangles used(const Points& points, std::vector<Face> faces, CleaningCounts& counts) {
   std::vector<int> place(points.size(), -1);
   for (const Face& face : faces)

@@ -55,9 +55,9 @@ class FirstOf {
   std::vector<int> slots_;
 };
 
-/// The triangles of a polygon (indices into points, 3 corners or more) in the same orientation. Ears
-/// are searched in the plane normal to its mean normal; one without area is cut only where no other
-/// is left. Throws Error (bad input) for non-convex polygons of more than 1,000 corners.
+/// The triangles of a polygon (indices into points, 3 corners or more) in the same orientation.
+/// Ears are searched in the plane normal to its mean normal; one without area is cut only where no
+/// other is left. Throws Error (bad input) for non-convex polygons of more than 1,000 corners.
 std::vector<std::array<int, 3>> triangulate(const std::vector<int>& polygon, const Points& points);
 
 /// For each point the one it is merged into: itself, or an earlier one. In their order, each is
@@ -66,8 +66,8 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<int>& polygon, con
 /// farther than that, however long a chain of close points is.
 std::vector<int> first_within(const Points& points, double distance);
 
-/// The first half of clean(): triangles on distinct points, none collapsed or doubled. Points closer
-/// than `weld` (m) are merged. Counts into `counts`.
+/// The first half of clean(): triangles on distinct points, none collapsed or doubled. Points
+/// closer than `weld` (m) are merged. Counts into `counts`.
 Triangles merged_triangles(const PolygonSoup& soup, double weld, CleaningCounts& counts);
 
 }  // namespace sinew

@@ -93,7 +93,7 @@ PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> m
   const std::vector<MeshFormat> all = with(more);
   for (const MeshFormat& format : all)
     if (format.extension == extension) return format.read(path);
-  check_mesh_file(path);  // first: whether there is a file at all
+  check_mesh_file(path);  // first check that the file exists
   throw unknown_format(path, all);
 }
 

@@ -25,10 +25,10 @@ struct MeshFormat {
 /// "OBJ, OFF, STL, PLY" and the names of `more`.
 std::string mesh_format_names(std::span<const MeshFormat> more = {});
 
-/// The polygons of a file, unchanged: at least one face, corners that exist, finite coordinates. The
-/// extension, in either case, selects the format: OBJ, OFF (text), STL, PLY (text and binary) or one
-/// of `more`. Throws Error (bad input) naming file, line if any, fault and cure, also where the
-/// first words identify another format than the extension.
+/// The polygons of a file, unchanged: at least one face, corners that exist, finite coordinates.
+/// The extension, in either case, selects the format: OBJ, OFF (text), STL, PLY (text and binary)
+/// or one of `more`. Throws Error (bad input) naming file, line if any, fault and cure, also where
+/// the first words identify another format than the extension.
 PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more = {});
 
 }  // namespace sinew

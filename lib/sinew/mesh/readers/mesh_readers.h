@@ -5,11 +5,30 @@
 //     const PolygonSoup soup = read_obj(open_mesh("part.obj"));
 #pragma once
 
+#include <string>
+#include <string_view>
+
+#include <sinew/core/error.h>
 #include <sinew/core/triangles.h>
-#include <sinew/mesh/readers/mesh_file.h>
 #include <sinew/mesh/readers/mesh_text.h>
 
 namespace sinew {
+
+/// The content of a mesh file, and its errors with path and line.
+struct MeshFile {
+  std::string path;
+  std::string content;
+
+  /// The error "PATH:LINE: what; cure"; line 0 where there are no lines.
+  Error broken(int line, const std::string& what, const std::string& cure) const;
+};
+
+/// Throws Error (bad input) unless it is a non-empty regular file that fits into memory.
+void check_mesh_file(const std::string& path);
+
+/// Reads such a file, without its byte order mark. Throws Error (bad input) also where it cannot be
+/// read.
+MeshFile open_mesh(const std::string& path);
 
 // All throw Error (bad input) naming the file, the line if any, the fault and the cure. Every count
 // in a file is checked against its length. The result has faces of three corners or more, corners

@@ -42,7 +42,7 @@ std::optional<double> number_in(std::string_view word) {
   double value = 0;
   const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (word.empty() || end != word.data() + word.size()) return std::nullopt;
-  if (failure == std::errc::result_out_of_range)  // tells too large from too small
+  if (failure == std::errc::result_out_of_range)  // distinguishes overflow from underflow
     return std::strtod(std::string(word).c_str(), nullptr);
   return failure == std::errc() ? std::optional(value) : std::nullopt;
 }

@@ -80,7 +80,7 @@ class HeaderReader {
   }
 
   void property(Words& words) {
-    if (header_.elements.empty()) throw broken("a property stands before any element");
+    if (header_.elements.empty()) throw broken("a property precedes the first element");
     std::string_view word = words.next();
     PlyProperty property;
     if (word == "list") {
@@ -124,7 +124,7 @@ void find_corners(const MeshFile& file, PlyElement& faces) {
   property->corners = true;
 }
 
-/// Marks what the body's reader needs.
+/// Marks the properties that the body's reader needs.
 void find_mesh(const MeshFile& file, PlyHeader& header) {
   std::int64_t vertices = 0, faces = 0;
   for (PlyElement& element : header.elements) {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sinew/mesh/readers/mesh_file.h>
+#include <sinew/mesh/readers/mesh_readers.h>
 
 namespace sinew {
 

@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-/// Joins lines that end in a backslash with their next; the number of lines stays the same.
+/// Joins lines that end in a backslash with the next; the number of lines is unchanged.
 std::string joined(std::string_view text) {
   std::string result;
   result.reserve(text.size());
@@ -73,7 +73,7 @@ class ObjReader {
   }
 
   /// The vertex of "7", "7/1", "7//3", "7/1/3" or "-2" (the last but one so far), from 1. Whether
-  /// it exists shows at the end: vertices may follow their faces.
+  /// it exists is checked at the end: vertices may follow their faces.
   std::int64_t corner(std::string_view word, int line) {
     const auto index = integer_in(word.substr(0, word.find('/')));
     const std::int64_t from_one = index ? (*index < 0 ? *index + vertices() + 1 : *index) : 0;

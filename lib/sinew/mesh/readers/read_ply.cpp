@@ -48,7 +48,7 @@ class TextBody {
   Words words_;
 };
 
-/// The numbers of a binary body. The machine is little-endian, as all that run this are.
+/// The numbers of a binary body. Assumes a little-endian machine.
 class BinaryBody {
  public:
   BinaryBody(const MeshFile& file, const PlyHeader& header)
@@ -99,7 +99,7 @@ class BinaryBody {
   bool swapped_;
 };
 
-/// Goes through the whole body. Each step takes bytes or throws, so no count can lead astray.
+/// Reads the whole body. Each step consumes bytes or throws, so no count can cause long loops.
 template <class Body>
 class BodyReader {
  public:

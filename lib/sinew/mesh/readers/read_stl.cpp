@@ -8,7 +8,7 @@
 namespace sinew {
 namespace {
 
-// Binary STL: 80 bytes of anything, the number of triangles, then 12 floats and 2 bytes for each.
+// Binary STL: 80 arbitrary bytes, the number of triangles, then 12 floats and 2 bytes for each.
 constexpr std::size_t header_bytes = 80, start = header_bytes + 4, triangle_bytes = 50;
 constexpr std::size_t normal_bytes = 12;
 
@@ -18,7 +18,7 @@ std::uint32_t stated_triangles(std::string_view content) {
   return count;
 }
 
-/// "solid" may also begin a binary file, so the size decides, then whether there are zero bytes.
+/// "solid" may also begin a binary file, so the size decides, then the presence of zero bytes.
 bool binary(std::string_view content) {
   if (content.size() < start) return false;
   if (content.size() == start + std::size_t{stated_triangles(content)} * triangle_bytes)
@@ -26,7 +26,7 @@ bool binary(std::string_view content) {
   return content.find('\0') != std::string_view::npos || lower(Words(content).next()) != "solid";
 }
 
-/// Every three points are a triangle.
+/// Every three points form a triangle.
 PolygonSoup soup_of(const MeshFile& file, Points points) {
   if (points.empty()) throw file.broken(0, "there are no triangles", "export the mesh again");
   refuse_too_many_points(file, points.size());
@@ -48,7 +48,7 @@ PolygonSoup read_binary(const MeshFile& file) {
   Points points;
   points.reserve(3 * triangles);
   for (std::size_t i = 0; i < triangles; ++i) {
-    Eigen::Matrix3f corners;  // a column each; the machine is little-endian, as the file
+    Eigen::Matrix3f corners;  // one per column; machine and file are little-endian
     std::memcpy(corners.data(), file.content.data() + start + i * triangle_bytes + normal_bytes,
                 sizeof corners);
     if (!corners.allFinite())
@@ -71,7 +71,7 @@ class StlText {
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       const std::string keyword = lower(word);
       if (keyword == "facet") facet();
-      // Several solids may follow each other; names stand between the keywords.
+      // Several solids may follow each other, with names between the keywords.
       if (keyword == "facet" || keyword == "solid") closed = false;
       if (keyword == "endsolid") closed = true;
     }

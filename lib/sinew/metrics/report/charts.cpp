@@ -15,7 +15,7 @@ namespace {
 std::vector<ChartPlan> plans_of_shape() {
   return {
       {"Distance from the bones",
-       "How far particles are from where their bones would carry them",
+       "Distance of particles from the rigid pose of their bones",
        "r",
        {"pose_error_rms", "pose_error_far_rms", "adherence_rms"},
        Shown::in_radii},
@@ -26,12 +26,12 @@ std::vector<ChartPlan> plans_of_shape() {
        Shown::as_is,
        {1}},
       {"Neighbors",
-       "Pairs lost and won, as a share of the pairs at rest",
+       "Pairs lost and gained, as a share of the pairs at rest",
        "%",
        {"broken_neighbors", "new_neighbors", "broken_bonds"},
        Shown::in_percent},
       {"Tip",
-       "Turn of the last bone's outermost particles, and of the bone that turns most",
+       "Rotation of the last bone's outermost particles, and of the bone that rotates most",
        "degrees",
        {"tip_angle", "bone_angle"}},
       {"Twist from half-plane to half-plane",
@@ -55,25 +55,25 @@ std::vector<ChartPlan> plans_of_material() {
        Shown::as_is,
        {0, 1}},
       {"Strain",
-       "Equivalent strain that half, 95 % and 99 % of the particles do not exceed",
+       "Equivalent strain not exceeded by 50 %, 95 % and 99 % of the particles",
        "",
        {"strain_50", "strain_95", "strain_99"}},
-      {"Stress", "Von Mises, that 95 % of the particles do not exceed", "Pa", {"von_mises_95"}},
-      {"Inverted particles", "How many of them there are", "", {"inverted"}},
+      {"Stress", "Von Mises stress not exceeded by 95 % of the particles", "Pa", {"von_mises_95"}},
+      {"Inverted particles", "Their number", "", {"inverted"}},
   };
 }
 
 std::vector<ChartPlan> plans_of_surface() {
   return {
-      {"Surface", "Its area against the one at rest", "", {"area_ratio"}, Shown::as_is, {1}},
-      {"Self-intersections", "Pairs of faces that cut each other", "", {"self_intersections"}},
+      {"Surface", "Area relative to rest", "", {"area_ratio"}, Shown::as_is, {1}},
+      {"Self-intersections", "Pairs of faces that intersect", "", {"self_intersections"}},
       {"Surface and other poses: farthest",
        "From the rigid pose, linear-blend and dual-quaternion skinning, and a reference",
        "r",
        {"pose_hausdorff", "lbs_hausdorff", "dqs_hausdorff", "reference_hausdorff"},
        Shown::in_radii},
       {"Surface and other poses: mean",
-       "From the same, over the area",
+       "Mean distance from the same, over the area",
        "r",
        {"pose_distance_mean", "lbs_distance_mean", "dqs_distance_mean", "reference_distance_mean"},
        Shown::in_radii},
@@ -95,7 +95,7 @@ std::vector<ChartPlan> plans_of_motion() {
         "dissipation"},
        Shown::since_start},
       {"World",
-       "Energy of contacts with obstacles, and the work of all that is around the body, since the "
+       "Energy of contacts with obstacles, and the work of the world on the body, since the "
        "first frame",
        "J",
        {"contact_energy", "work_of_world"},
@@ -103,7 +103,7 @@ std::vector<ChartPlan> plans_of_motion() {
        {0},
        Drawn::unless_zero},
       {"Balance of energies",
-       "What is missing; zero for a perfect integrator",
+       "Residual of the balance; zero for a perfect integrator",
        "J",
        {"energy_residual"}},
   };
@@ -145,7 +145,7 @@ bool has_nothing(const Chart& chart) {
   });
 }
 
-/// The places from begin to end that are worth drawing; whichever of them there are.
+/// The indices from begin to end that are drawn, as far as they exist.
 std::set<std::size_t> telling_places(const std::vector<double>& values, std::size_t begin,
                                      std::size_t end) {
   std::optional<std::size_t> low, high, gap;

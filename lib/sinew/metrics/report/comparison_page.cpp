@@ -21,7 +21,7 @@ std::string header(const RunComparison& compared) {
   const std::string line =
       std::to_string(compared.differences.size()) + " frames of the same times, from " +
       readable(compared.differences.front().time) + " s to " +
-      readable(compared.differences.back().time) + " s. Differences are b less a. One r is " +
+      readable(compared.differences.back().time) + " s. Differences are b minus a. One r is " +
       readable(compared.first.radius) + " m, the radius of a particle of a.";
   return element("header", element("h1", escaped(compared.first.name) + " and " +
                                              escaped(compared.second.name)) +
@@ -38,7 +38,7 @@ std::string verdict_of(const ComparedRun& run, const std::string& name) {
   return element("h2", escaped(name)) + verdict_cards(run.frames, run.summary, run.radius);
 }
 
-/// One metric of both runs over each other.
+/// One metric of both runs in one chart.
 Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const RunComparison& compared) {
   const double radius = compared.first.radius;
   std::string title(metric);
@@ -73,7 +73,7 @@ std::vector<Chart> charts_of(const RunComparison& compared) {
   return charts;
 }
 
-/// The buttons of worst frames lead to the largest differences.
+/// The buttons of worst frames show the largest differences.
 PageData drawn_data(const RunComparison& compared) {
   PageData data;
   for (const FrameMetrics& frame : compared.first.frames) {
@@ -99,7 +99,7 @@ std::string playback_section(const ComparisonInput& input) {
                  "class=\"needs-script\"");
 }
 
-/// What was measured of both runs, and by how much it differs.
+/// The metrics of both runs, and their differences.
 std::string differences_table(const RunComparison& compared) {
   std::string rows, run_rows;
   for (std::size_t i = 1; i < metrics_table().size(); ++i) {
@@ -123,13 +123,14 @@ std::string differences_table(const RunComparison& compared) {
                                         {"b − a", readable(compared.summary.*metric.value)}});
   return element("h2", "Differences") +
          table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows) +
-         element("h2", "Of the whole runs") + table({"metric", "a", "b", "b − a"}, run_rows);
+         element("h2", "Metrics of the whole runs") +
+         table({"metric", "a", "b", "b − a"}, run_rows);
 }
 
-constexpr double gap = 0.15;  // between the two, of the size of the first
+constexpr double gap = 0.15;  // between the two, relative to the size of the first
 
-/// From where the second playback is to where it stands beside the first. The camera looks along x
-/// or y, whichever has less: it sees both when they stand along the other.
+/// Displacement of the second playback, which places it beside the first. The camera looks along x
+/// or y, whichever extent is smaller: it sees both where they are placed along the other.
 Vec3 way_aside(const Playback& first, const Playback& second) {
   const Box one = box_of(first), other = box_of(second);
   if (one.isEmpty() || other.isEmpty()) return Vec3::Zero();
@@ -154,7 +155,7 @@ void append_values(std::vector<float>& all, std::vector<float> values, std::size
   all.insert(all.end(), values.begin(), values.end());
 }
 
-/// The places and fields of a frame, those of the second behind.
+/// The positions and fields of a frame, those of the second appended.
 PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3& way) {
   const std::size_t before = frame.particles.size() / 3, count = other.particles.size() / 3;
   for (std::size_t f = 0; f < frame.values.size(); ++f)
@@ -206,7 +207,7 @@ std::string comparison_html(const ComparisonInput& input) {
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
       playback_section(input) + charts_section(!input.playback.frames.empty()) +
-      differences_table(compared) + element("h2", "What differs in the scenes") +
+      differences_table(compared) + element("h2", "Differences between the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +
       folded("The resolved scene of " + name_of(compared, true), input.second_scene);

@@ -10,7 +10,7 @@ namespace sinew {
 namespace {
 
 std::string number(double value, std::chars_format format, int precision) {
-  std::array<char, 400> text;  // a double has up to 309 digits before its point
+  std::array<char, 400> text;  // a double has up to 309 digits before its decimal point
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value, format, precision).ptr;
   return {text.data(), end};

@@ -18,8 +18,9 @@ std::string escaped(std::string_view text);
 /// begin a comment.
 std::string inert(std::string json);
 
-/// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded and leading
-/// slashes are removed, so that it can neither leave the attribute nor name another scheme or host.
+/// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded and
+/// leading slashes are removed, so that it can neither leave the attribute nor name another scheme
+/// or host.
 std::string link_to(std::string_view path);
 
 /// <tag>content</tag>; the content is markup already. `attributes`: markup as well, or empty.

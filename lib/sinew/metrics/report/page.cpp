@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Seven digits are more than a screen can show.
+/// Seven digits exceed the resolution of a screen.
 Json shown(double value) {
   if (!drawable(value)) return nullptr;
   std::array<char, 32> text;
@@ -56,7 +56,7 @@ bool has_bones(const std::vector<double>& angles) {
   return std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; });
 }
 
-// The browser itself holds the page to this: no request to anywhere but for the pictures beside it.
+// The browser enforces this: no requests except for the pictures beside the page.
 constexpr std::string_view only_this_file =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "img-src 'self' file: data:; media-src 'self' file:; style-src 'unsafe-inline'; "
@@ -105,9 +105,10 @@ std::string without_script(const Page& page) {
 std::string footer(const Page& page) {
   const std::string line = "Written by sinew " + page.version +
                            ". The same numbers, frame by frame, are in " + page.table +
-                           ", and summed up in metrics.json.";
-  return element("footer", element("p", escaped(line)) +
-                               folded("Licenses of what draws this page", std::string(licenses())));
+                           "; metrics.json has their summary.";
+  return element("footer",
+                 element("p", escaped(line)) +
+                     folded("Licenses of the libraries in this page", std::string(licenses())));
 }
 
 /// Name, unit, meaning and formula.
@@ -186,7 +187,7 @@ std::string charts_section(bool with_view) {
   std::string hint =
       "Drag across a chart to see a part of the time, double-click for all of it, click a name to "
       "hide its line";
-  hint += with_view ? "; a click into a chart goes there in the 3D view." : ".";
+  hint += with_view ? "; click a chart to show that time in the 3D view." : ".";
   return element("section",
                  element("h2", "Over time") + element("p", hint, "class=\"quiet hint\"") +
                      element("div", "", "class=\"charts\" id=\"charts\""),

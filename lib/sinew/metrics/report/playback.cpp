@@ -9,13 +9,13 @@
 namespace sinew {
 namespace {
 
-// What base64 makes of these is below 8 MB: with the libraries and the charts, a page of 10.
+// In base64 these are below 8 MB: with the libraries and the charts, a page of 10.
 constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
-constexpr std::size_t worst_frames = 8;          // that may come on top of the planned ones
-constexpr std::size_t most_frames = 120;         // four seconds at thirty a second
-constexpr std::size_t fewest_particles = 6'000;  // as many as still look like a body
+constexpr std::size_t worst_frames = 8;          // in addition to the planned ones
+constexpr std::size_t most_frames = 120;         // four seconds at 30 per second
+constexpr std::size_t fewest_particles = 6'000;  // as few as still resemble a body
 
-/// A number without pattern for each particle, for picking among them (splitmix64).
+/// A hash for each particle, for selecting among them (splitmix64).
 std::uint64_t mixed(std::uint64_t i) {
   i += 0x9e3779b97f4a7c15;
   i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9;
@@ -42,7 +42,7 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
   return frames;
 }
 
-/// All of the run's frames where they can be paid for, else as many as leave room for worst ones.
+/// All of the run's frames where they fit, else as many as leave space for the worst ones.
 std::size_t frames_paid(std::size_t run_frames, std::size_t bytes, std::size_t frame_bytes) {
   const std::size_t paid = std::min(most_frames, bytes / frame_bytes);
   if (paid >= run_frames) return run_frames;
@@ -94,7 +94,7 @@ double shown_radius(const Playback& playback, double radius) {
 
 using GridCell = std::array<std::int64_t, 3>;
 
-/// For each point the first one in its cell, in cells of that edge.
+/// For each point the first one in its cell, for cells of that edge length.
 std::vector<std::uint32_t> first_in_cell(const Points& points, const Vec3& low, double edge) {
   std::map<GridCell, std::uint32_t> first;
   std::vector<std::uint32_t> out;
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> stand_ins(const Triangles& surface, std::size_t most)
   std::vector<std::uint32_t> all(surface.points.size());
   std::iota(all.begin(), all.end(), 0u);
   const Box box = bounds(surface.points);
-  // Cells as wide as `most` of them side by side on the skin, then wider as long as too many stay.
+  // The initial cell size puts `most` cells on the skin; it grows while too many points are kept.
   double edge = std::sqrt(area(surface) / static_cast<double>(std::max<std::size_t>(most, 1)));
   for (int attempt = 0; attempt < 60 && kept(all) > most && edge > 0; ++attempt, edge *= 1.2)
     all = first_in_cell(surface.points, box.min(), edge);
@@ -128,18 +128,18 @@ std::vector<std::uint32_t> stand_ins(const Triangles& surface, std::size_t most)
 std::span<const PlaybackField> playback_fields() {
   using V = ParticleValues;
   static constexpr std::array fields = {
-      PlaybackField{"displacement", "m", "Way from the place at rest", &V::displacement},
+      PlaybackField{"displacement", "m", "Distance from the position at rest", &V::displacement},
       PlaybackField{"speed", "m/s", "Size of the velocity", &V::speed},
       PlaybackField{"J", "", "Local volume ratio; below zero inside out", &V::J},
       PlaybackField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
       PlaybackField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
-      PlaybackField{"D2min", "m²", "Motion that is not affine: flow", &V::D2min},
+      PlaybackField{"D2min", "m²", "Nonaffine motion: flow", &V::D2min},
       PlaybackField{"neighbors", "", "Particles within the interaction range", &V::neighbors},
-      PlaybackField{"turnover", "", "Neighbors lost and won, over those at rest", &V::turnover},
-      PlaybackField{"distance to rigid pose", "m", "From where its bone alone would carry it",
+      PlaybackField{"turnover", "", "Neighbors lost and gained, over those at rest", &V::turnover},
+      PlaybackField{"distance to rigid pose", "m", "Distance from the rigid pose of its bone",
                     &V::pose_error},
-      PlaybackField{"weight of its bone", "",
-                    "Share the bone it follows has in it; 1: that one alone", &V::weight},
+      PlaybackField{"weight of its bone", "", "Weight of the bone it follows; 1: that one alone",
+                    &V::weight},
   };
   return fields;
 }

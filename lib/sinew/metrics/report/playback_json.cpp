@@ -11,15 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double outside = 1e-3;  // share of a field's values at either end that the range leaves
+constexpr double outside = 1e-3;  // share of a field's values at either end that the range excludes
 
-/// Of the numbers' bytes, the lowest first.
+/// The numbers' bytes, lowest first.
 template <class Number>
 std::string base64_of(const std::vector<Number>& numbers) {
   return base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
 }
 
-/// The cube that holds all places of the playback.
+/// The cube that contains all positions of the playback.
 struct Cube {
   Vec3 low = Vec3::Zero();
   double edge = 1;
@@ -50,7 +50,7 @@ struct Range {
   float low, high;
 };
 
-/// Where all but the outermost of the values lie; nothing where there are none.
+/// The range of all but the outermost values; nothing where there are none.
 std::vector<Range> range_of(const Playback& playback, std::size_t field) {
   std::vector<float> all;
   for (const PlaybackFrame& frame : playback.frames)
@@ -66,7 +66,7 @@ std::vector<Range> range_of(const Playback& playback, std::size_t field) {
   return {{at(outside), at(1 - outside)}};
 }
 
-/// The values between 0 and 254 of their range; 255 is none.
+/// The values as 0 to 254 of their range; 255 stands for none.
 std::string levels_of(const Playback& playback, std::size_t field, Range range) {
   std::vector<std::uint8_t> all;
   const double width = range.high > range.low ? double(range.high) - range.low : 1;

@@ -47,7 +47,7 @@ PageData drawn_data(const ReportInput& input) {
   return data;
 }
 
-/// What of the run the 3D view leaves out.
+/// What the 3D view leaves out of the run.
 std::string thinned_text(const Playback& playback) {
   const auto share = [](std::size_t kept, std::size_t all, const char* what) {
     return kept == all ? "all " + std::to_string(all) + what
@@ -69,7 +69,7 @@ std::string playback_section(const ReportInput& input) {
 std::string curves_section(const ReportInput& input) {
   if (input.curves.empty()) return "";
   return element("section",
-                 element("h2", "The laws with this scene's numbers") +
+                 element("h2", "The force laws of this scene") +
                      element("div", "", "class=\"charts\" id=\"curves\""),
                  "class=\"needs-script\"");
 }
@@ -95,7 +95,7 @@ std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& 
     run_rows += row(described(metric), {{"value", readable(summary.*metric.value)}});
   return element("h2", "All metrics") +
          table({"metric", "min", "max", "mean", "final", "worst frame"}, rows) +
-         element("h2", "Of the whole run") + table({"metric", "value"}, run_rows);
+         element("h2", "Metrics of the whole run") + table({"metric", "value"}, run_rows);
 }
 
 }  // namespace

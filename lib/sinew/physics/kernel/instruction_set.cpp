@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <initializer_list>
 
-#include <sinew/physics/kernel/tables.h>
+#include <sinew/physics/kernel/kernel.h>
 
 namespace sinew::kernel {
 namespace {

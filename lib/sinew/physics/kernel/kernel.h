@@ -194,4 +194,12 @@ const char* name_of(InstructionSet set);
 template <class Real>
 Functions<Real> functions_of(InstructionSet set);
 
+// Of each set of instructions, made by kernel.cpp.
+extern const Functions<double> doubles_plain;
+extern const Functions<float> floats_plain;
+#if defined(__x86_64__)
+extern const Functions<double> doubles_sse2, doubles_avx2, doubles_avx512;
+extern const Functions<float> floats_sse2, floats_avx2, floats_avx512;
+#endif
+
 }  // namespace sinew::kernel

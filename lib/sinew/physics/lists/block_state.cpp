@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <sinew/core/parallel.h>
+
 namespace sinew {
 
 namespace {
@@ -169,7 +171,51 @@ void BlockState<Real>::pad_last_block() {
     pad(k + block, static_cast<int>(block + k - size_));
 }
 
+template <class Real>
+Box BlockState<Real>::box(const Units& units, std::size_t grain) const {
+  std::vector<Box> boxes(size_ / grain + 1);
+  parallel_for(size_, grain, [&](std::size_t begin, std::size_t end) {
+    Box& box = boxes[begin / grain];
+    for (std::size_t k = begin; k < end; ++k) box.extend(position(k, units));
+  });
+  Box all;
+  for (const Box& box : boxes)
+    if (!box.isEmpty()) all.extend(box);
+  return all;
+}
+
 template class BlockState<double>;
 template class BlockState<float>;
+
+bool is_sound(const WholeNumbers& saved) {
+  return saved.length > 0 && std::isfinite(saved.length) && saved.origin.allFinite() &&
+         saved.box.min().allFinite() && saved.box.max().allFinite() && saved.traveled >= 0 &&
+         std::isfinite(saved.traveled);
+}
+
+double fastest_within(const Box& box, const Pose& pose, double beyond) {
+  double fastest = 0;
+  for (const BonePose& bone : pose) {
+    const double spread = bone.angular_velocity.norm() * beyond;
+    for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
+      const Vec3 at = box.corner(static_cast<Box::CornerType>(corner));
+      fastest = std::max(fastest, bone.velocity_at(at).norm() + spread);
+    }
+  }
+  return fastest;
+}
+
+template <class Real>
+kernel::Law<Real> law_in(const Units& units, const PairForce& pair, double damping, double mass) {
+  const double L = units.length, T = units.time, per_mass = pair.r * T * T / mass;
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  return {real(pair.r / L),         real(pair.a / L),
+          real(pair.b / L),         real(pair.b / L * pair.b / L),
+          real(pair.k1 * per_mass), real(pair.k2 * per_mass),
+          real(damping * T / mass)};
+}
+
+template kernel::Law<double> law_in(const Units&, const PairForce&, double, double);
+template kernel::Law<float> law_in(const Units&, const PairForce&, double, double);
 
 }  // namespace sinew

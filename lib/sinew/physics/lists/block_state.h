@@ -13,6 +13,7 @@
 #include <sinew/core/vector.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/pair_force.h>
+#include <sinew/rig/pose.h>
 
 namespace sinew {
 
@@ -42,6 +43,17 @@ bool covers(const Units& units, const Box& box);
 template <class Real>
 double free_travel(const Units& units);
 
+/// Whether units that were saved are finite and positive where they have to be.
+bool is_sound(const WholeNumbers& saved);
+
+/// The largest velocity that the pose's bones give a place in the box, or `beyond` (m) around it,
+/// m/s.
+double fastest_within(const Box& box, const Pose& pose, double beyond);
+
+/// Eq. 1 and the damping constant (kg/s) in these units, per particle `mass` (kg).
+template <class Real>
+kernel::Law<Real> law_in(const Units& units, const PairForce& pair, double damping, double mass);
+
 /// a - b in the kernel's arithmetic: integers wrap around.
 inline double difference_of(double a, double b) { return a - b; }
 inline std::int32_t difference_of(std::int32_t a, std::int32_t b) {
@@ -66,6 +78,9 @@ class BlockState {
   void set_position(std::size_t k, const Vec3& p, const Units& units);
   Vec3 velocity(std::size_t k, const Units& units) const;
   void set_velocity(std::size_t k, const Vec3& v, const Units& units);
+
+  /// Around the particles, m; `grain`: of them a thread takes at a time.
+  Box box(const Units& units, std::size_t grain) const;
 
   MovingColumns<Coord, Real> columns() const;  ///< without the pads
   /// As many as there are particles.

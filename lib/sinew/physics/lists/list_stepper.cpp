@@ -6,8 +6,20 @@
 #include <utility>
 
 #include <sinew/core/parallel.h>
+#include <sinew/core/system.h>
+#include <sinew/physics/lists/offset_lists.h>
 
 namespace sinew {
+namespace {
+
+// Columns of sorted particles, in diameters; how much lists may grow before sorting is tried again.
+constexpr double column_edge = 1.2, most_growth = 1.3;
+// By the step count alone, so that a resumed run sorts when an uninterrupted one does: the last
+// bits of sums depend on the order. The lists built for the check cost about one step in a hundred.
+constexpr std::int64_t steps_between_order_checks = 1024;
+
+}  // namespace
+
 template <class Real>
 ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
                                const Particles& particles, kernel::InstructionSet instructions)
@@ -23,10 +35,8 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
 template <class Real>
 void ListStepper<Real>::load(const Particles& particles) {
   const std::size_t n = particles.size();
-  Box box;
-  for (std::size_t i = 0; i < n; ++i) box.extend(particles.position(i));
-  units_box_ = box;
-  units_ = units_for<Real>(box, body_->material.pair, stepping_.step);
+  for (std::size_t i = 0; i < n; ++i) units_box_.extend(particles.position(i));
+  units_ = units_for<Real>(units_box_, body_->material.pair, stepping_.step);
   state_ = next_ = BlockState<Real>(n);
   id_.assign((state_.blocks() + 2) * block, 0);
   caller_.resize(n);
@@ -52,14 +62,14 @@ void ListStepper<Real>::place_bones(const Pose& pose) {
 
 template <class Real>
 kernel::Holds<Real> ListStepper<Real>::holds() const {
-  return {slots_.first.data(), slots_.slots.data(), slots_.held.data(), slots_.shares.data(),
-          bones_.data()};
+  const auto& [first, slots, held, shares, center] = slots_;
+  return {first.data(), slots.data(), held.data(), shares.data(), bones_.data()};
 }
 
 template <class Real>
 kernel::ComovingFrames<Real> ListStepper<Real>::comoving_frames() const {
-  return {frame_slots_.first.data(), frame_slots_.slots.data(), frame_slots_.lanes.data(),
-          frames_.data()};
+  const auto& [first, slots, lanes] = frame_slots_;
+  return {first.data(), slots.data(), lanes.data(), frames_.data()};
 }
 
 template <class Real>
@@ -77,7 +87,7 @@ template <class Real>
 kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
-  const double L = units_.length, T = units_.time, dt = stepping_.step;
+  const double T = units_.time, dt = stepping_.step;
   const auto real = [](double value) { return static_cast<Real>(value); };
   kernel::Step<Real> step{};
   step.before = state_.arrays();
@@ -87,14 +97,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.lists = lists_.arrays();
   step.holds = holds();
   step.comoving_frames = comoving_frames();
-  const double per_mass = pair.r * T * T / mass_;
-  step.law = {real(pair.r / L),
-              real(pair.a / L),
-              real(pair.b / L),
-              real(pair.b / L * pair.b / L),
-              real(pair.k1 * per_mass),
-              real(pair.k2 * per_mass),
-              real(material.damping * T / mass_)};
+  step.law = law_in<Real>(units_, pair, material.damping, mass_);
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(units_.acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
@@ -123,14 +126,12 @@ ListCounts ListStepper<Real>::counts() const {
 
 template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
-  // Per unit of mass and in the kernel's units; converted to watts.
   const double watts =
       mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
   StepSums sums;
   for (const kernel::Totals& piece : totals_)  // in this order, whichever thread made them
     sums.power += piece.power, sums.lost += piece.lost;
-  sums.power *= watts;
-  sums.lost *= watts;
+  sums.power *= watts, sums.lost *= watts;
   return sums;
 }
 
@@ -164,8 +165,8 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
-  const double rounding = sizeof(Real) == 4 ? 1e-5 : 0;
-  const double most = most_radii_per_step * body_->material.pair.r * (1 - rounding);
+  const double most = most_radii_per_step * body_->material.pair.r *
+                      (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < caller_.size(); ++k) {
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
@@ -209,9 +210,8 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.probe(now, begin, end); });
   const double newtons = mass_ * units_.length / (units_.time * units_.time);
-  forces.pair.resize(n);
-  forces.damping.resize(n);
-  forces.bone.resize(n);
+  for (Points* of_particles : {&forces.pair, &forces.damping, &forces.bone})
+    of_particles->resize(n);
   forces.neighbors.resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -225,18 +225,19 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0};
   const double joules = newtons * units_.length;
-  for (const kernel::Totals& piece : totals_)
-    balance.pair_energy += joules * piece.pair_energy,
-        balance.bone_energy += joules * piece.bone_energy;
+  for (const kernel::Totals& piece : totals_) {
+    balance.pair_energy += joules * piece.pair_energy;
+    balance.bone_energy += joules * piece.bone_energy;
+  }
   return balance;
 }
 
 template <class Real>
 void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
   const std::size_t n = caller_.size();
-  for (auto* values :
+  for (auto* all :
        {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
-    values->resize(n);
+    all->resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       particles.set_position(caller_[k], state_.position(k, units_));
@@ -250,6 +251,148 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
     particles.set_velocity(
         i, particles.velocity(i) +
                stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
+}
+
+template <class Real>
+void ListStepper<Real>::choose_comoving_frames(const Pose& pose) {
+  comoving_frames_.choose(*body_, pose, state_, units_, {id_.data() + block, caller_.size()});
+  frame_slots_ = frame_slots<Real>(comoving_frames_.of_particles());
+  place_comoving_frames(pose);
+}
+
+template <class Real>
+void ListStepper<Real>::update_lists(const Pose& pose) {
+  const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
+  const bool anew = change_units();
+  if (order_check_due()) {
+    rebuild(pose);
+    if (lists_.mean_of_outer() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
+    return;
+  }
+  if (anew || !lists_.made()) return rebuild(pose);
+  place_comoving_frames(pose);
+  if (fastest && !lists_.follow(particles(), *fastest)) rebuild(pose);
+}
+
+/// A second check before the same step, as in a run resumed there, would change nothing.
+template <class Real>
+bool ListStepper<Real>::order_check_due() {
+  return steps_ % steps_between_order_checks == 0 &&
+         std::exchange(order_checked_, steps_) != steps_;
+}
+
+/// Sorts the particles into columns where that makes the lists shorter.
+template <class Real>
+bool ListStepper<Real>::sort() {
+  Stopwatch watch;
+  const auto order =
+      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / units_.length);
+  reorder(state_, order, next_);
+  const double sorted = lists_.outer_of(next_, units_).mean(), unsorted = lists_.mean_of_outer();
+  mean_when_sorted_ = std::min(sorted, unsorted);
+  sorting_ += watch.lap();
+  if (sorted > 0.95 * unsorted) return false;
+  ++sorts_;
+  std::swap(state_, next_);
+  std::vector<std::int32_t> id(id_.size(), 0);
+  std::vector<std::uint32_t> caller(caller_.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    id[k + block] = id_[order[k] + block];
+    caller[k] = caller_[order[k]];
+  }
+  id_ = std::move(id);
+  caller_ = std::move(caller);
+  find_slots();
+  sorting_ += watch.lap();
+  return true;
+}
+
+/// Chooses other units where the body may have left the range of the present ones, and has. When
+/// that is checked follows from the bones' motion alone: lists differ in a resumed run.
+template <class Real>
+bool ListStepper<Real>::change_units() {
+  if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
+  units_box_ = state_.box(units_, particles_per_thread);
+  traveled_ = 0;
+  if (sinew::covers<Real>(units_, units_box_)) return false;
+  const Units before =
+      std::exchange(units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
+  parallel_split(caller_.size(), particles_per_thread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      state_.set_velocity(k, state_.velocity(k, before), units_);
+      state_.set_position(k, state_.position(k, before), units_);
+    }
+  });
+  find_slots();
+  return true;
+}
+
+/// How far a particle may travel in a valid step: with its bone, and relative to it.
+template <class Real>
+double ListStepper<Real>::travel_of_step(const Pose& pose) const {
+  return 1.001 * (fastest_within(units_box_, pose, traveled_) * stepping_.step +
+                  most_radii_per_step * body_->material.pair.r);
+}
+
+template <class Real>
+void ListStepper<Real>::rebuild(const Pose& pose) {
+  place_bones(pose);
+  choose_comoving_frames(pose);
+  lists_.make(particles());
+}
+
+template <class Real>
+void ListStepper<Real>::save(SimulationState& state) const {
+  state.moving = state_.columns();
+  state.kicked = kicked_;
+  state.order = caller_;
+  state.whole_numbers = {units_.length, units_.origin, units_box_, traveled_};
+  state.mean_when_sorted = mean_when_sorted_;
+}
+
+template <class Real>
+void ListStepper<Real>::restore(const SimulationState& state) {
+  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
+  const auto* moving = std::get_if<Columns>(&state.moving);
+  if (moving == nullptr) throw not_a_state("it is in another precision");
+  check_moving(*moving, caller_.size());
+  if (!state.rest_length.empty()) throw not_a_state("it has bonds");
+  restore_order(state.order);
+  restore_units(state.whole_numbers);
+  state_.set_columns(*moving);
+  next_ = state_;
+  find_slots();
+  kicked_ = state.kicked;
+  mean_when_sorted_ = state.mean_when_sorted;
+  steps_ = state.steps;
+  order_checked_ = -1;
+  fastest_.reset();
+  lists_ = VerletLists<Real>(kernel_, body_->material.pair, stepping_.step);
+}
+
+/// `order` contains each particle's place in the caller's order once.
+template <class Real>
+void ListStepper<Real>::restore_order(const std::vector<std::uint32_t>& order) {
+  std::vector<std::int32_t> id_of(caller_.size(), -1);
+  for (std::size_t k = 0; k < caller_.size(); ++k) id_of[caller_[k]] = id_[k + block];
+  if (order.size() != id_of.size()) throw not_a_state("it has no order of the particles");
+  std::vector<std::int32_t> id(id_.size(), 0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (order[k] >= id_of.size() || id_of[order[k]] < 0)
+      throw not_a_state("its order of the particles names one twice");
+    id[k + block] = std::exchange(id_of[order[k]], -1);
+  }
+  id_ = std::move(id);
+  caller_ = order;
+}
+
+template <class Real>
+void ListStepper<Real>::restore_units(const WholeNumbers& saved) {
+  if (!is_sound(saved)) throw not_a_state("its units are none");
+  units_.length = saved.length;
+  units_.origin = saved.origin;
+  units_box_ = saved.box;
+  traveled_ = saved.traveled;
 }
 
 template class ListStepper<double>;

@@ -49,9 +49,7 @@ Steepness steepness(const UniformAcceleration& form, const Grain& grain) {
 Steepness steepness(const ForceDensity& form, const Grain& grain) {
   return {grain.volume * form.density.norm()};
 }
-Steepness steepness(const CustomForce& form, const Grain&) {
-  return {form.largest, form.length};
-}
+Steepness steepness(const CustomForce& form, const Grain&) { return {form.largest, form.length}; }
 template <typename Form>
 Steepness steepness(const Form& form, const Grain& grain) {
   return {grain.mass * std::abs(form.acceleration), form.core};

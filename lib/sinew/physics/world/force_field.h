@@ -48,12 +48,11 @@ struct Grain {
 /// A force of one's own. It is called from several threads at once.
 struct CustomForce {
   std::function<Vec3(const Vec3& position, const Grain& grain)> force;  ///< N
-  double largest = 0;                                        ///< bound of its size, N
+  double largest = 0;                                                   ///< bound of its size, N
   double length = std::numeric_limits<double>::infinity();  ///< over which it changes by as much, m
 };
 
-using FieldForm =
-    std::variant<UniformAcceleration, ForceDensity, Attraction, Swirl, CustomForce>;
+using FieldForm = std::variant<UniformAcceleration, ForceDensity, Attraction, Swirl, CustomForce>;
 
 struct ForceField {
   std::string name;

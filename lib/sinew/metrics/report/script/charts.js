@@ -2,14 +2,14 @@
 // The charts: hover for values, drag for a part of the time, double-click for all of it.
 "use strict";
 
-// Later lines lie over earlier ones, which show between their dashes where both are the same.
+// Later lines are drawn over earlier ones, which show between their dashes where both coincide.
 const dashes = [[], [9, 4], [3, 3], [12, 3, 3, 3], [6, 2], [2, 5]];
 const timeCharts = [];
-const marked = { time: null, go: null }; // the 3D view's time, and the way to change it
+const marked = { time: null, go: null }; // the 3D view's time, and the function that changes it
 
 const asXY = (points) => points.map(([x, y]) => ({ x, y: y === null ? NaN : y }));
 
-/** Whether a point has no neighbor that a line could lead to. */
+/** Whether a point has no neighbor to draw a line to. */
 const alone = ({ dataset, dataIndex: i }) =>
   [i - 1, i + 1].every((k) => Number.isNaN(dataset.data[k]?.y ?? NaN));
 
@@ -88,7 +88,7 @@ function listen(chart) {
   canvas.addEventListener("dblclick", () => showTimes());
 }
 
-/** As many decimals as tell the ticks apart, which are multiples of 1, 2 or 5 times a power of ten. */
+/** Decimals needed to distinguish ticks, which are multiples of 1, 2 or 5 times a power of ten. */
 function tickText(value, _, ticks) {
   if (value === 0) return "0";
   const largest = Math.max(...ticks.map((tick) => Math.abs(tick.value)));
@@ -104,7 +104,7 @@ const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, inclu
 
 const leastSpan = 1e-3; // of the values' size: below it a line is flat, not noise
 
-/** Ends that the scale shows in any case: the baselines, and enough around a flat line. */
+/** Limits that the scale always includes: the baselines, and a margin around a flat line. */
 function shownEnds(chart) {
   const values = chart.lines.flatMap((line) => line.points.map((point) => point[1]))
     .filter((value) => value !== null).concat(chart.baselines);
@@ -114,7 +114,7 @@ function shownEnds(chart) {
   return { suggestedMin: middle - half, suggestedMax: size === 0 ? 1 : middle + half };
 }
 
-/** The bones' angle lies in a strip beneath; its one text stands within it. */
+/** The bones' angle is in a strip beneath, which contains its one label. */
 const angleScale = () => ({ axis: "y", position: "left", stack: "all", stackWeight: 1, min: 0,
   suggestedMax: 1, ticks: { maxTicksLimit: 2, mirror: true, labelOffset: 9,
     callback: (value) => (value > 0 ? `bones ${readable(value)}°` : "") } });
@@ -178,7 +178,7 @@ const curveChart = (curve) => new Chart(canvasIn(byId("curves"), curve),
     options: options({ x: { ...plainScale(curve.across), type: "linear" },
       y: plainScale(curve.up) }, "") });
 
-/** On paper two charts stand beside each other, sharper than on a screen. */
+/** In print, two charts are placed side by side, in higher resolution than on a screen. */
 function followPrinting(charts) {
   const size = (ratio, ...widthAndHeight) => charts.forEach((chart) => {
     chart.options.devicePixelRatio = ratio;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's data, and its numbers unpacked from base64.
+// The page's data, with its numbers decoded from base64.
 "use strict";
 
 const byId = (id) => document.getElementById(id);
@@ -8,7 +8,7 @@ const data = JSON.parse(byId("data").textContent);
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-/** Playback arrays as typed arrays; places in meters from the middle of the playback's cube. */
+/** Playback arrays as typed arrays; positions in meters from the center of the playback's cube. */
 function unpackedPlayback(playback) {
   const places = (text) => {
     const whole = new Uint16Array(bytesOf(text).buffer);
@@ -26,7 +26,7 @@ function unpackedPlayback(playback) {
   };
 }
 
-/** Four significant digits, for people. */
+/** Four significant digits, for display. */
 function readable(value) {
   if (value === null || Number.isNaN(value)) return "–";
   const number = Number(value.toPrecision(4)), size = Math.abs(number);
@@ -34,7 +34,7 @@ function readable(value) {
   return (plain ? String(number) : number.toExponential()).replaceAll("-", "−").replace("+", "");
 }
 
-// Okabe and Ito's colors, which color-blind readers tell apart; the pale ones come last.
+// Okabe and Ito's colors, which color-blind readers can distinguish; the pale ones last.
 const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#4d4d4d", "#e69f00", "#56b4e9", "#b8ad00"];
 
 const colorOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();

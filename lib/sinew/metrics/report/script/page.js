@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Begins everything. window.sinewState tells what is shown, to whoever wants to test the page.
+// Starts the page. window.sinewState describes what is shown, for tests.
 "use strict";
 
 function sayWithout(reason) {

@@ -8,9 +8,9 @@ function fillFields(playback) {
   byId("field").append(element("option", { value: -1, textContent: "bone it follows" }), ...options);
 }
 
-const mostNames = 12; // bones named beside the view; more would bury it
+const mostNames = 12; // bones named beside the view; more would take too much space
 
-/** Which color is which bone. */
+/** The legend of bone colors. */
 function fillBoneNames(playback) {
   const names = playback.boneNames.slice(0, mostNames).map((name, b) => {
     const dot = element("i");
@@ -48,7 +48,7 @@ function showWorst(playback, go) {
   byId("worst").hidden = data.worst.length === 0;
 }
 
-/** The state of the view and the ways to change it. */
+/** The state of the view and the functions that change it. */
 function makePlayer(view) {
   const { playback } = view;
   const player = { snapshot: 0, timer: null };
@@ -71,7 +71,7 @@ function makePlayer(view) {
   return player;
 }
 
-/** Milliseconds a snapshot stays, so that the playback takes its own time, yet at most ten seconds. */
+/** Milliseconds per frame, so that the playback runs in real time, but at most ten seconds. */
 function pace(playback) {
   const span = playback.snapshots[playback.snapshots.length - 1].time - playback.snapshots[0].time;
   return 1000 * Math.min(span, 10) / Math.max(playback.snapshots.length - 1, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles as spheres of their true size: a square each, on which the card works out a ball with
-// its shading and depth (impostors, as in Gumhold 2003).
+// Particles as spheres of their true size: squares on which the shader computes spheres with shading
+// and depth (impostors, as in Gumhold 2003).
 "use strict";
 
 const sphereVertex = `
@@ -33,7 +33,7 @@ const sphereFragment = `
     gl_FragDepthEXT = 0.5 * clip.z / clip.w + 0.5;
   }`;
 
-/** Of balls: how many and how large (m) each, as [count, radius]. */
+/** Groups of spheres: number and radius (m), as [count, radius]. */
 function makeSpheres(balls) {
   const radii = Float32Array.from(balls.flatMap(([count, radius]) => Array(count).fill(radius)));
   const geometry = new THREE.BufferGeometry();
@@ -57,7 +57,7 @@ const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33,
 const boneColors = palette.map((color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16)));
 const noColor = [150, 150, 150];
 
-/** Of a share between 0 and 1, 0 to 255 each. */
+/** The color at a fraction between 0 and 1, 0 to 255 each. */
 function viridisAt(share) {
   const at = Math.min(Math.max(share, 0), 1) * (viridis.length - 1);
   const low = Math.min(Math.floor(at), viridis.length - 2);

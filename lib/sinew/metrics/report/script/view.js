@@ -2,7 +2,7 @@
 // The 3D view: particles, skin and bones of one frame, to be turned and zoomed.
 "use strict";
 
-const away = 1e9; // where particles that are cut away are put, m
+const away = 1e9; // position of hidden particles, m
 
 /** Throws where the browser has no WebGL. */
 function makeView(playback, stage) {
@@ -25,7 +25,7 @@ function makeView(playback, stage) {
   return view;
 }
 
-/** A function that draws at the next repaint, however often it is called until then. */
+/** A function that draws once at the next repaint, however often it is called before. */
 function drawer(view) {
   let due = false;
   const draw = () => {
@@ -63,7 +63,7 @@ function makeSkin(playback, points) {
   return skin;
 }
 
-/** A long octahedron of length 1 along y, drawn over everything so that it shows in the flesh. */
+/** A long octahedron of length 1 along y, drawn over everything so that it is visible inside. */
 function makeBone(index) {
   const geometry = new THREE.CylinderBufferGeometry(0, 0.07, 0.85, 4).translate(0, 0.575, 0);
   const foot = new THREE.CylinderBufferGeometry(0.07, 0, 0.15, 4).translate(0, 0.075, 0);
@@ -76,7 +76,7 @@ function makeBone(index) {
   return bone;
 }
 
-/** The camera looks at the whole playback from the side it moves in least. */
+/** Places the camera to see the whole playback, along the axis of least motion. */
 function aim(view) {
   const { playback, camera, controls } = view;
   const box = new THREE.Box3().setFromArray(playback.particles);
@@ -104,7 +104,7 @@ function resize(view) {
 
 const snapshotOf = (array, count, snapshot) => array.subarray(3 * count * snapshot, 3 * count * (snapshot + 1));
 
-/** Which particles lie beyond the middle of the body at the start, in the direction seen. */
+/** Which particles are behind the center of the body at the start, in the viewing direction. */
 function cutAway(playback) {
   const first = snapshotOf(playback.particles, playback.ids.length, 0);
   const box = new THREE.Box3().setFromArray(first);
