@@ -14,8 +14,8 @@
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
-#include <sinew/settings/sections.h>
 #include <sinew/settings/read_scene.h>
+#include <sinew/settings/sections.h>
 
 #include "command/body_options.h"
 #include "command/command.h"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A plot of what compare.py measured: speed over particles, at rest and flowed, on one thread."""
+"""A plot of the figures of compare.py: speed over particles, at rest and flowed, on one thread."""
 import math
 from html import escape
 

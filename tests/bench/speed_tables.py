@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Markdown tables of what compare.py measured."""
+"""Markdown tables of the figures of compare.py."""
 from statistics import median
 
 FLOP = 420  # per particle-step: 12 pairs of 35
@@ -52,7 +52,7 @@ def head(first):
 
 
 def counts_of(results, state=None):
-    """Particles asked for, of which there are figures, ascending."""
+    """Requested numbers of particles with figures, ascending."""
     keys = (key.split("/") for key in results["figures"])
     return sorted({int(count) for name, count, *_ in keys if state in (None, name)})
 
@@ -97,7 +97,7 @@ def remarks(results, figures):
             for (state, number), lists in ((key.split("/"), value) for key, value in results["lammps_lists"].items())
             if lists["dangerous"] > 0]
     if late:
-        yield f"LAMMPS looked too late at its lists, and missed pairs: {', '.join(late)}."
+        yield f"LAMMPS checked its lists too late, and missed pairs: {', '.join(late)}."
     if results["bytes_per_particle"]:
         sizes = ", ".join(f"{value:.0f} ({kind})" for kind, value in results["bytes_per_particle"].items())
         yield f"Bytes per particle at the peak, the body's description included: {sizes}."

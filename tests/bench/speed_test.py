@@ -40,7 +40,7 @@ class Tables(unittest.TestCase):
         self.assertIn("| 36 GB/s | 500 | 19 % |", self.line("| single, memory |"))
 
     def test_lists_that_lammps_kept_too_long_are_told(self):
-        self.assertTrue(self.line("LAMMPS looked too late").endswith("missed pairs: 9 of 10 times (flowed, 300,000)."))
+        self.assertTrue(self.line("LAMMPS checked its lists too late").endswith("missed pairs: 9 of 10 times (flowed, 300,000)."))
 
     def test_plot_is_xml_with_a_curve_per_candidate_and_state(self):
         root = ElementTree.fromstring(speed_plot.svg(RESULTS))

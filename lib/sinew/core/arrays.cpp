@@ -267,7 +267,7 @@ std::span<const std::string_view> requestable_arrays() {
 std::vector<std::string_view> requested_arrays(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text);
   const auto names = requestable_arrays();
-  const auto asked = [&](std::string_view name) {
+  const auto requested = [&](std::string_view name) {
     return std::find(words.begin(), words.end(), name) != words.end();
   };
   for (const std::string_view word : words)
@@ -276,7 +276,7 @@ std::vector<std::string_view> requested_arrays(std::string_view text) {
                       suggestion(word, names) + " (or all)");
   std::vector<std::string_view> found;
   for (const std::string_view name : names)
-    if (asked(name) || asked("all")) found.push_back(name);
+    if (requested(name) || requested("all")) found.push_back(name);
   return found;
 }
 

@@ -132,7 +132,7 @@ Solid::Solid(const Material& material, Points rest)
 
 /// The force along a pair that cells find, N.
 double Solid::between(std::size_t i, std::uint32_t j, double d) const {
-  const bool touch = d < 2 * material_.pair.r;  // asked first: looking for a bond takes longer
+  const bool touch = d < 2 * material_.pair.r;  // cheaper than searching for a bond
   if (law_->has_bonds) return touch && !bonds_.bonded(i, j) ? law_->force(material_, d) : 0;
   if (touch || !bonds_.were_neighbors(i, j)) return law_->force(material_, d);
   return law_->bond_force(material_, d, d);

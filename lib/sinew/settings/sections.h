@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the sections of a scene are read that are more than keys with values, and the checks across
-// their values.
+// Readers of the sections of a scene that have lists (bones, tracks, the world), and the checks
+// that involve more than one setting.
+//
+//     read_rig_files(settings);
+//     check_together(settings);
 #pragma once
 
 #include <array>

@@ -160,7 +160,7 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   return sums;
 }
 
-/// The particles that failed, in the caller's order; where rounding leaves none, the fastest.
+/// The particles that failed, in the caller's order; the fastest one where rounding leaves none.
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
@@ -181,8 +181,7 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
   return failure;
 }
 
-/// Velocity after the step relative to the leading bone or, without a bone, to the velocity before
-/// it.
+/// Velocity after the step relative to the leading bone or, without one, to the velocity before.
 template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
   const int bone = body_->binding.bone(static_cast<std::size_t>(id_[k + block]));
