@@ -5,7 +5,7 @@
 add_library(sinew_options INTERFACE)
 target_compile_features(sinew_options INTERFACE cxx_std_20)
 target_compile_options(sinew_options INTERFACE
-  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off $<$<BOOL:${SINEW_STRICT}>:-Werror>)
+  -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -ffp-contract=off $<$<BOOL:${SINEW_STRICT}>:-Werror>)
 
 # A third of the time of compiling is headers that all rooms include: these are compiled once, with
 # core. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows who forgot an include.

@@ -6,6 +6,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tools/install_packages.sh build test
 tests/tools/get_paraview_python.sh build/paraview-python
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=ON >/dev/null
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=ON -DSINEW_STRICT=ON >/dev/null
 cmake --build build
 ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@"

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/run_program.h"
+#include <sinew/run/simulate.h>
+#include <sinew/settings/read_scene.h>
+#include "settings/temp_folder.h"
 
 namespace sinew {
 namespace {
@@ -30,8 +32,7 @@ TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
   const TempFolder folder;
   const std::string scene = folder.write("scene.yaml", stretching_scene()).string();
   const RunFolder run_at{folder.path() / "run"};
-  const Ran ran = run(std::string(FRONT) + " simulate " + scene + " -o " + run_at.path.string());
-  ASSERT_EQ(ran.exit, 0) << ran.err;
+  ASSERT_EQ(simulate(read_scene(scene), run_at).exit, Exit::done);
   const RunFiles files = open_run(run_at);
   for (const auto& [frame, stretch] : {std::pair(0, 1.0), {1, 1.25}, {2, 1.5}}) {
     const Snapshot snapshot =

@@ -190,7 +190,8 @@ std::optional<double> thinnest_part(const Triangles& surface) {
     if (const auto thickness = rays.thickness(place)) found.push_back(*thickness);
   }
   if (found.empty() || 2 * found.size() < tried) return std::nullopt;
-  const auto rank = found.begin() + static_cast<std::ptrdiff_t>(thin_share * found.size());
+  const auto rank =
+      found.begin() + static_cast<std::ptrdiff_t>(thin_share * static_cast<double>(found.size()));
   std::nth_element(found.begin(), rank, found.end());
   return *rank;
 }

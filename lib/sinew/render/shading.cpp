@@ -107,7 +107,8 @@ Shading make_shading(const Triangles& rest) {
     (diagonal ? diagonals : skin.lines).push_back(edge);
   }
   split(rest, parent, skin);
-  const bool quadrangles = 2 * diagonals.size() > 0.95 * rest.faces.size();
+  const bool quadrangles =
+      2 * static_cast<double>(diagonals.size()) > 0.95 * static_cast<double>(rest.faces.size());
   if (!quadrangles) skin.lines.insert(skin.lines.end(), diagonals.begin(), diagonals.end());
   return skin;
 }

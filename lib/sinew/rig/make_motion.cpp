@@ -140,15 +140,15 @@ Curve<Value> curve_of(const TrackDefinition& track, Of&& of) {
 int bone_of(const TrackDefinition& track, std::size_t index, const Skeleton& skeleton,
             const Motion& earlier) {
   const std::string& name = track.bone;
-  const std::string place = (path_of(index) + ".bone");
+  const std::string key = path_of(index) + ".bone";
   const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
                                   [&](const Bone& bone) { return bone.name == name; });
   if (found == skeleton.bones.end())
-    throw bad_value(place, "there is no bone '" + name + "'", "use a name from skeleton.bones");
+    throw bad_value(key, "there is no bone '" + name + "'", "use a name from skeleton.bones");
   const int bone = static_cast<int>(found - skeleton.bones.begin());
-  for (const Track& track : earlier.tracks)
-    if (track.bone == bone)
-      throw bad_value(place, "bone '" + name + "' has two tracks", "put all its keys into one");
+  for (const Track& one : earlier.tracks)
+    if (one.bone == bone)
+      throw bad_value(key, "bone '" + name + "' has two tracks", "put all its keys into one");
   return bone;
 }
 
