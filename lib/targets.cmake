@@ -1,11 +1,15 @@
 # How every room of lib becomes a library sinew::ROOM, installed for find_package(sinew).
 
 # What holds for all our own code: the language, its warnings, and bits that do not depend on fused
-# multiply-adds.
-add_library(sinew_options INTERFACE)
-target_compile_features(sinew_options INTERFACE cxx_std_20)
-target_compile_options(sinew_options INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -ffp-contract=off $<$<BOOL:${SINEW_STRICT}>:-Werror>)
+# multiply-adds. Tests draw random numbers and count without asking how wide they are.
+set(SINEW_COMPILE_OPTIONS -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -ffp-contract=off
+  $<$<BOOL:${SINEW_STRICT}>:-Werror>)
+foreach(kind options test_options)
+  add_library(sinew_${kind} INTERFACE)
+  target_compile_features(sinew_${kind} INTERFACE cxx_std_20)
+  target_compile_options(sinew_${kind} INTERFACE ${SINEW_COMPILE_OPTIONS})
+endforeach()
+target_compile_options(sinew_test_options INTERFACE -Wno-conversion)
 
 # A third of the time of compiling is headers that all rooms include: these are compiled once, with
 # core. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows who forgot an include.

@@ -96,7 +96,7 @@ TEST_F(HostileGltf, WithAHeaderThatLiesIsRefused) {
 
 TEST_F(HostileGltf, OfBrokenJsonIsRefused) {
   expect_refused("a.gltf", "{\"asset\": ", "its JSON is damaged at byte 11");
-  expect_refused("a.gltf", "{\"asset\": 1e999}", "a number too large");
+  expect_refused("a.gltf", "{\"asset\": 1e999}", "a number that is too large");
   expect_refused("a.gltf", "{\"asset\": NaN}", "its JSON is damaged");
   expect_refused("a.gltf", "{} {}", "its JSON is damaged");
   expect_refused("a.gltf", "{\"\xff\": 1}", "its JSON is damaged");

@@ -278,7 +278,7 @@ TEST(Ply, SaysWhatIsWrong) {
   expect_refused("a.ply", ply_of(xyz, list, "0 0 nan\n" + body), "a.ply:10: 'nan' is not a finite");
   expect_refused("a.ply", ply_of("", list, body), "has no properties");
   expect_refused("a.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n",
-                 "before any element");
+                 "precedes the first element");
   expect_refused("a.ply", "ply\nelement vertex 4\n" + xyz + "end_header\n", "no format");
   expect_refused("a.ply",
                  "ply\nformat ascii 1.0\nelement vertex 4\n" + xyz +

@@ -16,7 +16,7 @@ TEST(MeshFormats, AreThoseThatTheSettingsHelpLists) {
     return field.section == "body" && field.name == "mesh";
   });
   ASSERT_NE(mesh, table.end());
-  EXPECT_EQ(mesh->help, "mesh (" + mesh_formats() + "), relative to the scene");
+  EXPECT_EQ(mesh->help, "path of the mesh (" + mesh_formats() + "), relative to the scene file");
 }
 
 }  // namespace
