@@ -121,7 +121,7 @@ Field<Owner> field(std::string_view section, std::string_view name, Member membe
 /// A row for an enum; `choices` in the order of its values. An optional one may be auto.
 template <class Owner, class Member>
 Field<Owner> choice(std::string_view section, std::string_view name, Member member,
-                    std::vector<std::string_view> choices, std::string_view help) {
+                    const std::vector<std::string_view>& choices, std::string_view help) {
   using Stored = std::remove_reference_t<decltype(member(std::declval<Owner&>()))>;
   using Enum = typename Unwrap<Stored>::type;
   Field<Owner> row;
