@@ -117,26 +117,20 @@ inline TrackDefinition track(const std::string& bone, std::vector<KeyDefinition>
   return track;
 }
 
-inline Body make_body(const Settings& settings, const Points& rest) {
-  const double r = *settings.body.radius, V0 = volume_per_particle(r);
-  Body body;
-  body.rest = rest;
-  body.skeleton = skeleton_of(settings);
-  body.binding = bind_to_bones(rest, body.skeleton, V0, settings.binding.joint_zone);
-  body.material = make_material(settings.material, r, settings.material.density * V0);
-  body.springs = bone_springs(settings.binding, body.material, body.binding);
-  return body;
+/// Particles of the scene's radius and density at `rest`.
+inline Particles particles_of(const Settings& settings, const Points& rest) {
+  const double r = *settings.body.radius;
+  return particles_at(rest, r, settings.material.density * volume_per_particle(r));
 }
 
-/// A simulation of particles at `rest`, with the step that the settings choose for frames of 1/30
-/// s.
+inline Body make_body(const Settings& settings, const Points& rest) {
+  return make_body(settings, skeleton_of(settings), particles_of(settings, rest));
+}
+
+/// A simulation of particles at `rest`, with the step that the settings choose.
 inline Simulation make_simulation(const Settings& settings, const Points& rest) {
-  const Body body = make_body(settings, rest);
-  const double limit = step_limit(settings.solver.integrator, body.material, body.springs);
-  const double step = choose_step(settings.solver, limit, settings.output.interval).step;
-  return Simulation(body, motion_of(settings, body.skeleton),
-                    particles_at(rest, body.material.pair.r, body.material.mass),
-                    stepping_of(settings.solver, step));
+  const Particles particles = particles_of(settings, rest);
+  return start(settings, set_up(settings, particles), particles);
 }
 
 /// The scene without bone forces: the body is free.

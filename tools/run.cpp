@@ -25,7 +25,7 @@ Words shared_words(const Common& common) {
 
 Words simulate_words(const Options& options, const Common& common, const std::string& folder) {
   Words words = shared_words(common);
-  words.insert(words.end(), {"--asked-of", "run"});
+  words.insert(words.end(), {"--invoked-as", "run"});
   for (const Override& override : common.overrides)
     words.insert(words.end(), {"--set", override.path + '=' + override.value});
   if (options.force) words.push_back("--force");

@@ -40,7 +40,7 @@ std::string shell_word(const std::string& text) {
 
 /// The command that goes on with this run.
 std::string resume_words(const RunOptions& options, const Common& common, const RunFolder& folder) {
-  std::string words = "sinew " + options.asked_of + ' ' + shell_word(options.scene);
+  std::string words = "sinew " + options.invoked_as + ' ' + shell_word(options.scene);
   for (const Override& one : common.overrides)
     if (one.path != "solver.wall_time") words += " --set " + shell_word(one.path + '=' + one.value);
   return words + " -o " + shell_word(folder.path.string()) + " --resume";
@@ -55,7 +55,8 @@ Exit simulate_scene(int argc, char** argv, const RunOptions& options, const Comm
     progress.reset();
     say(common, line);
   };
-  how.stop_requested = stop_asked;
+  how.warning = [&](const std::string& line) { how.message("sinew: warning: " + line); };
+  how.stop_requested = stop_requested;
   how.before_stepping = catch_stop_signals;
   how.progress = [&](const RunProgress& at) {
     if (!progress) progress.emplace(at.frames, progress_style(common.quiet));

@@ -8,7 +8,7 @@
 #include <complex>
 #include <functional>
 
-#include "physics/ways.h"
+#include "physics/all_steppers.h"
 
 namespace sinew {
 namespace {

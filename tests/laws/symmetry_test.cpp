@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "physics/ways.h"
+#include "physics/all_steppers.h"
 
 namespace sinew {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <sinew/scene/rig.h>
 
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

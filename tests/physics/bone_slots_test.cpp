@@ -8,7 +8,7 @@
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

@@ -7,7 +7,7 @@
 #include <sinew/physics/lists/approach_bounds.h>
 #include <sinew/scene/rig.h>
 
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

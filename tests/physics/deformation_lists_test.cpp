@@ -2,7 +2,7 @@
 // Whatever happens to a body, its lists hold the pairs that the cells find, at every moment
 // checked.
 #include "golden.h"
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

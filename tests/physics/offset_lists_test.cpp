@@ -7,7 +7,7 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
 
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

@@ -8,7 +8,7 @@
 #include <sinew/scene/setup.h>
 
 #include "expect_error.h"
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

@@ -2,7 +2,7 @@
 // The same bits from every instruction set and any number of threads, while lists are rebuilt.
 #include <sinew/core/parallel.h>
 
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

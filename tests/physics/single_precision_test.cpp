@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What single precision preserves: small strains, rest, the balance of energy and the shape of a
 // bend.
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

@@ -4,7 +4,7 @@
 #include <sinew/core/error.h>
 
 #include "expect_error.h"
-#include "ways.h"
+#include "all_steppers.h"
 
 namespace sinew {
 namespace {

@@ -17,9 +17,9 @@ namespace sinew {
 
 namespace {
 
-volatile std::sig_atomic_t asked = 0;  // the only state a signal handler may change
+volatile std::sig_atomic_t requested = 0;  // the only state a signal handler may change
 
-void remember(int) { asked = 1; }
+void remember(int) { requested = 1; }
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void catch_stop_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool stop_asked() { return asked != 0; }
+bool stop_requested() { return requested != 0; }
 
 namespace {
 

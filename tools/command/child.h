@@ -20,7 +20,7 @@ bool ignores_hangup();
 /// unless ignored, also sets the flag, however often it is received.
 void catch_stop_signals();
 
-bool stop_asked();
+bool stop_requested();
 
 struct ChildEnd {
   int exit = 0;        ///< its exit code; 128 + signal when a signal ended it

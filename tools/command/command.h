@@ -49,7 +49,7 @@ void say(const Common& common, const std::string& line);
 struct RunOptions {
   std::string scene, folder;
   bool force = false, resume = false;
-  std::string asked_of = "simulate";  ///< the command that the user called, to be named in hints
+  std::string invoked_as = "simulate";  ///< the command that the user called, to be named in hints
 };
 
 inline void declare(CLI::App& app, RunOptions& options) {
@@ -58,7 +58,7 @@ inline void declare(CLI::App& app, RunOptions& options) {
       ->type_name("DIR");
   auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
   app.add_flag("--resume", options.resume, "Continue a run that was stopped")->excludes(force);
-  app.add_option("--asked-of", options.asked_of)->group("");  // hidden: passed by run to simulate
+  app.add_option("--invoked-as", options.invoked_as)->group("");  // hidden: passed by run to simulate
 }
 
 }  // namespace sinew

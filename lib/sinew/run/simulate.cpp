@@ -240,7 +240,7 @@ void say_what_is_doubtful(const Settings& scene, const Setup& setup,
                    three_digits(setup.steps.limit) + " s");
   for (const std::string& warning :
        warnings_of(setup, scene.solver, bone_speed(setup, scene.output.interval)))
-    say(options, "sinew: warning: " + warning);
+    if (options.warning) options.warning(warning);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct SimulateOptions {
   // What a caller may listen to; each may be empty.
   std::function<void(const RunProgress&)> progress = {};
   std::function<void(const std::string&)> message = {};
+  std::function<void(const std::string&)> warning = {};
   std::function<bool()> stop_requested = {};  ///< asked after every step
   std::function<void()> before_stepping = {};
 };

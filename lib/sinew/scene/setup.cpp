@@ -115,16 +115,6 @@ BodyShape shape_of(const Settings& settings, const Points& rest, const Particles
   return shape;
 }
 
-Body make_body(const Settings& settings, const Skeleton& skeleton, const Particles& particles) {
-  Body body;
-  body.rest = positions_of(particles);
-  body.skeleton = skeleton;
-  body.binding = bind_scene(settings, body.skeleton, body.rest, particles.radius);
-  body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
-  body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
-  return body;
-}
-
 StepChoice steps_of(const Settings& settings, const Body& body) {
   const double limit = step_limit(settings.solver.integrator, body, load_of(body));
   try {
@@ -135,6 +125,16 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
 }
 
 }  // namespace
+
+Body make_body(const Settings& settings, Skeleton skeleton, const Particles& particles) {
+  Body body;
+  body.rest = positions_of(particles);
+  body.skeleton = std::move(skeleton);
+  body.binding = bind_scene(settings, body.skeleton, body.rest, particles.radius);
+  body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
+  body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
+  return body;
+}
 
 Stepping stepping_of(const SolverSettings& solver, double step) {
   return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbor_search};
@@ -148,7 +148,7 @@ Setup set_up(const Settings& settings, const Particles& particles) {
   Setup setup;
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings);
-  setup.body = make_body(settings, rig.skeleton, particles);
+  setup.body = make_body(settings, std::move(rig.skeleton), particles);
   SceneWorld around = world_of(settings, setup.body);
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);

@@ -25,6 +25,9 @@ namespace sinew {
 Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Points& rest,
                    double radius);
 
+/// The particles on the bones, without a world. Errors name the scene's line.
+Body make_body(const Settings& settings, Skeleton skeleton, const Particles& particles);
+
 struct Setup {
   Body body;
   Motion motion;

@@ -157,9 +157,10 @@ std::vector<Field<Settings>> make_motion_section() {
                "frames per second of keys given in frames; auto: the rate of the file", positive),
       choice<S>("motion", "positions", SINEW_AT(S, motion.positions), {"replace", "add"},
                 "whether positions in a BVH file replace a joint's offset or are added to it"),
-      choice<S>("motion", "extrapolation", SINEW_AT(S, motion.extrapolation),
-                {"hold", "loop", "ping_pong"},
-                "motion after the end of the clip: stand still, repeat, or play back and forth"),
+      choice<S>(
+          "motion", "extrapolation", SINEW_AT(S, motion.extrapolation),
+          {"hold", "loop", "ping_pong"},
+          "motion after the end of the clip: hold the last pose, repeat, or play back and forth"),
       field<S>("motion", "preroll", SINEW_AT(S, motion.preroll), "s",
                "time before the clip in which the bones move smoothly from rest to its first pose",
                not_negative),

@@ -35,11 +35,9 @@ std::vector<Field<ObstacleSettings>> make_obstacles() {
       path(may_lack("none", field<O>("", "mesh", SINEW_AT(O, mesh), "",
                                      "mesh: path of a closed surface (formats and lengths as "
                                      "body.mesh), relative to the scene file"))),
-      may_lack(
-          "none",
-          field<O>(
-              "", "bone", SINEW_AT(O, bone), "",
-              "name of the bone that carries it, instead of keys; without either it stands still")),
+      may_lack("none", field<O>("", "bone", SINEW_AT(O, bone), "",
+                                "name of the bone that it is attached to, instead of keys; without "
+                                "either it is fixed")),
       field<O>("", "friction", SINEW_AT(O, friction), "", "coefficient of dry friction",
                not_negative),
       field<O>("", "stiffness", SINEW_AT(O, stiffness), "k",
@@ -85,9 +83,9 @@ std::vector<Field<PinSettings>> make_pins() {
   using P = PinSettings;
   auto rows = make_region<P>("holds the particles in a box at rest: its lower corner",
                              "or in a ball: its center");
-  rows.push_back(
-      may_lack("none", field<P>("", "bone", SINEW_AT(P, bone), "",
-                                "name of the bone that carries them; none: they stay in place")));
+  rows.push_back(may_lack(
+      "none", field<P>("", "bone", SINEW_AT(P, bone), "",
+                       "name of the bone that they are attached to; none: they are fixed")));
   return rows;
 }
 

@@ -85,8 +85,9 @@ function aim(view) {
   box.getCenter(controls.target);
   camera.up.set(0, 0, 1);
   const reach = size.length() / 2 + Math.max(...playback.balls.map(([, radius]) => radius));
-  const wide = Math.min(1, view.stage.clientWidth / view.stage.clientHeight);
-  const distance = reach / Math.sin(camera.fov * Math.PI / 360) / wide * 0.92;
+  const narrow = Math.min(1, view.stage.clientWidth / view.stage.clientHeight);
+  const halfAngle = Math.atan(narrow * Math.tan(camera.fov * Math.PI / 360));
+  const distance = reach / Math.sin(halfAngle);
   camera.position.copy(controls.target).addScaledVector(side.normalize(), distance);
   controls.update();
 }
