@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists of differences and the cell grids of blocks that find them, against all pairs.
+// Lists of differences against all pairs, and the layout of the state.
 #include <sinew/physics/lists/offset_lists.h>
 
+#include <numeric>
 #include <set>
 
 #include <sinew/core/cell_grid.h>
-#include <sinew/core/parallel.h>
 
 #include "all_steppers.h"
 
@@ -66,17 +66,52 @@ std::vector<std::set<std::int32_t>> by_neighbors(const Points& points, double ra
   return differences;
 }
 
+/// The lists of all pieces.
+template <class Real>
+std::vector<OffsetLists> lists_of(const kernel::Functions<Real>& kernel, World<Real>& world) {
+  const std::size_t pieces =
+      (world.state.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece;
+  std::vector<std::uint32_t> all(pieces);
+  std::iota(all.begin(), all.end(), 0U);
+  BlockBoxes boxes(world.state.blocks());
+  for (const std::uint32_t piece : all) find_boxes(world.state, piece, boxes);
+  std::vector<OffsetLists> lists;
+  for (const std::uint32_t piece : all)
+    lists.push_back(find_offsets(kernel, world.state, piece, all, boxes, world.range));
+  return lists;
+}
+
+template <class Real>
+std::vector<OffsetLists> pruned(const kernel::Functions<Real>& kernel, World<Real>& world,
+                                const std::vector<OffsetLists>& outer, double range) {
+  std::vector<OffsetLists> lists;
+  for (std::size_t piece = 0; piece < outer.size(); ++piece)
+    lists.push_back(prune_offsets(kernel, world.state, piece, outer[piece], range));
+  return lists;
+}
+
+double mean_of(const std::vector<OffsetLists>& lists) {
+  std::size_t values = 0, blocks = 0;
+  for (const OffsetLists& piece : lists)
+    values += piece.value.size(), blocks += piece.first.size() - 1;
+  return static_cast<double>(values) / static_cast<double>(blocks);
+}
+
 /// Each list is its block's set, hence ascending, each once, and never 0.
-void expect_lists(const OffsetLists& lists, const std::vector<std::set<std::int32_t>>& expected) {
-  ASSERT_EQ(lists.first.size(), expected.size() + 1);
-  ASSERT_EQ(lists.first.front(), 0u);
-  ASSERT_EQ(lists.first.back(), lists.value.size());
-  for (std::size_t block = 0; block < expected.size(); ++block) {
-    const std::vector<std::int32_t> list(lists.value.begin() + lists.first[block],
-                                         lists.value.begin() + lists.first[block + 1]);
-    const std::vector<std::int32_t> all(expected[block].begin(), expected[block].end());
-    ASSERT_EQ(list, all) << "block " << block;
+void expect_lists(const std::vector<OffsetLists>& lists,
+                  const std::vector<std::set<std::int32_t>>& expected) {
+  std::size_t block = 0;
+  for (const OffsetLists& piece : lists) {
+    ASSERT_EQ(piece.first.front(), 0u);
+    ASSERT_EQ(piece.first.back(), piece.value.size());
+    for (std::size_t k = 0; k + 1 < piece.first.size(); ++k, ++block) {
+      const std::vector<std::int32_t> list(piece.value.begin() + piece.first[k],
+                                           piece.value.begin() + piece.first[k + 1]);
+      const std::vector<std::int32_t> all(expected[block].begin(), expected[block].end());
+      ASSERT_EQ(list, all) << "block " << block;
+    }
   }
+  ASSERT_EQ(block, expected.size());
 }
 
 Points disordered(std::size_t count, double edge, unsigned seed) {
@@ -129,202 +164,40 @@ TYPED_TEST_SUITE(OffsetListsOf, Reals);
 TYPED_TEST(OffsetListsOf, NameTheDifferencesOfAllPairsInRangeAndNoOthers) {
   for (const Points& body : bodies()) {
     World<TypeParam> world(body, 3.6 * r);
-    const BlockCells cells(world.state, world.range);
     const auto expected = by_all_pairs(world, world.range);
     for (const auto set : test::instruction_sets())
-      expect_lists(
-          find_offsets(kernel::functions_of<TypeParam>(set), world.state, cells, world.range),
-          expected);
+      expect_lists(lists_of(kernel::functions_of<TypeParam>(set), world), expected);
   }
 }
 
 TYPED_TEST(OffsetListsOf, PrunedToAShorterRangeAreTheListsOfThatRange) {
   for (const Points& body : bodies()) {
     World<TypeParam> world(body, 3.6 * r);
-    const BlockCells cells(world.state, world.range);
     const double shorter = world.range * 2.7 / 3.6;
     const auto expected = by_all_pairs(world, shorter);
     for (const auto set : test::instruction_sets()) {
       const auto kernel = kernel::functions_of<TypeParam>(set);
-      const OffsetLists wide = find_offsets(kernel, world.state, cells, world.range);
-      expect_lists(prune_offsets(kernel, world.state, wide, shorter), expected);
+      expect_lists(pruned(kernel, world, lists_of(kernel, world), shorter), expected);
     }
   }
 }
 
-TYPED_TEST(OffsetListsOf, LargeBodiesAreRightAndTheSameForEveryThreadCount) {
+TYPED_TEST(OffsetListsOf, LargeBodiesAreRight) {
   const Material material = test::material_of(test::box_scene());
   const Particles shaken = test::shaken(test::fcc_box(31, 31, 61, r), material, 0.3 * r, 0);
   World<TypeParam> world(positions_of(shaken), 3.6 * r);
-  ASSERT_GT(world.state.blocks(), 1024u);  // more than one piece
   const auto kernel = kernel::functions_of<TypeParam>(kernel::best_instruction_set());
-  std::vector<OffsetLists> wide, narrow;
-  for (const int threads : {1, 2, 3, 8})
-    with_threads(threads, [&] {
-      const BlockCells cells(world.state, world.range);
-      wide.push_back(find_offsets(kernel, world.state, cells, world.range));
-      narrow.push_back(prune_offsets(kernel, world.state, wide.back(), 0.75 * world.range));
-    });
+  const auto lists = lists_of(kernel, world);
+  ASSERT_GT(lists.size(), 30u);
+  constexpr int size = BlockState<TypeParam>::block;
   if (std::is_same_v<TypeParam, double>)
-    expect_lists(wide[0],
-                 by_neighbors(positions_of(shaken), 3.6 * r, BlockState<TypeParam>::block));
-  for (const OffsetLists& other : wide) {
-    EXPECT_EQ(other.first, wide[0].first);
-    EXPECT_EQ(other.value, wide[0].value);
-  }
-  for (const OffsetLists& other : narrow) {
-    EXPECT_EQ(other.first, narrow[0].first);
-    EXPECT_EQ(other.value, narrow[0].value);
-  }
+    expect_lists(lists, by_neighbors(positions_of(shaken), 3.6 * r, size));
 }
 
 TYPED_TEST(OffsetListsOf, BlocksOfALatticeInOrderAreShort) {
   World<TypeParam> world(test::fcc_box(21, 21, 41, r), 2.7 * r);
-  const BlockCells cells(world.state, world.range);
   const auto kernel = kernel::functions_of<TypeParam>(kernel::best_instruction_set());
-  EXPECT_LT(find_offsets(kernel, world.state, cells, world.range).mean(), 40);
-}
-
-TYPED_TEST(OffsetListsOf, WithOthersAddedAreTheUnion) {
-  World<TypeParam> world(test::fcc_box(9, 9, 41, r), 2.7 * r);
-  const BlockCells cells(world.state, world.range);
-  const OffsetLists lists =
-      find_offsets(kernel::functions_of<TypeParam>(kernel::best_instruction_set()), world.state,
-                   cells, world.range);
-  std::vector<std::set<std::int32_t>> expected(world.state.blocks());
-  std::vector<BlockOffset> added;
-  std::mt19937 random(4);
-  for (int k = 0; k < 300; ++k)  // many twice, many that are there
-    added.push_back({static_cast<std::uint32_t>(random() % expected.size()),
-                     static_cast<std::int32_t>(random() % 60) - 80});
-  for (std::size_t block = 0; block < expected.size(); ++block)
-    expected[block].insert(lists.value.begin() + lists.first[block],
-                           lists.value.begin() + lists.first[block + 1]);
-  for (const BlockOffset& one : added) expected[one.block].insert(one.offset);
-  expect_lists(with_added(lists, added), expected);
-  for (const BlockOffset& one : added) EXPECT_TRUE(with_added(lists, added).has(one));
-  EXPECT_EQ(with_added(lists, {}).value, lists.value);
-}
-
-template <class Real>
-class OrderOf : public testing::Test {};
-TYPED_TEST_SUITE(OrderOf, Reals);
-
-TYPED_TEST(OrderOf, ColumnsNamesEveryParticleOnceForEveryThreadCount) {
-  for (const Points& body : bodies()) {
-    World<TypeParam> world(body, 3.6 * r);
-    const double edge = 2 * r / world.units.length;
-    const auto order = order_by_columns(world.state, edge);
-    auto sorted = order;
-    std::sort(sorted.begin(), sorted.end());
-    ASSERT_EQ(sorted.size(), body.size());
-    for (std::uint32_t k = 0; k < sorted.size(); ++k) ASSERT_EQ(sorted[k], k);
-    with_threads(3, [&] { ASSERT_EQ(order_by_columns(world.state, edge), order); });
-  }
-}
-
-TYPED_TEST(OrderOf, ColumnsShortensTheListsOfAShuffledBody) {
-  Points points = test::fcc_box(15, 15, 41, r);
-  std::shuffle(points.begin(), points.end(), std::mt19937(3));
-  World<TypeParam> world(points, 3.6 * r);
-  const auto kernel = kernel::functions_of<TypeParam>(kernel::best_instruction_set());
-  const auto mean = [&](BlockState<TypeParam>& state) {
-    return find_offsets(kernel, state, BlockCells(state, world.range), world.range).mean();
-  };
-  BlockState<TypeParam> sorted(points.size());
-  const auto order = order_by_columns(world.state, 2.4 * r / world.units.length);
-  reorder(world.state, order, sorted);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    ASSERT_EQ(sorted.position(k, world.units), world.state.position(order[k], world.units));
-  EXPECT_LT(mean(sorted), 0.6 * mean(world.state));
-}
-
-template <class Real>
-class BlockCellsOf : public testing::Test {};
-TYPED_TEST_SUITE(BlockCellsOf, Reals);
-
-TYPED_TEST(BlockCellsOf, HoldEachParticleInItsBox) {
-  for (const Points& body : bodies()) {
-    World<TypeParam> world(body, 3.6 * r);
-    const BlockCells cells(world.state, world.range);
-    ASSERT_GE(cells.edge(), world.range);
-    ASSERT_LE(cells.cells(), 4 * body.size() + 4096);
-    const auto arrays = world.state.arrays();
-    for (std::size_t k = 0; k < body.size(); ++k) {
-      const auto cell = static_cast<std::int64_t>(cells.cell_of_particle()[k]);
-      const std::int64_t nx = cells.counts()[0], ny = cells.counts()[1];
-      const std::int64_t index[3] = {cell % nx, cell / nx % ny, cell / (nx * ny)};
-      for (int axis = 0; axis < 3; ++axis) {
-        const double inside = static_cast<double>(arrays.x[axis][k]) - cells.low()[axis];
-        ASSERT_GE(inside, cells.edge() * static_cast<double>(index[axis]) * (1 - 1e-12));
-        ASSERT_LE(inside, cells.edge() * static_cast<double>(index[axis] + 1) * (1 + 1e-12));
-      }
-    }
-  }
-}
-
-TYPED_TEST(BlockCellsOf, FindAllBlocksInReachOnceInAscendingOrder) {
-  for (const Points& body : bodies()) {
-    World<TypeParam> world(body, 3.6 * r);
-    constexpr int size = BlockState<TypeParam>::block;
-    const BlockCells cells(world.state, world.range);
-    BlockCells::Finder finder(cells);
-    const auto lists = by_all_pairs(world, world.range);
-    for (std::size_t block = 0; block < world.state.blocks(); ++block) {
-      std::vector<std::uint32_t> found;
-      finder.for_each_around(block, [&](std::uint32_t other) { found.push_back(other); });
-      ASSERT_TRUE(std::is_sorted(found.begin(), found.end(), std::less_equal<>()));
-      ASSERT_TRUE(std::binary_search(found.begin(), found.end(), block));
-      ASSERT_LT(found.back(), world.state.blocks());
-      for (const std::int32_t difference : lists[block])
-        for (std::size_t i = block * size; i < std::min((block + 1) * size, body.size()); ++i) {
-          const auto j = static_cast<std::int64_t>(i) + difference;
-          if (j < 0 || j >= static_cast<std::int64_t>(body.size())) continue;
-          const double squared = world.squared_distance(i, static_cast<std::size_t>(j));
-          if (squared >= world.range * world.range) continue;
-          ASSERT_TRUE(std::binary_search(found.begin(), found.end(), j / size));
-        }
-    }
-  }
-}
-
-TYPED_TEST(BlockCellsOf, FindAllBlocksWithinTwoEdgesOfAnyPoint) {
-  std::mt19937 random(9);
-  for (const Points& body : bodies()) {
-    World<TypeParam> world(body, 3.6 * r);
-    const BlockCells cells(world.state, world.range);
-    const auto arrays = world.state.arrays();
-    for (int trial = 0; trial < 40; ++trial) {
-      const std::size_t at = random() % body.size();
-      const auto place = [&](std::size_t k) {
-        return Vec3(static_cast<double>(arrays.x[0][k]), static_cast<double>(arrays.x[1][k]),
-                    static_cast<double>(arrays.x[2][k]));
-      };
-      const Vec3 point = place(at) + 4 * cells.edge() * test::random_vector(random);
-      std::set<std::size_t> found;
-      cells.for_each_block_near(point, [&](std::uint32_t block) { found.insert(block); });
-      for (std::size_t k = 0; k < body.size(); ++k)
-        ASSERT_TRUE((place(k) - point).norm() >= 2 * cells.edge() ||
-                    found.count(k / BlockState<TypeParam>::block) > 0);
-    }
-  }
-}
-
-TYPED_TEST(BlockCellsOf, FindFewBlocksWhereSpaceIsInOrder) {
-  World<TypeParam> world(test::fcc_box(21, 21, 41, r), 3.6 * r);
-  const BlockCells cells(world.state, world.range);
-  BlockCells::Finder finder(cells);
-  std::size_t found = 0;
-  for (std::size_t block = 0; block < world.state.blocks(); ++block)
-    finder.for_each_around(block, [&](std::uint32_t) { ++found; });
-  EXPECT_LT(found, 250 * world.state.blocks());
-}
-
-TYPED_TEST(BlockCellsOf, OfNobodyAreEmpty) {
-  World<TypeParam> world({}, 3.6 * r);
-  const BlockCells cells(world.state, world.range);
-  EXPECT_EQ(world.state.blocks(), 0u);
-  EXPECT_TRUE(cells.cell_of_particle().empty());
+  EXPECT_LT(mean_of(lists_of(kernel, world)), 40);
 }
 
 template <class Real>

@@ -7,8 +7,8 @@
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 
-#include "expect_error.h"
 #include "all_steppers.h"
+#include "expect_error.h"
 
 namespace sinew {
 namespace {
@@ -47,11 +47,11 @@ World bend(const std::string& name, Precision precision, int planes = 25) {
   return world;
 }
 
-/// Begins in no order and flows.
+/// Begins in no order, off the lattice, and flows.
 World melt(const std::string& name, Precision precision) {
   World world{name,
               test::in(precision, test::unbound(test::box_scene(15))),
-              test::fcc_box(13, 13, 15, r),
+              test::affine(test::fcc_box(13, 13, 15, r), test::turned(Vec3::UnitZ(), 20)),
               0.3,
               1.2,
               0.1};

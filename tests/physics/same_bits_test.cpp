@@ -27,8 +27,8 @@ struct Results {
   std::vector<double> energies;
   Points pair, damping, bone;
   std::vector<int> neighbors;
-  std::int64_t rebuilds, prunings, checks, escaped, sorts;
-  double wide, narrow;
+  std::int64_t rebuilds, surveys, listed, pruned, sorts;
+  double outer, inner;
 
   bool operator==(const Results&) const = default;
 };
@@ -45,9 +45,9 @@ Results results_of(Simulation& simulation) {
           forces.bone,
           forces.neighbors,
           lists.rebuilds,
-          lists.prunings,
-          lists.checks,
-          lists.escaped,
+          lists.surveys,
+          lists.listed,
+          lists.pruned,
           lists.sorts,
           lists.outer,
           lists.inner};
@@ -71,7 +71,7 @@ TEST(SameBits, OfAllInstructionSetsOverABendWithATwist) {
       Settings settings = bend_and_twist(33, precision);
       settings.solver.integrator = integrator;
       const Results best = run(kernel::best_instruction_set(), settings, rest, 220, 0.02 * r, 0.1);
-      EXPECT_GT(best.rebuilds, 1);
+      EXPECT_GT(best.pruned, 0);
       for (const auto set : test::instruction_sets())
         EXPECT_TRUE(run(set, settings, rest, 220, 0.02 * r, 0.1) == best) << kernel::name_of(set);
     }
@@ -122,8 +122,7 @@ void expect_same_for_threads(Precision precision) {
       const Results results =
           run(kernel::best_instruction_set(), settings, rest, 16, 0.05 * r, 0.5, 0.25);
       if (!first) first = results;
-      EXPECT_GT(results.rebuilds, 1);
-      EXPECT_GT(results.prunings, results.rebuilds);
+      EXPECT_GT(results.pruned, 0);
       EXPECT_TRUE(results == *first) << threads << " threads";
     });
 }
@@ -146,7 +145,8 @@ TEST(SameBits, OfAllInstructionSetsWithSeveralThreads) {
 }
 
 TEST(SameBits, OfBodiesThatComeInNoOrderAndAreSorted) {
-  Points rest = test::fcc_box(15, 15, 33, r);
+  // Off the lattice: on it they would be brought into order at first.
+  Points rest = test::affine(test::fcc_box(15, 15, 33, r), test::turned(Vec3::UnitZ(), 20));
   std::shuffle(rest.begin(), rest.end(), std::mt19937(7));
   for (const Precision precision : test::precisions) {
     const Settings settings = bend_and_twist(33, precision);

@@ -3,8 +3,8 @@
 // rounding, and the same message when a run fails.
 #include <sinew/core/error.h>
 
-#include "expect_error.h"
 #include "all_steppers.h"
+#include "expect_error.h"
 
 namespace sinew {
 namespace {

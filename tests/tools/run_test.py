@@ -30,7 +30,7 @@ class Commands(SmallRun):
                     "particle_steps_per_second", "seconds", "state_hash", "arrays", "instruction_set"]:
             self.assertIn(key, record)
         self.assertEqual((record["precision"], record["neighbor_search"]), ("double", "lists"))
-        self.assertGreaterEqual(record["lists"]["prunings"], record["lists"]["rebuilds"])
+        self.assertGreaterEqual(record["lists"]["pieces_listed"], record["lists"]["rebuilds"])
         self.assertGreater(record["lists"]["rebuilds"], 0)
         self.assertEqual(record["status"], "finished")
         self.assertEqual(record["frames"], 13)

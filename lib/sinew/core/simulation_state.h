@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All of a simulation that steps change, to the last bit: from it, a simulation of the same body
-// continues as if it had never stopped. Neighbor lists, co-moving frames and bounds of
-// displacements are built again: no bit of positions or velocities depends on them.
+// continues as if it had never stopped. Neighbor lists are made again: no bit of positions or
+// velocities depends on them.
 //
 //     const SimulationState state = simulation.save();
 //     simulation.restore(state);

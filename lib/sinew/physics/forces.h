@@ -45,6 +45,7 @@ struct Body {
   Binding binding;  ///< by particle id
   Material material;
   std::vector<BoneSprings> springs;         ///< per bone
+  Mat3 lattice = Mat3::Identity();          ///< columns: the packing's axes
   std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
 };
 

@@ -113,11 +113,11 @@ void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particle
   }
 }
 
-/// How often neighbor lists were built, and how long they are.
+/// How often neighbor lists were made, and how long they are.
 struct ListCounts {
-  std::int64_t rebuilds = 0, prunings = 0, checks = 0, sorts = 0;
-  std::int64_t escaped = 0;     ///< particles that got new neighbors without a rebuild
-  double outer = 0, inner = 0;  ///< differences per block
+  std::int64_t rebuilds = 0, surveys = 0, sorts = 0;  ///< of all pieces
+  std::int64_t listed = 0, pruned = 0;                ///< pieces, one by one
+  double outer = 0, inner = 0;                        ///< differences per block
   /// Wall time, s.
   double rebuilding = 0, pruning = 0, checking = 0, sorting = 0;
 };

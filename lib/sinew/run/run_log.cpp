@@ -44,10 +44,10 @@ Json material_of(const Material& material) {
 
 Json lists_of(const ListCounts& counts) {
   return {{"rebuilds", counts.rebuilds},
-          {"prunings", counts.prunings},
-          {"checks", counts.checks},
+          {"surveys", counts.surveys},
           {"sorts", counts.sorts},
-          {"escaped", counts.escaped}};
+          {"pieces_listed", counts.listed},
+          {"pieces_pruned", counts.pruned}};
 }
 
 /// Restores the times that a resumed run has spent and when it began.

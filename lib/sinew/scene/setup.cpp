@@ -132,6 +132,7 @@ Body make_body(const Settings& settings, Skeleton skeleton, const Particles& par
   body.skeleton = std::move(skeleton);
   body.binding = bind_scene(settings, body.skeleton, body.rest, particles.radius);
   body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
+  body.lattice = lattice_axes(settings.body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   return body;
 }

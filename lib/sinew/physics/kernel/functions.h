@@ -47,8 +47,7 @@ void probe_flushed(const Step<typename L::Real>& step, std::size_t begin, std::s
 
 template <class L>
 constexpr Functions<typename L::Real> functions() {
-  return {step_flushed<L>, probe_flushed<L>,   prune_range<L>,
-          prune_list<L>,   remember_blocks<L>, largest_displacement<L>};
+  return {step_flushed<L>, probe_flushed<L>, prune_range<L>, prune_list<L>, survey<L>};
 }
 
 }  // namespace sinew::kernel

@@ -32,6 +32,9 @@ struct Traits<float> {
   static constexpr int block = 16;
 };
 
+template <class Real>
+using Coord = typename Traits<Real>::Coord;
+
 /// Blocks whose sums are accumulated together, by one thread.
 inline constexpr std::size_t blocks_per_piece = 32;
 
@@ -44,7 +47,7 @@ struct State {
   Real* v[3];
 };
 
-/// Lists of all blocks: block k has the values [first[k], first[k + 1]) of `value`.
+/// Lists of a piece's blocks: its block k has the values [first[k], first[k + 1]) of `value`.
 struct Lists {
   const std::uint32_t* first;
   const std::int32_t* value;
@@ -95,18 +98,11 @@ struct Holds {
   const BoneNow<Real>* bones;
 };
 
-/// A co-moving frame of a block's particles; each particle has one.
-struct FrameSlot {
-  std::int32_t frame;
-  std::int32_t lanes;  ///< place of its mask, or -1: all lanes follow this frame
-};
-
+/// The velocity field of a piece that moves as a rigid body: velocity + spin x (x - center).
 template <class Real>
-struct ComovingFrames {
-  const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
-  const FrameSlot* slots;
-  const Real* lanes;  ///< x block; 1 where the particle follows the frame, else 0
-  const FrameNow<Real>* frames;
+struct PieceMotion {
+  typename Traits<Real>::Coord center[3];
+  Real velocity[3], spin[3];
 };
 
 /// Sums of a piece.
@@ -115,7 +111,7 @@ struct Totals {
   double lost;         ///< what the step dissipates per time
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
-  double fastest;      ///< largest squared speed relative to the co-moving frame
+  double fastest;      ///< largest squared speed relative to the piece's motion
   bool sound;          ///< none too fast (see most_radii_per_step), all values finite
 };
 
@@ -133,9 +129,10 @@ struct Step {
   State<Real> before, after;
   std::size_t blocks;
   const std::int32_t* id;
-  Lists lists;
+  const Real* live;                  ///< lanes of the last block: 1 for a particle, 0 for padding
+  const Lists* lists;                ///< by piece
+  const PieceMotion<Real>* motions;  ///< by piece
   Holds<Real> holds;
-  ComovingFrames<Real> comoving_frames;
   Law<Real> law;
   Real unit;         ///< length of one unit of coordinates
   Real gravity[3];   ///< per time squared
@@ -148,13 +145,20 @@ struct Step {
   Probed<Real> probed;
 };
 
-/// Positions in the co-moving frames, and the same at a reference moment: the difference is zero
-/// for a body that moves with its frames.
+/// Sums over a piece's particles that determine its motion and extent, with coordinates x relative
+/// to one of them.
+struct Survey {
+  double low[3], high[3];  ///< of x
+  double x[3], v[3];
+  double xx[6];  ///< x x, y y, z z, y z, z x, x y
+  double xv[3];  ///< x cross v
+};
+
 template <class Real>
-struct FrameDrift {
+struct SurveyInput {
   State<Real> state;
-  ComovingFrames<Real> comoving_frames;
-  float* reference[3];
+  std::size_t blocks;
+  const Real* live;  ///< as in Step
 };
 
 /// Prunes the differences of a block's candidates.
@@ -177,10 +181,8 @@ struct Functions {
   /// The same for a list of differences.
   std::int32_t* (*prune)(const PruneInput<Real>&, std::size_t block, const std::int32_t* begin,
                          const std::int32_t* end, std::int32_t* kept);
-  /// Writes the reference of the blocks [begin, end).
-  void (*remember)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
-  /// The largest squared distance from it.
-  Real (*displacement)(const FrameDrift<Real>&, std::size_t begin, std::size_t end);
+  /// Surveys a piece relative to `center`.
+  Survey (*survey)(const SurveyInput<Real>&, std::size_t piece, const Coord<Real>* center);
 };
 
 enum class InstructionSet { plain, sse2, avx2, avx512 };

@@ -133,22 +133,25 @@ SINEW_INLINE Triple<L> carried_by(const FrameNow<typename L::Real>& frame, const
   return all<L>(frame.velocity) + cross<L>(all<L>(frame.spin), arm);
 }
 
-/// For each lane value_of(its co-moving frame).
-template <class L, class ValueOf>
-SINEW_INLINE Triple<L> by_comoving_frame(const ComovingFrames<typename L::Real>& comoving_frames,
-                                         std::size_t block, int lane, ValueOf value_of) {
-  constexpr int size = Traits<typename L::Real>::block;
-  const std::uint32_t begin = comoving_frames.first[block], end = comoving_frames.first[block + 1];
-  if (end - begin == 1 && comoving_frames.slots[begin].lanes < 0) [[likely]]
-    return value_of(comoving_frames.frames[comoving_frames.slots[begin].frame]);
-  Triple<L> sum = none<L>();
-  for (std::uint32_t s = begin; s != end; ++s) {
-    const FrameSlot slot = comoving_frames.slots[s];
-    const auto* lanes =
-        comoving_frames.lanes + static_cast<std::ptrdiff_t>(slot.lanes) * size + lane;
-    sum = sum + L::load(lanes) * value_of(comoving_frames.frames[slot.frame]);
-  }
+/// Adds to sums by place in the block.
+template <class L>
+SINEW_INLINE void add_to(typename L::Real* sum, typename L::V value) {
+  L::store(sum, L::load(sum) + value);
+}
+
+/// Over the places in the block, in their order.
+template <class L>
+SINEW_INLINE double sum_of(const typename L::Real* by_lane) {
+  double sum = 0;
+  for (int k = 0; k < Traits<typename L::Real>::block; ++k) sum += static_cast<double>(by_lane[k]);
   return sum;
+}
+
+/// 1 in lanes with a particle, 0 in those with padding.
+template <class L>
+SINEW_INLINE typename L::V live_lanes(std::size_t blocks, const typename L::Real* live,
+                                      std::size_t block, int lane) {
+  return block + 1 == blocks ? L::load(live + lane) : L::all(1);
 }
 
 }  // namespace sinew::kernel

@@ -19,11 +19,6 @@ struct Sums {
 };
 
 template <class L>
-SINEW_INLINE void add_to(typename L::Real* sum, typename L::V value) {
-  L::store(sum, L::load(sum) + value);
-}
-
-template <class L>
 struct Forces {
   PairSums<L> pairs;
   Triple<L> damping;
@@ -40,8 +35,9 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullL
   Forces<L> forces;
   // First: this long chain of operations completes while those of the pairs run.
   forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
-  forces.pairs = pair_sums<L, energy>(step, law, i, step.lists.value + step.lists.first[block],
-                                      step.lists.value + step.lists.first[block + 1]);
+  const Lists& lists = step.lists[block / blocks_per_piece];
+  const std::uint32_t* first = lists.first + block % blocks_per_piece;
+  forces.pairs = pair_sums<L, energy>(step, law, i, lists.value + first[0], lists.value + first[1]);
   forces.damping = damping_of<L>(forces.pairs, L::all(step.law.damping), velocity);
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
@@ -59,16 +55,17 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
   add_to<L>(sums.lost + lane, lost);
 }
 
-/// The largest speed relative to the co-moving frames.
+/// The largest speed relative to the piece's motion.
 template <class L>
 SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t block, int lane,
                                 const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
-  const Triple<L> carried = by_comoving_frame<L>(
-      step.comoving_frames, block,
-      lane, [&](const FrameNow<typename L::Real>& frame) __attribute__((always_inline)) {
-        return carried_by<L>(frame, from_center<L>(frame, here));
-      });
-  const Triple<L> relative = drifting - carried;
+  const auto& motion = step.motions[block / blocks_per_piece];
+  const Place<L> center{L::all_coord(motion.center[0]), L::all_coord(motion.center[1]),
+                        L::all_coord(motion.center[2])};
+  const Triple<L> arm = offset<L>(here, center);
+  const Triple<L> relative =
+      live_lanes<L>(step.blocks, step.live, block, lane) *
+      (drifting - all<L>(motion.velocity) - cross<L>(all<L>(motion.spin), arm));
   L::store(sums.fastest + lane,
            L::larger(dot<L>(relative, relative), L::load(sums.fastest + lane)));
 }
@@ -119,13 +116,6 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const PullLaw
   add_to<L>(sums.pair_energy + lane, forces.pairs.energy);
   add_to<L>(sums.bone_energy + lane, forces.bones.energy);
   account<L>(step, forces, velocity, lane, sums);
-}
-
-template <class L>
-SINEW_INLINE double sum_of(const typename L::Real* by_lane) {
-  double sum = 0;
-  for (int k = 0; k < Traits<typename L::Real>::block; ++k) sum += static_cast<double>(by_lane[k]);
-  return sum;
 }
 
 template <class L>

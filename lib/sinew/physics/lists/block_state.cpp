@@ -70,6 +70,8 @@ BlockState<Real>::BlockState(std::size_t particles) : size_(particles) {
   const std::size_t slots = (blocks() + 2) * block;
   for (auto& axis : x_) axis.resize(slots);
   for (auto& axis : v_) axis.resize(slots);
+  for (std::size_t lane = 0; lane < live_.size(); ++lane)
+    live_[lane] = (blocks() - 1) * block + lane < size_ ? Real(1) : Real(0);
   pad();
 }
 

@@ -74,6 +74,9 @@ class BlockState {
   /// Pointers to the first particle; one block before it and one after the last may be read.
   kernel::State<Real> arrays();
 
+  /// By lane of the last block: 1 for a particle, 0 for padding.
+  const Real* live() const { return live_.data(); }
+
   Vec3 position(std::size_t k, const Units& units) const;
   void set_position(std::size_t k, const Vec3& p, const Units& units);
   Vec3 velocity(std::size_t k, const Units& units) const;
@@ -96,6 +99,7 @@ class BlockState {
   void pad(std::size_t slot, int number);
 
   std::size_t size_ = 0;
+  std::array<Real, block> live_{};
   std::array<std::vector<Coord>, 3> x_;
   std::array<std::vector<Real>, 3> v_;
 };

@@ -7,7 +7,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
-#include <sinew/physics/lists/offset_lists.h>
+#include <sinew/physics/lists/particle_order.h>
 
 namespace sinew {
 namespace {
@@ -27,7 +27,6 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       stepping_(stepping),
       mass_(particles.mass),
       kernel_(kernel::functions_of<Real>(instructions)),
-      comoving_frames_(*body_),
       lists_(kernel_, body_->material.pair, stepping.step) {
   load(particles);
 }
@@ -39,12 +38,15 @@ void ListStepper<Real>::load(const Particles& particles) {
   units_ = units_for<Real>(units_box_, body_->material.pair, stepping_.step);
   state_ = next_ = BlockState<Real>(n);
   id_.assign((state_.blocks() + 2) * block, 0);
-  caller_.resize(n);
+  std::vector<std::uint32_t> place_of(n);
+  for (std::size_t i = 0; i < n; ++i) place_of[particles.id[i]] = static_cast<std::uint32_t>(i);
+  caller_ = order_at_rest(*body_);
+  for (std::uint32_t& i : caller_) i = place_of[i];
   for (std::size_t k = 0; k < n; ++k) {
-    caller_[k] = static_cast<std::uint32_t>(k);
-    id_[k + block] = particles.id[k];
-    state_.set_position(k, particles.position(k), units_);
-    state_.set_velocity(k, particles.velocity(k), units_);
+    const std::uint32_t i = caller_[k];
+    id_[k + block] = particles.id[i];
+    state_.set_position(k, particles.position(i), units_);
+    state_.set_velocity(k, particles.velocity(i), units_);
   }
   find_slots();
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
@@ -67,23 +69,6 @@ kernel::Holds<Real> ListStepper<Real>::holds() const {
 }
 
 template <class Real>
-kernel::ComovingFrames<Real> ListStepper<Real>::comoving_frames() const {
-  const auto& [first, slots, lanes] = frame_slots_;
-  return {first.data(), slots.data(), lanes.data(), frames_.data()};
-}
-
-template <class Real>
-void ListStepper<Real>::place_comoving_frames(const Pose& pose) {
-  comoving_pose_ = comoving_frames_.at(pose);
-  frames_.clear();
-  for (std::size_t c = 0; c < comoving_pose_.size(); ++c)
-    frames_.push_back(c < bones_.size() ? bones_[c].frame
-                                        : frame_now<Real>(comoving_pose_[c],
-                                                          comoving_pose_[c].frame.origin, units_));
-  frames_.push_back(frame_now<Real>(BonePose(), units_.origin, units_));
-}
-
-template <class Real>
 kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
@@ -94,9 +79,10 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.after = next_.arrays();
   step.blocks = state_.blocks();
   step.id = id_.data() + block;
+  step.live = state_.live();
   step.lists = lists_.arrays();
+  step.motions = lists_.motions();
   step.holds = holds();
-  step.comoving_frames = comoving_frames();
   step.law = law_in<Real>(units_, pair, material.damping, mass_);
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(units_.acceleration(stepping_.gravity[axis]));
@@ -109,11 +95,6 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.most = real(most * most);
   step.totals = totals_.data();
   return step;
-}
-
-template <class Real>
-MovingParticles<Real> ListStepper<Real>::particles() {
-  return {state_, units_, comoving_frames(), comoving_frames_.of_particles(), comoving_pose_};
 }
 
 template <class Real>
@@ -137,24 +118,20 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
+  update_lists();
   place_bones(pose);
-  update_lists(pose);
   const auto now = job();
   parallel_split(totals_.size(), pieces_per_thread,
                  [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
   StepSums sums = sums_of_totals();
-  double fastest = 0;
-  bool sound = true;
-  for (const kernel::Totals& piece : totals_)
-    fastest = std::max(fastest, piece.fastest), sound = sound && piece.sound;
-  if (!sound) {
+  if (!std::all_of(totals_.begin(), totals_.end(),
+                   [](const kernel::Totals& piece) { return piece.sound; })) {
     sums.failure = failure(pose);
     return sums;
   }
-  fastest_ = std::sqrt(fastest) * units_.length / units_.time;
   std::swap(state_, next_);
   state_.pad_last_block();
-  kicked_ = true;
+  kicked_ = stepped_ = true;
   if (sizeof(Real) == 4) traveled_ += travel_of_step(pose);
   ++steps_;
   return sums;
@@ -192,8 +169,8 @@ Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
+  update_lists();
   place_bones(pose);
-  update_lists(pose);
   const std::size_t n = caller_.size(), slots = state_.blocks() * block;
   std::array<std::vector<Real>, 9> probed;
   for (auto& axis : probed) axis.resize(slots);
@@ -252,24 +229,16 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
 }
 
 template <class Real>
-void ListStepper<Real>::choose_comoving_frames(const Pose& pose) {
-  comoving_frames_.choose(*body_, pose, state_, units_, {id_.data() + block, caller_.size()});
-  frame_slots_ = frame_slots<Real>(comoving_frames_.of_particles());
-  place_comoving_frames(pose);
-}
-
-template <class Real>
-void ListStepper<Real>::update_lists(const Pose& pose) {
-  const std::optional<double> fastest = std::exchange(fastest_, std::nullopt);
-  const bool anew = change_units();
+void ListStepper<Real>::update_lists() {
+  const bool stepped = std::exchange(stepped_, false), anew = change_units();
   if (order_check_due()) {
-    rebuild(pose);
-    if (lists_.mean_of_outer() > most_growth * mean_when_sorted_ && sort()) rebuild(pose);
-    return;
+    lists_.make(state_, units_);
+    if (lists_.mean_of_outer() > most_growth * mean_when_sorted_) sort();
+  } else if (anew || !lists_.made()) {
+    lists_.make(state_, units_);
+  } else if (stepped) {
+    lists_.follow(state_, units_, totals_);
   }
-  if (anew || !lists_.made()) return rebuild(pose);
-  place_comoving_frames(pose);
-  if (fastest && !lists_.follow(particles(), *fastest)) rebuild(pose);
 }
 
 /// A second check before the same step, as in a run resumed there, would change nothing.
@@ -281,28 +250,39 @@ bool ListStepper<Real>::order_check_due() {
 
 /// Sorts the particles into columns where that makes the lists shorter.
 template <class Real>
-bool ListStepper<Real>::sort() {
+void ListStepper<Real>::sort() {
   Stopwatch watch;
-  const auto order =
-      order_by_columns(state_, column_edge * 2 * body_->material.pair.r / units_.length);
-  reorder(state_, order, next_);
-  const double sorted = lists_.outer_of(next_, units_).mean(), unsorted = lists_.mean_of_outer();
+  auto order = order_by_columns(state_, column_edge * 2 * body_->material.pair.r / units_.length);
+  const double unsorted = lists_.mean_of_outer();
+  swap_order(order);
+  lists_.make(state_, units_);
+  const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
+  if (sorted > 0.95 * unsorted) {
+    swap_order(order);
+    lists_.make(state_, units_);
+  } else {
+    ++sorts_;
+    find_slots();
+  }
   sorting_ += watch.lap();
-  if (sorted > 0.95 * unsorted) return false;
-  ++sorts_;
+}
+
+/// Particle order[k] becomes the k-th one; `order` then leads back.
+template <class Real>
+void ListStepper<Real>::swap_order(std::vector<std::uint32_t>& order) {
+  reorder(state_, order, next_);
   std::swap(state_, next_);
   std::vector<std::int32_t> id(id_.size(), 0);
-  std::vector<std::uint32_t> caller(caller_.size());
+  std::vector<std::uint32_t> caller(caller_.size()), back(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     id[k + block] = id_[order[k] + block];
     caller[k] = caller_[order[k]];
+    back[order[k]] = static_cast<std::uint32_t>(k);
   }
   id_ = std::move(id);
   caller_ = std::move(caller);
-  find_slots();
-  sorting_ += watch.lap();
-  return true;
+  order = std::move(back);
 }
 
 /// Chooses other units where the body may have left the range of the present ones, and has. When
@@ -333,13 +313,6 @@ double ListStepper<Real>::travel_of_step(const Pose& pose) const {
 }
 
 template <class Real>
-void ListStepper<Real>::rebuild(const Pose& pose) {
-  place_bones(pose);
-  choose_comoving_frames(pose);
-  lists_.make(particles());
-}
-
-template <class Real>
 void ListStepper<Real>::save(SimulationState& state) const {
   state.moving = state_.columns();
   state.kicked = kicked_;
@@ -364,7 +337,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   mean_when_sorted_ = state.mean_when_sorted;
   steps_ = state.steps;
   order_checked_ = -1;
-  fastest_.reset();
+  stepped_ = false;
   lists_ = VerletLists<Real>(kernel_, body_->material.pair, stepping_.step);
 }
 

@@ -5,13 +5,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/bone_slots.h>
-#include <sinew/physics/lists/comoving_frames.h>
 #include <sinew/physics/lists/verlet_lists.h>
 #include <sinew/physics/stepper.h>
 
@@ -41,18 +39,14 @@ class ListStepper {
   void load(const Particles& particles);
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
-  kernel::ComovingFrames<Real> comoving_frames() const;
-  void place_comoving_frames(const Pose& pose);
-  void choose_comoving_frames(const Pose& pose);
   kernel::Step<Real> job();
-  MovingParticles<Real> particles();
 
-  void update_lists(const Pose& pose);
-  void rebuild(const Pose& pose);
+  void update_lists();
   bool change_units();
   double travel_of_step(const Pose& pose) const;
   bool order_check_due();
-  bool sort();
+  void sort();
+  void swap_order(std::vector<std::uint32_t>& order);
   void find_slots();
   void restore_order(const std::vector<std::uint32_t>& order);
   void restore_units(const WholeNumbers& saved);
@@ -72,11 +66,6 @@ class ListStepper {
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   BoneSlots<Real> slots_;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
-  ComovingFrames comoving_frames_;
-  FrameSlots<Real> frame_slots_;
-  Pose comoving_pose_;
-  /// Of the co-moving frames; the scene's, at rest, is the last.
-  std::vector<kernel::FrameNow<Real>> frames_;
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
 
@@ -86,10 +75,8 @@ class ListStepper {
   std::int64_t order_checked_ = -1;  ///< the step before which it was last checked
   std::int64_t sorts_ = 0;
   double sorting_ = 0;  ///< s
-  /// In a step not yet followed, relative to the co-moving frames, m/s.
-  std::optional<double> fastest_;
-
   std::vector<kernel::Totals> totals_;
+  bool stepped_ = false;  ///< and the lists have not followed
 };
 
 }  // namespace sinew

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/lists/verlet_lists.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
@@ -10,30 +14,30 @@
 namespace sinew {
 namespace {
 
-// In diameters, by measurement: longer lists cost every step, shorter ones are rebuilt more often.
-// The inner skin excludes the second neighbors of a packed body.
+// In diameters, by measurement: longer lists cost every step, shorter ones are made more often. The
+// inner skin excludes the second neighbors of a packed body.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
-// Particles displaced more than the others have escaped: beyond the first of these distances, in
-// diameters, that only one block in so many exceeds, or beyond the last. If more than one particle
-// in so many has, all lists are rebuilt.
-constexpr std::array escape_distances{0.04, 0.07, 0.1, 0.15, 0.2};
-constexpr std::size_t blocks_per_escaped = 100, particles_per_escaped = 50;
-constexpr std::size_t blocks_per_piece = kernel::blocks_per_piece;
-constexpr std::size_t pieces_per_part = 32;
-constexpr std::size_t escaped_per_piece = 8;
+constexpr std::size_t pieces_per_task = 4;
+using kernel::blocks_per_piece;
 
+/// Of the kernel's velocity fields, as a share of their speed.
 template <class Real>
-kernel::FrameDrift<Real> frame_drift_of(const MovingParticles<Real>& particles,
-                                        std::array<std::vector<float>, 3>& reference) {
-  return {particles.state.arrays(),
-          particles.comoving_frames,
-          {reference[0].data(), reference[1].data(), reference[2].data()}};
+constexpr double rounding = sizeof(Real) == 4 ? 1e-6 : 1e-14;
+
+Mat3 symmetric(const double (&xx)[6]) {
+  Mat3 all;
+  all << xx[0], xx[5], xx[4], xx[5], xx[1], xx[3], xx[4], xx[3], xx[2];
+  return all;
 }
 
-/// Calls visit(begin, end) for parts of the blocks.
-template <class Visit>
-void for_each_part(std::size_t blocks, Visit&& visit) {
-  parallel_for(blocks, blocks_per_piece * pieces_per_part, visit);
+/// The angular velocity of particles with these moments: least squares.
+Vec3 spin_of(const Mat3& spread, const Vec3& moment) {
+  const double size = spread.trace();
+  if (!(size > 0)) return Vec3::Zero();
+  // Particles in a line may turn about it at any rate.
+  const Mat3 inertia = (1 + 1e-6) * size * Mat3::Identity() - spread;
+  const Vec3 spin = inertia.inverse() * moment;
+  return spin.allFinite() ? spin : Vec3(Vec3::Zero());
 }
 
 }  // namespace
@@ -43,245 +47,171 @@ VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Pair
                                double step)
     : kernel_(kernel), pair_(pair), step_(step) {}
 
-/// In lengths of the kernel.
 template <class Real>
-double VerletLists<Real>::range(double skin, const Units& units) const {
-  return (pair_.b + skin * 2 * pair_.r) / units.length;
+double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
+  std::size_t values = 0, blocks = 0;
+  for (const OffsetLists& piece : lists)
+    values += piece.value.size(), blocks += piece.first.size() - 1;
+  return blocks == 0 ? 0 : static_cast<double>(values) / static_cast<double>(blocks);
 }
 
 template <class Real>
-OffsetLists VerletLists<Real>::outer_of(BlockState<Real>& state, const Units& units) const {
-  const double reach = range(outer_skin, units);
-  return find_offsets(kernel_, state, BlockCells(state, reach), reach);
-}
-
-template <class Real>
-void VerletLists<Real>::make(const MovingParticles<Real>& particles) {
-  Stopwatch watch;
+void VerletLists<Real>::make(BlockState<Real>& state, const Units& units) {
+  const double diameter = 2 * pair_.r / units.length, force = pair_.b / units.length;
+  ranges_ = {force, force + inner_skin * diameter, force + outer_skin * diameter};
+  time_ = step_ / units.time;
+  const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
+  outer_.assign(pieces, {});
+  inner_.assign(pieces, {});
+  arrays_.assign(pieces, {});
+  motions_.assign(pieces, {});
+  speed_.assign(pieces, 0);
+  centers_.assign(pieces, Vec3::Zero());
+  fastest_.assign(pieces, 0);
+  boxes_.resize(state.blocks());
+  boxed_.assign(pieces, -1);
+  near_ = NearPieces(ranges_);
+  survey(state);
+  std::vector<std::uint32_t> all(pieces);
+  std::iota(all.begin(), all.end(), 0U);
+  list(state, all);
   ++counts_.rebuilds;
-  const double reach = range(outer_skin, particles.units);
-  cells_ = BlockCells(particles.state, reach);
-  outer_ = find_offsets(kernel_, particles.state, cells_, reach);
-  contacts_ = Contacts(particles.state, particles.units, particles.comoving_frame,
-                       particles.pose.size() + 1, reach * particles.units.length);
-  for (auto& axis : reference_) axis.resize(particles.state.blocks() * BlockState<Real>::block);
-  const auto drift = frame_drift_of(particles, reference_);
-  for_each_part(particles.state.blocks(),
-                [&](std::size_t begin, std::size_t end) { kernel_.remember(drift, begin, end); });
-  cells_.forget_particles();
-  listed_pose_ = last_pose_ = particles.pose;
-  outer_drift_ = Drift(outer_skin * 2 * pair_.r);
-  escaped_.clear();
-  shift_ = 0;
-  counts_.rebuilding += watch.lap();
-  prune(particles);
 }
 
 template <class Real>
-void VerletLists<Real>::prune(const MovingParticles<Real>& particles) {
+PieceNow VerletLists<Real>::piece_now(const kernel::Survey& survey,
+                                      const kernel::Coord<Real>* center,
+                                      std::size_t particles) const {
+  const auto vector = [](const double* v) { return Vec3(v[0], v[1], v[2]); };
+  const auto count = static_cast<double>(particles);
+  const Vec3 mean = vector(survey.x) / count, velocity = vector(survey.v) / count;
+  const Vec3 middle(static_cast<double>(center[0]), static_cast<double>(center[1]),
+                    static_cast<double>(center[2]));
+  PieceNow now;
+  // Bounds of single precision are rounded.
+  const Vec3 more = Vec3::Constant(2 * rounding<Real> * vector(survey.high).maxCoeff() -
+                                   2 * rounding<Real> * vector(survey.low).minCoeff());
+  now.box =
+      Box(Vec3(middle + vector(survey.low) - more), Vec3(middle + vector(survey.high) + more));
+  now.center = middle;
+  now.spin = spin_of(symmetric(survey.xx) - count * mean * mean.transpose(),
+                     vector(survey.xv) - count * mean.cross(velocity));
+  now.velocity = velocity - now.spin.cross(mean);
+  return now;
+}
+
+/// Finds out how all pieces move.
+template <class Real>
+void VerletLists<Real>::survey(BlockState<Real>& state) {
+  std::vector<PieceNow> pieces(motions_.size());
+  const auto arrays = state.arrays();
+  const kernel::SurveyInput<Real> input{arrays, state.blocks(), state.live()};
+  constexpr std::size_t size = blocks_per_piece * BlockState<Real>::block;
+  parallel_for(pieces.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      const std::size_t first = piece * size, last = std::min(first + size, state.size());
+      auto& motion = motions_[piece];
+      for (int axis = 0; axis < 3; ++axis) motion.center[axis] = arrays.x[axis][(first + last) / 2];
+      PieceNow& now = pieces[piece];
+      now = piece_now(kernel_.survey(input, piece, motion.center), motion.center, last - first);
+      for (int axis = 0; axis < 3; ++axis) {
+        motion.velocity[axis] = static_cast<Real>(now.velocity[axis]);
+        motion.spin[axis] = static_cast<Real>(now.spin[axis]);
+        now.velocity[axis] = static_cast<double>(motion.velocity[axis]);
+        now.spin[axis] = static_cast<double>(motion.spin[axis]);
+      }
+      centers_[piece] = now.center;
+      speed_[piece] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
+    }
+  });
+  near_.survey(std::move(pieces), time_);
+  elapsed_ = 0;
+  ++counts_.surveys;
+}
+
+/// The velocity fields travel with the common velocity.
+template <class Real>
+void VerletLists<Real>::move_fields() {
+  elapsed_ += time_;
+  for (std::size_t piece = 0; piece < motions_.size(); ++piece)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = centers_[piece][axis] + elapsed_ * near_.common_velocity()[axis];
+      if constexpr (sizeof(Real) == 4)
+        motions_[piece].center[axis] =
+            static_cast<std::int32_t>(static_cast<std::int64_t>(std::nearbyint(at)));
+      else
+        motions_[piece].center[axis] = at;
+    }
+}
+
+template <class Real>
+void VerletLists<Real>::follow(BlockState<Real>& state, const Units& units,
+                               std::span<const kernel::Totals> totals) {
   Stopwatch watch;
-  ++counts_.prunings;
-  inner_ = prune_offsets(kernel_, particles.state, outer_, range(inner_skin, particles.units));
-  inner_drift_ = Drift(inner_skin * 2 * pair_.r);
-  pruned_motions_ = motions_between(listed_pose_, particles.pose);
-  moved_when_pruned_ = outer_drift_.moved();
+  ++moment_;
+  // Fixed-point coordinates are rounded to the nearest unit along each axis.
+  const double unit = sizeof(Real) == 4 ? 1 / time_ : 0;
+  for (std::size_t piece = 0; piece < totals.size(); ++piece)
+    fastest_[piece] =
+        std::sqrt(totals[piece].fastest) * (1 + 1e-5) + unit + rounding<Real> * speed_[piece];
+  if (!near_.advance(fastest_, time_)) return make(state, units);
+  if (near_.survey_due())
+    survey(state);
+  else
+    move_fields();
+  counts_.checking += watch.lap();
+  list(state, near_.to_list());
+  const std::vector<std::uint32_t>& pieces = near_.to_prune();
+  parallel_for(pieces.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) prune(state, pieces[k]);
+  });
+  counts_.pruned += static_cast<std::int64_t>(pieces.size());
   counts_.pruning += watch.lap();
 }
 
-/// Bounds the displacements in the co-moving frames in the last step.
 template <class Real>
-void VerletLists<Real>::add_step(const Pose& pose, double fastest, double rounding) {
-  double excess = 0;
-  for (std::size_t b = 0; b < pose.size(); ++b) {
-    const double reach =
-        contacts_.reach_from(listed_pose_[b].frame.origin, b) + outer_drift_.skin() + shift_;
-    excess = std::max(excess, excess_of_step(last_pose_[b], pose[b], step_, reach));
-  }
-  const double moved = fastest * step_ * (1 + 1e-5) + rounding + excess;
-  outer_drift_.add(moved);
-  inner_drift_.add(moved);
-  last_pose_ = pose;
-}
-
-template <class Real>
-bool VerletLists<Real>::follow(const MovingParticles<Real>& particles, double fastest) {
-  // Fixed-point rounding adds up to one unit to the distance that the speed gives.
-  add_step(particles.pose, fastest, sizeof(Real) == 4 && fastest > 0 ? particles.units.length : 0);
-  const auto motions = motions_between(listed_pose_, particles.pose);
-  const double approach = contacts_.approach(motions, shift_);
-  if (!outer_drift_.holds(approach)) {
-    if (!check_displacements(particles)) return false;
-    prune(particles);
-  }
-  const double since =
-      contacts_.approach_since(pruned_motions_, motions, moved_when_pruned_, shift_);
-  if (!inner_drift_.holds(since)) prune(particles);
-  return true;
-}
-
-/// Coordinates of a particle in its co-moving frame, in lengths of the kernel.
-template <class Real>
-Vec3 VerletLists<Real>::place(const MovingParticles<Real>& particles, std::size_t k) const {
-  const auto& frame = particles.comoving_frames.frames[particles.comoving_frame[k]];
-  const auto arrays = particles.state.arrays();
-  Vec3 arm;
-  Mat3 axes;
-  for (int axis = 0; axis < 3; ++axis) {
-    arm[axis] = static_cast<double>(difference_of(arrays.x[axis][k], frame.center[axis])) -
-                static_cast<double>(frame.rest_of_center[axis]);
-    for (int column = 0; column < 3; ++column)
-      axes(axis, column) = static_cast<double>(frame.axes[3 * axis + column]);
-  }
-  return axes * arm;
-}
-
-/// The largest displacement in each block since the lists were built, in lengths of the kernel.
-template <class Real>
-std::vector<double> VerletLists<Real>::displacements(const MovingParticles<Real>& particles) {
-  std::vector<double> largest(particles.state.blocks());
-  const auto drift = frame_drift_of(particles, reference_);
-  for_each_part(largest.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t block = begin; block < end; ++block)
-      largest[block] =
-          std::sqrt(static_cast<double>(kernel_.displacement(drift, block, block + 1)));
+void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
+                                          const std::vector<std::uint32_t>& pieces) {
+  std::vector<std::uint32_t> old;
+  for (const std::uint32_t piece : pieces)
+    for (const NearPieces::Near& near : near_.of(piece))
+      if (std::exchange(boxed_[near.piece], moment_) != moment_) old.push_back(near.piece);
+  parallel_for(old.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) find_boxes(state, old[k], boxes_);
   });
-  return largest;
 }
 
-/// The displacement, m, beyond which particles have escaped.
 template <class Real>
-double VerletLists<Real>::escaped_beyond(const std::vector<double>& displaced,
-                                         const Units& units) const {
-  for (const double diameters : escape_distances) {
-    const double limit = diameters * 2 * pair_.r, lengths = 0.999 * limit / units.length;
-    const auto beyond = std::count_if(displaced.begin(), displaced.end(),
-                                      [&](double most) { return most >= lengths; });
-    if (static_cast<std::size_t>(beyond) * blocks_per_escaped <= displaced.size()) return limit;
-  }
-  return escape_distances.back() * 2 * pair_.r;
-}
-
-/// The particles displaced by `limit` (m) or more, ascending.
-template <class Real>
-std::vector<std::uint32_t> VerletLists<Real>::escaped_particles(
-    const MovingParticles<Real>& particles, const std::vector<double>& displaced, double limit) {
-  const double lengths = 0.999 * limit / particles.units.length;
-  constexpr std::size_t size = BlockState<Real>::block;
-  std::vector<std::uint32_t> found;
-  for (std::size_t block = 0; block < displaced.size(); ++block) {
-    if (displaced[block] < lengths) continue;
-    for (std::size_t k = block * size;
-         k < std::min((block + 1) * size, particles.comoving_frame.size()); ++k) {
-      const Vec3 was(reference_[0][k], reference_[1][k], reference_[2][k]);
-      if ((place(particles, k) - was).norm() >= lengths)
-        found.push_back(static_cast<std::uint32_t>(k));
-    }
-  }
-  return found;
-}
-
-/// Finds new neighbors for escaped particles. False where there are too many, or too little of the
-/// skin is left.
-template <class Real>
-bool VerletLists<Real>::check_displacements(const MovingParticles<Real>& particles) {
+void VerletLists<Real>::list(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces) {
+  if (pieces.empty()) return;
   Stopwatch watch;
-  ++counts_.checks;
-  const auto displaced = displacements(particles);
-  const double limit = escaped_beyond(displaced, particles.units);
-  const auto found = escaped_particles(particles, displaced, limit);
-  if (found.size() * particles_per_escaped > particles.comoving_frame.size()) return false;
-  for (const std::uint32_t k : found) anchor(particles, k);
-  // After anchor(): these references have moved.
-  const double approach = contacts_.approach(motions_between(listed_pose_, particles.pose), shift_);
-  if (!found.empty()) outer_ = with_added(outer_, neighbors_of(particles, found, limit + approach));
-  counts_.escaped += static_cast<std::int64_t>(found.size());
-  // References are floats: to their rounding.
-  double reach = 0;
-  for (std::size_t b = 0; b < listed_pose_.size(); ++b)
-    reach = std::max(reach, contacts_.reach_from(listed_pose_[b].frame.origin, b));
-  outer_drift_.reset(limit + 2.5e-7 * reach);
-  counts_.checking += watch.lap();
-  // Escaped particles are searched for in the cells around their place; and no two of them may meet
-  // that were farther apart, when the lists were built, than the contacts account for.
-  const double edge = cells_.edge() * particles.units.length;
-  const double room = std::min(edge - approach - limit, edge / 2);
-  return shift_ < room && outer_drift_.holds(approach + outer_drift_.skin() / 8);
-}
-
-/// Where the particle would have been when the lists were built, at its present place in its
-/// co-moving frame, m.
-template <class Real>
-Vec3 VerletLists<Real>::place_when_listed(const MovingParticles<Real>& particles,
-                                          std::size_t k) const {
-  const Vec3 here = particles.state.position(k, particles.units);
-  if (particles.comoving_frame[k] >= particles.pose.size()) return here;
-  const RigidFrame &now = particles.pose[particles.comoving_frame[k]].frame,
-                   &then = listed_pose_[particles.comoving_frame[k]].frame;
-  return then.origin + then.rotation * (now.rotation.transpose() * (here - now.origin));
-}
-
-/// The pairs of an escaped particle with all that could come near it before the next check, when
-/// others may be nearer by `nearer` (m) than their references indicate.
-template <class Real>
-void VerletLists<Real>::add_pairs(const MovingParticles<Real>& particles, std::uint32_t k,
-                                  double nearer, std::vector<BlockOffset>& added) const {
-  const auto arrays = particles.state.arrays();
-  const std::size_t size = BlockState<Real>::block;
-  const double reach = range(outer_skin, particles.units) + nearer / particles.units.length;
-  const Vec3 at =
-      (place_when_listed(particles, k) - particles.units.origin) / particles.units.length;
-  std::vector<std::uint32_t> blocks;
-  cells_.for_each_block_near(at, [&](std::uint32_t block) { blocks.push_back(block); });
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  const auto add = [&](std::uint32_t block, std::int64_t offset) {
-    const BlockOffset one{block, static_cast<std::int32_t>(offset)};
-    if (!outer_.has(one)) added.push_back(one);
-  };
-  for (const std::uint32_t block : blocks)
-    for (std::size_t j = block * size;
-         j < std::min((block + 1) * size, particles.comoving_frame.size()); ++j) {
-      double squared = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto apart = static_cast<double>(difference_of(arrays.x[axis][k], arrays.x[axis][j]));
-        squared += apart * apart;
-      }
-      if (squared >= reach * reach || j == k) continue;
-      const std::int64_t offset = static_cast<std::int64_t>(j) - k;
-      add(static_cast<std::uint32_t>(k / size), offset);
-      add(block, -offset);
+  find_boxes_around(state, pieces);
+  parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t piece = pieces[k];
+      std::vector<std::uint32_t> near;
+      for (const NearPieces::Near& one : near_.of(piece)) near.push_back(one.piece);
+      outer_[piece] = find_offsets(kernel_, state, piece, near, boxes_, ranges_.outer);
+      near_.listed(piece);
+      prune(state, piece);
     }
-}
-
-template <class Real>
-std::vector<BlockOffset> VerletLists<Real>::neighbors_of(const MovingParticles<Real>& particles,
-                                                         const std::vector<std::uint32_t>& found,
-                                                         double nearer) const {
-  std::vector<std::vector<BlockOffset>> parts(found.size() / escaped_per_piece + 1);
-  parallel_for(found.size(), escaped_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n)
-      add_pairs(particles, found[n], nearer, parts[begin / escaped_per_piece]);
   });
-  std::vector<BlockOffset> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  counts_.listed += static_cast<std::int64_t>(pieces.size());
+  counts_.rebuilding += watch.lap();
 }
 
-/// Makes the particle's present place its reference.
 template <class Real>
-void VerletLists<Real>::anchor(const MovingParticles<Real>& particles, std::uint32_t k) {
-  const Vec3 now = place(particles, k);
-  const Vec3 was(reference_[0][k], reference_[1][k], reference_[2][k]);
-  const Vec3 first = escaped_.try_emplace(k, was).first->second;
-  shift_ = std::max(shift_, (now - first).norm() * particles.units.length);
-  for (int axis = 0; axis < 3; ++axis) reference_[axis][k] = static_cast<float>(now[axis]);
+void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece) {
+  inner_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.inner);
+  arrays_[piece] = inner_[piece].arrays();
+  near_.pruned(piece);
 }
 
 template <class Real>
 ListCounts VerletLists<Real>::counts() const {
   ListCounts counts = counts_;
-  counts.outer = outer_.mean();
-  counts.inner = inner_.mean();
+  counts.outer = mean(outer_);
+  counts.inner = mean(inner_);
   return counts;
 }
 

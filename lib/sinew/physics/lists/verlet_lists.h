@@ -1,94 +1,77 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The neighbor lists of a moving body: at every step the inner list holds all pairs within b.
+// The neighbor lists of a moving body: at every step the inner lists hold all pairs within range.
 //
-// An outer list, found with cells, is valid for long; the inner list, pruned from it, is what the
-// kernel traverses. Both are valid until particles have approached by their skins. Approach is
-// bounded step by step by the co-moving frames' motions and the fastest particle; when that bound
-// is used up, displacements are measured. If that finds a few escaped particles, as in a body that
-// flows, they alone get new neighbors; if it finds many, all lists are rebuilt.
+// The outer lists of a piece, found among the pieces near it, are valid for long; its inner lists,
+// pruned from them, are what the kernel traverses. Both are valid until particles of the piece and
+// of its neighbors have approached by their skins (see near_pieces.h), and are then made again for
+// that piece alone.
+//
+//     lists.make(state, units);                       // at first, and in a new order
+//     lists.follow(state, units, totals);             // after every step
+//     step.lists = lists.arrays(), step.motions = lists.motions();
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include <sinew/physics/kernel/kernel.h>
-#include <sinew/physics/lists/approach_bounds.h>
-#include <sinew/physics/lists/block_cells.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/near_pieces.h>
 #include <sinew/physics/lists/offset_lists.h>
 #include <sinew/physics/pair_force.h>
 #include <sinew/physics/stepper.h>
-#include <sinew/rig/pose.h>
 
 namespace sinew {
-
-/// Particles and their co-moving frames at one moment.
-template <class Real>
-struct MovingParticles {
-  BlockState<Real>& state;
-  const Units& units;
-  kernel::ComovingFrames<Real> comoving_frames;
-  std::span<const std::uint32_t> comoving_frame;  ///< by particle; pose.size(): the scene
-  const Pose& pose;                               ///< of the co-moving frames
-};
 
 template <class Real>
 class VerletLists {
  public:
   VerletLists() = default;
+  /// For steps of `step` (s).
   VerletLists(const kernel::Functions<Real>& kernel, const PairForce& pair, double step);
 
-  /// The inner list.
-  kernel::Lists arrays() const { return inner_.arrays(); }
-  bool made() const { return !outer_.first.empty(); }
-  /// Builds both lists.
-  void make(const MovingParticles<Real>& particles);
-  /// The outer list for another order of the particles, to compare its length.
-  OffsetLists outer_of(BlockState<Real>& state, const Units& units) const;
-  double mean_of_outer() const { return outer_.mean(); }
+  /// The inner lists and the velocity fields, by piece.
+  const kernel::Lists* arrays() const { return arrays_.data(); }
+  const kernel::PieceMotion<Real>* motions() const { return motions_.data(); }
 
-  /// After a step in which no particle was faster than `fastest` (m/s) relative to its co-moving
-  /// frame, from the pose passed last. False: the lists have to be rebuilt.
-  bool follow(const MovingParticles<Real>& particles, double fastest);
+  bool made() const { return !inner_.empty(); }
+  /// Makes all lists.
+  void make(BlockState<Real>& state, const Units& units);
+  /// Makes those that are no longer valid after a step with these sums.
+  void follow(BlockState<Real>& state, const Units& units, std::span<const kernel::Totals> totals);
+
+  /// Differences per block in the outer lists, on average.
+  double mean_of_outer() const { return mean(outer_); }
   ListCounts counts() const;
 
  private:
-  double range(double skin, const Units& units) const;
-  void add_step(const Pose& pose, double fastest, double rounding);
-  void prune(const MovingParticles<Real>& particles);
-  bool check_displacements(const MovingParticles<Real>& particles);
-  std::vector<double> displacements(const MovingParticles<Real>& particles);
-  double escaped_beyond(const std::vector<double>& displaced, const Units& units) const;
-  std::vector<std::uint32_t> escaped_particles(const MovingParticles<Real>& particles,
-                                               const std::vector<double>& displaced, double limit);
-  Vec3 place(const MovingParticles<Real>& particles, std::size_t k) const;
-  Vec3 place_when_listed(const MovingParticles<Real>& particles, std::size_t k) const;
-  void add_pairs(const MovingParticles<Real>& particles, std::uint32_t k, double nearer,
-                 std::vector<BlockOffset>& added) const;
-  std::vector<BlockOffset> neighbors_of(const MovingParticles<Real>& particles,
-                                        const std::vector<std::uint32_t>& found,
-                                        double nearer) const;
-  void anchor(const MovingParticles<Real>& particles, std::uint32_t k);
+  static double mean(const std::vector<OffsetLists>& lists);
+  void survey(BlockState<Real>& state);
+  void move_fields();
+  PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
+                     std::size_t particles) const;
+  void list(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces);
+  void prune(BlockState<Real>& state, std::size_t piece);
+  void find_boxes_around(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces);
 
   kernel::Functions<Real> kernel_{};
   PairForce pair_;
-  double step_ = 0;  ///< s
+  double step_ = 0;    ///< s
+  double time_ = 0;    ///< of a step, in times of the kernel
+  ListRanges ranges_;  ///< in its lengths
 
-  OffsetLists outer_, inner_;
-  BlockCells cells_;
-  Contacts contacts_;
-  Drift outer_drift_, inner_drift_;
-  /// Coordinates in the co-moving frames, in lengths of the kernel.
-  std::array<std::vector<float>, 3> reference_;
-  Pose listed_pose_, last_pose_;
-  std::vector<RigidMotion> pruned_motions_;
-  double moved_when_pruned_ = 0;
-  /// Where escaped particles were when the lists were built.
-  std::unordered_map<std::uint32_t, Vec3> escaped_;
-  double shift_ = 0;  ///< largest distance of their reference from there, m
+  NearPieces near_;
+  std::vector<double> fastest_;  ///< by piece, in the last step
+  std::vector<kernel::PieceMotion<Real>> motions_;
+  std::vector<Vec3> centers_;  ///< of them at the survey
+  double elapsed_ = 0;         ///< since then, in times of the kernel
+  std::vector<double> speed_;  ///< by piece: of its velocity field, at most
+  std::vector<OffsetLists> outer_, inner_;
+  std::vector<kernel::Lists> arrays_;
+  BlockBoxes boxes_;
+  std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
+  std::int64_t moment_ = 0;
 
   ListCounts counts_;
 };

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/lists/near_pieces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <sinew/core/parallel.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t pieces_per_task = 16;
+constexpr std::size_t branches = 4;  // of the tree of boxes
+// Pieces this much farther apart than lists reach count as near: they are found again when
+// particles may have come that much nearer. In outer ranges, and in steps of the fastest one.
+constexpr double least_margin = 0.3, margin_in_steps = 24;
+// Surveys serve when particles have drifted by this share of the inner skin, but not every few
+// steps.
+constexpr double drift_share = 0.1;
+constexpr int least_steps = 8;
+
+Box expanded(Box box, double by) {
+  box.min().array() -= by;
+  box.max().array() += by;
+  return box;
+}
+
+/// A bound of the difference of two velocity fields in a box.
+double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) {
+  const Vec3 middle = box.center();
+  return (a.velocity_at(middle) - b.velocity_at(middle)).norm() +
+         (a.spin - b.spin).norm() * box.sizes().norm() / 2;
+}
+
+/// Boxes of the pieces, around several of them, around several of those, and so on up to one.
+std::vector<std::vector<Box>> tree_of(const std::vector<PieceNow>& pieces) {
+  std::vector<std::vector<Box>> levels(1);
+  for (const PieceNow& piece : pieces) levels[0].push_back(piece.box);
+  while (levels.back().size() > 1) {
+    const std::vector<Box>& below = levels.back();
+    std::vector<Box> level((below.size() + branches - 1) / branches);
+    for (std::size_t k = 0; k < below.size(); ++k) level[k / branches].extend(below[k]);
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+/// Calls visit(leaf) for the leaves below a node with a box within `reach` of `box`, ascending.
+template <class Visit>
+void for_each_near(const std::vector<std::vector<Box>>& levels, std::size_t level, std::size_t node,
+                   const Box& box, double reach, Visit& visit) {
+  if (levels[level][node].squaredExteriorDistance(box) >= reach * reach) return;
+  if (level == 0) return visit(node);
+  const std::size_t end = std::min((node + 1) * branches, levels[level - 1].size());
+  for (std::size_t child = node * branches; child < end; ++child)
+    for_each_near(levels, level - 1, child, box, reach, visit);
+}
+
+}  // namespace
+
+/// Relative to the common velocity, of its fastest point as a rigid body, wherever it has traveled
+/// before the next survey.
+double NearPieces::speed_of(const PieceNow& piece) const {
+  const double radius = piece.box.diagonal().norm() / 2 + margin_ / 4;
+  return (piece.velocity_at(piece.box.center()) - common_).norm() + piece.spin.norm() * radius;
+}
+
+double NearPieces::fastest_of(std::span<const PieceNow> pieces) const {
+  double most = 0;
+  for (const PieceNow& piece : pieces) most = std::max(most, speed_of(piece));
+  return most;
+}
+
+void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
+  pieces_ = std::move(pieces);
+  common_.setZero();
+  for (const PieceNow& piece : pieces_)
+    common_ += piece.velocity_at(piece.box.center()) / static_cast<double>(pieces_.size());
+  traveled_ = drifted_ = 0;
+  steps_ = 0;
+  const double wanted =
+      std::max(least_margin * ranges_.outer, margin_in_steps * fastest_of(pieces_) * time);
+  // Until the next survey, particles may come nearer by another half of the margin.
+  if (wanted > margin_ || 4 * since_near_ > margin_) {
+    margin_ = wanted;
+    find_near();
+  }
+  fastest_point_ = fastest_of(pieces_);
+  parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) find_rates(piece);
+  });
+}
+
+void NearPieces::find_near() {
+  since_near_ = 0;
+  near_.resize(pieces_.size());
+  if (pieces_.empty()) return;
+  const auto levels = tree_of(pieces_);
+  parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) find_near(piece, levels);
+  });
+}
+
+void NearPieces::find_near(std::size_t piece, const std::vector<std::vector<Box>>& levels) {
+  const std::vector<Near> before = std::move(near_[piece]);
+  near_[piece].clear();
+  auto add = [&](std::size_t other) { add_near(piece, static_cast<std::uint32_t>(other), before); };
+  for_each_near(levels, levels.size() - 1, 0, pieces_[piece].box, ranges_.outer + margin_, add);
+}
+
+/// A piece that was not near has come no nearer than the outer range.
+void NearPieces::add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before) {
+  const auto known =
+      std::lower_bound(before.begin(), before.end(), other,
+                       [](const Near& one, std::uint32_t number) { return one.piece < number; });
+  if (known != before.end() && known->piece == other) {
+    near_[piece].push_back(*known);
+    return;
+  }
+  const double apart = ranges_.outer - ranges_.force;
+  near_[piece].push_back({other, 0, 0, apart, apart});
+}
+
+/// Of approach to each piece near one, in the region where particles of both may be within the
+/// outer range of each other before the next survey. Where there is none, nothing was used up.
+void NearPieces::find_rates(std::size_t piece) {
+  const PieceNow& one = pieces_[piece];
+  const double travel = margin_ / 4;
+  for (Near& near : near_[piece]) {
+    const PieceNow& other = pieces_[near.piece];
+    near.gap = one.box.exteriorDistance(other.box);
+    near.rate = 0;
+    if (near.piece == piece) continue;
+    const double apart = std::min(near.gap, ranges_.outer) - ranges_.force;
+    near.outer = std::max(near.outer, apart);
+    near.inner = std::max(near.inner, apart);
+    if (near.gap >= ranges_.outer + 2 * travel) continue;
+    const Box here = expanded(one.box, travel), there = expanded(other.box, travel);
+    const double reach = ranges_.outer;
+    const double rate =
+        std::min(largest_difference(one, other, here.intersection(expanded(there, reach))),
+                 largest_difference(one, other, there.intersection(expanded(here, reach))));
+    near.rate = static_cast<float>(rate * (1 + 1e-6));
+  }
+}
+
+bool NearPieces::advance(std::span<const double> fastest, double time) {
+  double most = 0;
+  for (const double one : fastest) most = std::max(most, one);
+  drifted_ += most * time;
+  traveled_ += (fastest_point_ + most) * time;
+  since_near_ += (fastest_point_ + most) * time;
+  ++steps_;
+  if (4 * traveled_ > margin_ * (1 + 1e-9)) return false;
+  least_.resize(pieces_.size());
+  parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      Spare& least = least_[piece] = {};
+      for (Near& near : near_[piece]) {
+        const double used =
+            (fastest[piece] + fastest[near.piece] + static_cast<double>(near.rate)) * time;
+        near.outer -= used;
+        near.inner -= used;
+        least.outer = std::min(least.outer, near.outer);
+        least.inner = std::min(least.inner, near.inner);
+      }
+    }
+  });
+  sort_out();
+  return true;
+}
+
+/// Whose lists are due: outer lists also where too little is left for inner lists to last.
+void NearPieces::sort_out() {
+  to_list_.clear();
+  to_prune_.clear();
+  const double little = (ranges_.inner - ranges_.force) / 4;
+  for (std::uint32_t piece = 0; piece < least_.size(); ++piece) {
+    const Spare& least = least_[piece];
+    if (least.outer < 0 || (least.inner < 0 && least.outer < little))
+      to_list_.push_back(piece);
+    else if (least.inner < 0)
+      to_prune_.push_back(piece);
+  }
+}
+
+bool NearPieces::survey_due() const {
+  // A step may take particles as far again as the last one did.
+  const double soon = traveled_ + (steps_ > 0 ? traveled_ / steps_ : 0);
+  return 4 * soon > margin_ ||
+         (steps_ >= least_steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
+}
+
+void NearPieces::listed(std::size_t piece) {
+  for (Near& near : near_[piece]) near.outer = ranges_.outer - ranges_.force;
+}
+
+void NearPieces::pruned(std::size_t piece) {
+  for (Near& near : near_[piece]) {
+    const double apart = std::min(near.gap - 2 * traveled_, ranges_.outer) - ranges_.force;
+    near.inner = std::max(apart, std::min(ranges_.inner - ranges_.force, near.outer));
+  }
+}
+
+}  // namespace sinew

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How near the pieces of a body may have come to each other: whose lists are still valid.
+//
+// Particles i and j of the pieces p and q approach no faster than
+//
+//     |v_i - w_p(x_i)| + |v_j - w_q(x_j)| + |w_p(x) - w_q(x)|,
+//
+// where w is a piece's rigid velocity field, whatever it is, and x is either of the two places: the
+// rotation that both fields share moves particles across the line between them. The kernel finds
+// the largest of the first two terms in every step; the third is largest at a corner of the region
+// where the pieces can meet. What pairs of pieces have used up of the skins is added step by step,
+// so the lists of a piece are made again when its own surroundings have changed, and not before.
+//
+//     NearPieces near(ranges);
+//     near.survey(pieces, time);             // now and then: how the pieces move
+//     near.advance(fastest, time);     // after every step
+//     for (const std::uint32_t piece : near.to_list()) ... near.listed(piece);
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+/// A piece at a survey. Lengths and times in any unit.
+struct PieceNow {
+  Box box;                     ///< around its particles
+  Vec3 center = Vec3::Zero();  ///< where its velocity field has `velocity`
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+
+  Vec3 velocity_at(const Vec3& p) const { return velocity + spin.cross(p - center); }
+};
+
+/// Distances that lists hold.
+struct ListRanges {
+  double force = 0;  ///< within which particles interact
+  double inner = 0;  ///< of the inner lists when they were made
+  double outer = 0;  ///< of the outer lists
+};
+
+class NearPieces {
+ public:
+  /// Another piece that may be within the outer range.
+  struct Near {
+    std::uint32_t piece;
+    float rate;           ///< of approach by the difference of the velocity fields
+    double gap;           ///< between the boxes at the survey
+    double outer, inner;  ///< how much nearer particles may come that the lists do not pair
+  };
+
+  NearPieces() = default;
+  explicit NearPieces(const ListRanges& ranges) : ranges_(ranges) {}
+
+  /// How the pieces move and where they are from now on, for steps of `time`.
+  void survey(std::vector<PieceNow> pieces, double time);
+  /// The mean velocity. Until the next survey, the velocity fields travel with it.
+  const Vec3& common_velocity() const { return common_; }
+  /// After a step of `time`, in which no particle was faster than `fastest` of its piece relative
+  /// to the velocity field. False where particles have gone too far since the survey: all lists are
+  /// to be made again.
+  bool advance(std::span<const double> fastest, double time);
+  /// Whether a survey must come before the next step, or would serve.
+  bool survey_due() const;
+
+  /// Pieces whose outer lists are no longer valid, and others whose inner lists are not.
+  const std::vector<std::uint32_t>& to_list() const { return to_list_; }
+  const std::vector<std::uint32_t>& to_prune() const { return to_prune_; }
+  /// The outer lists of the piece were made from its present neighbors.
+  void listed(std::size_t piece);
+  /// Its inner lists were made from its outer lists.
+  void pruned(std::size_t piece);
+
+  /// The pieces near one, itself included, ascending.
+  std::span<const Near> of(std::size_t piece) const { return near_[piece]; }
+
+ private:
+  void find_near();
+  void find_near(std::size_t piece, const std::vector<std::vector<Box>>& levels);
+  void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
+  void find_rates(std::size_t piece);
+  void sort_out();
+  double speed_of(const PieceNow& piece) const;
+  double fastest_of(std::span<const PieceNow> pieces) const;
+
+  /// The least that is left of the skins between a piece and any near it.
+  struct Spare {
+    double outer = std::numeric_limits<double>::infinity(), inner = outer;
+  };
+
+  ListRanges ranges_;
+  double margin_ = 0;  ///< beyond the outer range, within which pieces count as near
+  std::vector<PieceNow> pieces_;
+  std::vector<std::vector<Near>> near_;
+  Vec3 common_ = Vec3::Zero();
+  // Relative to the common velocity:
+  double fastest_point_ = 0;  ///< of any piece as a rigid body
+  double traveled_ = 0;       ///< by any particle since the survey, at most
+  double since_near_ = 0;     ///< by any particle since near_ was found, at most
+  double drifted_ = 0;        ///< relative to the velocity fields since the survey, at most
+  int steps_ = 0;             ///< since the survey
+  std::vector<Spare> least_;
+  std::vector<std::uint32_t> to_list_, to_prune_;
+};
+
+}  // namespace sinew

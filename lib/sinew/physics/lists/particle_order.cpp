@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/lists/particle_order.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <sinew/core/parallel.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t particles_per_piece = 16384;
+constexpr std::size_t columns_per_piece = 64;
+
+/// How columns divide the body's bounding box.
+struct Columns {
+  int along = 0;                    ///< axis along the columns
+  std::array<int, 2> across{1, 2};  ///< the others
+  std::array<double, 3> low{};
+  double edge = 1;
+  std::int64_t rows = 1, places = 1;  ///< columns: rows x places
+
+  std::size_t count() const { return static_cast<std::size_t>(rows * places); }
+  /// Rows run back and forth.
+  std::uint32_t of(double a, double b) const {
+    const auto row = std::min(static_cast<std::int64_t>((a - low[across[0]]) / edge), rows - 1);
+    const auto at = std::min(static_cast<std::int64_t>((b - low[across[1]]) / edge), places - 1);
+    return static_cast<std::uint32_t>(row * places + (row % 2 == 0 ? at : places - 1 - at));
+  }
+};
+
+template <class Coord>
+Columns columns_of(const std::array<Coord*, 3>& x, std::size_t count, double edge) {
+  Columns columns;
+  std::array<double, 3> size{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax_element(x[axis], x[axis] + count);
+    columns.low[axis] = static_cast<double>(*low);
+    size[axis] = static_cast<double>(*high) - columns.low[axis];
+  }
+  columns.along = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  columns.across = {(columns.along + 1) % 3, (columns.along + 2) % 3};
+  columns.edge = edge;
+  const double most = 2.0 * static_cast<double>(count) + 1024;  // a particle may be far away
+  const auto along = [&](int side) {
+    return std::floor(size[columns.across[side]] / columns.edge) + 1;
+  };
+  while (along(0) * along(1) > most) columns.edge *= 1.5;
+  columns.rows = static_cast<std::int64_t>(along(0));
+  columns.places = static_cast<std::int64_t>(along(1));
+  return columns;
+}
+
+constexpr double off_lattice = 1e-3;  // in spacings of planes
+
+/// Lattice planes of a group of particles, slowest axis first.
+struct Planes {
+  std::array<Vec3, 3> axes;
+
+  Planes(const Mat3& lattice, const Vec3& across) {
+    int slowest = 0;
+    (lattice.transpose() * across).cwiseAbs().maxCoeff(&slowest);
+    // Of the other two the later one is slower, as in a body filled row by row.
+    const int fastest = slowest == 0 ? 1 : 0, middle = 3 - slowest - fastest;
+    axes = {lattice.col(slowest), lattice.col(middle), lattice.col(fastest)};
+  }
+};
+
+using Site = std::array<std::int64_t, 3>;
+
+/// The sites of the particles `group`; none where they are on no lattice.
+std::vector<Site> sites_of(const Body& body, const std::vector<std::uint32_t>& group,
+                           const Planes& planes) {
+  const double spacing = half_plane_spacing(body.material.pair.r);
+  std::vector<Site> sites(group.size());
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const Vec3 from = body.rest[group[k]] - body.rest[group[0]];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = from.dot(planes.axes[axis]) / spacing, whole = std::round(at);
+      if (!(std::abs(at - whole) < off_lattice)) return {};
+      sites[k][axis] = static_cast<std::int64_t>(whole);
+    }
+  }
+  return sites;
+}
+
+/// The direction along which the particles `group` extend farthest.
+Vec3 longest_side(const Body& body, const std::vector<std::uint32_t>& group) {
+  Box box;
+  for (const std::uint32_t i : group) box.extend(body.lattice.transpose() * body.rest[i]);
+  int axis = 0;
+  box.sizes().maxCoeff(&axis);
+  return body.lattice.col(axis);
+}
+
+void sort_by_planes(const Body& body, const Vec3& across, std::vector<std::uint32_t>& group) {
+  const std::vector<Site> sites = sites_of(body, group, Planes(body.lattice, across));
+  if (sites.empty()) return;
+  std::vector<std::uint32_t> order(group.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return sites[a] != sites[b] ? sites[a] < sites[b] : a < b;
+  });
+  std::vector<std::uint32_t> sorted(group.size());
+  for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = group[order[k]];
+  group = std::move(sorted);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> order_at_rest(const Body& body) {
+  const std::size_t bones = body.skeleton.size();
+  std::vector<std::vector<std::uint32_t>> groups(bones + 1);
+  for (std::uint32_t i = 0; i < body.rest.size(); ++i) {
+    const int bone = body.binding.bone(i);
+    groups[bone == no_bone ? bones : static_cast<std::size_t>(bone)].push_back(i);
+  }
+  std::vector<std::uint32_t> order;
+  order.reserve(body.rest.size());
+  for (std::size_t b = 0; b <= bones; ++b) {
+    if (groups[b].empty()) continue;
+    sort_by_planes(body, b < bones ? body.skeleton.bones[b].axis() : longest_side(body, groups[b]),
+                   groups[b]);
+    order.insert(order.end(), groups[b].begin(), groups[b].end());
+  }
+  return order;
+}
+
+template <class Real>
+std::vector<std::uint32_t> order_by_columns(BlockState<Real>& state, double edge) {
+  const std::size_t n = state.size();
+  const auto arrays = state.arrays();
+  const std::array x{arrays.x[0], arrays.x[1], arrays.x[2]};
+  const Columns columns = columns_of(x, n, edge);
+  std::vector<std::uint32_t> column(n), first(columns.count() + 1, 0), order(n);
+  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      column[k] = columns.of(static_cast<double>(x[columns.across[0]][k]),
+                             static_cast<double>(x[columns.across[1]][k]));
+  });
+  for (const std::uint32_t c : column) ++first[c + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::size_t k = 0; k < n; ++k) order[next[column[k]]++] = static_cast<std::uint32_t>(k);
+  const auto* along = x[columns.along];
+  parallel_for(columns.count(), columns_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c)
+      std::sort(order.begin() + first[c], order.begin() + first[c + 1],
+                [&](std::uint32_t a, std::uint32_t b) {
+                  return along[a] != along[b] ? along[a] < along[b] : a < b;
+                });
+  });
+  return order;
+}
+
+template <class Real>
+void reorder(BlockState<Real>& from, const std::vector<std::uint32_t>& order,
+             BlockState<Real>& to) {
+  const auto a = from.arrays(), b = to.arrays();
+  parallel_for(order.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t k = begin; k < end; ++k) {
+        b.x[axis][k] = a.x[axis][order[k]];
+        b.v[axis][k] = a.v[axis][order[k]];
+      }
+  });
+  to.pad();
+}
+
+template std::vector<std::uint32_t> order_by_columns(BlockState<double>&, double);
+template std::vector<std::uint32_t> order_by_columns(BlockState<float>&, double);
+template void reorder(BlockState<double>&, const std::vector<std::uint32_t>&, BlockState<double>&);
+template void reorder(BlockState<float>&, const std::vector<std::uint32_t>&, BlockState<float>&);
+
+}  // namespace sinew

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lists that are made when NearPieces says so hold all pairs in range, however particles move and
+// whatever velocity fields stand for them; and lists of what moves as a rigid body last.
+#include <sinew/physics/lists/near_pieces.h>
+
+#include <gtest/gtest.h>
+#include <functional>
+#include <set>
+
+#include "world.h"
+
+namespace sinew {
+namespace {
+
+const ListRanges ranges{1, 1.2, 2};
+constexpr double dt = 0.01;
+
+/// Clusters of points that move by a law, with lists of the pairs of each by brute force.
+class Cloud {
+ public:
+  using Velocity = std::function<Vec3(const Vec3& p, double time, std::size_t piece)>;
+  enum class Field { fitted, none, wrong };
+
+  Cloud(std::size_t pieces, double apart, Velocity velocity, Field field)
+      : velocity_(std::move(velocity)), field_(field), near_(ranges) {
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      const double x = apart * static_cast<double>(piece);
+      points_.emplace_back();
+      for (int k = 0; k < 25; ++k)
+        points_.back().push_back(Vec3(x, 0, 0) + 2 * test::random_vector(random_));
+    }
+    outer_.resize(pieces), inner_.resize(pieces);
+    near_.survey(now(), dt);
+    for (std::size_t piece = 0; piece < pieces; ++piece) list(piece);
+  }
+
+  void step() {
+    std::vector<double> fastest(points_.size(), 0);
+    for (std::size_t piece = 0; piece < points_.size(); ++piece)
+      for (Vec3& p : points_[piece]) {
+        const Vec3 v = velocity_(p, time_, piece);
+        fastest[piece] = std::max(fastest[piece], (v - surveyed_[piece].velocity_at(p)).norm());
+        p += dt * v;
+      }
+    time_ += dt;
+    for (double& speed : fastest) speed *= 1 + 1e-12;
+    for (PieceNow& piece : surveyed_) piece.center += dt * near_.common_velocity();
+    if (!near_.advance(fastest, dt)) {
+      near_ = NearPieces(ranges);
+      near_.survey(now(), dt);
+      for (std::size_t piece = 0; piece < points_.size(); ++piece) list(piece), ++listed;
+      return;
+    }
+    if (near_.survey_due()) near_.survey(now(), dt);
+    for (const std::uint32_t piece : near_.to_list()) list(piece), ++listed;
+    for (const std::uint32_t piece : near_.to_prune()) prune(piece), ++pruned;
+  }
+
+  void expect_all_pairs_listed() const {
+    for (std::size_t p = 0; p < points_.size(); ++p)
+      for (std::size_t q = 0; q < points_.size(); ++q)
+        for_each_pair(p, q, ranges.force, [&](const Entry& entry) {
+          ASSERT_TRUE(inner_[p].count(entry)) << "pieces " << p << " and " << q << " at " << time_;
+        });
+  }
+
+  int listed = 0, pruned = 0;
+
+ private:
+  using Entry = std::array<std::size_t, 3>;  ///< particle, other piece, particle of it
+
+  template <class Visit>
+  void for_each_pair(std::size_t p, std::size_t q, double range, Visit&& visit) const {
+    for (std::size_t i = 0; i < points_[p].size(); ++i)
+      for (std::size_t j = 0; j < points_[q].size(); ++j)
+        if ((points_[p][i] - points_[q][j]).norm() < range) visit(Entry{i, q, j});
+  }
+
+  void list(std::size_t piece) {
+    outer_[piece].clear();
+    for (const NearPieces::Near& near : near_.of(piece))
+      for_each_pair(piece, near.piece, ranges.outer,
+                    [&](const Entry& entry) { outer_[piece].insert(entry); });
+    near_.listed(piece);
+    prune(piece);
+  }
+
+  void prune(std::size_t piece) {
+    inner_[piece].clear();
+    for (const Entry& entry : outer_[piece])
+      if ((points_[piece][entry[0]] - points_[entry[1]][entry[2]]).norm() < ranges.inner)
+        inner_[piece].insert(entry);
+    near_.pruned(piece);
+  }
+
+  /// Any velocity field will do; the right one lets lists last.
+  std::vector<PieceNow> now() {
+    surveyed_.clear();
+    for (std::size_t piece = 0; piece < points_.size(); ++piece) {
+      PieceNow one;
+      for (const Vec3& p : points_[piece]) one.box.extend(p);
+      one.center = points_[piece].front();
+      if (field_ == Field::fitted) fit(piece, one);
+      if (field_ == Field::wrong)
+        one.velocity = test::random_vector(random_), one.spin = test::random_vector(random_);
+      surveyed_.push_back(one);
+    }
+    return surveyed_;
+  }
+
+  /// From three points of the law, exact for a rigid motion.
+  void fit(std::size_t piece, PieceNow& one) const {
+    one.velocity = velocity_(one.center, time_, piece);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 along = Vec3::Unit(axis);
+      const Vec3 change = velocity_(one.center + along, time_, piece) - one.velocity;
+      one.spin += along.cross(change) / 2;
+    }
+  }
+
+  std::mt19937 random_{7};
+  Velocity velocity_;
+  Field field_;
+  double time_ = 0;
+  std::vector<Points> points_;
+  std::vector<PieceNow> surveyed_;
+  NearPieces near_;
+  std::vector<std::set<Entry>> outer_, inner_;
+};
+
+Vec3 flying(const Vec3& p, double, std::size_t) {
+  return Vec3(900, 20, -300) + Vec3(0.3, -0.5, 1).cross(p);
+}
+Vec3 turning(const Vec3& p, double, std::size_t) { return Vec3(0.3, -0.5, 1).cross(p); }
+Vec3 shearing(const Vec3& p, double time, std::size_t) {
+  return Vec3(0, 0.8 * p.x() * std::sin(time), 0.3 * p.y());
+}
+/// Every piece its own way, and back: they pass through each other.
+Vec3 crossing(const Vec3& p, double time, std::size_t piece) {
+  const double speed = piece % 2 == 0 ? 3 : -1;
+  return Vec3(speed * std::cos(time), 0.2 * p.z(), std::sin(3 * p.x() + time));
+}
+/// One turns fast about a distant point and sweeps over the others.
+Vec3 sweeping(const Vec3& p, double, std::size_t piece) {
+  return piece == 0 ? Vec3(Vec3(0, 0, 2).cross(p - Vec3(-6, 0, 0))) : Vec3(Vec3::Zero());
+}
+
+TEST(NearPieces, LetNoPairInRangeGoUnlisted) {
+  for (const auto& velocity : {flying, turning, shearing, crossing, sweeping})
+    for (const double apart : {1.5, 4.0, 9.0})
+      for (const auto field : {Cloud::Field::fitted, Cloud::Field::none, Cloud::Field::wrong}) {
+        Cloud cloud(5, apart, velocity, field);
+        for (int step = 0; step < 250; ++step) {
+          cloud.step();
+          cloud.expect_all_pairs_listed();
+          if (HasFatalFailure()) return;
+        }
+      }
+}
+
+TEST(NearPieces, KeepTheListsOfABodyThatMovesAsOne) {
+  const auto flying = [](const Vec3&, double, std::size_t) { return Vec3(900, 20, -300); };
+  for (const Cloud::Velocity& velocity : {Cloud::Velocity(turning), Cloud::Velocity(flying)}) {
+    Cloud cloud(5, 1.5, velocity, Cloud::Field::fitted);
+    for (int step = 0; step < 600; ++step) cloud.step();
+    EXPECT_EQ(cloud.listed, 0);
+    EXPECT_LE(cloud.pruned, 5 * 600 / 100);
+  }
+}
+
+TEST(NearPieces, ListOnlyWhatAFastPieceCanMeet) {
+  Cloud cloud(12, 3, sweeping, Cloud::Field::fitted);
+  const int whole_turns = 1;
+  for (int step = 0; step < whole_turns * 314; ++step) cloud.step();
+  EXPECT_GT(cloud.listed, 0);
+  EXPECT_LT(cloud.listed, 314 * 3);
+}
+
+}  // namespace
+}  // namespace sinew
