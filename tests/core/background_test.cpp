@@ -10,8 +10,7 @@
 
 #include <sinew/core/error.h>
 
-namespace sinew {
-namespace {
+namespace sinew::background_test {
 
 void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
 
@@ -110,5 +109,4 @@ TEST(Background, AFailedHandOverLeavesItUsable) {
   EXPECT_EQ(done, 1);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::background_test

@@ -6,8 +6,7 @@
 
 #include <sinew/core/parallel.h>
 
-namespace sinew {
-namespace {
+namespace sinew::base64_test {
 
 std::string noise(std::size_t count) {
   std::mt19937 random(static_cast<unsigned>(count));
@@ -60,5 +59,4 @@ TEST(Base64, OfNoMeaningHoldsNoBytes) {
   EXPECT_EQ(bytes_in_base64("AAAAA"), 3u);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::base64_test

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace sinew {
-namespace {
+namespace sinew::cell_grid_test {
 
 Points cloud(std::size_t count, const Vec3& size, unsigned seed = 1, const Vec3& at = {0, 0, 0}) {
   std::mt19937 random(seed);
@@ -128,5 +127,4 @@ TEST(Neighbors, AreNeverCapped) {
   for (std::uint32_t i = 0; i < lists.size(); ++i) ASSERT_EQ(lists.of(i).size(), 1999u);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::cell_grid_test

@@ -5,8 +5,7 @@
 
 #include "expect_error.h"
 
-namespace sinew {
-namespace {
+namespace sinew::dataset_test {
 
 using test::expect_bad_input;
 
@@ -47,5 +46,4 @@ TEST(Dataset, CountsCellsByTheirKind) {
   EXPECT_TRUE(vertex_cells(0).empty());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::dataset_test

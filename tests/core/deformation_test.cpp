@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::deformation_test {
 
 using test::affine;
 using test::random_matrix;
@@ -114,5 +113,4 @@ TEST(RotationPart, IsProperForInvertedAndSingularGradients) {
   EXPECT_LT((rotation_part(R * Vec3(1.2, 1, 0).asDiagonal()) - R).norm(), 1e-12);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::deformation_test

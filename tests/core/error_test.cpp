@@ -5,8 +5,7 @@
 
 #include <sinew/settings/settings.h>
 
-namespace sinew {
-namespace {
+namespace sinew::error_test {
 
 TEST(Error, GivesPlaceWhatAndCureInOneLine) {
   const Error error = bad_input({"a.yaml", 3, 7}, "it is wrong", "right it");
@@ -40,5 +39,4 @@ TEST(Settings, FindThePlaceOfTheNearestEnclosingPath) {
   EXPECT_EQ(Settings().place("body.mesh").text(), "");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::error_test

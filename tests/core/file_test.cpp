@@ -5,8 +5,7 @@
 
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::file_test {
 
 using File = Scratch;
 
@@ -73,5 +72,4 @@ TEST_F(File, ReadsOnlyRegularFiles) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::file_test

@@ -6,8 +6,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::neighbors_test {
 
 Points cloud(std::size_t count) {
   std::mt19937 random(3);
@@ -46,5 +45,4 @@ TEST(NeighborsWithin, AreTheSameForEveryThreadCount) {
     });
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::neighbors_test

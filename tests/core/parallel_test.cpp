@@ -10,8 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace sinew {
-namespace {
+namespace sinew::parallel_test {
 
 constexpr int thread_counts[] = {1, 2, 3, 8};
 
@@ -88,5 +87,4 @@ TEST(ParallelFor, HandsExceptionsToTheCaller) {
   EXPECT_THROW(with_threads(3, job), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::parallel_test

@@ -12,8 +12,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::particles_test {
 
 TEST(Hash, IsFnv1aOf64Bits) {  // published vectors of the algorithm
   Hash hash;
@@ -90,5 +89,4 @@ TEST(ClosestPacking, HasTwelveNeighborsAndThePaperCounts) {
   EXPECT_EQ(test::fcc_box(11, 11, 49, r).size(), 2965u);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::particles_test

@@ -6,8 +6,7 @@
 #include <sinew/core/error.h>
 #include <sinew/settings/table.h>
 
-namespace sinew {
-namespace {
+namespace sinew::requested_arrays_test {
 
 using Names = std::vector<std::string_view>;
 
@@ -39,5 +38,4 @@ TEST(RequestedArrays, AreAllNamedByTheHelpOfTheSetting) {
   FAIL() << "output.arrays is no setting";
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::requested_arrays_test

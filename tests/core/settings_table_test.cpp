@@ -6,8 +6,7 @@
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 
-namespace sinew {
-namespace {
+namespace sinew::settings_table_test {
 
 /// A value of the field's kind, in its range, that differs from `seed` to `seed`.
 template <class Owner>
@@ -173,5 +172,4 @@ TEST(SceneText, EscapesWhatAQuotedTextCannotHold) {
   EXPECT_EQ(scene_text(std::string("a\nb\tc\x01"), ""), R"("a\x0ab\x09c\x01")");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::settings_table_test

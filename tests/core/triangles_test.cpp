@@ -5,8 +5,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::triangles_test {
 
 Triangles tetrahedron(const Vec3& at) {
   return {{at, at + Vec3::UnitX(), at + Vec3::UnitY(), at + Vec3::UnitZ()},
@@ -77,5 +76,4 @@ TEST(PointNormals, AreZeroWhereNoFaceHasAnArea) {
   for (const Vec3& normal : normals) EXPECT_EQ(normal, Vec3::Zero());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::triangles_test

@@ -3,8 +3,7 @@
 
 #include <sinew/core/text.h>
 
-namespace sinew {
-namespace {
+namespace sinew::words_test {
 
 TEST(Shown, KeepsLettersOfAnyLanguage) {
   for (const char* text : {"", "radius", "\xC3\xA9", "\xE7\xAD\x8B", "\xF0\x9F\xA6\xB4"})
@@ -25,5 +24,4 @@ TEST(Shown, CutsAfter40LettersWhateverTheBytes) {
   EXPECT_EQ(shown(std::string(1000, '\x80')), '\'' + std::string(40, '?') + "...'");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::words_test

@@ -9,8 +9,7 @@
 #include <sinew/mesh/read_surface.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::broken_test {
 
 PolygonSoup triangles_of(const PolygonSoup& soup) {
   const Triangles triangles = clean(soup).triangles;
@@ -69,5 +68,4 @@ TEST(BrokenMesh, ThatStillClosesLosesNothing) {
       EXPECT_EQ(wrong_share(body, broken), 0);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::broken_test

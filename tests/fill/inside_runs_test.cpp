@@ -12,8 +12,7 @@
 #include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::inside_runs_test {
 
 Lattice lattice_about(const Surface& surface, Packing packing, double radius,
                       const std::optional<Vec3>& origin = std::nullopt) {
@@ -232,5 +231,4 @@ TEST(AmbiguousShare, TellsWhatHasNoInside) {
   EXPECT_LT(share(shapes::without(shapes::sphere(1, 3), 0.05)), 0.2);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::inside_runs_test

@@ -5,8 +5,7 @@
 
 #include <sinew/core/particles.h>
 
-namespace sinew {
-namespace {
+namespace sinew::lattice_test {
 
 Points sites_in(const Box& box, Packing packing, double radius) {
   const Lattice lattice = lattice_in(box, packing, radius);
@@ -91,5 +90,4 @@ TEST(Fcc, SitesAreTheEvenOnesOfAGridOfStepRootTwoR) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::lattice_test

@@ -6,8 +6,7 @@
 #include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::moments_test {
 
 TEST(Moments, OfABoxAreThoseOfTextbooks) {
   const Vec3 low(100, 2, -3), size(1, 2, 4);
@@ -27,5 +26,4 @@ TEST(Moments, OfParticlesCountEachAsABall) {
   EXPECT_EQ(two.center, Vec3(0, 0, 0));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::moments_test

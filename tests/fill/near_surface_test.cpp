@@ -11,8 +11,7 @@
 #include <sinew/core/particles.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::near_surface_test {
 
 using Far = Eigen::Matrix<long double, 3, 1>;
 
@@ -228,5 +227,4 @@ TEST_P(Near, IsEmptyForNothingAndForWhatIsFarOff) {
   EXPECT_TRUE(runs_near(lattice, triangles_of(moved), 1).empty());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::near_surface_test

@@ -17,8 +17,7 @@
 #include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::pack_test {
 
 const std::string paper_box = SINEW_SOURCE_DIR "/data/meshes/box.obj";
 
@@ -381,5 +380,4 @@ TEST(Pack, WantsEitherARadiusOrACount) {
               std::string::npos);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::pack_test

@@ -7,8 +7,7 @@
 #include <sinew/mesh/read_surface.h>
 #include "mesh/mesh_files.h"
 
-namespace sinew {
-namespace {
+namespace sinew::paper_box_test {
 
 const std::string paper_box = SINEW_SOURCE_DIR "/data/meshes/box.obj";
 
@@ -42,5 +41,4 @@ TEST(PaperBox, HoldsThePapers2965Particles) {
   EXPECT_EQ(filling.report.neighbors[12], (9u * 9 * 47 - 1) / 2);  // a half-plane within
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::paper_box_test

@@ -7,8 +7,7 @@
 #include <map>
 #include <random>
 
-namespace sinew {
-namespace {
+namespace sinew::runs_test {
 
 using RunList = std::vector<Run>;                 // in a test, Run is one of its own members
 using Sites = std::map<std::array<int, 2>, int>;  // row and site: body
@@ -75,5 +74,4 @@ TEST(Runs, OfNothing) {
   EXPECT_TRUE(runs_without(runs, runs).empty());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::runs_test

@@ -8,8 +8,7 @@
 #include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::touching_test {
 
 class TouchingInPacking : public testing::TestWithParam<Packing> {};
 INSTANTIATE_TEST_SUITE_P(Touching, TouchingInPacking, testing::Values(Packing::fcc, Packing::hcp));
@@ -41,5 +40,4 @@ TEST_P(TouchingInPacking, TellsGroupsThatDoNotTouch) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::touching_test

@@ -11,8 +11,7 @@
 #include "rig/bvh/bvh_files.h"
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bvh_test {
 
 using bvh_files::replaced;
 
@@ -284,5 +283,4 @@ TEST_F(HostileBvhFile, FilesThatCannotBeReadAreNamed) {
   EXPECT_TRUE(contains(error_of([&] { read_bvh(path); }).what(), path.string() + ":2:1: "));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bvh_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew {
-namespace {
+namespace sinew::gltf_nodes_test {
 
 TEST_F(HostileGltf, OfWrongNodesIsRefused) {
   expect_refused_with("/nodes/0/children", {0}, "children of themselves");
@@ -159,5 +158,4 @@ TEST_F(HostileGltf, OfBadDataUrisIsRefused) {
     EXPECT_TRUE(contains(said("data:;base64," + (wrong + good)), "is not in base64")) << wrong;
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::gltf_nodes_test

@@ -8,8 +8,7 @@
 #include <sinew/io/gltf/rig.h>
 #include "io/gltf_rigs.h"
 
-namespace sinew {
-namespace {
+namespace sinew::gltf_rig_test {
 
 using namespace gltf_files;
 
@@ -326,5 +325,4 @@ TEST_F(HostileGltfRig, ThatRepeatsItsKeysBeyondMemoryIsRefusedSoon) {
   expect_refused(gltf, "hold 9437184000 keys, too many; export fewer of them");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::gltf_rig_test

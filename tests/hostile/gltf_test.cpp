@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew {
-namespace {
+namespace sinew::gltf_test {
 
 TEST_F(HostileGltf, IsTakenWhenNothingIsWrong) {
   for (const Form form : forms) EXPECT_EQ(answer(write(folder, one_tetrahedron(), form)), "");
@@ -240,5 +239,4 @@ TEST_F(HostileGltf, WithCoordinatesThatAreNoNumbersIsRefused) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::gltf_test

@@ -14,8 +14,7 @@
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 
-namespace sinew {
-namespace {
+namespace sinew::mesh_test {
 
 using mesh_files::Folder;
 
@@ -393,5 +392,4 @@ TEST(Face, OfVeryManyCornersIsRefusedSoon) {
   expect_refused("a.obj", text + face + '\n', "has 100000 corners");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::mesh_test

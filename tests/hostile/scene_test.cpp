@@ -14,8 +14,7 @@
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
-namespace sinew {
-namespace {
+namespace sinew::scene_test {
 
 /// What reading the file and building its rig says; "" when nothing is wrong.
 std::string verdict(const std::filesystem::path& file) {
@@ -101,5 +100,4 @@ TEST(HostileScenes, RandomDamageIsReadOrRefused) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::scene_test

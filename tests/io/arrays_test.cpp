@@ -10,8 +10,7 @@
 #include <sinew/io/single_files.h>
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::arrays_test {
 
 void expect_listed(const std::string& series, ArrayPlace place,
                    const std::vector<Column>& columns) {
@@ -74,5 +73,4 @@ TEST(WrittenArrays, ActiveOnesOfTheParticlesAreBoneAndDisplacement) {
   EXPECT_EQ(find_written("particles", ArrayPlace::point, "displacement")->role, ArrayRole::vectors);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::arrays_test

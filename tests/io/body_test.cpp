@@ -5,8 +5,7 @@
 #include "scratch.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::body_test {
 
 using Body = Scratch;
 
@@ -59,5 +58,4 @@ TEST_F(Body, IsRefusedWhenAnArrayIsMissingOrWrong) {
   EXPECT_TRUE(contains(message([](Dataset& d) { d = {}; }), "no particles"));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::body_test

@@ -5,8 +5,7 @@
 
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bone_table_test {
 
 using BoneTableFile = Scratch;
 
@@ -50,5 +49,4 @@ TEST_F(BoneTableFile, GoesOnAfterTheFramesThatAreKept) {
   EXPECT_TRUE(contains(error.what(), "7 lines where 9")) << error.what();
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bone_table_test

@@ -8,8 +8,7 @@
 #include "expect_error.h"
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::checkpoint_test {
 
 constexpr std::uint64_t particles = 5;
 
@@ -173,5 +172,4 @@ TEST_F(CheckpointFile, BrokenGivesWayToTheOlderOne) {
   test::expect_bad_input([&] { Checkpoints(folder).newest(particles, complaint); }, {"b.bin"});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::checkpoint_test

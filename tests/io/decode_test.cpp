@@ -10,8 +10,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/io/encode.h>
 
-namespace sinew {
-namespace {
+namespace sinew::decode_test {
 
 constexpr Encoding in_elements[] = {Encoding::zlib, Encoding::lz4, Encoding::none};
 
@@ -100,5 +99,4 @@ TEST(Decoded, OfDamagedTextIsNeverTakenForOther) {  // zlib ends in a checksum o
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::decode_test

@@ -7,8 +7,7 @@
 #include <sinew/io/vtu.h>
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::encode_test {
 
 std::vector<double> waves(std::size_t count) {
   std::vector<double> values(count);
@@ -76,5 +75,4 @@ TEST_F(EncodedVtu, NamesWithSignsOfXmlComeBack) {
   EXPECT_EQ(read_vtu(folder / "f.vtu").point_columns.front().name, "<a & \"b\">");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::encode_test

@@ -5,8 +5,7 @@
 
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::frames_test {
 
 constexpr double rounding = 1e-14;
 
@@ -138,5 +137,4 @@ TEST(FramesDataset, GivesTheTwistInDegrees) {
   EXPECT_NEAR(numbers(data.point_columns, "twist")[1], 30, 1e-12);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::frames_test

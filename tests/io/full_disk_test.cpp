@@ -8,8 +8,7 @@
 #include "scratch.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::full_disk_test {
 
 class FullDisk : public Scratch {
  protected:
@@ -78,5 +77,4 @@ TEST_F(FullDisk, SeriesKeepsTheFramesItHas) {
   EXPECT_EQ(read_pvd(folder / "bones.pvd").size(), 1u);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::full_disk_test

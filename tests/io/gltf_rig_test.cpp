@@ -8,8 +8,7 @@
 #include "expect_error.h"
 #include "io/gltf_rigs.h"
 
-namespace sinew {
-namespace {
+namespace sinew::gltf_rig_test {
 
 using namespace gltf_files;
 using test::expect_bad_input;
@@ -330,5 +329,4 @@ TEST(BoxBendGlb, HoldsTheBoxAndItsWeights) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::gltf_rig_test

@@ -3,8 +3,7 @@
 
 #include "io/gltf_files.h"
 
-namespace sinew {
-namespace {
+namespace sinew::gltf_test {
 
 using namespace gltf_files;
 
@@ -292,5 +291,4 @@ TEST_F(ReadGltf, TakesAFileFromTheCurrentFolder) {
   std::filesystem::current_path(before);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::gltf_test

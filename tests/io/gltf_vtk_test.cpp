@@ -4,8 +4,7 @@
 #include <sinew/io/gltf/rig.h>
 #include "io/gltf_rigs.h"
 
-namespace sinew {
-namespace {
+namespace sinew::gltf_vtk_test {
 
 using namespace gltf_files;
 
@@ -347,5 +346,4 @@ TEST_F(GltfTrianglesAndVtk, AgreeOnEveryLayoutOfNumbers) {
     }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::gltf_vtk_test

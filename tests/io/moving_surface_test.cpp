@@ -6,8 +6,7 @@
 #include <sinew/io/point_cache.h>
 #include "io/gltf_rigs.h"
 
-namespace sinew {
-namespace {
+namespace sinew::moving_surface_test {
 
 constexpr double interval = 0.25;  // s
 constexpr double single = 1e-6;
@@ -89,5 +88,4 @@ TEST_F(MovingSurface, OfACacheThatIsNoneIsRefused) {
   EXPECT_EQ(error_of(write).exit(), Exit::bad_input);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::moving_surface_test

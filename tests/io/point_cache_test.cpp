@@ -8,8 +8,7 @@
 
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::point_cache_test {
 
 using PointCacheFile = Scratch;
 
@@ -79,5 +78,4 @@ TEST_F(PointCacheFile, HoldsPointsAndFacesInOrder) {
   EXPECT_EQ(read_file(path), "# surface at rest, m\nv 0 0 0\nv 1 0 0.1\nv 0 1 0\nf 1 2 3\n");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::point_cache_test

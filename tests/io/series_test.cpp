@@ -12,8 +12,7 @@
 #include "scratch.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::series_test {
 
 using SeriesFiles = Scratch;
 
@@ -219,5 +218,4 @@ TEST_F(SeriesFiles, APvdReplacedWithoutPauseIsNeverTorn) {
   EXPECT_GT(before, 0U);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::series_test

@@ -3,8 +3,7 @@
 
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::view_script_test {
 
 using ViewScript = Scratch;
 
@@ -20,5 +19,4 @@ TEST_F(ViewScript, KnowsTheFolderItWasLeftIn) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::view_script_test

@@ -21,8 +21,7 @@
 #include <sinew/io/vtu.h>
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::vtu_foreign_test {
 
 constexpr int count = 20'000;  // several blocks
 
@@ -206,5 +205,4 @@ TEST_F(RefusedVtu, HasAnArrayTooShortOrTooFarBehind) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::vtu_foreign_test

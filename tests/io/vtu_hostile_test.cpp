@@ -7,8 +7,7 @@
 #include "scratch.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::vtu_hostile_test {
 
 class HostileVtu : public Scratch {
  protected:
@@ -163,5 +162,4 @@ INSTANTIATE_TEST_SUITE_P(All, DamagedVtu,
                          testing::Values(Encoding::zlib, Encoding::lz4, Encoding::raw,
                                          Encoding::none));
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::vtu_hostile_test

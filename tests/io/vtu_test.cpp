@@ -5,8 +5,7 @@
 #include "scratch.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::vtu_test {
 
 using Vtu = Scratch;
 
@@ -156,5 +155,4 @@ TEST_F(Vtu, AMissingFolderIsNamed) {
   EXPECT_TRUE(contains(error.what(), "absent/f.vtu")) << error.what();
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::vtu_test

@@ -5,8 +5,7 @@
 
 #include <sinew/core/error.h>
 
-namespace sinew {
-namespace {
+namespace sinew::xml_test {
 
 std::string times(int count, const std::string& text) {
   std::string all;
@@ -84,5 +83,4 @@ TEST(Xml, ThatIsNoneOrHasDeclarationsIsRefused) {
     EXPECT_FALSE(is_read(xml)) << xml;
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::xml_test

@@ -15,8 +15,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::beam_test {
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
@@ -255,5 +254,4 @@ TEST(Beam, BendsSagsSwingsAndTwistsAsTheorySays) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::beam_test

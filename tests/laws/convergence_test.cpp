@@ -10,8 +10,7 @@
 
 #include "physics/all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::convergence_test {
 
 constexpr double r = 0.01;
 
@@ -180,5 +179,4 @@ TEST(Convergence, InSinglePrecisionIsTheSameUntilRounding) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::convergence_test

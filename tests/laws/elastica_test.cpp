@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::elastica_test {
 
 using Vector = Eigen::VectorXd;
 
@@ -141,5 +140,4 @@ TEST(Elastica, IsTheShapeOfASlenderBondedBeam) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::elastica_test

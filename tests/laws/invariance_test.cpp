@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::invariance_test {
 
 /// A bonded bar of 0.14 x 0.14 x 0.5 m, filled with particles of radius r and bent by 60 degrees;
 /// `scale` makes all lengths and times longer.
@@ -79,5 +78,4 @@ TEST(Result, IsTheSameInAnyUnitOfLength) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::invariance_test

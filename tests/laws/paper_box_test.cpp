@@ -8,8 +8,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::paper_box_test {
 
 constexpr double r = 0.010;
 
@@ -137,5 +136,4 @@ TEST(PaperBox, AtRestIsUnstableWithTheLiteralRangeAndStableBelow2Point75Radii) {
   EXPECT_LT(speed_after_noise(2.75), 1e-12);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::paper_box_test

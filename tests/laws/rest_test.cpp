@@ -3,8 +3,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::rest_test {
 
 TEST(PaperBox, AtRestStaysAtRestFor10000Steps) {
   Simulation simulation =
@@ -14,5 +13,4 @@ TEST(PaperBox, AtRestStaysAtRestFor10000Steps) {
   EXPECT_LT(test::largest_speed(simulation.particles()), 1e-13);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::rest_test

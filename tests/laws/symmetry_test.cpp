@@ -9,8 +9,7 @@
 
 #include "physics/all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::symmetry_test {
 
 constexpr double r = 0.01;
 constexpr int half_planes = 25;
@@ -211,5 +210,4 @@ TEST(Symmetry, AnEvenMotionOfEverythingChangesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::symmetry_test

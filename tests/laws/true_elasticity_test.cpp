@@ -8,8 +8,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::true_elasticity_test {
 
 constexpr double r = 0.01;
 
@@ -139,5 +138,4 @@ TEST(StepLimit, OfSolidsIsFoundWhereItIsPredicted) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::true_elasticity_test

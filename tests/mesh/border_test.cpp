@@ -8,8 +8,7 @@
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 
-namespace sinew {
-namespace {
+namespace sinew::border_test {
 
 using shapes::sphere;
 using shapes::together;
@@ -140,5 +139,4 @@ TEST(Loops, CountEdgesThatStandTwiceTwice) {
   EXPECT_EQ(loops[1].points, (std::vector{0, 1, 3}));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::border_test

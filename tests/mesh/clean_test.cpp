@@ -7,8 +7,7 @@
 #include "expect_error.h"
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::clean_test {
 
 PolygonSoup unit_box() { return shapes::box(Vec3::Zero(), Vec3::Ones()); }
 
@@ -177,5 +176,4 @@ TEST(Clean, TakesAFlatSheet) {
   EXPECT_EQ(surface.cleaning.faces_turned, 0u);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::clean_test

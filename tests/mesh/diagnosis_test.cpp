@@ -8,8 +8,7 @@
 #include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::diagnosis_test {
 
 using shapes::sphere;
 using shapes::together;
@@ -148,5 +147,4 @@ TEST(Defects, NameTheFacesThatCutEachOtherAndThoseWithoutArea) {
   EXPECT_TRUE(found.flat.back());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::diagnosis_test

@@ -6,8 +6,7 @@
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
 
-namespace sinew {
-namespace {
+namespace sinew::orient_test {
 
 using shapes::flipped;
 using shapes::inverted;
@@ -247,5 +246,4 @@ TEST(Orient, LetsPiecesFollowTheirOwnBody) {
   EXPECT_EQ(clean(together(finned, inverted(large))).cleaning.faces_turned, large.polygons.size());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::orient_test

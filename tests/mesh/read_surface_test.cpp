@@ -10,8 +10,7 @@
 #include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::read_surface_test {
 
 using mesh_files::Folder;
 
@@ -208,5 +207,4 @@ TEST(Read, NamesTheFileInWhatCleaningRefuses) {
                          {path + ": all 1 faces are collapsed"});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::read_surface_test

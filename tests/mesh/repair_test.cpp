@@ -12,8 +12,7 @@
 #include <sinew/mesh/border.h>
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::repair_test {
 
 Triangles triangles_of(const PolygonSoup& soup) {
   Triangles triangles{soup.points, {}};
@@ -290,5 +289,4 @@ TEST(Wrap, RefusesALeak) {
   EXPECT_NE(refusal(sheet, 0.1).find("little more than the film"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::repair_test

@@ -11,8 +11,7 @@
 #include "expect_error.h"
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::surface_distance_test {
 
 Surface box_of(const Vec3& low, const Vec3& high) {
   return prepare(shapes::box(low, high), BodyOptions());
@@ -68,5 +67,4 @@ TEST(SurfaceDistance, RefusesHoles) {
   test::expect_bad_input([&] { SurfaceDistance distance(surface); }, {"not closed (holes: 1)"});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::surface_distance_test

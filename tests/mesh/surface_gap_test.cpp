@@ -10,8 +10,7 @@
 #include "expect_error.h"
 #include "mesh/shapes.h"
 
-namespace sinew {
-namespace {
+namespace sinew::surface_gap_test {
 
 Triangles surface_of(const PolygonSoup& soup) { return prepare(soup, BodyOptions()).triangles; }
 
@@ -71,5 +70,4 @@ TEST(SurfaceGap, RefusesWhatHasNoArea) {
   EXPECT_THROW(surface_gap(ball, {}), Error);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::surface_gap_test

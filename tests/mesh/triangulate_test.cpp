@@ -7,8 +7,7 @@
 
 #include <sinew/core/error.h>
 
-namespace sinew {
-namespace {
+namespace sinew::triangulate_test {
 
 double area_of(const std::vector<std::array<int, 3>>& triangles, const Points& points) {
   double sum = 0;
@@ -47,5 +46,4 @@ TEST(Triangulate, TakesConvexPolygonsOfAnySizeAndRefusesHugeOthers) {
   EXPECT_THROW(triangulate(polygon, points), Error);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::triangulate_test

@@ -3,8 +3,7 @@
 
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::adherence_test {
 
 constexpr double exact = 1e-12;
 
@@ -82,5 +81,4 @@ TEST(Adherence, ErrorsAtTheJointStayOutOfTheFarField) {
   EXPECT_EQ(m.pose_error_far_rms, 0);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::adherence_test

@@ -5,8 +5,7 @@
 
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::bone_metrics_test {
 
 std::vector<BoneMetrics> bones_of(const RestBody& body, const FrameState& state) {
   return measure_bones(body, state, particle_values(body, state));
@@ -60,5 +59,4 @@ TEST(BoneMetrics, TheFileHasARowPerFrameAndBone) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::bone_metrics_test

@@ -9,8 +9,7 @@
 #include <sinew/metrics/table.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::chart_test {
 
 using Json = nlohmann::json;
 
@@ -168,5 +167,4 @@ TEST(WorstFrames, AreOfferedOfWhatWentWrong) {
   EXPECT_EQ(worst[0].frame, 2u);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::chart_test

@@ -11,8 +11,7 @@
 #include <sinew/metrics/table.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::comparison_test {
 
 ComparedRun some_run(const char* name, double factor) {
   ComparedRun run{name, std::vector<FrameMetrics>(3), {}, r};
@@ -216,5 +215,4 @@ TEST(SideBySide, AFieldThatOnlyOneHasIsNoneForTheOther) {
   EXPECT_FALSE(std::isnan(stress.back()));
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::comparison_test

@@ -10,8 +10,7 @@
 #include <sinew/metrics/table.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::files_test {
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
@@ -123,5 +122,4 @@ TEST(MetricsTable, DescribesEveryMetricOnceInPlainWords) {
   EXPECT_EQ(sizeof(FrameMetrics), metrics_table().size() * sizeof(double));  // none left out
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::files_test

@@ -16,8 +16,7 @@
 #include "golden.h"
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::golden_test {
 
 /// Between -1 and 1, without pattern, the same every time.
 double chance(std::size_t i) {
@@ -214,5 +213,4 @@ TEST(Golden, TheComparisonIsWhatItWas) {
   expect_golden("metrics/golden/comparison.html", own_part(comparison_html(input)));
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::golden_test

@@ -6,8 +6,7 @@
 #include <sinew/core/error.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::limits_test {
 
 std::vector<FrameMetrics> frames_with(std::initializer_list<double> volume_errors) {
   std::vector<FrameMetrics> frames;
@@ -149,5 +148,4 @@ TEST(Limits, HostileExpressionsAreBadInputInOneLine) {
   }
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::limits_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::markup_test {
 
 TEST(Markup, NumbersHaveFourDigitsForReading) {
   EXPECT_EQ(readable(0), "0");
@@ -39,5 +38,4 @@ TEST(Markup, TablesEscapeTheirCellsAndLabelThem) {
   EXPECT_NE(text.find("class=\"number\">a&lt;b</th>"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::markup_test

@@ -11,8 +11,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::measure_test {
 
 constexpr double exact = 1e-12;
 
@@ -311,5 +310,4 @@ TEST(RestBody, RefusesInputThatDoesNotFitTogether) {
   refuses([](RestInput& input) { input.positions[5].z() = INFINITY; });
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::measure_test

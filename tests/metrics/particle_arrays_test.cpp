@@ -7,8 +7,7 @@
 #include <sinew/core/error.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::particle_arrays_test {
 
 constexpr double exact = 1e-12;
 
@@ -182,5 +181,4 @@ TEST(ParticleValues, PullingHalvesApartTurnsOverAThirdOfAnInnerPlane) {
   EXPECT_GT(inner, 4);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::particle_arrays_test

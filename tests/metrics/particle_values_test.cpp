@@ -5,8 +5,7 @@
 
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::particle_values_test {
 
 ParticleValues values_of(const Map& map, RestInput input = box_input()) {
   const RestBody body = rest_body(std::move(input));
@@ -103,5 +102,4 @@ TEST(ParticleValues, NeighborsAreThoseNearerThanTheRange) {
   }
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::particle_values_test

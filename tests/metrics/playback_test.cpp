@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::playback_test {
 
 Playback whole_playback(const RestBody& body, std::size_t frames) {
   Playback playback = plan_playback(body, frames);
@@ -138,5 +137,4 @@ TEST(ThinSurface, KeepsShapeWithFewerPoints) {
   for (const auto& [a, b, c] : thin.faces) EXPECT_TRUE(a != b && b != c && c != a);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::playback_test

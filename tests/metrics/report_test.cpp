@@ -11,8 +11,7 @@
 #include <sinew/metrics/table.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::report_test {
 
 /// A motion of `count` frames in which every metric has a value.
 std::vector<FrameMetrics> some_frames(int count) {
@@ -250,5 +249,4 @@ TEST(Verdict, ScalesTheResidualToo) {
   }
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::report_test

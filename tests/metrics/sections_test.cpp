@@ -8,8 +8,7 @@
 #include <sinew/metrics/bone_metrics.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::sections_test {
 
 constexpr double exact = 1e-12;
 constexpr double half = 0.25;   // of the prism's width, m
@@ -185,5 +184,4 @@ TEST(BoneMetrics, AStretchScalesTheVolumeOfEachBone) {
   }
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::sections_test

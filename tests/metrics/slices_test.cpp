@@ -5,8 +5,7 @@
 
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::slices_test {
 
 constexpr double exact = 1e-9;  // degrees
 
@@ -89,5 +88,4 @@ TEST(Slices, NeedFourParticlesThatAreNotInALine) {
   EXPECT_TRUE(rest_body(input).slices.all.empty());
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::slices_test

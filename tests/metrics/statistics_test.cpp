@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::statistics_test {
 
 TEST(Statistics, OfManyNumbersAreTheirClosedForms) {
   constexpr std::size_t n = 100000;
@@ -41,5 +40,4 @@ TEST(Statistics, PercentilesAreNearestRanksOfWhatWasMeasured) {
   EXPECT_TRUE(std::isnan(percentile(none, 50)));
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::statistics_test

@@ -7,8 +7,7 @@
 #include <sinew/metrics/table.h>
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::summary_test {
 
 FrameMetrics frame(double bone_angle, double displacement, double J = 1) {
   FrameMetrics out;
@@ -136,5 +135,4 @@ TEST(Settling, TheLongestSettlingOfAllHoldsIsTheRuns) {
   EXPECT_TRUE(std::isnan(summarize(frames, r).settling_time));
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::summary_test

@@ -5,8 +5,7 @@
 
 #include "world.h"
 
-namespace sinew::test {
-namespace {
+namespace sinew::test::surface_measures_test {
 
 TEST(SurfaceDistortion, AStretchedSheetHasItsStretches) {
   const Triangles flat = sheet(3);
@@ -62,5 +61,4 @@ TEST(SurfaceDistortion, AnEdgeWithoutLengthAtRestDoesNotCount) {
   EXPECT_LT(surface_distortion(flat, now).edge_stretch, 1.2);
 }
 
-}  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::surface_measures_test

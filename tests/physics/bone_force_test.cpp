@@ -8,8 +8,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bone_force_test {
 
 constexpr double r = 0.01;
 
@@ -258,5 +257,4 @@ TEST(BoneSprings, TakeTheStrengthOfTheirBone) {
   EXPECT_DOUBLE_EQ(own[1].damping, 2 * plain[1].damping);  // critical still
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bone_force_test

@@ -10,8 +10,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bone_forces_test {
 
 constexpr double r = 0.01;
 
@@ -159,5 +158,4 @@ TEST(BoneForces, HaveTheSameBitsForEveryThreadCountAndFollowTheIds) {
     });
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bone_forces_test

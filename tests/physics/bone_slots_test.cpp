@@ -10,8 +10,7 @@
 
 #include "all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bone_slots_test {
 
 constexpr double r = 0.01;
 
@@ -226,5 +225,4 @@ TEST(BoneSlots, OfParticlesThatNoBoneHoldsAreNone) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bone_slots_test

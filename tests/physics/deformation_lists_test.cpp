@@ -4,8 +4,7 @@
 #include "all_steppers.h"
 #include "golden.h"
 
-namespace sinew {
-namespace {
+namespace sinew::deformation_lists_test {
 
 /// A body and its motion, for bodies of r = 10 mm.
 struct Story {
@@ -395,5 +394,4 @@ INSTANTIATE_TEST_SUITE_P(All, ListsThroughStories,
                                           testing::ValuesIn(test::precisions)),
                          name_of);
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::deformation_lists_test

@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::elasticity_test {
 
 constexpr double r = 0.01;
 
@@ -169,5 +168,4 @@ TEST(DampingRatio, IsWhatItWasAskedToBe) {
   EXPECT_GT(material.damping, 0);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::elasticity_test

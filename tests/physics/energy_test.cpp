@@ -4,8 +4,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::energy_test {
 
 constexpr double r = 0.01;
 
@@ -113,5 +112,4 @@ TEST(Energy, AtRestIsTheCohesionOfAllBonds) {
   EXPECT_EQ(energies.gravity, 0);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::energy_test

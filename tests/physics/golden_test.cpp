@@ -13,8 +13,7 @@
 #include "golden.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::golden_test {
 
 constexpr double r = 0.01;
 constexpr int height = 9;  // half-planes
@@ -291,5 +290,4 @@ TEST(Golden, ConstantsAreWhatTheyWere) {
   test::expect_golden("physics/golden/constants.csv", text);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::golden_test

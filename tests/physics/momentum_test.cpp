@@ -8,8 +8,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::momentum_test {
 
 constexpr double r = 0.01;
 
@@ -183,5 +182,4 @@ TEST(Damping, OfBodiesIsAtMostTheRateThatStepLimitsCountOn) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::momentum_test

@@ -8,8 +8,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::muscles_test {
 
 constexpr double r = 0.01, S = 5000;
 const Vec3 aslant = Vec3(1, -2, 3).normalized();
@@ -296,5 +295,4 @@ TEST(Muscles, BadOnesAreRefusedByName) {
   refused([](Muscle& m) { m.activation = {{1}, {}}; }, "1 times and 0 values");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::muscles_test

@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::near_pieces_test {
 
 const ListRanges ranges{1, 1.2, 2};
 constexpr double dt = 0.01;
@@ -176,5 +175,4 @@ TEST(NearPieces, ListOnlyWhatAFastPieceCanMeet) {
   EXPECT_LT(cloud.listed, 314 * 3);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::near_pieces_test

@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::obstacle_work_test {
 
 constexpr double r = 0.01, mass = 0.005;
 
@@ -91,5 +90,4 @@ TEST(Obstacles, WhatTheyPutInIsStoredLostOrGivenToTheParticles) {
   EXPECT_NEAR(powers.obstacles, stored + powers.lost + given, 1e-5 * std::abs(powers.obstacles));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::obstacle_work_test

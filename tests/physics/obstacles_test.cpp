@@ -9,8 +9,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::obstacles_test {
 
 constexpr double r = 0.01, mass = 0.005, g = 9.81;
 
@@ -353,5 +352,4 @@ TEST(Obstacles, BadOnesAreRefusedByName) {
   EXPECT_NO_THROW(check_obstacle(floor_of(Vec3::UnitZ())));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::obstacles_test

@@ -9,8 +9,7 @@
 
 #include "all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::offset_lists_test {
 
 constexpr double r = 0.01;
 
@@ -244,5 +243,4 @@ TYPED_TEST(BlockStateOf, PadsAreFarFromAllAndFromEachOther) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::offset_lists_test

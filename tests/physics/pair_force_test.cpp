@@ -6,8 +6,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::pair_force_test {
 
 /// Different stiffness on both sides and a gap between 2r and a, to distinguish all terms.
 constexpr PairForce gapped = {0.01, 3000, 50000, 0.022, 0.027};
@@ -136,5 +135,4 @@ TEST(Material, YoungsModulusIsTheHillAverageOfTheLattice) {
   EXPECT_NEAR((3 * bulk - 2 * shear) / (2 * (3 * bulk + shear)), hill_poisson, 1e-3);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::pair_force_test

@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::pair_forces_test {
 
 constexpr double r = 0.01;
 constexpr DampingForm forms[] = {DampingForm::paper, DampingForm::symmetric, DampingForm::central};
@@ -197,5 +196,4 @@ TEST(PairForces, HaveTheSameBitsForEveryThreadCount) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::pair_forces_test

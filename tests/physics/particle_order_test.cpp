@@ -8,8 +8,7 @@
 
 #include "all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::particle_order_test {
 
 constexpr double r = 0.01;
 
@@ -101,5 +100,4 @@ TEST(OrderAtRest, LeavesWhatIsOnNoLatticeAsItIs) {
   EXPECT_EQ(order_at_rest(test::make_body(settings, rest)), given);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::particle_order_test

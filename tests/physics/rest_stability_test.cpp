@@ -6,8 +6,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::rest_stability_test {
 
 Material material_with(double a, double b, MaterialModel model = MaterialModel::paper) {
   Settings settings = test::box_scene();
@@ -53,5 +52,4 @@ TEST(RestStability, ChecksBothPackings) {
   EXPECT_FALSE(rests_stably(material_with(2.1, 2.7)));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::rest_stability_test

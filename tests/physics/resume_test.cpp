@@ -10,8 +10,7 @@
 #include "all_steppers.h"
 #include "expect_error.h"
 
-namespace sinew {
-namespace {
+namespace sinew::resume_test {
 
 constexpr double r = 0.01;
 
@@ -314,5 +313,4 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   refuse(tearing("", MaterialModel::bonded), bad, "bonds");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::resume_test

@@ -4,8 +4,7 @@
 
 #include "all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::same_bits_test {
 
 constexpr double r = 0.01;
 
@@ -180,5 +179,4 @@ TEST(SameBits, HoweverOftenForcesAndEnergiesAreEvaluated) {
     }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::same_bits_test

@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::shape_surface_test {
 
 const Shape ball = SphereShape{{0.2, 0.1, -0.1}, 0.7};
 const Shape capsule = CapsuleShape{{-0.4, 0, 0.1}, {0.5, 0.3, -0.2}, 0.3};
@@ -62,5 +61,4 @@ TEST(ShapeSurface, OfAPlaneIsASquareThatFacesOutward) {
 
 TEST(ShapeSurface, OfAMeshIsItsOwn) { EXPECT_TRUE(surface_of(MeshShape{}, 1).faces.empty()); }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::shape_surface_test

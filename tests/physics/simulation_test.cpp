@@ -12,8 +12,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::simulation_test {
 
 constexpr double r = 0.01;
 constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::explicit_euler,
@@ -294,5 +293,4 @@ TEST(Forces, AreThoseOfThePresentMomentAndSumToTheAcceleration) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::simulation_test

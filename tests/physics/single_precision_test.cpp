@@ -3,8 +3,7 @@
 // bend.
 #include "all_steppers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::single_precision_test {
 
 constexpr double r = 0.01;
 
@@ -137,5 +136,4 @@ TEST(SinglePrecision, GivesTheEnergiesOfDoublePrecision) {
   EXPECT_NEAR(a.kinetic, b.kinetic, 2e-6 * b.kinetic);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::single_precision_test

@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::solid_test {
 
 constexpr double r = 0.01;
 
@@ -201,5 +200,4 @@ TEST(Bonds, CreepAfterWhatExceedsTheYieldStrain) {
   EXPECT_EQ(solid.bonds().broken[0], 0);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::solid_test

@@ -6,8 +6,7 @@
 #include "all_steppers.h"
 #include "expect_error.h"
 
-namespace sinew {
-namespace {
+namespace sinew::steppers_test {
 
 constexpr double r = 0.01;
 constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::explicit_euler,
@@ -328,5 +327,4 @@ TEST(Failures, NameTheSameStepOfARunThatIsUnstable) {
   EXPECT_EQ(last_words(settings, rest, particles, step, 200), expected);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::steppers_test

@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::thin_body_test {
 
 constexpr double r = 0.01, noise = 1e-9;  // m/s
 
@@ -89,5 +88,4 @@ TEST(ThinBody, LeavesTheClosedFormsToThickBodies) {
             step_limit(Integrator::symplectic_euler, body.material, body.springs));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::thin_body_test

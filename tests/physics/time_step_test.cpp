@@ -9,8 +9,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::time_step_test {
 
 constexpr double r = 0.01, noise = 1e-9;  // m/s
 
@@ -211,5 +210,4 @@ TEST(ChooseStep, RefusesFramesOfBillionsOfSteps) {
   test::expect_bad_input([&] { choose_step(solver, 1, 1); }, {"steps", "; "});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::time_step_test

@@ -9,8 +9,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::world_fields_test {
 
 constexpr Grain grain = {0.005, 6e-6};
 
@@ -190,5 +189,4 @@ TEST(Pins, BadOnesAreRefused) {
   test::expect_bad_input([&] { pinned(row, {lost}, 2); }, {"pin 0", "bone 2 of 2"});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::world_fields_test

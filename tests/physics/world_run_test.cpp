@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::world_run_test {
 
 constexpr double r = 0.01;
 
@@ -230,5 +229,4 @@ bool rests(double share) {
 
 TEST(WorldRun, TheStepLimitCountsTheObstacles) { EXPECT_TRUE(rests(0.99)); }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::world_run_test

@@ -9,8 +9,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::world_shapes_test {
 
 BoxShape tilted_box() { return {{0.1, -0.2, 0.3}, {0.5, 0.3, 0.8}, test::turned({1, 2, 3}, 40)}; }
 const SphereShape sphere = {{0.2, 0.1, -0.1}, 0.7};
@@ -209,5 +208,4 @@ TEST(WorldShapes, ARegionFadesOverItsEdge) {
   test::expect_bad_input([&] { check_region({sphere, -1}, "it"); }, {"it has a falloff of -1"});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::world_shapes_test

@@ -8,8 +8,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::world_test {
 
 constexpr double r = 0.01;
 
@@ -258,5 +257,4 @@ TEST(World, WhatIsWrongIsRefused) {
   test::expect_bad_input([&] { check_world(world); }, {"drag has a rate of"});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::world_test

@@ -6,8 +6,7 @@
 
 #include "helpers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::camera_test {
 
 TEST(Camera, view_is_a_rotation_with_z_upwards) {
   const Mat3 view = three_quarter_view();
@@ -39,5 +38,4 @@ TEST(Camera, the_tighter_side_decides_the_scale) {
   EXPECT_DOUBLE_EQ(meters_per_pixel(frame, 400, 100), 0.01);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::camera_test

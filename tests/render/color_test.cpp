@@ -8,8 +8,7 @@
 
 #include <sinew/render/snapshot.h>
 
-namespace sinew {
-namespace {
+namespace sinew::color_test {
 
 TEST(ColorMap, grows_lighter_all_the_way) {
   for (const auto& [name, map] : color_maps())
@@ -58,5 +57,4 @@ TEST(ColorScale, places_values_between_low_and_high) {
   EXPECT_DOUBLE_EQ((ColorScale{"flat", "", 2, 2}).position(2), 0);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::color_test

@@ -6,8 +6,7 @@
 #include "helpers.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::contact_sheet_test {
 
 std::vector<Snapshot> bending() {
   std::vector<Snapshot> snapshots{synthetic_snapshot(0, 0), synthetic_snapshot(0.8, 0),
@@ -80,5 +79,4 @@ TEST(ContactSheet, refuses_rows_that_differ_in_length) {
   EXPECT_EQ(error_of([&] { contact_sheet(rows, {}); }).exit(), Exit::bad_input);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::contact_sheet_test

@@ -7,8 +7,7 @@
 
 #include "helpers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::display_test {
 
 std::string self() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
@@ -46,5 +45,4 @@ TEST(Display, ends_with_the_program_even_when_that_is_killed) {
   EXPECT_FALSE(std::filesystem::exists(socket));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::display_test

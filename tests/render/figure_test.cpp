@@ -4,8 +4,7 @@
 #include "helpers.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::figure_test {
 
 struct BentBody {
   Snapshot snapshot = synthetic_snapshot(1.6, 0);
@@ -44,5 +43,4 @@ TEST(Figure, needs_a_panel) {
   EXPECT_EQ(error_of([] { figure({}, {}); }).exit(), Exit::bad_input);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::figure_test

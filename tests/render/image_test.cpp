@@ -4,8 +4,7 @@
 #include <sinew/render/text.h>
 #include "helpers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::image_test {
 
 TEST(Image, halving_takes_the_mean_of_four) {
   Image image(4, 2, {0, 0, 0});
@@ -74,5 +73,4 @@ TEST(Text, color_bar_runs_from_low_to_high) {
   EXPECT_EQ(color(189), mapped_color(1));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::image_test

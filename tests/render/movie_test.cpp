@@ -5,8 +5,7 @@
 
 #include "helpers.h"
 
-namespace sinew {
-namespace {
+namespace sinew::movie_test {
 
 void add_frames(Movie& movie, int count, int width, int height) {
   for (int i = 0; i < count; ++i) {
@@ -89,5 +88,4 @@ TEST(Movie, refuses_sizes_h264_has_not_and_frames_that_do_not_fit) {
   EXPECT_EQ(error_of([&] { movie.add(Image(64, 96)); }).exit(), Exit::bad_input);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::movie_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sinew {
-namespace {
+namespace sinew::occlusion_test {
 
 constexpr int side = 40;
 
@@ -41,5 +40,4 @@ TEST(Occlusion, a_ridge_and_an_empty_sky_are_open) {
     EXPECT_NEAR(value, 0, 1e-6);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::occlusion_test

@@ -4,8 +4,7 @@
 #include "helpers.h"
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::picture_test {
 
 PictureOptions options_for(const Snapshot& snapshot, View view, Finish finish = Finish::fine) {
   PictureOptions options{view, {}, 320, 240, 10, finish};
@@ -123,5 +122,4 @@ TEST(Picture, refuses_what_cannot_be_drawn) {
   EXPECT_TRUE(refused());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::picture_test

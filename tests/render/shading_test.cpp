@@ -5,8 +5,7 @@
 
 #include "synthetic_run.h"
 
-namespace sinew {
-namespace {
+namespace sinew::shading_test {
 
 TEST(Shading, box_of_quadrangles_shows_its_cells_and_its_twelve_edges) {
   const Shading skin = make_shading(synthetic_snapshot(0, 0).surface);
@@ -31,5 +30,4 @@ TEST(Shading, keeps_all_edges_of_a_mesh_of_even_triangles) {
   EXPECT_EQ(skin.lines.size(), 1U);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::shading_test

@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::binding_test {
 
 constexpr double r = 0.01;
 const double V0 = volume_per_particle(r);
@@ -229,5 +228,4 @@ TEST(Binding, OfNoParticlesHoldsNothing) {
   EXPECT_EQ(binding.cross_section, (std::vector<double>{0, 0}));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::binding_test

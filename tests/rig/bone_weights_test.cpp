@@ -6,8 +6,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bone_weights_test {
 
 /// Vertices on a grid of a square; weights pass from bone 0 to bone 1 along x.
 struct Sheet {
@@ -88,5 +87,4 @@ TEST(CarriedWeights, HaveTheSameBitsForEveryThreadCount) {
     });
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bone_weights_test

@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::curve_test {
 
 const std::vector<double> uneven = {0.5, 1.0, 2.5, 2.75, 4.0};
 
@@ -207,5 +206,4 @@ TEST(RotationCurve, TangentsAreThoseOfGltf) {
   EXPECT_LT((curve.at(1 + s * h).value.coeffs() - mixed.normalized()).norm(), 1e-14);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::curve_test

@@ -8,8 +8,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::inside_distance_test {
 
 constexpr double r = 0.01;
 const double half_width = 2 * half_plane_spacing(r);  // of a finger of five half-planes
@@ -142,5 +141,4 @@ TEST(InsideDistance, NearOnesAreThoseWithinReach) {
   EXPECT_TRUE(near[hand.crumb].empty());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::inside_distance_test

@@ -7,8 +7,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::joint_limits_test {
 
 /// One bone along `axis` that may lean 40 degrees and turn from -20 to 30.
 Skeleton held_bone(const Vec3& axis) {
@@ -115,5 +114,4 @@ TEST(JointLimits, ReportBoneTimeAndExcess) {
   EXPECT_NEAR(degrees(passed[0].most.twist), 380, 1e-9);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::joint_limits_test

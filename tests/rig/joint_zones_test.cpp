@@ -9,8 +9,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::joint_zones_test {
 
 constexpr double zone = 0.2;  // m
 constexpr double step = 1e-5;
@@ -105,5 +104,4 @@ TEST(JointZones, WithoutLengthThereAreNone) {
   EXPECT_EQ(weights_at(skeleton, zones, skeleton.bones[1].head()), (std::vector<double>{1, 0}));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::joint_zones_test

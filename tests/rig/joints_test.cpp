@@ -7,8 +7,7 @@
 
 #include "expect_error.h"
 
-namespace sinew {
-namespace {
+namespace sinew::joints_test {
 
 using test::expect_bad_input;
 
@@ -84,7 +83,7 @@ TEST(Joints, EachGetsANameOfItsOwn) {
 }
 
 TEST(Joints, RefusesWhatMakesNoSkeleton) {
-  expect_bad_input([] { skeleton_of({}); }, {"no joints", "; "});
+  expect_bad_input([] { skeleton_of(std::vector<Joint>{}); }, {"no joints", "; "});
   expect_bad_input([] { skeleton_of(star({})); }, {"one point", "; "});
   for (const int parent : {-2, 1, 2, 7}) {
     std::vector<Joint> joints = star({{1, 0, 0}, {2, 0, 0}});
@@ -98,5 +97,4 @@ TEST(Joints, RefusesWhatMakesNoSkeleton) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::joints_test

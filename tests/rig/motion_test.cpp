@@ -9,8 +9,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::motion_test {
 
 using test::bend_key;
 using test::expect_bad_input;
@@ -302,5 +301,4 @@ TEST(Motion, RefusesOrdersThatAreNone) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::motion_test

@@ -10,8 +10,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::motion_time_test {
 
 using test::bend_key;
 using test::expect_bad_input;
@@ -250,5 +249,4 @@ TEST(MotionWarnings, TellOfLoopsThatDoNotCloseOfStepsAndOfLimits) {
   expect_warned(limits, {"'upper'", "swing by 30 degrees", "first at 2.5 s", "; "});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::motion_time_test

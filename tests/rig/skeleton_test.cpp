@@ -8,8 +8,7 @@
 #include "expect_error.h"
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::skeleton_test {
 
 using test::expect_bad_input;
 
@@ -158,5 +157,4 @@ TEST(Skeleton, RefusesToHaveNoBones) {
   expect_refused(settings, {"s.yaml:1:1: ", "bones", "; "});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::skeleton_test

@@ -10,8 +10,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::skin_test {
 
 using test::affine;
 using test::turned;
@@ -209,5 +208,4 @@ TEST(Skin, HasTheSameBitsForEveryThreadCount) {
     });
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::skin_test

@@ -8,8 +8,7 @@
 
 #include "world.h"
 
-namespace sinew {
-namespace {
+namespace sinew::skinning_test {
 
 constexpr int slices = 200;
 constexpr double width = 0.3;
@@ -151,5 +150,4 @@ TEST(Skinning, LeavesVerticesWithoutWeights) {
   EXPECT_EQ(dual_quaternion_skinned(points, none, prism.skeleton, pose), points);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::skinning_test

@@ -8,8 +8,7 @@
 #include <sinew/settings/read_scene.h>
 #include "settings/temp_folder.h"
 
-namespace sinew {
-namespace {
+namespace sinew::snapshots_test {
 
 const std::string source = SINEW_SOURCE_DIR;
 
@@ -44,5 +43,4 @@ TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
   }
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::snapshots_test

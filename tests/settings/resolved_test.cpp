@@ -13,8 +13,7 @@
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
-namespace sinew {
-namespace {
+namespace sinew::resolved_test {
 
 const std::vector<std::string> texts = {
     "lower", "upper arm", "true",  "null", "~",     "none",   "auto", "12", "1/30", "#1",
@@ -222,5 +221,4 @@ TEST(SettingsTable, RivalsAreInIt) {
           << path;
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::resolved_test

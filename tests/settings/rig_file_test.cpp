@@ -10,8 +10,7 @@
 
 #include "settings/temp_folder.h"
 
-namespace sinew {
-namespace {
+namespace sinew::rig_file_test {
 
 const std::string body = "body:\n  mesh: box.obj\n  radius: 0.01\n";
 const std::string scene = body + "skeleton:\n  file: rigs/rig.yaml\nmotion:\n  file: clip.yml\n";
@@ -151,5 +150,4 @@ TEST_F(RigFile, RefusesUpAlongForwardAndAnEndBeforeTheStart) {
   expect_message(at("scene.yaml").string() + ":9:8: ", "before it begins");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::rig_file_test

@@ -8,8 +8,7 @@
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
-namespace sinew {
-namespace {
+namespace sinew::scene_test {
 
 struct SceneTest : testing::Test {
   Settings read(const std::string& text, const std::vector<std::string>& sets = {}) {
@@ -257,5 +256,4 @@ TEST(ShippedScenes, TwistTurnsTheUpperBoneAboutItself) {
   EXPECT_GT(settings.binding.joint_zone, 0);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::scene_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sinew {
-namespace {
+namespace sinew::text_file_test {
 
 bool is_text(const std::string& text) {
   try {
@@ -49,5 +48,4 @@ TEST(Places, CountCharactersAndComeBack) {
   EXPECT_EQ(offset_of(text, {"", 9, 9}), text.size());
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::text_file_test

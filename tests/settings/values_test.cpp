@@ -8,8 +8,7 @@
 
 #include <sinew/core/text.h>
 
-namespace sinew {
-namespace {
+namespace sinew::values_test {
 
 TEST(ParseNumber, ReadsDecimalsAndFractions) {
   EXPECT_EQ(parse_number("0.01"), 0.01);
@@ -68,5 +67,4 @@ TEST(Words, ShownTextFitsALine) {
   EXPECT_EQ(shown(umlauts).size(), 40 * 2 + 5u) << "cut between letters, not inside one";
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::values_test

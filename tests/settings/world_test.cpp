@@ -9,8 +9,7 @@
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
-namespace sinew {
-namespace {
+namespace sinew::world_test {
 
 // Begins in line 9 of the scene.
 const std::string everything = R"(world:
@@ -182,5 +181,4 @@ INSTANTIATE_TEST_SUITE_P(
                 "      keys: [{time: 0, activation: 2}]\n",
                 ":14:36: world.muscles[0].keys[0].activation"}));
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::world_test

@@ -12,8 +12,7 @@
 #include "settings/small_scene.h"
 #include "tools/run_program.h"
 
-namespace sinew {
-namespace {
+namespace sinew::command_test {
 
 bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != text.npos;
@@ -234,5 +233,4 @@ TEST(Tables, SettingsAreMarkdown) {
   EXPECT_EQ(run(std::string(TABLES) + " nonsense").exit, 2);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::command_test

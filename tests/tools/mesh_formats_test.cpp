@@ -7,8 +7,7 @@
 #include <sinew/scene/body.h>
 #include <sinew/settings/table.h>
 
-namespace sinew {
-namespace {
+namespace sinew::mesh_formats_test {
 
 TEST(MeshFormats, AreThoseThatTheSettingsHelpLists) {
   const auto table = settings_table();
@@ -19,5 +18,4 @@ TEST(MeshFormats, AreThoseThatTheSettingsHelpLists) {
   EXPECT_EQ(mesh->help, "path of the mesh (" + mesh_formats() + "), relative to the scene file");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::mesh_formats_test

@@ -7,8 +7,7 @@
 #include "rig/bvh/bvh_files.h"
 #include "scratch.h"
 
-namespace sinew {
-namespace {
+namespace sinew::bvh_test {
 
 using bvh_files::replaced;
 
@@ -152,5 +151,4 @@ TEST_F(BvhFile, IsReadAsItsText) {
   EXPECT_EQ(read_bvh(folder / "small.bvh"), parsed(bvh_files::small));
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::bvh_test

@@ -9,8 +9,7 @@
 #include "expect_error.h"
 #include "rig/bvh/bvh_files.h"
 
-namespace sinew {
-namespace {
+namespace sinew::rig_test {
 
 using bvh_files::arm;
 using test::expect_bad_input;
@@ -240,5 +239,4 @@ TEST(BvhRig, RefusesOptionsOutOfRange) {
   refuse([](BvhOptions& o) { o.rate = 1e300; }, {"keys", "; "});
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::rig_test

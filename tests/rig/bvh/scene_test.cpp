@@ -9,8 +9,7 @@
 #include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
 
-namespace sinew {
-namespace {
+namespace sinew::scene_test {
 
 const std::string source = SINEW_SOURCE_DIR;
 
@@ -59,5 +58,4 @@ TEST(BvhScene, TheWalkMovesAsItsScene) {
   expect_same_motion("creature_walk.yaml", "walk.bvh");
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::scene_test
