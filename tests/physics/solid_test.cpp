@@ -145,6 +145,49 @@ TEST(Solid, OnlyNeighborsAtRestAttractWithoutCohesion) {
   }
 }
 
+TEST(Solid, BodiesThatDoNotTouchDoNotDragEachOther) {
+  const Points block = test::fcc_box(3, 3, 3, r);
+  for (const double gap : {1.98, 2.02, 2.3}) {  // in radii, between the nearest
+    Points rest = block;
+    for (const Vec3& point : block)
+      rest.push_back(point + Vec3(0, 0, 2 * half_plane_spacing(r) + gap * r));
+    for (Material material : materials())
+      for (const auto form : {DampingForm::paper, DampingForm::symmetric, DampingForm::central}) {
+        material.damping_form = form;
+        Points apart = rest;  // neighbors at rest are those of the block alone
+        for (std::size_t i = block.size(); i < apart.size(); ++i) apart[i].z() += r;
+        Solid solid(material, apart);
+        Particles particles = particles_at(rest, r, material.mass);
+        for (std::size_t i = block.size(); i < rest.size(); ++i)
+          particles.set_velocity(i, Vec3(0.1, 0, 0.3));
+        Forces forces;
+        solid.forces(particles, forces);
+        double drag = 0;
+        for (const Vec3& force : forces.damping) drag += force.norm();
+        if (gap < 2)
+          EXPECT_GT(drag, 1e-3 * material.damping);
+        else
+          EXPECT_LT(drag, 1e-12 * material.damping);
+      }
+  }
+}
+
+TEST(Solid, CountsBondedAndTouchingParticlesAsNeighbors) {
+  const Points rest = test::fcc_box(5, 5, 5, r);
+  for (const Material& material : materials()) {
+    Solid solid(material, rest);
+    Forces forces;
+    // At 1.2 times the size no one touches, but bonds hold; the paper's attraction ends at 1.3.
+    solid.forces(particles_at(test::affine(rest, 1.2 * Mat3::Identity()), r, material.mass),
+                 forces);
+    EXPECT_EQ(*std::max_element(forces.neighbors.begin(), forces.neighbors.end()), 12);
+    // At 0.7 times the size, six second neighbors touch as well.
+    solid.forces(particles_at(test::affine(rest, 0.7 * Mat3::Identity()), r, material.mass),
+                 forces);
+    EXPECT_EQ(*std::max_element(forces.neighbors.begin(), forces.neighbors.end()), 18);
+  }
+}
+
 TEST(Bonds, BreakBeyondTheirStrainAndReportTheEnergy) {
   const Points rest = test::fcc_box(3, 3, 9, r);
   for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume}) {
@@ -167,7 +210,8 @@ TEST(Bonds, BreakBeyondTheirStrainAndReportTheEnergy) {
       int lacking = 0;
       for (std::size_t j = 0; j < rest.size(); ++j) {
         const auto other = static_cast<std::uint32_t>(j);
-        lacking += solid.bonds().were_neighbors(i, other) && !solid.bonds().bonded(i, other);
+        const bool were_neighbors = i != j && (rest[i] - rest[j]).norm() < 2.2 * r;
+        lacking += were_neighbors && !solid.bonds().bonded(i, other);
         EXPECT_EQ(solid.bonds().bonded(i, other),
                   solid.bonds().bonded(j, static_cast<std::uint32_t>(i)));
       }

@@ -62,7 +62,7 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", point, "force_world", "N", xyz, real, plain,
        "force of obstacles, drag, fields, muscles and pins, if the scene has any"},
       {"particles", point, "neighbors", "1", one, whole, plain,
-       "number of neighbors within the range b"},
+       "number of neighbors within the range b; of solids, bonded or touching"},
       {"particles", point, "broken_bonds", "1", one, whole, plain,
        "number of its broken bonds, if the material has bonds"},
       {"particles", field, "kinetic_energy", "J", one, exact, plain, "kinetic energy"},

@@ -76,26 +76,15 @@ double bone_energy(const Particles& particles, const Body& body, const Pose& pos
                       });
 }
 
-void pairwise_damping(const Particles& particles, const CellGrid& cells, const Material& material,
-                      Forces& forces) {
-  const bool central = material.damping_form == DampingForm::central;
-  for_each_particle(particles.size(), [&](std::size_t i) {
-    Vec3 sum = Vec3::Zero();
-    for_each_neighbor(
-        particles, cells, material.pair.b, i, [&](std::uint32_t j, const Vec3& offset, double d) {
-          const double share = (1.0 / forces.neighbors[i] + 1.0 / forces.neighbors[j]) / 2;
-          const Vec3 approach = particles.velocity(i) - particles.velocity(j);
-          const Vec3 along = direction_from(particles, offset, d, i, j);
-          sum += share * (central ? Vec3(approach.dot(along) * along) : approach);
-        });
-    forces.damping[i] = -material.damping * sum;
-  });
-}
-
 void pair_forces(const Particles& particles, const Material& material, Forces& forces) {
-  pair_pass(
-      particles, material,
-      [&](std::size_t, std::uint32_t, double d) { return material.pair.force(d); }, forces);
+  const PairForce& pair = material.pair;
+  const CellGrid cells = cells_of(particles, pair.b);
+  const auto for_each_partner = [&](std::size_t i, auto&& visit) {
+    for_each_neighbor(
+        particles, cells, pair.b, i,
+        [&](std::uint32_t j, const Vec3& offset, double d) { visit(j, offset, d, pair.force(d)); });
+  };
+  pair_pass(particles, material, for_each_partner, forces);
 }
 
 double pair_energy(const Particles& particles, const PairForce& pair) {

@@ -41,10 +41,6 @@ double energy(const BondStrength& strength, const PairForce& contact, double len
 
 }  // namespace
 
-bool Bonds::were_neighbors(std::size_t i, std::uint32_t j) const {
-  return entry_of(*this, i, j) != none;
-}
-
 bool Bonds::bonded(std::size_t i, std::uint32_t j) const {
   const std::uint32_t entry = entry_of(*this, i, j);
   return entry != none && whole(entry);
@@ -130,18 +126,24 @@ Solid::Solid(const Material& material, Points rest)
   });
 }
 
-/// The force along a pair that cells find, N.
-double Solid::between(std::size_t i, std::uint32_t j, double d) const {
-  const bool touch = d < 2 * material_.pair.r;  // cheaper than searching for a bond
-  if (law_->has_bonds) return touch && !bonds_.bonded(i, j) ? law_->force(material_, d) : 0;
-  if (touch || !bonds_.were_neighbors(i, j)) return law_->force(material_, d);
-  return law_->bond_force(material_, d, d);
+/// Calls visit(j, offset, d, rest length) for what still holds particle i: bonds that are whole; in
+/// the paper's model neighbors at rest within the range of attraction.
+template <class Visit>
+void Solid::for_each_held(const Particles& particles, std::size_t i, const Visit& visit) const {
+  for_each_bond(bonds_, particles, i,
+                [&](std::uint32_t j, const Vec3& offset, double d, double length) {
+                  if (law_->has_bonds || d < material_.pair.b) visit(j, offset, d, length);
+                });
 }
 
-double Solid::potential(std::size_t i, std::uint32_t j, double d) const {
-  if (law_->has_bonds) return bonds_.bonded(i, j) ? 0 : law_->energy(material_, d);
-  return bonds_.were_neighbors(i, j) ? law_->bond_energy(material_, d, d)
-                                     : law_->energy(material_, d);
+/// Calls visit(j, offset, d) for all others that it touches.
+template <class Visit>
+void Solid::for_each_touched(const Particles& particles, const CellGrid& cells, std::size_t i,
+                             const Visit& visit) const {
+  for_each_neighbor(particles, cells, 2 * material_.pair.r, i,
+                    [&](std::uint32_t j, const Vec3& offset, double d) {
+                      if (!bonds_.bonded(i, j)) visit(j, offset, d);
+                    });
 }
 
 /// F_i, J_i and the stress that keeps the volume. Where a bond broke, the body is severed and keeps
@@ -163,16 +165,6 @@ void Solid::find_volumes(const Particles& particles) {
   });
 }
 
-Vec3 Solid::bond_force(const Particles& particles, std::size_t i) const {
-  Vec3 force = Vec3::Zero();
-  for_each_bond(
-      bonds_, particles, i, [&](std::uint32_t j, const Vec3& offset, double d, double length) {
-        force +=
-            law_->bond_force(material_, d, length) * direction_from(particles, offset, d, i, j);
-      });
-  return force;
-}
-
 /// Of its own volume and those of its neighbors.
 Vec3 Solid::volume_force(std::size_t i) const {
   Vec3 force = Vec3::Zero();
@@ -187,29 +179,32 @@ double Solid::volume_energy(std::size_t i) const {
 }
 
 void Solid::forces(const Particles& particles, Forces& forces) {
-  pair_pass(
-      particles, material_,
-      [&](std::size_t i, std::uint32_t j, double d) { return between(i, j, d); }, forces);
-  if (!law_->has_bonds) return;
+  const CellGrid cells = cells_of(particles, 2 * material_.pair.r);
+  const auto for_each_partner = [&](std::size_t i, auto&& visit) {
+    for_each_held(particles, i, [&](std::uint32_t j, const Vec3& offset, double d, double length) {
+      visit(j, offset, d, law_->bond_force(material_, d, length));
+    });
+    for_each_touched(particles, cells, i, [&](std::uint32_t j, const Vec3& offset, double d) {
+      visit(j, offset, d, law_->force(material_, d));
+    });
+  };
+  pair_pass(particles, material_, for_each_partner, forces);
+  if (material_.volume_stiffness <= 0) return;
   find_volumes(particles);
-  for_each_particle(particles.size(), [&](std::size_t i) {
-    forces.pair[i] += bond_force(particles, i);
-    if (material_.volume_stiffness > 0) forces.pair[i] += volume_force(i);
-  });
+  for_each_particle(particles.size(), [&](std::size_t i) { forces.pair[i] += volume_force(i); });
 }
 
 double Solid::energy(const Particles& particles) {
-  const CellGrid cells = cells_of(particles, material_.pair.b);
+  const CellGrid cells = cells_of(particles, 2 * material_.pair.r);
   find_volumes(particles);
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double sum = 0;
-    for_each_neighbor(
-        particles, cells, material_.pair.b, i,
-        [&](std::uint32_t j, const Vec3&, double d) { sum += potential(i, j, d) / 2; });
-    if (law_->has_bonds)
-      for_each_bond(bonds_, particles, i, [&](std::uint32_t, const Vec3&, double d, double length) {
-        sum += law_->bond_energy(material_, d, length) / 2;
-      });
+    for_each_held(particles, i, [&](std::uint32_t, const Vec3&, double d, double length) {
+      sum += law_->bond_energy(material_, d, length) / 2;  // half for each of the two
+    });
+    for_each_touched(particles, cells, i, [&](std::uint32_t, const Vec3&, double d) {
+      sum += law_->energy(material_, d) / 2;
+    });
     if (material_.volume_stiffness > 0) sum += volume_energy(i);
     return sum;
   });

@@ -35,8 +35,6 @@ struct Bonds {
 
   std::size_t size() const { return neighbors.neighbor.size() / 2; }
   bool whole(std::size_t entry) const { return rest_length[entry] > 0; }
-  /// Whether i and j were neighbors at rest.
-  bool were_neighbors(std::size_t i, std::uint32_t j) const;
   /// Whether an unbroken bond connects them.
   bool bonded(std::size_t i, std::uint32_t j) const;
 };
@@ -69,7 +67,9 @@ class Solid {
   /// `rest` in the order of the particles, m.
   Solid(const Material& material, Points rest);
 
-  /// Pair forces, and eq. 2 between neighbors closer than b. Fills pair, damping and neighbors.
+  /// Pair forces, and eq. 2 between partners: particles that are bonded (in the paper's model,
+  /// neighbors at rest closer than b) or touch. Bodies that do not touch must not drag each other.
+  /// Fills pair, damping and neighbors.
   void forces(const Particles& particles, Forces& forces);
   /// Stored in bonds, contacts and volumes, J.
   double energy(const Particles& particles);
@@ -82,9 +82,11 @@ class Solid {
   void restore(const std::vector<double>& rest_length, const std::vector<std::int32_t>& broken);
 
  private:
-  double between(std::size_t i, std::uint32_t j, double d) const;
-  double potential(std::size_t i, std::uint32_t j, double d) const;
-  Vec3 bond_force(const Particles& particles, std::size_t i) const;
+  template <class Visit>
+  void for_each_held(const Particles& particles, std::size_t i, const Visit& visit) const;
+  template <class Visit>
+  void for_each_touched(const Particles& particles, const CellGrid& cells, std::size_t i,
+                        const Visit& visit) const;
   void find_volumes(const Particles& particles);
   Vec3 volume_force(std::size_t i) const;
   double volume_energy(std::size_t i) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One pass over all pairs: their forces, the neighbor counts, and the damping of eq. 2.
 //
-//     pair_pass(particles, material, push, forces);
+//     pair_pass(particles, material, for_each_partner, forces);
 #pragma once
 
 #include <cmath>
@@ -58,41 +58,49 @@ double sum_over_particles(std::size_t particles, Value&& value) {
   });
 }
 
-/// push(i, j, d) is the force along a pair at distance d (N; positive repels). Fills pair, damping
-/// and neighbors.
-template <class Push>
-void pair_pass(const Particles& particles, const Material& material, const Push& push,
-               Forces& forces);
-
 /// Pairwise damping with the mean of both counts, which must be known: conserves momentum, and with
 /// only the part along the pair (central) angular momentum as well.
-void pairwise_damping(const Particles& particles, const CellGrid& cells, const Material& material,
-                      Forces& forces);
+template <class ForEachPartner>
+void pairwise_damping(const Particles& particles, const Material& material,
+                      const ForEachPartner& for_each_partner, Forces& forces) {
+  const bool central = material.damping_form == DampingForm::central;
+  for_each_particle(particles.size(), [&](std::size_t i) {
+    Vec3 sum = Vec3::Zero();
+    for_each_partner(i, [&](std::uint32_t j, const Vec3& offset, double d, double) {
+      const double share = (1.0 / forces.neighbors[i] + 1.0 / forces.neighbors[j]) / 2;
+      const Vec3 approach = particles.velocity(i) - particles.velocity(j);
+      const Vec3 along = direction_from(particles, offset, d, i, j);
+      sum += share * (central ? Vec3(approach.dot(along) * along) : approach);
+    });
+    forces.damping[i] = -material.damping * sum;
+  });
+}
 
-template <class Push>
-void pair_pass(const Particles& particles, const Material& material, const Push& push,
-               Forces& forces) {
+/// for_each_partner(i, visit) calls visit(j, offset, d, force) for every particle j that acts on i:
+/// x_i - x_j, its length (m), and the force along it (N; positive repels). Damping acts between
+/// partners, whose number is the particle's count of neighbors. Fills pair, damping and neighbors.
+template <class ForEachPartner>
+void pair_pass(const Particles& particles, const Material& material,
+               const ForEachPartner& for_each_partner, Forces& forces) {
   forces.pair.resize(particles.size());
   forces.damping.resize(particles.size());
   forces.neighbors.resize(particles.size());
-  const CellGrid cells = cells_of(particles, material.pair.b);
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 force = Vec3::Zero(), velocities = Vec3::Zero();
     int count = 0;
-    for_each_neighbor(particles, cells, material.pair.b, i,
-                      [&](std::uint32_t j, const Vec3& offset, double d) {
-                        force += push(i, j, d) * direction_from(particles, offset, d, i, j);
-                        velocities += particles.velocity(j);
-                        ++count;
-                      });
+    for_each_partner(i, [&](std::uint32_t j, const Vec3& offset, double d, double push) {
+      force += push * direction_from(particles, offset, d, i, j);
+      velocities += particles.velocity(j);
+      ++count;
+    });
     forces.pair[i] = force;
     forces.neighbors[i] = count;
     forces.damping[i] = Vec3::Zero();
-    if (count > 0 && material.damping > 0)  // towards the neighbors' mean velocity
+    if (count > 0 && material.damping > 0)  // towards the partners' mean velocity
       forces.damping[i] = -material.damping * (particles.velocity(i) - velocities / count);
   });
   if (material.damping_form != DampingForm::paper)
-    pairwise_damping(particles, cells, material, forces);
+    pairwise_damping(particles, material, for_each_partner, forces);
 }
 
 }  // namespace sinew
