@@ -67,7 +67,7 @@ using ReportValue = std::variant<std::size_t, double, bool, std::string, Vec3,
 struct ReportRow {
   std::string key;
   ReportValue value;
-  std::string unit = "";
+  std::string unit = {};
 };
 
 /// The report for people and scripts, `particles` first. Counts of defects only where not 0.
