@@ -1,9 +1,10 @@
 # How every room of lib becomes a library sinew::ROOM, installed for find_package(sinew).
 
 # What holds for all our own code: the language, its warnings, and bits that do not depend on fused
-# multiply-adds. Tests draw random numbers and count without asking how wide they are.
+# multiply-adds. Tests draw random numbers and count without asking how wide they are. GCC takes sources that
+# are compiled together for headers, whose types must not depend on anonymous namespaces.
 set(SINEW_COMPILE_OPTIONS -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -ffp-contract=off
-  $<$<BOOL:${SINEW_STRICT}>:-Werror>)
+  $<$<BOOL:${SINEW_UNITY}>:-Wno-subobject-linkage> $<$<BOOL:${SINEW_STRICT}>:-Werror>)
 foreach(kind options test_options)
   add_library(sinew_${kind} INTERFACE)
   target_compile_features(sinew_${kind} INTERFACE cxx_std_20)
@@ -22,7 +23,8 @@ function(sinew_library room)
   cmake_parse_arguments(ARG "" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(sinew_${room} STATIC ${ARG_SOURCES})
   add_library(sinew::${room} ALIAS sinew_${room})
-  set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON
+    UNITY_BUILD ${SINEW_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   target_include_directories(sinew_${room} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(sinew_${room} PUBLIC cxx_std_20)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clang-tidy finds nothing, by the checks in .clang-tidy.
 
-usage: tidy_test.py BUILD_DIR SOURCE_DIR [--every N]      every N-th source of lib and tools; all without it
+usage: tidy_test.py SOURCE_DIR [--every N]      every N-th source of lib and tools; all without it
 """
 import argparse
 import concurrent.futures
@@ -15,19 +15,21 @@ import tempfile
 from pathlib import Path
 
 
-def commands(build):
-    """How the build compiles, without what g++ alone is asked for: its precompiled headers, its warnings."""
+def commands(build, source):
+    """How each source is compiled, without what g++ alone is asked for: its precompiled headers, its warnings."""
+    subprocess.run(["cmake", "-S", source, "-B", build, "-DSINEW_UNITY=OFF", "-DSINEW_TESTS=OFF"], check=True,
+                   stdout=subprocess.DEVNULL)
     entries = json.loads((build / "compile_commands.json").read_text())
     for entry in entries:
         entry["command"] = re.sub(r"-Winvalid-pch|-include \S*cmake_pch\.hxx|-Wconversion|-Werror", "", entry["command"])
     return entries
 
 
-def sources(entries, build, source):
-    """The sources of lib and tools in the build, in a fixed order."""
+def sources(entries, source):
+    """The sources of lib and tools, in a fixed order."""
     files = {Path(entry["file"]).resolve() for entry in entries}
     inside = [path for folder in ("lib", "tools") for path in files if (source / folder) in path.parents]
-    return sorted(path for path in inside if build not in path.parents)
+    return sorted(inside)
 
 
 def complaints(build, path):
@@ -41,16 +43,20 @@ def complaints(build, path):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("build", type=Path)
     parser.add_argument("source", type=Path)
     parser.add_argument("--every", type=int, default=1)
     options = parser.parse_args()
-    entries = commands(options.build)
-    files = sources(entries, options.build.resolve(), options.source.resolve())[::options.every]
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        Path(folder, "compile_commands.json").write_text(json.dumps(entries))
-        found = [line for lines in pool.map(lambda path: complaints(folder, path), files) for line in lines]
-    print("\n".join(sorted(set(found))) or f"{len(files)} files are clean")
+        build = Path(folder)
+        entries = commands(build, options.source)
+        (build / "compile_commands.json").write_text(json.dumps(entries))
+        files = sources(entries, options.source.resolve())[::options.every]
+        found = set()
+        for lines in pool.map(lambda path: complaints(build, path), files):
+            print("\n".join(sorted(set(lines) - found)), end="\n" if set(lines) - found else "", flush=True)
+            found.update(lines)
+    if not found:
+        print(f"{len(files)} files are clean")
     return 1 if found or not files else 0
 
 

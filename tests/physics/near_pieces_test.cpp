@@ -168,11 +168,12 @@ TEST(NearPieces, KeepTheListsOfABodyThatMovesAsOne) {
 }
 
 TEST(NearPieces, ListOnlyWhatAFastPieceCanMeet) {
-  Cloud cloud(12, 3, sweeping, Cloud::Field::fitted);
-  const int whole_turns = 1;
-  for (int step = 0; step < whole_turns * 314; ++step) cloud.step();
+  constexpr int steps = 314;  // one turn
+  constexpr std::size_t pieces = 12;
+  Cloud cloud(pieces, 3, sweeping, Cloud::Field::fitted);
+  for (int step = 0; step < steps; ++step) cloud.step();
   EXPECT_GT(cloud.listed, 0);
-  EXPECT_LT(cloud.listed, 314 * 3);
+  EXPECT_LT(cloud.listed, steps / 3);
 }
 
 }  // namespace sinew::near_pieces_test

@@ -18,6 +18,12 @@ void expect_each_once(std::vector<std::uint32_t> order, std::size_t count) {
   for (std::uint32_t k = 0; k < count; ++k) ASSERT_EQ(order[k], k);
 }
 
+std::vector<std::int32_t> all(std::size_t count) {
+  std::vector<std::int32_t> id(count);
+  std::iota(id.begin(), id.end(), 0);
+  return id;
+}
+
 Points shuffled(Points points) {
   std::shuffle(points.begin(), points.end(), std::mt19937(3));
   return points;
@@ -70,7 +76,7 @@ TEST(OrderAtRest, GoesBoneByBoneInPlanesAcrossThem) {
   Settings settings = test::box_scene(49);
   const Points rest = shuffled(test::fcc_box(9, 9, 49, r));
   const Body body = test::make_body(settings, rest);
-  const auto order = order_at_rest(body);
+  const auto order = order_at_rest(body, all(rest.size()));
   expect_each_once(order, rest.size());
   for (std::size_t k = 1; k < order.size(); ++k) {
     const int before = body.binding.bone(order[k - 1]), now = body.binding.bone(order[k]);
@@ -85,7 +91,7 @@ TEST(OrderAtRest, OfABoneAcrossTheRowsTurnsThePlanes) {
   Settings settings = test::box_scene(49);
   settings.bones = {{"along x", "", Vec3(-0.1, 0, 0.1), Vec3(0.1, 0, 0.1)}};
   const Points rest = test::fcc_box(25, 7, 9, r);
-  const auto order = order_at_rest(test::make_body(settings, rest));
+  const auto order = order_at_rest(test::make_body(settings, rest), all(rest.size()));
   expect_each_once(order, rest.size());
   for (std::size_t k = 1; k < order.size(); ++k)
     ASSERT_LE(rest[order[k - 1]].x(), rest[order[k]].x() + 1e-9);
@@ -97,7 +103,23 @@ TEST(OrderAtRest, LeavesWhatIsOnNoLatticeAsItIs) {
   const Points rest = test::hcp_ball(6, r);
   std::vector<std::uint32_t> given(rest.size());
   std::iota(given.begin(), given.end(), 0U);
-  EXPECT_EQ(order_at_rest(test::make_body(settings, rest)), given);
+  EXPECT_EQ(order_at_rest(test::make_body(settings, rest), all(rest.size())), given);
+}
+
+TEST(OrderAtRest, OfSomeParticlesIsThatOfAllWithoutTheOthers) {
+  const Points rest = shuffled(test::fcc_box(9, 9, 25, r));
+  const Body body = test::make_body(test::box_scene(25), rest);
+  std::vector<std::int32_t> some = all(rest.size());
+  std::shuffle(some.begin(), some.end(), std::mt19937(5));
+  some.resize(rest.size() / 3);
+  const auto order = order_at_rest(body, some);
+  expect_each_once(order, some.size());
+  std::vector<std::int32_t> expected, found;
+  for (const std::uint32_t i : order_at_rest(body, all(rest.size())))
+    if (std::find(some.begin(), some.end(), static_cast<std::int32_t>(i)) != some.end())
+      expected.push_back(static_cast<std::int32_t>(i));
+  for (const std::uint32_t place : order) found.push_back(some[place]);
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace sinew::particle_order_test

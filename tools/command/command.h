@@ -58,8 +58,8 @@ inline void declare(CLI::App& app, RunOptions& options) {
       ->type_name("DIR");
   auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
   app.add_flag("--resume", options.resume, "Continue a run that was stopped")->excludes(force);
-  app.add_option("--invoked-as", options.invoked_as)
-      ->group("");  // hidden: passed by run to simulate
+  // Passed by run to simulate; in no help.
+  app.add_option("--invoked-as", options.invoked_as)->group("");
 }
 
 }  // namespace sinew

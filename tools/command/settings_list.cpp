@@ -13,13 +13,13 @@ namespace sinew {
 namespace {
 
 /// One key as text.
-struct Row {
+struct Line {
   std::string name, unit, standard, values, help;
 };
 
 struct Group {
   std::string title;
-  std::vector<Row> rows;
+  std::vector<Line> rows;
 };
 
 /// 1/30 instead of its 16 digits.
@@ -31,7 +31,7 @@ std::string short_text(const FieldValue& value, std::string_view absent) {
 }
 
 template <class Owner>
-Row words_of(const Field<Owner>& row) {
+Line words_of(const Field<Owner>& row) {
   Rules rules = rules_of(row);
   rules.unit = rules.absent = {};  // they have their own columns
   return {std::string(row.name), std::string(row.unit),
@@ -87,7 +87,7 @@ std::string settings_help() {
   std::string text;
   for (const Group& group : groups()) {
     text += "\n  " + group.title + '\n';
-    for (const Row& row : group.rows) {
+    for (const Line& row : group.rows) {
       const std::string unit = row.unit.empty() ? "" : '[' + row.unit + "] ";
       text += fmt::format("    {:<17} {:<17} {}{}\n", row.name, row.standard, unit, row.help);
       if (row.values.find(',') != row.values.npos && row.values.substr(0, 7) == "one of ")
@@ -101,7 +101,7 @@ std::string settings_markdown() {
   std::string text;
   for (const Group& group : groups()) {
     text += "| " + group.title + " | default | unit | values | meaning |\n|---|---|---|---|---|\n";
-    for (const Row& row : group.rows)
+    for (const Line& row : group.rows)
       text += markdown_row({'`' + row.name + '`', row.standard, row.unit, row.values, row.help});
     text += '\n';
   }

@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t points_per_piece = 1024;
+constexpr std::size_t points_at_a_time = 1024;
 // Neighbors of a closest packing give eigenvalues of 4 d0^2; a flat set gives 0 up to rounding.
 constexpr double flat = 1e-6;
 
@@ -35,7 +35,7 @@ RestShape rest_shape(Points points, double range) {
   rest.neighbors = neighbors_within(points, range);
   rest.points = std::move(points);
   rest.inverse.resize(rest.points.size());
-  parallel_for(rest.points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rest.points.size(), points_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) rest.inverse[i] = inverse_or_zero(spread_of(rest, i));
   });
   return rest;
@@ -55,7 +55,7 @@ Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t 
 
 std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now) {
   std::vector<Mat3> gradients(now.size());
-  parallel_for(now.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(now.size(), points_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) gradients[i] = deformation_gradient(rest, now, i);
   });
   return gradients;

@@ -19,7 +19,7 @@ void add_numbers(const Vec3& vector, std::string& row) {
   for (const double value : vector) row += ',' + number_text(value);
 }
 
-constexpr std::string_view head =
+constexpr std::string_view columns_line =
     "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n";
 constexpr std::uint64_t largest_table = std::uint64_t{4} << 30;  // bytes
 
@@ -42,7 +42,7 @@ std::uint64_t size_of_rows(const std::filesystem::path& path, std::size_t rows) 
 
 BoneTable::BoneTable(const std::filesystem::path& path, std::size_t bones, std::size_t kept)
     : file_(path, kept > 0 ? size_of_rows(path, bones * kept) : 0) {
-  if (kept == 0) file_.add(head.data(), head.size());
+  if (kept == 0) file_.add(columns_line.data(), columns_line.size());
 }
 
 void BoneTable::add(double time, const Skeleton& skeleton, const Reactions& reactions,

@@ -21,7 +21,7 @@ constexpr std::size_t name_size = 8;
 // Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
 
-Error refused(const std::string& what) {
+Error no_checkpoint(const std::string& what) {
   return bad_input(what, "remove the file to go on from an older checkpoint");
 }
 
@@ -189,31 +189,32 @@ class Reader {
 
  private:
   std::string_view name() {
-    if (text_.size() < name_size) throw refused("a section is truncated");
+    if (text_.size() < name_size) throw no_checkpoint("a section is truncated");
     const std::string_view padded = text_.substr(0, name_size);
     text_.remove_prefix(name_size);
     return padded.substr(0, std::min(padded.find('\0'), name_size));
   }
   void drop(std::uint64_t size, std::uint64_t count) {
-    if (size == 0 || count > text_.size() / size) throw refused("a section is truncated");
+    if (size == 0 || count > text_.size() / size) throw no_checkpoint("a section is truncated");
     text_.remove_prefix(size * count);
   }
   /// The elements of the section that begins here, which are present.
   std::size_t head(std::string_view expected, std::uint64_t size) {
-    if (name() != expected) throw refused("section '" + std::string(expected) + "' is missing");
+    if (name() != expected)
+      throw no_checkpoint("section '" + std::string(expected) + "' is missing");
     const auto found = one<std::uint64_t>(), count = one<std::uint64_t>();
     if (found != size || count > text_.size() / size)
-      throw refused("section '" + std::string(expected) + "' is truncated");
+      throw no_checkpoint("section '" + std::string(expected) + "' is truncated");
     return count;
   }
   template <class Element>
   void fill(std::string_view name, Element* to, std::size_t count) {
     if (head(name, sizeof(Element)) != count)
-      throw refused("section '" + std::string(name) + "' is truncated");
+      throw no_checkpoint("section '" + std::string(name) + "' is truncated");
     take(to, count * sizeof(Element));
   }
   void take(void* to, std::size_t bytes) {
-    if (bytes > text_.size()) throw refused("it is truncated");
+    if (bytes > text_.size()) throw no_checkpoint("it is truncated");
     if (bytes > 0) std::memcpy(to, text_.data(), bytes);
     text_.remove_prefix(bytes);
   }
@@ -230,19 +231,20 @@ std::uint64_t hash_of(std::string_view bytes) {
 /// The sections of a complete file.
 std::string_view checked(std::string_view text) {
   if (text.size() < head_size + tail_size || text.substr(0, magic.size()) != magic)
-    throw refused("it is not a checkpoint");
+    throw no_checkpoint("it is not a checkpoint");
   Reader head(text.substr(magic.size(), head_size));
   if (head.one<std::uint32_t>() != byte_order_mark)
-    throw refused("it is of a machine with another byte order");
+    throw no_checkpoint("it is of a machine with another byte order");
   const auto version = head.one<std::uint32_t>();
   if (version != format_version)
-    throw refused("its format is of version " + std::to_string(version) + ", not " +
-                  std::to_string(format_version));
+    throw no_checkpoint("its format is of version " + std::to_string(version) + ", not " +
+                        std::to_string(format_version));
   if (head.one<std::uint64_t>() != text.size())
-    throw refused("it is truncated or too long: it has " + std::to_string(text.size()) + " bytes");
+    throw no_checkpoint("it is truncated or too long: it has " + std::to_string(text.size()) +
+                        " bytes");
   const std::string_view body = text.substr(0, text.size() - tail_size);
   if (Reader(text.substr(body.size())).one<std::uint64_t>() != hash_of(body))
-    throw refused("its checksum is wrong");
+    throw no_checkpoint("its checksum is wrong");
   return body.substr(head_size);
 }
 
@@ -252,10 +254,10 @@ Checkpoint parsed(std::string_view text, std::uint64_t particles) {
   if (reader.element_of("position") == sizeof(std::int32_t))
     checkpoint.state.moving = MovingInSingle();
   walk(checkpoint, reader);
-  if (reader.left() > 0) throw refused("it continues after its last section");
+  if (reader.left() > 0) throw no_checkpoint("it continues after its last section");
   if (checkpoint.run.particles != particles)
-    throw refused("it is of " + std::to_string(checkpoint.run.particles) + " particles, not " +
-                  std::to_string(particles));
+    throw no_checkpoint("it is of " + std::to_string(checkpoint.run.particles) +
+                        " particles, not " + std::to_string(particles));
   return checkpoint;
 }
 

@@ -14,7 +14,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t blocks_per_piece = 16;  // enough to amortize a decompressor of its own
+constexpr std::size_t blocks_per_decompressor = 16;  // enough to amortize a decompressor of its own
 constexpr std::uint64_t largest_block = std::uint64_t{1} << 30;  // below the limit of LZ4
 
 class Decompressor {
@@ -120,7 +120,7 @@ std::optional<Decoded> decompressed(std::string_view data, const Coding& coding,
     }
     return number;
   };
-  if (parallel_sum(starts.size() - 1, blocks_per_piece, damaged) > 0) return std::nullopt;
+  if (parallel_sum(starts.size() - 1, blocks_per_decompressor, damaged) > 0) return std::nullopt;
   return to;
 }
 

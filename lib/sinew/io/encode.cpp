@@ -21,7 +21,7 @@ namespace {
 // Files declare LittleEndian and hold the bytes as they are in memory.
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::size_t values_per_piece = 4096;
+constexpr std::size_t values_per_split = 4096;
 
 template <class Stored, class Value>
 FileArray array_of(std::string_view type, std::size_t count, Value value) {
@@ -92,7 +92,7 @@ FileArray bytes_array(std::size_t count, std::function<unsigned char(std::size_t
 
 ValueRange range_of(const FileArray& array, int components) {
   const auto width = static_cast<std::size_t>(components);
-  const std::size_t piece = values_per_piece * width;
+  const std::size_t piece = values_per_split * width;
   std::vector<ValueRange> parts((array.count + piece - 1) / piece);
   parallel_for(array.count, piece, [&](std::size_t begin, std::size_t end) {
     // an array of doubles, for alignment
@@ -111,7 +111,7 @@ ValueRange range_of(const FileArray& array, int components) {
 
 namespace {
 
-constexpr std::size_t blocks_per_piece = 16;  // enough to amortize a compressor of its own
+constexpr std::size_t blocks_per_compressor = 16;  // enough to amortize a compressor of its own
 constexpr int fastest = 1;  // slower levels do not compress floats of moving bodies better
 
 class Compressor {
@@ -170,9 +170,9 @@ std::string compressed_text(const FileArray& array, Encoding encoding) {
   const std::size_t blocks = (array.bytes() + block_bytes - 1) / block_bytes;
   std::vector<std::uint64_t> counts{blocks, block_bytes, array.bytes() % block_bytes};
   counts.resize(3 + blocks);
-  std::vector<std::string> pieces((blocks + blocks_per_piece - 1) / blocks_per_piece);
-  parallel_for(blocks, blocks_per_piece, [&](std::size_t begin, std::size_t end) {
-    pieces[begin / blocks_per_piece] = compressed(array, encoding, begin, end, &counts[3]);
+  std::vector<std::string> pieces((blocks + blocks_per_compressor - 1) / blocks_per_compressor);
+  parallel_for(blocks, blocks_per_compressor, [&](std::size_t begin, std::size_t end) {
+    pieces[begin / blocks_per_compressor] = compressed(array, encoding, begin, end, &counts[3]);
   });
   std::size_t total = 0;
   for (const std::string& piece : pieces) total += piece.size();

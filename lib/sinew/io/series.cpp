@@ -21,13 +21,13 @@ namespace {
 
 constexpr std::uint64_t largest_pvd = std::uint64_t{256} << 20;  // bytes
 
-Error refused(const std::string& what) { return bad_input(what, "use a PVD file of a run"); }
+Error no_series(const std::string& what) { return bad_input(what, "use a PVD file of a run"); }
 
 double time_of(const std::string& text) {
   double time = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(time))
-    throw refused("timestep '" + text.substr(0, 40) + "' is not a number");
+    throw no_series("timestep '" + text.substr(0, 40) + "' is not a number");
   return time;
 }
 
@@ -36,13 +36,13 @@ void check_inside(const std::filesystem::path& file) {
   bool inside = !file.empty() && file.is_relative();
   for (const auto& part : file) inside = inside && part != "..";
   if (!inside)
-    throw refused("'" + file.string().substr(0, 200) + "' does not lie below the PVD's folder");
+    throw no_series("'" + file.string().substr(0, 200) + "' does not lie below the PVD's folder");
 }
 
 PvdRow row_of(const XmlElement& element) {
   const auto& given = element.attributes;
   if (!given.contains("timestep") || !given.contains("file"))
-    throw refused("a DataSet lacks its timestep or file");
+    throw no_series("a DataSet lacks its timestep or file");
   check_inside(given.at("file"));
   return {time_of(given.at("timestep")), given.at("file")};
 }
@@ -54,7 +54,7 @@ std::vector<PvdRow> rows_of(const std::vector<XmlElement>& elements) {
     collection = collection || element.path == "VTKFile/Collection";
     if (element.path == "VTKFile/Collection/DataSet") rows.push_back(row_of(element));
   }
-  if (!collection) throw refused("it is not a PVD file");
+  if (!collection) throw no_series("it is not a PVD file");
   return rows;
 }
 
@@ -86,7 +86,7 @@ namespace fs = std::filesystem;
 
 /// Often enough to follow a run, rarely enough to be negligible beside the frames.
 constexpr std::chrono::seconds pvd_pause{1};
-constexpr std::size_t values_per_piece = 1 << 15;
+constexpr std::size_t values_per_sum = 1 << 15;
 
 std::string frame_name(const std::string& series, std::size_t number) {
   char digits[24];
@@ -95,7 +95,7 @@ std::string frame_name(const std::string& series, std::size_t number) {
 }
 
 bool all_finite(const double* values, std::size_t count, double most) {
-  return parallel_sum(count, values_per_piece, [&](std::size_t begin, std::size_t end) {
+  return parallel_sum(count, values_per_sum, [&](std::size_t begin, std::size_t end) {
            return std::count_if(values + begin, values + end,
                                 [most](double value) { return !(std::abs(value) <= most); });
          }) == 0;

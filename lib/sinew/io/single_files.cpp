@@ -62,34 +62,35 @@ void write_defects(const std::filesystem::path& path, const DefectsFile& defects
 
 namespace {
 
-Error refused(const std::string& what) { return bad_input(what, "fill the body again"); }
+Error no_body_file(const std::string& what) { return bad_input(what, "fill the body again"); }
 
 /// The one positive value that all particles have.
 double shared(const std::vector<Column>& columns, const char* name) {
   const std::vector<double>& values = numbers(columns, name);
   const double value = values.front();
   if (!(std::isfinite(value) && value > 0))
-    throw refused(std::string("the ") + name + " of a particle is not positive");
+    throw no_body_file(std::string("the ") + name + " of a particle is not positive");
   if (!std::all_of(values.begin(), values.end(), [&](double other) { return other == value; }))
-    throw refused(std::string("particles differ in ") + name);
+    throw no_body_file(std::string("particles differ in ") + name);
   return value;
 }
 
 void check(const Dataset& data) {
-  if (data.points.empty()) throw refused("it holds no particles");
-  if (data.kind != CellKind::vertex) throw refused("its cells are not particles");
+  if (data.points.empty()) throw no_body_file("it holds no particles");
+  if (data.kind != CellKind::vertex) throw no_body_file("its cells are not particles");
   if (!std::all_of(data.points.begin(), data.points.end(),
                    [](const Vec3& p) { return p.allFinite(); }))
-    throw refused("a coordinate is not finite");
+    throw no_body_file("a coordinate is not finite");
   if (integers(data.point_columns, "id") != vertex_cells(data.points.size()))
-    throw refused("its ids are not 0, 1, 2, ...");
+    throw no_body_file("its ids are not 0, 1, 2, ...");
 }
 
 void check_weights(const std::vector<double>& weights) {
   constexpr double rounding = 1e-9;
   for (const double weight : weights)
     if (!(weight >= 0 && weight <= 1 + rounding))
-      throw refused("the weight " + std::to_string(weight) + " of a bone is not between 0 and 1");
+      throw no_body_file("the weight " + std::to_string(weight) +
+                         " of a bone is not between 0 and 1");
 }
 
 BodyFile body_of(const Dataset& data) {

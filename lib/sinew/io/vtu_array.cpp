@@ -14,7 +14,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t values_per_piece = 1 << 15;
+constexpr std::size_t values_at_a_time = 1 << 15;
 constexpr std::uint64_t most_components = 1000;
 
 Error of_array(const XmlElement& array, const std::string& what) {
@@ -87,7 +87,7 @@ From number_at(std::string_view bytes, std::size_t i) {
 template <class From, class To>
 void convert(std::string_view bytes, To* to) {
   const std::size_t count = bytes.size() / sizeof(From);
-  parallel_for(count, values_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, values_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) to[i] = static_cast<To>(number_at<From>(bytes, i));
   });
 }

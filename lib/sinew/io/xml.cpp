@@ -18,7 +18,7 @@ constexpr std::size_t most_elements = 200'000;  // of about a hundred bytes each
 constexpr std::size_t longest_path = 1000;      // characters; bounds the depth, too
 constexpr std::size_t longest_tag = 1 << 20;    // bytes
 
-Error refused(const std::string& what) { return bad_input(what, "write the file again"); }
+Error no_xml(const std::string& what) { return bad_input(what, "write the file again"); }
 
 /// Length of the tag at the beginning of `xml`, including its '>'; those in quotes are skipped.
 std::size_t length_of_tag(std::string_view xml) {
@@ -27,7 +27,7 @@ std::size_t length_of_tag(std::string_view xml) {
     const auto end = xml.find(comment_end, comment.size());
     return end == xml.npos ? xml.size() : end + comment_end.size();
   }
-  if (xml.starts_with("<!")) throw refused("it declares types or entities of its own");
+  if (xml.starts_with("<!")) throw no_xml("it declares types or entities of its own");
   char quote = 0;
   for (std::size_t at = 0; at < std::min(xml.size(), longest_tag); ++at) {
     const char c = xml[at];
@@ -74,13 +74,13 @@ class Elements {
   }
 
   void parse(std::string_view part, bool final) {
-    if (part.size() > longest_tag) throw refused("its tags are too long");
+    if (part.size() > longest_tag) throw no_xml("its tags are too long");
     const auto status =
         XML_Parse(parser_.get(), part.data(), static_cast<int>(part.size()), final ? 1 : 0);
     if (thrown_) std::rethrow_exception(thrown_);
     if (status != XML_STATUS_OK)
-      throw refused(std::string("it is not XML (") +
-                    XML_ErrorString(XML_GetErrorCode(parser_.get())) + ')');
+      throw no_xml(std::string("it is not XML (") +
+                   XML_ErrorString(XML_GetErrorCode(parser_.get())) + ')');
   }
 
   void begin(const char* name, const char** attributes) {
@@ -88,7 +88,7 @@ class Elements {
       throw bad_input("it has more than 200000 elements", "use a file of fewer");
     if (!path_.empty()) path_ += '/';
     path_ += name;
-    if (path_.size() > longest_path) throw refused("its elements are too deep");
+    if (path_.size() > longest_path) throw no_xml("its elements are too deep");
     elements_.push_back({path_, {}, {}});
     for (; *attributes; attributes += 2)
       elements_.back().attributes.emplace(attributes[0], attributes[1]);

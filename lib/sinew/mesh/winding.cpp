@@ -9,7 +9,7 @@ namespace sinew {
 namespace {
 
 constexpr int leaf_faces = 4;
-constexpr double nearness = 1e-10;
+constexpr double on_surface = 1e-10;
 
 /// Rays run along z of a frame in which faces of usual meshes are oblique.
 const Mat3& frame() {
@@ -46,7 +46,7 @@ Winding::Winding(std::vector<Corners> faces) : faces_(std::move(faces)) {
     for (Vec3& corner : face) corner = frame() * corner;
   if (faces_.empty()) return;
   build(0, static_cast<int>(faces_.size()));
-  near_ = nearness * nodes_[0].box.diagonal().norm();
+  near_ = on_surface * nodes_[0].box.diagonal().norm();
 }
 
 int Winding::build(int begin, int end) {

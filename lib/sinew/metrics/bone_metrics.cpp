@@ -11,7 +11,7 @@ namespace {
 
 using M = BoneMetrics;
 
-constexpr std::array table = {
+constexpr std::array bone_table = {
     BoneMetric{"time", "s", "Simulated time", "t", &M::time},
     BoneMetric{"bone", "", "Index of the bone, as in frames.pvd", "", &M::bone},
     BoneMetric{"followers", "", "Particles that follow this bone more than any other", "count",
@@ -49,7 +49,7 @@ struct Miss {
   double twist = not_measured;  ///< rad; not for a particle on the axis
 };
 
-constexpr double on_axis = 1e-9;  // of l0: closer to the axis a particle has no angle about it
+constexpr double near_axis = 1e-9;  // of l0: closer to the axis a particle has no angle about it
 
 Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) {
   const RigidFrame& before = rest.bones[bound.bone].rest;
@@ -60,7 +60,7 @@ Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) 
   const auto across = [&](const Vec3& p) -> Vec3 { return p - foot - axis.dot(p - foot) * axis; };
   const Vec3 wanted = across(target), found = across(x);
   Miss miss{(x - foot).norm() - bound.distance, (x - target).norm(), not_measured};
-  if (wanted.norm() > on_axis * rest.radius && found.norm() > on_axis * rest.radius)
+  if (wanted.norm() > near_axis * rest.radius && found.norm() > near_axis * rest.radius)
     miss.twist = std::atan2(axis.dot(wanted.cross(found)), wanted.dot(found));
   return miss;
 }
@@ -107,7 +107,7 @@ BoneMetrics summed(Misses& all, double time, std::size_t bone) {
 
 }  // namespace
 
-std::span<const BoneMetric> bone_metrics_table() { return table; }
+std::span<const BoneMetric> bone_metrics_table() { return bone_table; }
 
 std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& state,
                                        const ParticleValues& particles) {
@@ -131,6 +131,8 @@ std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& s
   return out;
 }
 
-std::string bone_metrics_csv(std::span<const BoneMetrics> rows) { return csv_text(table, rows); }
+std::string bone_metrics_csv(std::span<const BoneMetrics> rows) {
+  return csv_text(bone_table, rows);
+}
 
 }  // namespace sinew

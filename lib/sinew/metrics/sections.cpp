@@ -13,7 +13,7 @@ namespace {
 
 using S = SectionMetrics;
 
-constexpr std::array table = {
+constexpr std::array section_table = {
     SectionMetric{"time", "s", "Simulated time", "t", &S::time},
     SectionMetric{"bone", "", "Index of the bone, as in frames.pvd", "", &S::bone},
     SectionMetric{"along", "",
@@ -151,7 +151,7 @@ double area_of(const Section& section, const Points& surface_points) {
   return area_vector(section.ring, surface_points).norm();
 }
 
-std::span<const SectionMetric> section_metrics_table() { return table; }
+std::span<const SectionMetric> section_metrics_table() { return section_table; }
 
 std::vector<SectionMetrics> measure_sections(std::span<const Section> sections,
                                              const Points& surface_points, double time) {
@@ -164,6 +164,8 @@ std::vector<SectionMetrics> measure_sections(std::span<const Section> sections,
   return rows;
 }
 
-std::string sections_csv(std::span<const SectionMetrics> rows) { return csv_text(table, rows); }
+std::string sections_csv(std::span<const SectionMetrics> rows) {
+  return csv_text(section_table, rows);
+}
 
 }  // namespace sinew

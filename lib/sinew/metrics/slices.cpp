@@ -14,7 +14,7 @@ namespace {
 constexpr double same_direction = 1e-6;  // sine of the angle up to which axes count as parallel
 constexpr double same_line = 1e-3;  // of the bone's length: largest offset of heads from the line
 constexpr double in_a_line = 1e-6;  // ratio of spreads below which a slice has no rotation
-constexpr std::size_t fewest = 4;   // particles of a slice
+constexpr std::size_t fewest_of_slice = 4;  // particles of a slice
 
 using Members = std::vector<std::uint32_t>;
 
@@ -47,7 +47,7 @@ Vec3 center_of(const Members& members, const Points& points) {
 }
 
 bool has_turn(const Members& members, const Points& rest) {
-  if (members.size() < fewest) return false;
+  if (members.size() < fewest_of_slice) return false;
   const Vec3 center = center_of(members, rest);
   Mat3 spread = Mat3::Zero();
   for (const auto i : members) spread += (rest[i] - center) * (rest[i] - center).transpose();

@@ -10,7 +10,7 @@ namespace {
 using M = FrameMetrics;
 using V = ParticleValues;
 
-constexpr std::array table = {
+constexpr std::array metric_table = {
     Metric{"time", "s", "Simulated time", "t", &M::time},
     Metric{"bone_angle", "deg", "Largest rotation of any bone from its rest pose, 0 to 180",
            "max angle(R R0^T)", &M::bone_angle},
@@ -181,14 +181,14 @@ constexpr std::array run_table = {
 
 }  // namespace
 
-std::span<const Metric> metrics_table() { return table; }
+std::span<const Metric> metrics_table() { return metric_table; }
 
 std::span<const RunMetric> run_metrics_table() { return run_table; }
 
 std::size_t metric_index(std::string_view name) {
-  const auto found = std::find_if(table.begin(), table.end(),
+  const auto found = std::find_if(metric_table.begin(), metric_table.end(),
                                   [&](const Metric& metric) { return metric.name == name; });
-  return static_cast<std::size_t>(found - table.begin());
+  return static_cast<std::size_t>(found - metric_table.begin());
 }
 
 }  // namespace sinew

@@ -8,7 +8,7 @@ namespace sinew {
 
 namespace {
 
-constexpr std::size_t particles_per_piece = 512, particles_per_sum = 16384;
+constexpr std::size_t particles_per_task = 512, particles_per_sum = 16384;
 
 HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
   return {body.rest[particles.id[i]], particles.position(i), particles.velocity(i),
@@ -32,7 +32,7 @@ void bone_forces(const Particles& particles, const Body& body, const Pose& pose,
   const std::size_t n = particles.size();
   for (auto* vectors : {&forces.bone, &forces.bone_damping}) vectors->assign(n, Vec3::Zero());
   for (auto* powers : {&forces.bone_power, &forces.bone_damping_power}) powers->assign(n, 0.0);
-  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, particles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for_each_pull(particles, body, pose, i, [&](int, const BonePull& pull) {
         forces.bone[i] += pull.force();
@@ -66,7 +66,7 @@ std::vector<Reaction> reactions(const Particles& particles, const Body& body, co
 }
 
 double bone_energy(const Particles& particles, const Body& body, const Pose& pose) {
-  return parallel_sum(particles.size(), particles_per_piece,
+  return parallel_sum(particles.size(), particles_per_task,
                       [&](std::size_t begin, std::size_t end) {
                         double sum = 0;
                         for (std::size_t i = begin; i < end; ++i)

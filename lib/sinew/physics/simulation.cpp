@@ -13,7 +13,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_piece = 512;
+constexpr std::size_t particles_per_sum = 512;
 
 const Particles& checked(const Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -139,7 +139,7 @@ Energies Simulation::energies() {
       stepping_.integrator == Integrator::velocity_verlet ? 0 : stepping_.step / 2;
   Energies energies;
   energies.kinetic =
-      parallel_sum(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+      parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i) {
           const Vec3 acceleration = forces_.total(i) / now.mass + stepping_.gravity;
@@ -148,7 +148,7 @@ Energies Simulation::energies() {
         return sum;
       });
   energies.gravity =
-      parallel_sum(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+      parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i)
           sum -= now.mass * stepping_.gravity.dot(now.position(i));

@@ -13,8 +13,8 @@
 namespace sinew {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t particles_per_piece = 4096;
+constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr std::size_t particles_per_ray_task = 4096;
 // The largest void of closest packing is sqrt(2) radii from the next particle.
 constexpr double around_bone = 1.5, beyond_nearest = 0.5;  // radii
 // Lattice paths over straight ones: at most sqrt(9 / 8), along [111] of FCC.
@@ -40,7 +40,7 @@ void begin_at(const InsidePaths& paths, const Skeleton& skeleton, int bone, Queu
 
 /// Dijkstra's algorithm; paths end at `limit` (m).
 std::vector<BoneDistance> walk(const InsidePaths& paths, Queue queue, double limit) {
-  std::vector<BoneDistance> found(paths.points.size(), {no_bone, infinite});
+  std::vector<BoneDistance> found(paths.points.size(), {no_bone, unreached});
   while (!queue.empty()) {
     const Step step = queue.top();
     queue.pop();
@@ -58,7 +58,7 @@ std::vector<BoneDistance> walk(const InsidePaths& paths, Queue queue, double lim
 NeighborLists links_of(const Points& rest, double radius) {
   const NeighborLists touching = neighbors_within(rest, rest_neighbor_range(radius));
   std::vector<std::vector<std::uint32_t>> rows(rest.size());
-  parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rest.size(), particles_per_ray_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::vector<std::uint32_t>& row = rows[i];
       for (const std::uint32_t j : touching.of(i)) {
@@ -100,13 +100,13 @@ InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double ra
   InsidePaths paths{links_of(rest, radius), rest, {}, {}};
   std::vector<double> distance(rest.size());
   paths.straight_nearest.resize(rest.size());
-  parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rest.size(), particles_per_ray_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       paths.straight_nearest[i] = nearest_bone(skeleton, rest[i]);
       distance[i] = distance_to(skeleton.bones[paths.straight_nearest[i]], rest[i]);
     }
   });
-  std::vector<double> least(skeleton.size(), infinite);
+  std::vector<double> least(skeleton.size(), unreached);
   for (std::size_t i = 0; i < rest.size(); ++i) {
     double& nearest = least[paths.straight_nearest[i]];
     nearest = std::min(nearest, distance[i]);
@@ -125,7 +125,7 @@ std::vector<std::vector<BoneDistance>> near_inside(const InsidePaths& paths,
   Queue queue;
   for (std::size_t b = 0; b < skeleton.size(); ++b)
     begin_at(paths, skeleton, static_cast<int>(b), queue);
-  const std::vector<BoneDistance> nearest = walk(paths, std::move(queue), infinite);
+  const std::vector<BoneDistance> nearest = walk(paths, std::move(queue), unreached);
   const auto limit = [&](double path) { return detour_of_lattice * (path + reach); };
   double longest = 0;
   for (const BoneDistance& one : nearest)
@@ -141,7 +141,7 @@ std::vector<std::vector<BoneDistance>> near_inside(const InsidePaths& paths,
 }
 
 BoneDistance nearest_of(const std::vector<BoneDistance>& near) {
-  BoneDistance nearest{no_bone, infinite};
+  BoneDistance nearest{no_bone, unreached};
   for (const BoneDistance& one : near)
     if (one.distance < nearest.distance) nearest = one;
   return nearest;

@@ -14,18 +14,18 @@ namespace {
 constexpr std::size_t nearest_vertices = 8, most_bones = 4;
 constexpr std::size_t points_per_piece = 512;
 
-struct Near {
+struct NearVertex {
   double distance;
   std::uint32_t vertex;
-  bool operator<(const Near& other) const {
+  bool operator<(const NearVertex& other) const {
     return distance != other.distance ? distance < other.distance : vertex < other.vertex;
   }
 };
 
 /// The nearest vertices closer than `range`; empty where there are not enough.
-std::vector<Near> nearest_within(const CellGrid& grid, const Points& vertices, const Vec3& point,
-                                 double range) {
-  std::vector<Near> near;
+std::vector<NearVertex> nearest_within(const CellGrid& grid, const Points& vertices,
+                                       const Vec3& point, double range) {
+  std::vector<NearVertex> near;
   grid.for_each_near(point, [&](std::uint32_t j) {
     const double distance = (vertices[j] - point).norm();
     if (distance < range) near.push_back({distance, j});
@@ -38,8 +38,8 @@ std::vector<Near> nearest_within(const CellGrid& grid, const Points& vertices, c
 }
 
 /// Of each point; the search is repeated twice as far for those with too few.
-std::vector<std::vector<Near>> nearest_of(const Points& vertices, const Points& points) {
-  std::vector<std::vector<Near>> near(points.size());
+std::vector<std::vector<NearVertex>> nearest_of(const Points& vertices, const Points& points) {
+  std::vector<std::vector<NearVertex>> near(points.size());
   Box box;
   for (const Vec3& vertex : vertices) box.extend(vertex);
   for (const Vec3& point : points) box.extend(point);
@@ -69,10 +69,10 @@ void add(double weight, int bone, std::vector<BoneWeight>& mean) {
   mean.push_back({bone, weight});
 }
 
-std::vector<BoneWeight> mean_of(const std::vector<Near>& near, const BoneWeights& weights,
+std::vector<BoneWeight> mean_of(const std::vector<NearVertex>& near, const BoneWeights& weights,
                                 const std::vector<std::uint32_t>& vertex, double least) {
   std::vector<BoneWeight> mean;
-  for (const Near& one : near)
+  for (const NearVertex& one : near)
     for (const BoneWeight& part : weights.of(vertex[one.vertex]))
       add(part.weight / std::max(one.distance, least), part.bone, mean);
   std::sort(mean.begin(), mean.end(), heavier);
@@ -112,14 +112,14 @@ BoneWeights carried_weights(const Points& vertices, const BoneWeights& weights,
 
 namespace {
 
-constexpr std::size_t vertices_per_piece = 1024;
+constexpr std::size_t blends_per_task = 1024;
 
-using Parts = std::span<const BoneWeight>;
+using BonesOfPoint = std::span<const BoneWeight>;
 
 template <class Move>
 Points each_moved(const Points& rest, const BoneWeights& weights, const Move& move) {
   Points moved = rest;
-  parallel_for(rest.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rest.size(), blends_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (!weights.of(i).empty()) moved[i] = move(rest[i], weights.of(i));
   });
@@ -139,7 +139,7 @@ DualQuaternion motion_of(const Bone& bone, const BonePose& pose) {
   return {turn, dual};
 }
 
-DualQuaternion blended(const std::vector<DualQuaternion>& motions, Parts parts) {
+DualQuaternion blended(const std::vector<DualQuaternion>& motions, BonesOfPoint parts) {
   DualQuaternion sum{Quat(0, 0, 0, 0), Quat(0, 0, 0, 0)};
   const Quat& heaviest = motions[parts.front().bone].real;
   for (const BoneWeight& part : parts) {
@@ -159,7 +159,7 @@ Vec3 moved_by(const DualQuaternion& motion, const Vec3& point) {
   return motion.real * point + 2 * shift.vec();
 }
 
-Vec3 stretched(const Vec3& point, Parts parts, const Skeleton& skeleton, const Pose& pose) {
+Vec3 stretched(const Vec3& point, BonesOfPoint parts, const Skeleton& skeleton, const Pose& pose) {
   Vec3 longer = point;
   for (const BoneWeight& part : parts) {
     if (pose[part.bone].stretch == 1) continue;
@@ -174,7 +174,7 @@ Vec3 stretched(const Vec3& point, Parts parts, const Skeleton& skeleton, const P
 
 Points linear_blend_skinned(const Points& rest, const BoneWeights& weights,
                             const Skeleton& skeleton, const Pose& pose) {
-  return each_moved(rest, weights, [&](const Vec3& point, Parts parts) {
+  return each_moved(rest, weights, [&](const Vec3& point, BonesOfPoint parts) {
     Vec3 sum = Vec3::Zero();
     for (const BoneWeight& part : parts)
       sum += part.weight * pose[part.bone].carried(point, skeleton.bones[part.bone]);
@@ -187,7 +187,7 @@ Points dual_quaternion_skinned(const Points& rest, const BoneWeights& weights,
   std::vector<DualQuaternion> motions;
   for (std::size_t b = 0; b < pose.size(); ++b)
     motions.push_back(motion_of(skeleton.bones[b], pose[b]));
-  return each_moved(rest, weights, [&](const Vec3& point, Parts parts) -> Vec3 {
+  return each_moved(rest, weights, [&](const Vec3& point, BonesOfPoint parts) -> Vec3 {
     return moved_by(blended(motions, parts), stretched(point, parts, skeleton, pose));
   });
 }

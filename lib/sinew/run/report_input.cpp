@@ -37,9 +37,9 @@ std::string number(const char* name, double value, const char* unit) {
   return std::string(name) + " = " + three_digits(value) + ' ' + unit;
 }
 
-Curve pair_curve(const Material& material) {
+LawCurve pair_curve(const Material& material) {
   const PairForce pair = material.pair;
-  Curve curve{
+  LawCurve curve{
       "Force between two particles", "", "distance d in r", "f in N, repulsion positive", {}};
   curve.note = "f = k1 (4r² − d²) below 2r, −k2 (d − a)(b − d) from a to b, nothing beyond; " +
                number("k1", pair.k1, "Pa, ") + number("k2", pair.k2, "Pa, ") +
@@ -55,16 +55,17 @@ Curve pair_curve(const Material& material) {
   return curve;
 }
 
-Curve energy_curve(const PairForce& pair) {
-  Curve curve{"Energy of two particles", "", "distance d in r", "phi in J", {}};
+LawCurve energy_curve(const PairForce& pair) {
+  LawCurve curve{"Energy of two particles", "", "distance d in r", "phi in J", {}};
   curve.note = "Its slope is the force; its depth is the energy that separates two particles.";
   curve.lines.push_back(sampled("energy", 1.5, 1.15 * pair.b / pair.r,
                                 [&](double d) { return pair.potential(d * pair.r); }));
   return curve;
 }
 
-Curve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
-  Curve curve{"Force of a bone on a particle", "", "away from its place, in r", "force in N", {}};
+LawCurve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
+  LawCurve curve{
+      "Force of a bone on a particle", "", "away from its place, in r", "force in N", {}};
   const bool anchored = springs.front().form == BoneForce::anchor;
   curve.note = anchored ? "f = −k_b (x − q), q its position in the rigid pose of the bone."
                         : "Radial: f = −k_b (|x − p| − l0), p the nearest point of the bone.";
@@ -75,8 +76,8 @@ Curve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& skelet
   return curve;
 }
 
-Curve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
-  Curve curve{"Turning pull of a bone", "", "turned away by, degrees", "force in N", {}};
+LawCurve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
+  LawCurve curve{"Turning pull of a bone", "", "turned away by, degrees", "force in N", {}};
   curve.note = "f = −k_tau rho alpha for a particle at a distance rho = 5 r from the bone.";
   constexpr std::size_t most_bones = 6;
   for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)
@@ -88,9 +89,9 @@ Curve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skele
 
 }  // namespace
 
-std::vector<Curve> law_curves(const RunFiles& run) {
+std::vector<LawCurve> law_curves(const RunFiles& run) {
   const Material material = material_of(run);
-  std::vector<Curve> curves{pair_curve(material)};
+  std::vector<LawCurve> curves{pair_curve(material)};
   if (!law_of(material).has_bonds) curves.push_back(energy_curve(material.pair));
   if (run.skeleton.size() == 0) return curves;
   const double r = run.body.particles.radius;

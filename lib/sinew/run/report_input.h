@@ -13,7 +13,7 @@
 namespace sinew {
 
 /// The forces of a scene as curves: between two particles, and of a bone on a particle.
-std::vector<Curve> law_curves(const RunFiles& run);
+std::vector<LawCurve> law_curves(const RunFiles& run);
 
 /// Throws Error (bad input) where run.json is not the record of a run.
 ReportInput report_input(const RunFiles& run, Measured measured);

@@ -17,6 +17,8 @@
 namespace sinew {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 std::string host_name() {
   std::array<char, 256> name{};
   ::gethostname(name.data(), name.size() - 1);
@@ -32,18 +34,17 @@ std::string utc_now() {
   return text.data();
 }
 
-bool is_seconds(const nlohmann::ordered_json& value) {
+bool is_seconds(const Json& value) {
   return value.is_object() && std::all_of(value.begin(), value.end(),
                                           [](const auto& spent) { return spent.is_number(); });
 }
 
-bool is_count(const nlohmann::ordered_json& value) {
+bool is_count(const Json& value) {
   return value.is_number_unsigned() && value.get<std::uint64_t>() <= 1'000'000'000;
 }
 
 /// Whether it is a record of sinew, with values of the right type where a resumed run reads them.
-bool is_record(const nlohmann::ordered_json& record) {
-  using Json = nlohmann::ordered_json;
+bool is_record(const Json& record) {
   return record.is_object() && record.value("program", Json()) == "sinew" &&
          record.value("status", Json("")).is_string() &&
          record.value("started", Json("")).is_string() &&
@@ -53,14 +54,14 @@ bool is_record(const nlohmann::ordered_json& record) {
 
 }  // namespace
 
-nlohmann::ordered_json read_record(const RunFolder& folder) {
-  auto record = nlohmann::ordered_json::parse(read_file(folder.record()), nullptr, false);
+Json read_record(const RunFolder& folder) {
+  auto record = Json::parse(read_file(folder.record()), nullptr, false);
   if (is_record(record)) return record;
   throw bad_input(Place{folder.record().string()}, "is not the record of a run",
                   "run the scene again with --force");
 }
 
-void write_record(const RunFolder& folder, const nlohmann::ordered_json& record) {
+void write_record(const RunFolder& folder, const Json& record) {
   const std::string text = record.dump(2) + '\n';
   NewFile file(folder.record());
   file.write(text.data(), text.size());
@@ -75,7 +76,7 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
     return;  // a run in progress writes its own record; a read-only folder keeps its record
   }
   auto record = read_record(folder);
-  if (!record["seconds"].is_object()) record["seconds"] = nlohmann::ordered_json::object();
+  if (!record["seconds"].is_object()) record["seconds"] = Json::object();
   record["seconds"][stage] = seconds;
   write_record(folder, record);
 }
@@ -88,8 +89,8 @@ std::string status_of(const RunFolder& folder) {
   return status != record.end() && status->is_string() ? status->get<std::string>() : "";
 }
 
-nlohmann::ordered_json begin_record(const std::vector<std::string>& command) {
-  nlohmann::ordered_json record;
+Json begin_record(const std::vector<std::string>& command) {
+  Json record;
   record["program"] = "sinew";
   record["version"] = version();
   record["status"] = "running";

@@ -15,10 +15,6 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-std::string entry(const std::string& path, std::string_view list, std::size_t index) {
-  return path_below(path, list) + '[' + std::to_string(index) + ']';
-}
-
 void read_limits(const YamlNode& bone, const std::string& path, Settings& settings) {
   const YamlNode* limits = bone.find("limits");
   if (limits == nullptr) return;
@@ -30,7 +26,7 @@ void read_limits(const YamlNode& bone, const std::string& path, Settings& settin
 void read_bone_list(const YamlNode& skeleton, Settings& settings) {
   const auto items = list_below(skeleton, "skeleton", "bones", settings.places);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::string path = entry("skeleton", "bones", i);
+    const std::string path = path_of_entry("skeleton", "bones", i);
     read_fields(items[i], path, bone_fields(), "limits", settings.bones.emplace_back(),
                 settings.places);
     read_limits(items[i], path, settings);
@@ -40,14 +36,14 @@ void read_bone_list(const YamlNode& skeleton, Settings& settings) {
 void read_keys(const YamlNode& track, const std::string& path, Settings& settings) {
   const auto items = list_below(track, path, "keys", settings.places);
   for (std::size_t i = 0; i < items.size(); ++i)
-    read_fields(items[i], entry(path, "keys", i), key_fields(), "",
+    read_fields(items[i], path_of_entry(path, "keys", i), key_fields(), "",
                 settings.tracks.back().keys.emplace_back(), settings.places);
 }
 
 void read_track_list(const YamlNode& motion, Settings& settings) {
   const auto items = list_below(motion, "motion", "tracks", settings.places);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::string path = entry("motion", "tracks", i);
+    const std::string path = path_of_entry("motion", "tracks", i);
     read_fields(items[i], path, track_fields(), "keys", settings.tracks.emplace_back(),
                 settings.places);
     read_keys(items[i], path, settings);
@@ -112,7 +108,7 @@ void read_bound(const YamlNode& binding, Settings& settings) {
   if (list == nullptr || (list->kind != Kind::scalar && list->items.empty())) return;
   const auto items = list_below(binding, "binding", "explicit", settings.places);
   for (std::size_t i = 0; i < items.size(); ++i)
-    read_fields(items[i], entry("binding", "explicit", i), bound_fields(), "",
+    read_fields(items[i], path_of_entry("binding", "explicit", i), bound_fields(), "",
                 settings.bound.emplace_back(), settings.places);
 }
 

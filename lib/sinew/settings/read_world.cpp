@@ -12,10 +12,6 @@
 namespace sinew {
 namespace {
 
-std::string entry(const std::string& path, std::string_view list, std::size_t index) {
-  return path_below(path, list) + '[' + std::to_string(index) + ']';
-}
-
 bool has_entries(const YamlNode& node, std::string_view list) {
   const YamlNode* found = node.find(list);
   return found != nullptr && (found->kind == YamlNode::Kind::scalar || !found->items.empty());
@@ -28,7 +24,7 @@ void read_entries(const YamlNode& node, const std::string& path, std::string_vie
   if (!has_entries(node, list)) return;
   const auto items = list_below(node, path, list, places);
   for (std::size_t i = 0; i < items.size(); ++i)
-    read(items[i], entry(path, list, i), owners.emplace_back());
+    read(items[i], path_of_entry(path, list, i), owners.emplace_back());
 }
 
 /// Keys of an entry, with ascending times.
@@ -52,7 +48,7 @@ void check_names(const std::vector<Owner>& owners, std::string_view list,
   std::set<std::string> seen;
   for (std::size_t i = 0; i < owners.size(); ++i)
     if (!seen.insert(owners[i].name).second)
-      throw bad_input(settings.place(entry("world", list, i) + ".name"),
+      throw bad_input(settings.place(path_of_entry("world", list, i) + ".name"),
                       "two of world." + std::string(list) + " are named '" + owners[i].name + '\'',
                       "give each a name of its own");
 }
@@ -114,7 +110,7 @@ void read_obstacle(const YamlNode& item, const std::string& path, ObstacleSettin
   read_keys(item, path, place_key_fields(), obstacle.keys, settings);
   for (std::size_t i = 0; i < obstacle.keys.size(); ++i)
     if (obstacle.keys[i].axis.norm() == 0)
-      throw bad_input(settings.place(entry(path, "keys", i) + ".axis"),
+      throw bad_input(settings.place(path_of_entry(path, "keys", i) + ".axis"),
                       "a direction without length", "give [x, y, z], not all zero");
   if (!obstacle.bone.empty() && !obstacle.keys.empty())
     throw bad_input(settings.place(path + ".keys"), path + " has a bone and keys of its own",

@@ -246,6 +246,10 @@ std::string path_below(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : path + '.' + std::string(key);
 }
 
+std::string path_of_entry(const std::string& path, std::string_view list, std::size_t index) {
+  return path_below(path, list) + '[' + std::to_string(index) + ']';
+}
+
 void check_keys(const YamlNode& node, const std::string& path,
                 std::span<const std::string_view> known) {
   const std::string name = path.empty() ? "a scene" : path;

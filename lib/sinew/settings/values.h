@@ -50,6 +50,8 @@ using Places = std::map<std::string, Place, std::less<>>;
 
 /// The path of a key below `path`: "body" and "mesh" give "body.mesh".
 std::string path_below(const std::string& path, std::string_view key);
+/// The path of an entry of a list: "skeleton.bones[2]".
+std::string path_of_entry(const std::string& path, std::string_view list, std::size_t index);
 
 /// Throws bad input unless `node` is a mapping (or empty) and each of its keys is `known`; the cure
 /// is the nearest known key, or the section to which the key belongs.

@@ -42,7 +42,7 @@ double largest_coordinate(const Lattice& lattice, const Points& points) {
 
 namespace {
 
-constexpr std::size_t faces_at_a_time = 4096, rows_at_a_time = 512;
+constexpr std::size_t faces_at_a_time = 4096, rows_per_sort = 512;
 
 /// A point of the surface in the frame of the rows.
 struct Corner {
@@ -270,7 +270,7 @@ void sort_into_rows(const std::vector<Found>& found, RowCrossings& rows) {
   std::vector<std::size_t> next(rows.first.begin(), rows.first.end() - 1);
   for (const Found& piece : found)
     for (const RowCrossing& one : piece.crossings) rows.crossings[next[one.row]++] = one.crossing;
-  parallel_for(next.size(), rows_at_a_time, [&](std::size_t begin, std::size_t end) {
+  parallel_for(next.size(), rows_per_sort, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row)
       std::sort(rows.crossings.begin() + rows.first[row],
                 rows.crossings.begin() + rows.first[row + 1],

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest = 100;               // real files are nested to about 10
+constexpr int deepest_nesting = 100;       // real files are nested to about 10
 constexpr std::int64_t most_values = 4e6;  // each takes about 100 bytes once parsed
 constexpr std::size_t most_items = 100'000;
 
@@ -36,7 +36,7 @@ void check_extent(std::string_view json) {
     if (c == ']' || c == '}') --depth;
     if (c == '[' || c == '{') ++depth;
     if (c == '[' || c == '{' || c == ',') ++values;
-    if (depth > deepest) throw damaged_gltf("its JSON is nested more than 100 deep");
+    if (depth > deepest_nesting) throw damaged_gltf("its JSON is nested more than 100 deep");
     if (values > most_values) throw damaged_gltf("its JSON holds more than 4 million values");
   }
 }

@@ -9,9 +9,9 @@
 namespace sinew {
 namespace {
 
-constexpr double uneven = 1e-4;      // of a node's scale; more is not rounding
-constexpr double most_places = 2e7;  // about 10 s
-constexpr double still = 1e-6;       // rad, and of the skeleton's size
+constexpr double uneven_node = 1e-4;  // of a node's scale; more is not rounding
+constexpr double most_places = 2e7;   // about 10 s
+constexpr double motionless = 1e-6;   // rad, and of the skeleton's size
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -44,7 +44,7 @@ std::vector<bool> even_nodes(const GltfTree& tree, const GltfNodeMotion& nodes) 
   for (const int node : tree.order) {
     const int above = tree.parents[at(node)];
     even[at(node)] = (above < 0 || even[at(above)]) && nodes.curves[at(node)].scale.empty() &&
-                     even_scale(nodes.places[at(node)].affine().linear(), uneven) > 0;
+                     even_scale(nodes.places[at(node)].affine().linear(), uneven_node) > 0;
   }
   return even;
 }
@@ -177,7 +177,8 @@ RotationCurve rotation_of(const GltfBindPose& bind, int index, const GltfLink& l
   if (!curve.empty()) return turned(curve, left, right);
   const Quat own(nearest_rotation(nodes.places[at(joint.node)].affine().linear()));
   const Quat rotation = (left * own * right).normalized();
-  return rotation.angularDistance(Quat::Identity()) > still ? one_key(rotation) : RotationCurve();
+  return rotation.angularDistance(Quat::Identity()) > motionless ? one_key(rotation)
+                                                                 : RotationCurve();
 }
 
 Curve<Vec3> translation_of(const GltfBindPose& bind, int index, const GltfLink& link,
@@ -190,7 +191,7 @@ Curve<Vec3> translation_of(const GltfBindPose& bind, int index, const GltfLink& 
   Curve<Vec3> curve = nodes.curves[at(joint.node)].translation;
   if (!curve.empty()) return mapped(std::move(curve), matrix, shift);
   const Vec3 translation = matrix * nodes.places[at(joint.node)].translation + shift;
-  if (translation.norm() <= still * size) return {};
+  if (translation.norm() <= motionless * size) return {};
   curve.times = {0};
   curve.values = {translation};
   return curve;

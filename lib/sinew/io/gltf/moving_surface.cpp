@@ -13,15 +13,15 @@
 namespace sinew {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using Floats = std::vector<float>;
 
 constexpr std::size_t most_samples = 500;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 /// A JSON list of one element.
-Json listed(Json only) {
-  Json list = Json::array();
+OrderedJson listed(OrderedJson only) {
+  OrderedJson list = OrderedJson::array();
   list.push_back(std::move(only));
   return list;
 }
@@ -85,7 +85,8 @@ class Moments {
 /// The layout of the file's binary part, one view per accessor.
 class Contents {
  public:
-  int add(GltfNumber number, const char* type, std::size_t count, Json more = Json::object()) {
+  int add(GltfNumber number, const char* type, std::size_t count,
+          OrderedJson more = OrderedJson::object()) {
     const std::size_t size =
         count * static_cast<std::size_t>(components_of(type)) * 4;  // all numbers have 4 bytes
     views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", size}});
@@ -99,7 +100,7 @@ class Contents {
   }
 
   int add_points(const Floats& xyz) {
-    Json low = Json::array(), high = Json::array();
+    OrderedJson low = OrderedJson::array(), high = OrderedJson::array();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       float least = xyz[axis], most = least;
       for (std::size_t i = axis; i < xyz.size(); i += 3)
@@ -111,22 +112,22 @@ class Contents {
 
   std::size_t bytes() const { return bytes_; }
 
-  void put_into(Json& json) const {
+  void put_into(OrderedJson& json) const {
     json["accessors"] = accessors_;
     json["bufferViews"] = views_;
     json["buffers"] = listed({{"byteLength", bytes_}});
   }
 
  private:
-  Json views_ = Json::array(), accessors_ = Json::array();
+  OrderedJson views_ = OrderedJson::array(), accessors_ = OrderedJson::array();
   std::size_t bytes_ = 0;
 };
 
-Json animation_of(const Floats& times, std::size_t targets, Contents& contents) {
+OrderedJson animation_of(const Floats& times, std::size_t targets, Contents& contents) {
   const int input = contents.add(GltfNumber::float32, "SCALAR", times.size(),
                                  {{"min", listed(times.front())}, {"max", listed(times.back())}});
   const int output = contents.add(GltfNumber::float32, "SCALAR", times.size() * targets);
-  Json animation = {{"name", "motion"}};
+  OrderedJson animation = {{"name", "motion"}};
   animation["samplers"] =
       listed({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
   animation["channels"] = listed({{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}});
@@ -134,15 +135,16 @@ Json animation_of(const Floats& times, std::size_t targets, Contents& contents) 
 }
 
 /// The file's JSON; declares the data in the order in which write_data() writes it.
-Json describe(Moments& moments, std::size_t corners, double interval, Contents& contents) {
-  Json surface = {{"indices", contents.add(GltfNumber::uint32, "SCALAR", corners)}};
+OrderedJson describe(Moments& moments, std::size_t corners, double interval, Contents& contents) {
+  OrderedJson surface = {{"indices", contents.add(GltfNumber::uint32, "SCALAR", corners)}};
   surface["attributes"] = {{"POSITION", contents.add_points(moments.first())}};
   for (std::size_t k = 0; k < moments.targets(); ++k)
     surface["targets"].push_back({{"POSITION", contents.add_points(moments.target(k))}});
-  Json json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
+  OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = listed({{"nodes", listed(0)}});
   json["nodes"] = listed({{"name", "surface"}, {"mesh", 0}});
-  Json mesh = {{"primitives", listed(surface)}};  // weights default to 0, but VTK counts them
+  OrderedJson mesh = {
+      {"primitives", listed(surface)}};  // weights default to 0, but VTK counts them
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
   json["meshes"] = listed(mesh);
   if (moments.targets() > 0)

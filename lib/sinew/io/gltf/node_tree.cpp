@@ -11,9 +11,9 @@
 namespace sinew {
 namespace {
 
-constexpr int deepest = 1000;    // the longest chains have about 200
-constexpr double uneven = 0.01;  // far above single precision and exporters' rounding
-constexpr double apart = 0.001;  // of the skeleton's size
+constexpr int longest_chain = 1000;    // the longest chains have about 200
+constexpr double uneven_scale = 0.01;  // far above single precision and exporters' rounding
+constexpr double apart = 0.001;        // of the skeleton's size
 
 /// Each node's parent, -1 for none.
 std::vector<int> parents_of(const GltfDocument& document) {
@@ -48,7 +48,7 @@ void check_tree(const GltfTree& tree) {
   for (const int node : tree.order) {
     const auto at = static_cast<std::size_t>(node);
     if (tree.parents[at] >= 0) depth[at] = depth[static_cast<std::size_t>(tree.parents[at])] + 1;
-    if (depth[at] > deepest) throw damaged_gltf("its nodes are nested more than 1000 deep");
+    if (depth[at] > longest_chain) throw damaged_gltf("its nodes are nested more than 1000 deep");
   }
   if (tree.order.size() < tree.parents.size())
     throw damaged_gltf("some of its nodes are children of themselves");
@@ -109,9 +109,9 @@ void check_bind(const GltfDocument& document, const GltfJoint& joint) {
   const Mat3 linear = joint.bind.linear() * (joint.bind.linear().determinant() < 0 ? -1 : 1);
   if (!joint.bind.matrix().allFinite() || !(linear.determinant() > 0))
     throw not_invertible(document, joint.node);
-  if (even_scale(linear, uneven) > 0) return;
+  if (even_scale(linear, uneven_scale) > 0) return;
   const Vec3 scales = linear.colwise().norm();
-  throw bad_input(joint_words(document, joint.node) + " is bound with the uneven scale " +
+  throw bad_input(joint_words(document, joint.node) + " is bound with the uneven_scale scale " +
                       std::to_string(scales[0]) + " " + std::to_string(scales[1]) + " " +
                       std::to_string(scales[2]),
                   "apply its scale before binding");

@@ -41,7 +41,7 @@ Json json_of(const Chart& chart, const std::vector<double>& times) {
           {"lines", std::move(lines)}};
 }
 
-Json json_of(const Curve& curve) {
+Json json_of(const LawCurve& curve) {
   Json lines = Json::array();
   for (const CurveLine& line : curve.lines)
     lines.push_back({{"name", line.name}, {"points", points_of(line.x, line.y)}});
@@ -125,7 +125,7 @@ std::string description(const Row& metric) {
 std::string page_json(const PageData& data) {
   Json json{{"charts", Json::array()}, {"curves", Json::array()}, {"worst", Json::array()}};
   for (const Chart& chart : data.charts) json["charts"].push_back(json_of(chart, data.times));
-  for (const Curve& curve : data.curves) json["curves"].push_back(json_of(curve));
+  for (const LawCurve& curve : data.curves) json["curves"].push_back(json_of(curve));
   for (const auto& [metric, frame, time] : data.worst)
     json["worst"].push_back({{"metric", metric}, {"frame", frame}, {"time", time}});
   json["angles"] = has_bones(data.angles) ? points_of(data.times, data.angles) : Json::array();

@@ -31,7 +31,7 @@ struct PageData {
   std::vector<double> times;   ///< of the charts' frames, ascending, s
   std::vector<double> angles;  ///< of the bones in them, degrees
   std::vector<Chart> charts;
-  std::vector<Curve> curves;
+  std::vector<LawCurve> curves;
   std::vector<WorstFrame> worst;
 };
 

@@ -36,7 +36,7 @@ struct CurveLine {
   std::string name;
   std::vector<double> x, y;
 };
-struct Curve {
+struct LawCurve {
   std::string title, note;  ///< what it is, and its formula
   std::string across, up;   ///< labels of the axes, with units
   std::vector<CurveLine> lines;
@@ -51,7 +51,7 @@ struct ReportInput {
   std::vector<FrameMetrics> frames;  ///< one at least
   Summary summary;                   ///< of these frames
   std::vector<Check> checks;
-  std::vector<Curve> curves;
+  std::vector<LawCurve> curves;
   Playback playback;  ///< of no frames: the page has no 3D view
   std::vector<Picture> pictures;
   std::string movie;       ///< relative to the report, or empty

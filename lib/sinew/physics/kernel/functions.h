@@ -4,6 +4,7 @@
 
 #include <sinew/physics/kernel/pruning.h>
 #include <sinew/physics/kernel/step.h>
+#include <sinew/physics/kernel/survey.h>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>

@@ -42,8 +42,7 @@ inline constexpr std::size_t blocks_per_piece = 32;
 /// kernel's length.
 template <class Real>
 struct State {
-  using Coord = typename Traits<Real>::Coord;
-  Coord* x[3];
+  Coord<Real>* x[3];
   Real* v[3];
 };
 
@@ -64,7 +63,7 @@ struct Law {
 /// A rigid frame: a particle at x has the coordinates axes (x - center) in it.
 template <class Real>
 struct FrameNow {
-  typename Traits<Real>::Coord center[3];
+  Coord<Real> center[3];
   Real rest_of_center[3];  ///< remainder of the fixed-point center
   Real axes[9];
   Real velocity[3], spin[3];  ///< of the center; angular
@@ -101,7 +100,7 @@ struct Holds {
 /// The velocity field of a piece that moves as a rigid body: velocity + spin x (x - center).
 template <class Real>
 struct PieceMotion {
-  typename Traits<Real>::Coord center[3];
+  Coord<Real> center[3];
   Real velocity[3], spin[3];
 };
 

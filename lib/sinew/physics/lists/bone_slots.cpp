@@ -8,7 +8,7 @@ namespace sinew {
 namespace {
 
 // Nearer to the axis than this share of a radius, a particle has no direction across it.
-constexpr double on_axis = 1e-6;
+constexpr double least_distance = 1e-6;
 
 double place_along(const Bone& bone, const Vec3& point) {
   return (point - bone.head()).dot(bone.axis());
@@ -34,8 +34,9 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
   const double r = body.material.pair.r;
-  const bool aside = std::hypot(local.y(), local.z()) >= on_axis * r;
-  const double distance = influence.rest_distance < on_axis * r ? 0 : influence.rest_distance;
+  const bool aside = std::hypot(local.y(), local.z()) >= least_distance * r;
+  const double distance =
+      influence.rest_distance < least_distance * r ? 0 : influence.rest_distance;
   const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
                                               aside ? local.y() : 0, aside ? local.z() : 0,
                                               distance};

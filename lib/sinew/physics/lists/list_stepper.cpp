@@ -38,10 +38,7 @@ void ListStepper<Real>::load(const Particles& particles) {
   units_ = units_for<Real>(units_box_, body_->material.pair, stepping_.step);
   state_ = next_ = BlockState<Real>(n);
   id_.assign((state_.blocks() + 2) * block, 0);
-  std::vector<std::uint32_t> place_of(n);
-  for (std::size_t i = 0; i < n; ++i) place_of[particles.id[i]] = static_cast<std::uint32_t>(i);
-  caller_ = order_at_rest(*body_);
-  for (std::uint32_t& i : caller_) i = place_of[i];
+  caller_ = order_at_rest(*body_, particles.id);
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t i = caller_[k];
     id_[k + block] = particles.id[i];

@@ -7,13 +7,13 @@
 //
 // where w is a piece's rigid velocity field, whatever it is, and x is either of the two places: the
 // rotation that both fields share moves particles across the line between them. The kernel finds
-// the largest of the first two terms in every step; the third is largest at a corner of the region
-// where the pieces can meet. What pairs of pieces have used up of the skins is added step by step,
-// so the lists of a piece are made again when its own surroundings have changed, and not before.
+// the largest of the first two terms in every step; the third is bounded in the region where the
+// pieces can meet. What pairs of pieces have used up of the skins is added step by step, so the
+// lists of a piece are made again when its own surroundings have changed, and not before.
 //
 //     NearPieces near(ranges);
-//     near.survey(pieces, time);             // now and then: how the pieces move
-//     near.advance(fastest, time);     // after every step
+//     near.survey(pieces, time);    // now and then: how the pieces move
+//     near.advance(fastest, time);  // after every step
 //     for (const std::uint32_t piece : near.to_list()) ... near.listed(piece);
 #pragma once
 

@@ -12,7 +12,7 @@ namespace sinew {
 
 namespace {
 
-constexpr std::size_t particles_per_piece = 16384;
+constexpr std::size_t particles_per_copy = 16384;
 constexpr std::size_t columns_per_piece = 64;
 
 /// How columns divide the body's bounding box.
@@ -54,7 +54,8 @@ Columns columns_of(const std::array<Coord*, 3>& x, std::size_t count, double edg
   return columns;
 }
 
-constexpr double off_lattice = 1e-3;  // in spacings of planes
+constexpr double off_lattice = 1e-3;     // in spacings of planes
+constexpr double farthest_plane = 1e15;  // still a whole number
 
 /// Lattice planes of a group of particles, slowest axis first.
 struct Planes {
@@ -71,16 +72,26 @@ struct Planes {
 
 using Site = std::array<std::int64_t, 3>;
 
+/// Particles of a body by their places in a list of ids.
+struct Listed {
+  const Body& body;
+  std::span<const std::int32_t> id;
+
+  const Vec3& rest(std::uint32_t place) const {
+    return body.rest[static_cast<std::size_t>(id[place])];
+  }
+};
+
 /// The sites of the particles `group`; none where they are on no lattice.
-std::vector<Site> sites_of(const Body& body, const std::vector<std::uint32_t>& group,
+std::vector<Site> sites_of(const Listed& particles, const std::vector<std::uint32_t>& group,
                            const Planes& planes) {
-  const double spacing = half_plane_spacing(body.material.pair.r);
+  const double spacing = half_plane_spacing(particles.body.material.pair.r);
   std::vector<Site> sites(group.size());
   for (std::size_t k = 0; k < group.size(); ++k) {
-    const Vec3 from = body.rest[group[k]] - body.rest[group[0]];
+    const Vec3 from = particles.rest(group[k]) - particles.rest(group[0]);
     for (int axis = 0; axis < 3; ++axis) {
       const double at = from.dot(planes.axes[axis]) / spacing, whole = std::round(at);
-      if (!(std::abs(at - whole) < off_lattice)) return {};
+      if (!(std::abs(at) < farthest_plane && std::abs(at - whole) < off_lattice)) return {};
       sites[k][axis] = static_cast<std::int64_t>(whole);
     }
   }
@@ -88,16 +99,19 @@ std::vector<Site> sites_of(const Body& body, const std::vector<std::uint32_t>& g
 }
 
 /// The direction along which the particles `group` extend farthest.
-Vec3 longest_side(const Body& body, const std::vector<std::uint32_t>& group) {
+Vec3 longest_side(const Listed& particles, const std::vector<std::uint32_t>& group) {
+  const Mat3& lattice = particles.body.lattice;
   Box box;
-  for (const std::uint32_t i : group) box.extend(body.lattice.transpose() * body.rest[i]);
+  for (const std::uint32_t place : group) box.extend(lattice.transpose() * particles.rest(place));
   int axis = 0;
   box.sizes().maxCoeff(&axis);
-  return body.lattice.col(axis);
+  return lattice.col(axis);
 }
 
-void sort_by_planes(const Body& body, const Vec3& across, std::vector<std::uint32_t>& group) {
-  const std::vector<Site> sites = sites_of(body, group, Planes(body.lattice, across));
+void sort_by_planes(const Listed& particles, const Vec3& across,
+                    std::vector<std::uint32_t>& group) {
+  const std::vector<Site> sites =
+      sites_of(particles, group, Planes(particles.body.lattice, across));
   if (sites.empty()) return;
   std::vector<std::uint32_t> order(group.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -111,19 +125,21 @@ void sort_by_planes(const Body& body, const Vec3& across, std::vector<std::uint3
 
 }  // namespace
 
-std::vector<std::uint32_t> order_at_rest(const Body& body) {
+std::vector<std::uint32_t> order_at_rest(const Body& body, std::span<const std::int32_t> id) {
+  const Listed particles{body, id};
   const std::size_t bones = body.skeleton.size();
   std::vector<std::vector<std::uint32_t>> groups(bones + 1);
-  for (std::uint32_t i = 0; i < body.rest.size(); ++i) {
-    const int bone = body.binding.bone(i);
-    groups[bone == no_bone ? bones : static_cast<std::size_t>(bone)].push_back(i);
+  for (std::uint32_t place = 0; place < id.size(); ++place) {
+    const int bone = body.binding.bone(static_cast<std::size_t>(id[place]));
+    groups[bone == no_bone ? bones : static_cast<std::size_t>(bone)].push_back(place);
   }
   std::vector<std::uint32_t> order;
-  order.reserve(body.rest.size());
+  order.reserve(id.size());
   for (std::size_t b = 0; b <= bones; ++b) {
     if (groups[b].empty()) continue;
-    sort_by_planes(body, b < bones ? body.skeleton.bones[b].axis() : longest_side(body, groups[b]),
-                   groups[b]);
+    const Vec3 across =
+        b < bones ? body.skeleton.bones[b].axis() : longest_side(particles, groups[b]);
+    sort_by_planes(particles, across, groups[b]);
     order.insert(order.end(), groups[b].begin(), groups[b].end());
   }
   return order;
@@ -136,7 +152,7 @@ std::vector<std::uint32_t> order_by_columns(BlockState<Real>& state, double edge
   const std::array x{arrays.x[0], arrays.x[1], arrays.x[2]};
   const Columns columns = columns_of(x, n, edge);
   std::vector<std::uint32_t> column(n), first(columns.count() + 1, 0), order(n);
-  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, particles_per_copy, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       column[k] = columns.of(static_cast<double>(x[columns.across[0]][k]),
                              static_cast<double>(x[columns.across[1]][k]));
@@ -160,7 +176,7 @@ template <class Real>
 void reorder(BlockState<Real>& from, const std::vector<std::uint32_t>& order,
              BlockState<Real>& to) {
   const auto a = from.arrays(), b = to.arrays();
-  parallel_for(order.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(order.size(), particles_per_copy, [&](std::size_t begin, std::size_t end) {
     for (int axis = 0; axis < 3; ++axis)
       for (std::size_t k = begin; k < end; ++k) {
         b.x[axis][k] = a.x[axis][order[k]];

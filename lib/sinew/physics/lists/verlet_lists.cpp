@@ -17,7 +17,7 @@ namespace {
 // In diameters, by measurement: longer lists cost every step, shorter ones are made more often. The
 // inner skin excludes the second neighbors of a packed body.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
-constexpr std::size_t pieces_per_task = 4;
+constexpr std::size_t pieces_at_a_time = 4;
 using kernel::blocks_per_piece;
 
 /// Of the kernel's velocity fields, as a share of their speed.
@@ -107,7 +107,7 @@ void VerletLists<Real>::survey(BlockState<Real>& state) {
   const auto arrays = state.arrays();
   const kernel::SurveyInput<Real> input{arrays, state.blocks(), state.live()};
   constexpr std::size_t size = blocks_per_piece * BlockState<Real>::block;
-  parallel_for(pieces.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t first = piece * size, last = std::min(first + size, state.size());
       auto& motion = motions_[piece];
@@ -149,8 +149,9 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const Units& units,
                                std::span<const kernel::Totals> totals) {
   Stopwatch watch;
   ++moment_;
-  // Fixed-point coordinates are rounded to the nearest unit along each axis.
-  const double unit = sizeof(Real) == 4 ? 1 / time_ : 0;
+  // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
+  // of the velocity fields.
+  const double unit = sizeof(Real) == 4 ? 2 / time_ : 0;
   for (std::size_t piece = 0; piece < totals.size(); ++piece)
     fastest_[piece] =
         std::sqrt(totals[piece].fastest) * (1 + 1e-5) + unit + rounding<Real> * speed_[piece];
@@ -162,7 +163,7 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const Units& units,
   counts_.checking += watch.lap();
   list(state, near_.to_list());
   const std::vector<std::uint32_t>& pieces = near_.to_prune();
-  parallel_for(pieces.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) prune(state, pieces[k]);
   });
   counts_.pruned += static_cast<std::int64_t>(pieces.size());
@@ -176,7 +177,7 @@ void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
   for (const std::uint32_t piece : pieces)
     for (const NearPieces::Near& near : near_.of(piece))
       if (std::exchange(boxed_[near.piece], moment_) != moment_) old.push_back(near.piece);
-  parallel_for(old.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_for(old.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) find_boxes(state, old[k], boxes_);
   });
 }

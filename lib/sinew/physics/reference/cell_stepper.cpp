@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_piece = 512;
+constexpr std::size_t particles_per_cell_task = 512;
 
 std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
   if (!remembers_neighbors(body.material)) return std::nullopt;
@@ -127,12 +127,12 @@ void CellStepper::add_world(StepSums& sums) const {
 StepSums CellStepper::sums() const {
   const std::size_t n = particles_.size();
   StepSums sums;
-  sums.power = parallel_sum(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  sums.power = parallel_sum(n, particles_per_cell_task, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += forces_.bone_power[i];
     return sum;
   });
-  sums.lost = parallel_sum(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  sums.lost = parallel_sum(n, particles_per_cell_task, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 velocity = velocity_now(i);
@@ -195,7 +195,7 @@ StepSums CellStepper::step(const Pose& pose) {
   const Particles& now = particles_;
   before_ = {{now.x, now.y, now.z}, {now.u, now.v, now.w}};
   std::atomic<bool> failed = false;
-  parallel_for(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(now.size(), particles_per_cell_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Particle before{particles_.position(i), particles_.velocity(i)};
       advance(i, kick);

@@ -55,39 +55,42 @@ Steepness steepness(const Form& form, const Grain& grain) {
   return {grain.mass * std::abs(form.acceleration), form.core};
 }
 
-void require(bool holds, const std::string& name, const std::string& wrong,
-             const std::string& cure) {
+void require_field(bool holds, const std::string& name, const std::string& wrong,
+                   const std::string& cure) {
   if (!holds) throw bad_input("field '" + name + "' " + wrong, cure);
 }
 
 void check_core(double acceleration, double core, const std::string& name) {
-  require(std::isfinite(acceleration), name, "has an acceleration that is not finite",
-          "give a finite number");
-  require(std::isfinite(core) && core > 0, name, "has a core of " + number_text(core),
-          "give a positive length");
+  require_field(std::isfinite(acceleration), name, "has an acceleration that is not finite",
+                "give a finite number");
+  require_field(std::isfinite(core) && core > 0, name, "has a core of " + number_text(core),
+                "give a positive length");
 }
 
 void check_form(const UniformAcceleration& form, const std::string& name) {
-  require(form.acceleration.allFinite(), name, "has an acceleration that is not finite",
-          "give finite numbers");
+  require_field(form.acceleration.allFinite(), name, "has an acceleration that is not finite",
+                "give finite numbers");
 }
 void check_form(const ForceDensity& form, const std::string& name) {
-  require(form.density.allFinite(), name, "has a density that is not finite",
-          "give finite numbers");
+  require_field(form.density.allFinite(), name, "has a density that is not finite",
+                "give finite numbers");
 }
 void check_form(const Attraction& form, const std::string& name) {
-  require(form.point.allFinite(), name, "has a point that is not finite", "give finite numbers");
+  require_field(form.point.allFinite(), name, "has a point that is not finite",
+                "give finite numbers");
   check_core(form.acceleration, form.core, name);
 }
 void check_form(const CustomForce& form, const std::string& name) {
-  require(form.force != nullptr, name, "has no force", "give a function of position and grain");
-  require(form.largest >= 0 && form.length > 0, name, "has no bounds",
-          "give the largest force, and the length over which it changes by as much");
+  require_field(form.force != nullptr, name, "has no force",
+                "give a function of position and grain");
+  require_field(form.largest >= 0 && form.length > 0, name, "has no bounds",
+                "give the largest force, and the length over which it changes by as much");
 }
 void check_form(const Swirl& form, const std::string& name) {
-  require(form.point.allFinite(), name, "has a point that is not finite", "give finite numbers");
-  require(form.axis.allFinite() && form.axis.norm() > 0, name, "has an axis without length",
-          "give a direction");
+  require_field(form.point.allFinite(), name, "has a point that is not finite",
+                "give finite numbers");
+  require_field(form.axis.allFinite() && form.axis.norm() > 0, name, "has an axis without length",
+                "give a direction");
   check_core(form.acceleration, form.core, name);
 }
 

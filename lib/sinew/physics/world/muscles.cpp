@@ -12,7 +12,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_piece = 1024;
+constexpr std::size_t muscle_particles_per_task = 1024;
 // A fiber at half its length is far beyond what living muscles do (0.6).
 constexpr double crushed = 0.5;
 
@@ -108,7 +108,7 @@ Points by_id(const Particles& particles) {
 std::vector<Mat3> active_gradients(const Muscles& all, const Particles& particles) {
   const Points now = by_id(particles);
   std::vector<Mat3> F(all.active.size());
-  parallel_for(F.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(F.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row)
       F[row] = deformation_gradient(all.rest, now, all.active[row]);
   });
@@ -119,7 +119,7 @@ std::vector<Mat3> active_gradients(const Muscles& all, const Particles& particle
 std::vector<Mat3> pulls(const Muscles& all, const Activations& activations,
                         const std::vector<Mat3>& F, double volume) {
   std::vector<Mat3> by_offset(F.size());
-  parallel_for(F.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(F.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row)
       by_offset[row] = volume * nominal_stress(all, activations, row, F[row]) *
                        all.rest.inverse[all.active[row]];
@@ -236,10 +236,11 @@ FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations
   const double volume = volume_per_particle(particles.radius);
   const auto F = active_gradients(muscles, particles);
   const auto by_offset = pulls(muscles, activations, F, volume);
-  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      forces[i] = force_on(muscles, by_offset, static_cast<std::uint32_t>(particles.id[i]));
-  });
+  parallel_for(
+      particles.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          forces[i] = force_on(muscles, by_offset, static_cast<std::uint32_t>(particles.id[i]));
+      });
   return energy_of(muscles, activations, F, volume);
 }
 
@@ -248,14 +249,15 @@ std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activ
   std::vector<Mat3> stress(particles.size(), Mat3::Zero());
   if (muscles.active.empty()) return stress;
   const auto F = active_gradients(muscles, particles);
-  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::int32_t row = muscles.row[static_cast<std::size_t>(particles.id[i])];
-      if (row < 0) continue;
-      const auto k = static_cast<std::size_t>(row);
-      stress[i] = nominal_stress(muscles, activations, k, F[k]) * F[k].transpose();
-    }
-  });
+  parallel_for(particles.size(), muscle_particles_per_task,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   const std::int32_t row = muscles.row[static_cast<std::size_t>(particles.id[i])];
+                   if (row < 0) continue;
+                   const auto k = static_cast<std::size_t>(row);
+                   stress[i] = nominal_stress(muscles, activations, k, F[k]) * F[k].transpose();
+                 }
+               });
   return stress;
 }
 

@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_piece = 4096;
+constexpr std::size_t particles_per_search = 4096;
 constexpr std::uint32_t no_pin = UINT32_MAX;
 
 std::string name_of(std::size_t pin) { return "pin " + std::to_string(pin); }
@@ -21,7 +21,7 @@ bool holds(const Pin& pin, const Vec3& point) {
 /// The first pin that contains each point.
 std::vector<std::uint32_t> pin_of_each(const Points& rest, const std::vector<Pin>& pins) {
   std::vector<std::uint32_t> first(rest.size(), no_pin);
-  parallel_for(rest.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rest.size(), particles_per_search, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = pins.size(); p-- > 0;)
       for (std::size_t i = begin; i < end; ++i)
         if (holds(pins[p], rest[i])) first[i] = static_cast<std::uint32_t>(p);

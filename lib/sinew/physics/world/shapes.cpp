@@ -15,7 +15,7 @@ namespace {
 // share.
 constexpr double square_enough = 1e-6;
 // Closer than this to a capsule's segment, in radii, a direction is rounding.
-constexpr double on_axis = 1e-9;
+constexpr double rounding_of_lengths = 1e-9;
 
 SignedDistance from_point(const Vec3& offset, double radius, const Vec3& otherwise) {
   const double length = offset.norm();
@@ -38,7 +38,7 @@ SignedDistance distance_to(const CapsuleShape& capsule, const Vec3& point) {
   const double share = std::clamp((point - capsule.a).dot(along) / squared, 0.0, 1.0);
   const Vec3 offset = point - (capsule.a + share * along);
   // On the axis the direction would be rounding alone, and might be that of the axis.
-  if (offset.norm() < on_axis * capsule.radius)
+  if (offset.norm() < rounding_of_lengths * capsule.radius)
     return {offset.norm() - capsule.radius, frame_along(along).col(1)};
   return from_point(offset, capsule.radius, Vec3::UnitZ());
 }
@@ -62,24 +62,25 @@ SignedDistance distance_to(const MeshShape& mesh, const Vec3& point) {
   return mesh.distance(point);
 }
 
-void require(bool holds, const std::string& what, const std::string& wrong,
-             const std::string& cure) {
+void require_shape(bool holds, const std::string& what, const std::string& wrong,
+                   const std::string& cure) {
   if (!holds) throw bad_input(what + wrong, cure);
 }
 
 void check_size(double size, const std::string& what, const std::string& name) {
-  require(std::isfinite(size) && size > 0, what, " has a " + name + " of " + number_text(size),
-          "give a positive number");
+  require_shape(std::isfinite(size) && size > 0, what,
+                " has a " + name + " of " + number_text(size), "give a positive number");
 }
 
 void check_place(const Vec3& place, const std::string& what) {
-  require(place.allFinite(), what, " is at a place that is not finite", "give finite numbers");
+  require_shape(place.allFinite(), what, " is at a place that is not finite",
+                "give finite numbers");
 }
 
 void check_solid(const PlaneShape& plane, const std::string& what) {
   check_place(plane.point, what);
-  require(plane.normal.allFinite() && plane.normal.norm() > 0, what,
-          " is a plane whose normal has no length", "give a direction");
+  require_shape(plane.normal.allFinite() && plane.normal.norm() > 0, what,
+                " is a plane whose normal has no length", "give a direction");
 }
 
 void check_solid(const SphereShape& sphere, const std::string& what) {
@@ -97,15 +98,16 @@ void check_solid(const BoxShape& box, const std::string& what) {
   check_place(box.center, what);
   for (const double half : box.half) check_size(half, what, "half edge");
   const Mat3 product = box.rotation.transpose() * box.rotation;
-  require((product - Mat3::Identity()).cwiseAbs().maxCoeff() < square_enough, what,
-          " is a box whose axes are not square", "give a rotation");
+  require_shape((product - Mat3::Identity()).cwiseAbs().maxCoeff() < square_enough, what,
+                " is a box whose axes are not square", "give a rotation");
 }
 
 void check_solid(const MeshShape& mesh, const std::string& what) {
-  require(static_cast<bool>(mesh.distance), what, " is a mesh without distances",
-          "give its distance function");
-  require(!mesh.bounds.isEmpty() && mesh.bounds.min().allFinite() && mesh.bounds.max().allFinite(),
-          what, " is a mesh without bounds", "give the box that holds it");
+  require_shape(static_cast<bool>(mesh.distance), what, " is a mesh without distances",
+                "give its distance function");
+  require_shape(
+      !mesh.bounds.isEmpty() && mesh.bounds.min().allFinite() && mesh.bounds.max().allFinite(),
+      what, " is a mesh without bounds", "give the box that holds it");
 }
 
 }  // namespace

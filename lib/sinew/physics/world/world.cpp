@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_piece = 1024;
+constexpr std::size_t particles_per_world_task = 1024;
 constexpr std::size_t most_contacts = 3;  // of one particle at once, for the step limit
 
 /// Contributions of the particles of one piece to the sums.
@@ -105,9 +105,9 @@ void add_up(const std::vector<PieceSums>& pieces, WorldForces& forces) {
 /// Calls act(i, sums of its piece) for all particles and adds up.
 template <class Act>
 void for_each_particle(std::size_t n, WorldForces& forces, const Act& act) {
-  std::vector<PieceSums> pieces((n + particles_per_piece - 1) / particles_per_piece);
-  parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    PieceSums& sums = pieces[begin / particles_per_piece];
+  std::vector<PieceSums> pieces((n + particles_per_world_task - 1) / particles_per_world_task);
+  parallel_for(n, particles_per_world_task, [&](std::size_t begin, std::size_t end) {
+    PieceSums& sums = pieces[begin / particles_per_world_task];
     sums.reactions.resize(forces.reactions.size());
     for (std::size_t i = begin; i < end; ++i) act(i, sums);
   });
@@ -115,7 +115,7 @@ void for_each_particle(std::size_t n, WorldForces& forces, const Act& act) {
 }
 
 double sum_of_products(const Points& a, const Points& b) {
-  return parallel_sum(a.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  return parallel_sum(a.size(), particles_per_world_task, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += a[i].dot(b[i]);
     return sum;
@@ -123,11 +123,12 @@ double sum_of_products(const Points& a, const Points& b) {
 }
 
 double sum_of(const std::vector<double>& values) {
-  return parallel_sum(values.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t i = begin; i < end; ++i) sum += values[i];
-    return sum;
-  });
+  return parallel_sum(values.size(), particles_per_world_task,
+                      [&](std::size_t begin, std::size_t end) {
+                        double sum = 0;
+                        for (std::size_t i = begin; i < end; ++i) sum += values[i];
+                        return sum;
+                      });
 }
 
 /// The sum of the values that can act on one particle at once.
