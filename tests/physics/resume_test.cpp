@@ -163,7 +163,7 @@ Results results_of(Simulation& simulation) {
                    of.contact, of.work_of_world},
                   {},
                   forces.neighbors,
-                  {simulation.broken_bonds().begin(), simulation.broken_bonds().end()}};
+                  simulation.broken_bonds()};
   for (std::size_t i = 0; i < simulation.particles().size(); ++i)
     for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
       results.forces.push_back((*part)[i]);

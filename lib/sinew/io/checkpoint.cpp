@@ -61,6 +61,8 @@ void walk(State& checkpoint, Transfer&& transfer) {
       state.moving);
   transfer("bonds", state.rest_length);
   transfer("broken", state.broken);
+  transfer("lanes", state.bonded_lanes);
+  transfer("creep", state.creep);
 }
 
 template <class Value>

@@ -32,8 +32,7 @@ bool is_finite(const LedgerEntries& ledger) {
 }  // namespace
 
 bool lists_support(const Body& body, const Motion& motion) {
-  return !body.world && !stretches(motion) && !remembers_neighbors(body.material) &&
-         body.material.damping_form == DampingForm::paper &&
+  return !body.world && !stretches(motion) && body.material.damping_form == DampingForm::paper &&
          std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
            return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
          });
@@ -165,9 +164,8 @@ Energies Simulation::energies() {
   return energies;
 }
 
-std::span<const std::int32_t> Simulation::broken_bonds() const {
-  const auto* cells = std::get_if<CellStepper>(&stepper_);
-  return cells != nullptr ? cells->broken_bonds() : std::span<const std::int32_t>();
+std::vector<std::int32_t> Simulation::broken_bonds() const {
+  return std::visit([](const auto& stepper) { return stepper.broken_bonds(); }, stepper_);
 }
 
 std::span<const Reaction> Simulation::reactions_of_obstacles() {

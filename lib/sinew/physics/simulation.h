@@ -58,7 +58,7 @@ class Simulation {
 
   /// Broken bonds of each particle, in the order of the particles; none for the paper's model,
   /// which has no bonds.
-  std::span<const std::int32_t> broken_bonds() const;
+  std::vector<std::int32_t> broken_bonds() const;
 
   /// The force of the body on each obstacle of its world at the present moment, about its frame.
   std::span<const Reaction> reactions_of_obstacles();

@@ -97,14 +97,14 @@ Mat3 spread_at_rest(const Points& rest, const NeighborLists& neighbors, std::siz
   return A;
 }
 
-double weight_of(const Mat3& A, double d0) {
+}  // namespace
+
+double volume_weight(const Mat3& A, double radius) {
   const double least =
       Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  const double share = std::clamp(least / (4 * d0 * d0), 0.0, 1.0);
+  const double share = std::clamp(least / (16 * radius * radius), 0.0, 1.0);
   return share < 1e-9 ? 0 : share * share;
 }
-
-}  // namespace
 
 bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
@@ -121,7 +121,7 @@ Solid::Solid(const Material& material, Points rest)
   thrust_.assign(n, Mat3::Zero());
   for_each_particle(n, [&](std::size_t i) {
     const Mat3 A = spread_at_rest(rest_, bonds_.neighbors, i);
-    weight_[i] = weight_of(A, 2 * material_.pair.r);
+    weight_[i] = volume_weight(A, material_.pair.r);
     if (weight_[i] > 0) inverse_[i] = A.inverse();
   });
 }

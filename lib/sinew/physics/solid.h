@@ -62,6 +62,9 @@ double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& conta
 /// Whether a material's forces depend on the neighbors at rest.
 bool remembers_neighbors(const Material& material);
 
+/// w_i of particles of `radius` (m), from A_i (m^2): see above.
+double volume_weight(const Mat3& A, double radius);
+
 class Solid {
  public:
   /// `rest` in the order of the particles, m.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/stepper_choice.h>
 
-#include <sinew/physics/laws.h>
 #include <sinew/physics/simulation.h>
 
 namespace sinew {
@@ -24,10 +23,6 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
 constexpr double speed_with_cells = 2e6;
 
 Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
-  if (const ForceLaw& law = law_of(body.material); law.has_bonds)
-    return {"material.model", std::string(law.name), "paper"};
-  if (body.material.cohesion != Cohesion::all)
-    return {"material.cohesion", "initial_neighbors", "all"};
   if (body.world) return {"the section world", "not empty", "without entries"};
   if (stretches(motion)) return {"a key's stretch", "not 1", "1"};
   if (body.material.damping_form != DampingForm::paper)

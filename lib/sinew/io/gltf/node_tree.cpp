@@ -111,7 +111,7 @@ void check_bind(const GltfDocument& document, const GltfJoint& joint) {
     throw not_invertible(document, joint.node);
   if (even_scale(linear, uneven_scale) > 0) return;
   const Vec3 scales = linear.colwise().norm();
-  throw bad_input(joint_words(document, joint.node) + " is bound with the uneven_scale scale " +
+  throw bad_input(joint_words(document, joint.node) + " is bound with the uneven scale " +
                       std::to_string(scales[0]) + " " + std::to_string(scales[1]) + " " +
                       std::to_string(scales[2]),
                   "apply its scale before binding");

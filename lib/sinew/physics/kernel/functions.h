@@ -34,21 +34,34 @@ class FlushedToZero {
   FlushedToZero& operator=(const FlushedToZero&) = delete;
 };
 
-template <class L>
+template <class L, PairLaw pairs>
 void step_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const FlushedToZero<L> mode;
-  step_pieces<L>(step, begin, end);
+  step_pieces<L, pairs>(step, begin, end);
+}
+
+template <class L, PairLaw pairs>
+void probe_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  const FlushedToZero<L> mode;
+  probe_pieces<L, pairs>(step, begin, end);
 }
 
 template <class L>
-void probe_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+void strain_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const FlushedToZero<L> mode;
-  probe_pieces<L>(step, begin, end);
+  strain_pieces<L>(step, begin, end);
 }
 
 template <class L>
 constexpr Functions<typename L::Real> functions() {
-  return {step_flushed<L>, probe_flushed<L>, prune_range<L>, prune_list<L>, survey<L>};
+  return {strain_flushed<L>,
+          {step_flushed<L, between_all>, step_flushed<L, among_neighbors>, step_flushed<L, springs>,
+           step_flushed<L, changing_springs>},
+          {probe_flushed<L, between_all>, probe_flushed<L, among_neighbors>,
+           probe_flushed<L, springs>, probe_flushed<L, changing_springs>},
+          prune_range<L>,
+          prune_list<L>,
+          survey<L>};
 }
 
 }  // namespace sinew::kernel

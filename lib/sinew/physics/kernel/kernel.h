@@ -50,6 +50,40 @@ struct State {
 struct Lists {
   const std::uint32_t* first;
   const std::int32_t* value;
+  const std::uint16_t* lanes;  ///< of each difference, those that it is for; null: all
+};
+
+/// What acts between pairs: eq. 1 between all; eq. 1, without its attraction between particles that
+/// were no neighbors at rest; springs between neighbors at rest and the repulsion of eq. 1 between
+/// others; the same with springs that creep and break.
+enum PairLaw { between_all, among_neighbors, springs, changing_springs, pair_laws };
+
+/// Bonds of some lanes of a block with the particles at one difference from them.
+struct BondEntry {
+  std::int32_t difference;
+  std::uint32_t kind;
+  std::uint32_t lanes;  ///< bit by lane, at rest and, 16 bits lower, now: what breaks is cleared
+};
+inline constexpr int at_rest = 16;
+
+/// Bonds that were equal and parallel at rest.
+template <class Real>
+struct BondKind {
+  Real rest[3];  ///< to the neighbor
+  Real length;
+  Real stiffness;
+};
+
+template <class Real>
+struct Bonds {
+  const std::uint32_t* first;  ///< entries of block k: [first[k], first[k + 1])
+  BondEntry* entries;
+  const BondKind<Real>* kinds;
+  Real* creep;           ///< entries x block, added to the length; null: none creeps
+  std::int32_t* broken;  ///< by particle
+  Real yield;            ///< strain beyond which a bond creeps
+  Real crept;            ///< share of the strain beyond that which a step takes
+  Real breaking;         ///< strain at which it breaks
 };
 
 /// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, over the distance.
@@ -104,14 +138,40 @@ struct PieceMotion {
   Real velocity[3], spin[3];
 };
 
+/// What neighbors at rest exert because of the deformation around each particle: the force on i is
+/// the sum of (T_i + T_j) X over them, X to the neighbor at rest. By particle, row by row.
+template <class Real>
+using Thrust = Real* [9];
+
+/// Of the materials that keep their volume, U = K_v V0 w (J - 1)^2 / 2 per particle.
+template <class Real>
+struct Volumes {
+  Real* stiffness;  ///< K_v V0 w; 0 where no volume is kept; null: nowhere
+  Real* growth;     ///< J - 1
+  Thrust<Real> thrust;
+};
+
+/// Fibers of muscles. A block's slots are [first[k], first[k + 1]).
+template <class Real>
+struct Fibers {
+  const std::uint32_t* first;  ///< null: there are none
+  const std::int32_t* muscle;  ///< by slot
+  const Real* strength;        ///< slots x block: times weight and volume
+  const Real* direction;       ///< by muscle, 3 each
+  const Real* level;           ///< by muscle: its activation
+  Thrust<Real> thrust;
+};
+
 /// Sums of a piece.
 struct Totals {
-  double power;        ///< of the bones
+  double power;  ///< of the bones
+  double muscle_power;
   double lost;         ///< what the step dissipates per time
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
   double fastest;      ///< largest squared speed relative to the piece's motion
   bool sound;          ///< none too fast (see most_radii_per_step), all values finite
+  bool broke;          ///< a bond
 };
 
 /// Forces of a probe, by particle.
@@ -120,6 +180,7 @@ struct Probed {
   Real* pair[3];
   Real* damping[3];
   Real* bone[3];
+  Real* muscle[3];  ///< null without muscles
   std::int32_t* neighbors;
 };
 
@@ -133,6 +194,10 @@ struct Step {
   const PieceMotion<Real>* motions;  ///< by piece
   Holds<Real> holds;
   Law<Real> law;
+  Bonds<Real> bonds;  ///< of laws that know neighbors at rest, and of fibers
+  Real* inverse[6];   ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
+  Volumes<Real> volumes;
+  Fibers<Real> fibers;
   Real unit;         ///< length of one unit of coordinates
   Real gravity[3];   ///< per time squared
   Real kick;         ///< v += kick a
@@ -160,26 +225,35 @@ struct SurveyInput {
   const Real* live;  ///< as in Step
 };
 
-/// Prunes the differences of a block's candidates.
+/// Prunes the differences of a block's candidates: those with a pair within range are kept.
 template <class Real>
 struct PruneInput {
   State<Real> state;
   Real range2;  ///< squared distance
 };
 
+/// Differences and, unless null, the lanes that each is for.
+struct Candidates {
+  std::int32_t* value;
+  std::uint16_t* lanes;
+  std::size_t count;  ///< to be read, not of room
+};
+
 /// The functions of one instruction set.
 template <class Real>
 struct Functions {
-  /// Advances the blocks of the pieces [begin, end).
-  void (*step)(const Step<Real>&, std::size_t begin, std::size_t end);
-  /// Fills `probed` and all of `totals`; moves nothing.
-  void (*probe)(const Step<Real>&, std::size_t begin, std::size_t end);
+  /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
+  void (*strain)(const Step<Real>&, std::size_t begin, std::size_t end);
+  /// By PairLaw: advances the blocks of the pieces [begin, end).
+  void (*step[pair_laws])(const Step<Real>&, std::size_t begin, std::size_t end);
+  /// The same: fills `probed` and all of `totals`; moves nothing.
+  void (*probe[pair_laws])(const Step<Real>&, std::size_t begin, std::size_t end);
   /// Copies the differences in [from, to) with a pair of the block within range; returns the end.
   std::int32_t* (*prune_range)(const PruneInput<Real>&, std::size_t block, std::int64_t from,
                                std::int64_t to, std::int32_t* kept);
-  /// The same for a list of differences.
-  std::int32_t* (*prune)(const PruneInput<Real>&, std::size_t block, const std::int32_t* begin,
-                         const std::int32_t* end, std::int32_t* kept);
+  /// The same for a list of differences; returns how many are kept.
+  std::size_t (*prune)(const PruneInput<Real>&, std::size_t block, const Candidates& from,
+                       const Candidates& kept);
   /// Surveys a piece relative to `center`.
   Survey (*survey)(const SurveyInput<Real>&, std::size_t piece, const Coord<Real>* center);
 };

@@ -26,6 +26,11 @@ struct Doubles {
   static V size(V v) { return _mm256_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
+  static M mask(std::uint32_t bits) {
+    const __m256i own = _mm256_setr_epi64x(1, 2, 4, 8);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi64x(bits), own);
+    return _mm256_castsi256_pd(_mm256_cmpeq_epi64(set, own));
+  }
   static bool any(M m) { return _mm256_movemask_pd(m) != 0; }
   static bool every(M m) { return _mm256_movemask_pd(m) == 0xf; }
   static V keep(M m, V v) { return _mm256_and_pd(m, v); }
@@ -58,6 +63,11 @@ struct Floats {
   static V size(V v) { return _mm256_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
+  static M mask(std::uint32_t bits) {
+    const __m256i own = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), own);
+    return _mm256_castsi256_ps(_mm256_cmpeq_epi32(set, own));
+  }
   static bool any(M m) { return _mm256_movemask_ps(m) != 0; }
   static bool every(M m) { return _mm256_movemask_ps(m) == 0xff; }
   static V keep(M m, V v) { return _mm256_and_ps(m, v); }

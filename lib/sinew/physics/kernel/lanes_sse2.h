@@ -32,6 +32,11 @@ struct Doubles {
   static V size(V v) { return _mm_andnot_pd(all(-0.0), v); }
   static M less(V a, V b) { return _mm_cmplt_pd(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_pd(a, b); }
+  static M mask(std::uint32_t bits) {
+    const __m128i own = _mm_setr_epi32(1, 1, 2, 2);
+    const __m128i set = _mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), own);
+    return _mm_castsi128_pd(_mm_cmpeq_epi32(set, own));
+  }
   static bool any(M m) { return _mm_movemask_pd(m) != 0; }
   static bool every(M m) { return _mm_movemask_pd(m) == 0x3; }
   static V keep(M m, V v) { return _mm_and_pd(m, v); }
@@ -69,6 +74,11 @@ struct Floats {
   static V size(V v) { return _mm_andnot_ps(all(-0.0F), v); }
   static M less(V a, V b) { return _mm_cmplt_ps(a, b); }
   static M at_most(V a, V b) { return _mm_cmple_ps(a, b); }
+  static M mask(std::uint32_t bits) {
+    const __m128i own = _mm_setr_epi32(1, 2, 4, 8);
+    const __m128i set = _mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), own);
+    return _mm_castsi128_ps(_mm_cmpeq_epi32(set, own));
+  }
   static bool any(M m) { return _mm_movemask_ps(m) != 0; }
   static bool every(M m) { return _mm_movemask_ps(m) == 0xf; }
   static V keep(M m, V v) { return _mm_and_ps(m, v); }

@@ -14,11 +14,72 @@ struct PairSums {
   typename L::V energy = L::all(0);  ///< half of each pair's; only where requested
 };
 
+/// 1 / d from the squared distance.
+template <class L, class Real = typename L::Real>
+class InverseLength;
+
+/// Single precision: exact root and division.
+template <class L>
+class InverseLength<L, float> {
+ public:
+  using V = typename L::V;
+  SINEW_INLINE explicit InverseLength(const Law<float>&) {}
+  template <bool careful>
+  SINEW_INLINE V of(V squared) const {
+    return L::all(1) / L::root(squared);
+  }
+};
+
+/// Double precision, in whose vectors root and division are slow. Nearly all pairs are between 1.5
+/// and 2.83 radii; there 1 / d takes half the time as a minimax polynomial in s = d^2 with a
+/// relative error of 1.4e-3, improved by the series of 1 / sqrt(1 - h) up to h^5: an error of 2 in
+/// the last place, the same everywhere.
+template <class L>
+class InverseLength<L, double> {
+ public:
+  using V = typename L::V;
+
+  SINEW_INLINE explicit InverseLength(const Law<double>& law)
+      : least(L::all(2.25 * law.r * law.r)), most(L::all(8 * law.r * law.r)) {
+    constexpr double coefficients[] = {1.199850214, -0.3655432081, 0.07144285003, -0.007049514311,
+                                       0.0002723509958};
+    double scale = 1 / law.r;
+    for (int k = 0; k < 5; ++k) {
+      seed_[k] = L::all(coefficients[k] * scale);
+      scale /= law.r * law.r;
+    }
+  }
+
+  /// `careful`: of all s; without it of those between `least` and `most`.
+  template <bool careful>
+  SINEW_INLINE V of(V s) const {
+    const V inverse = of_usual(s);
+    if constexpr (!careful) return inverse;
+    const V exact = L::all(1) / L::root(s);
+    return L::pick(L::less(s, least), exact, L::pick(L::less(most, s), exact, inverse));
+  }
+
+  V least, most;
+
+ private:
+  SINEW_INLINE V of_usual(V s) const {
+    const V s2 = s * s;
+    const V low = L::fused(seed_[1], s, seed_[0]);
+    const V high = L::fused(seed_[4], s2, L::fused(seed_[3], s, seed_[2]));
+    const V y = L::fused(s2, high, low);
+    const V h = L::less_fused(s * y, y, L::all(1)), h2 = h * h;
+    const V first = L::fused(L::all(3. / 8), h, L::all(1. / 2));
+    const V last = L::fused(L::all(63. / 256), h2, L::fused(L::all(35. / 128), h, L::all(5. / 16)));
+    return L::fused(y * h, L::fused(h2, last, first), y);
+  }
+
+  V seed_[5];
+};
+
 /// f / d of eq. 1 in all lanes, for d < b, from the squared distance.
 template <class L, class Real = typename L::Real>
 class PullLaw;
 
-/// Single precision: exact root and division.
 template <class L>
 class PullLaw<L, float> {
  public:
@@ -46,37 +107,26 @@ class PullLaw<L, float> {
   V k1_, touching_, b_, k2_, k2_a_;
 };
 
-/// Double precision, in whose vectors root and division are slow. Nearly all pairs are between 1.5
-/// and 2.83 radii; there 1 / d takes half the time as a minimax polynomial in s = d^2 with a
-/// relative error of 1.4e-3, improved by the series of 1 / sqrt(1 - h) up to h^5: an error of 2 in
-/// the last place, the same everywhere. Attraction, (d - a) (b - d) / d = a + b - (s + a b) / d, is
-/// written so that little depends on 1 / d, for which the loop waits.
+/// Attraction, (d - a) (b - d) / d = a + b - (s + a b) / d, is written so that little depends on
+/// 1 / d, for which the loop waits.
 template <class L>
 class PullLaw<L, double> {
  public:
   using V = typename L::V;
 
   SINEW_INLINE explicit PullLaw(const Law<double>& law)
-      : usual_(L::all((law.b * law.b <= 8 * law.r * law.r ? 2.25 : 1e300) * law.r * law.r)),
+      : inverse_(law),
+        usual_(law.b * law.b <= 8 * law.r * law.r ? inverse_.least : L::all(1e300)),
         a2_(L::all(law.a * law.a)),
         k1_(L::all(law.k1 / law.r)),
         touching_(L::all(4 * law.k1 * law.r)),
         k2_(L::all(law.k2 / law.r)),
         k2_ab_(L::all(law.k2 / law.r * law.a * law.b)),
-        k2_a_b_(L::all(-law.k2 / law.r * (law.a + law.b))) {
-    constexpr double coefficients[] = {1.199850214, -0.3655432081, 0.07144285003, -0.007049514311,
-                                       0.0002723509958};
-    double scale = 1 / law.r;
-    for (int k = 0; k < 5; ++k) {
-      seed_[k] = L::all(coefficients[k] * scale);
-      scale /= law.r * law.r;
-    }
-  }
+        k2_a_b_(L::all(-law.k2 / law.r * (law.a + law.b))) {}
 
   template <bool careful>
   SINEW_INLINE V pull(V s, V& d) const {
-    V inverse = inverse_root(s);
-    if constexpr (careful) inverse = L::pick(L::less(s, usual_), L::all(1) / L::root(s), inverse);
+    const V inverse = inverse_.template of<careful>(s);
     d = s * inverse;
     const auto attracted = L::at_most(a2_, s);
     const V repulsion = L::larger(L::less_fused(k1_, s, touching_), L::all(0));
@@ -86,18 +136,8 @@ class PullLaw<L, double> {
   SINEW_INLINE bool needs_care(V least, V) const { return L::any(L::less(least, usual_)); }
 
  private:
-  SINEW_INLINE V inverse_root(V s) const {
-    const V s2 = s * s;
-    const V low = L::fused(seed_[1], s, seed_[0]);
-    const V high = L::fused(seed_[4], s2, L::fused(seed_[3], s, seed_[2]));
-    const V y = L::fused(s2, high, low);
-    const V h = L::less_fused(s * y, y, L::all(1)), h2 = h * h;
-    const V first = L::fused(L::all(3. / 8), h, L::all(1. / 2));
-    const V last = L::fused(L::all(63. / 256), h2, L::fused(L::all(35. / 128), h, L::all(5. / 16)));
-    return L::fused(y * h, L::fused(h2, last, first), y);
-  }
-
-  V seed_[5], usual_, a2_, k1_, touching_, k2_, k2_ab_, k2_a_b_;
+  InverseLength<L> inverse_;
+  V usual_, a2_, k1_, touching_, k2_, k2_ab_, k2_a_b_;
 };
 
 /// The potential of eq. 1 at d < b.
@@ -120,17 +160,22 @@ SINEW_INLINE typename L::V separation_sign(const std::int32_t* id, std::ptrdiff_
   return L::load(sign);
 }
 
-/// Eq. 1 at d = 0 has a magnitude and no direction.
+/// At d = 0 a force has a magnitude, `push`, and no direction.
 template <class L>
 SINEW_INLINE void part(const Step<typename L::Real>& step, std::ptrdiff_t i, std::ptrdiff_t j,
-                       typename L::V squared, typename L::V& pull, typename L::V& d,
-                       typename L::V& apart_x) {
+                       typename L::V squared, typename L::V push, typename L::V& pull,
+                       typename L::V& d, typename L::V& apart_x) {
   const auto together = L::at_most(squared, L::all(0));
   if (!L::any(together)) return;
-  const typename L::Real push = 4 * step.law.k1 * step.law.r;
-  pull = L::pick(together, L::all(push), pull);
+  pull = L::pick(together, push, pull);
   d = L::pick(together, L::all(0), d);
   apart_x = L::pick(together, separation_sign<L>(step.id, i, j), apart_x);
+}
+
+/// Eq. 1 between particles at the same place.
+template <class L>
+SINEW_INLINE typename L::V push_of(const Law<typename L::Real>& law) {
+  return L::all(4 * law.k1 * law.r);
 }
 
 /// The sums over the differences [begin, end); `least` becomes the least squared distance.
@@ -154,7 +199,7 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
     closest = L::smaller(squared, closest);
     V d;
     V pull = law.template pull<careful>(squared, d);
-    if constexpr (careful) part<L>(step, i, j, squared, pull, d, apart.x);
+    if constexpr (careful) part<L>(step, i, j, squared, push_of<L>(step.law), pull, d, apart.x);
     pull = L::keep(near, pull);
     fx = L::fused(pull, apart.x, fx);
     fy = L::fused(pull, apart.y, fy);

@@ -7,47 +7,63 @@
 namespace sinew::kernel {
 
 template <class L>
-SINEW_INLINE bool meets(const PruneInput<typename L::Real>& input, const Place<L>* here,
-                        std::ptrdiff_t i, std::ptrdiff_t difference) {
-  constexpr int vectors = Traits<typename L::Real>::block / L::width;
+struct BlockPlaces {
+  Place<L> here[Traits<typename L::Real>::block / L::width];
+
+  SINEW_INLINE BlockPlaces(const PruneInput<typename L::Real>& input, std::size_t block) {
+    const auto i = static_cast<std::ptrdiff_t>(block * Traits<typename L::Real>::block);
+    for (int k = 0; k < Traits<typename L::Real>::block / L::width; ++k)
+      here[k] = load_place<L>(input.state.x, i + k * L::width);
+  }
+};
+
+/// Whether a pair of the lanes is within range; `masked`: not of all of them.
+template <class L, bool masked>
+SINEW_INLINE bool meets(const PruneInput<typename L::Real>& input, const BlockPlaces<L>& places,
+                        std::size_t block, std::ptrdiff_t difference, std::uint32_t lanes) {
+  constexpr int size = Traits<typename L::Real>::block;
+  const typename L::V range2 = L::all(input.range2);
+  const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(block) * size + difference;
   bool found = false;
-  for (int k = 0; k < vectors; ++k) {
-    const Place<L> there = load_place<L>(input.state.x, i + difference + k * L::width);
-    const Triple<L> apart = offset<L>(here[k], there);
-    found |= L::any(L::less(squared_distance<L>(apart), L::all(input.range2)));
+  for (int k = 0; k < size / L::width; ++k) {
+    const Place<L> there = load_place<L>(input.state.x, j + k * L::width);
+    typename L::V squared = squared_distance<L>(offset<L>(places.here[k], there));
+    if constexpr (masked) squared = L::pick(L::mask(lanes >> (k * L::width)), squared, range2);
+    found |= L::any(L::less(squared, range2));
   }
   return found;
-}
-
-template <class L, class Next>
-SINEW_INLINE std::int32_t* prune_all(const PruneInput<typename L::Real>& input, std::size_t block,
-                                     std::int64_t count, Next next, std::int32_t* kept) {
-  constexpr int size = Traits<typename L::Real>::block;
-  const auto i = static_cast<std::ptrdiff_t>(block) * size;
-  Place<L> here[size / L::width];
-  for (int k = 0; k < size / L::width; ++k)
-    here[k] = load_place<L>(input.state.x, i + k * L::width);
-  for (std::int64_t n = 0; n < count; ++n) {
-    const std::int32_t difference = next(n);
-    *kept = difference;  // without a branch: hits and misses alternate without a pattern
-    kept += meets<L>(input, here, i, difference) && difference != 0;
-  }
-  return kept;
 }
 
 template <class L>
 std::int32_t* prune_range(const PruneInput<typename L::Real>& input, std::size_t block,
                           std::int64_t from, std::int64_t to, std::int32_t* kept) {
-  return prune_all<L>(
-      input, block, to - from, [&](std::int64_t n) { return static_cast<std::int32_t>(from + n); },
-      kept);
+  const BlockPlaces<L> places(input, block);
+  for (std::int64_t difference = from; difference < to; ++difference) {
+    *kept = static_cast<std::int32_t>(difference);
+    // Without a branch: hits and misses alternate without a pattern.
+    kept += meets<L, false>(input, places, block, difference, 0) && difference != 0;
+  }
+  return kept;
 }
 
 template <class L>
-std::int32_t* prune_list(const PruneInput<typename L::Real>& input, std::size_t block,
-                         const std::int32_t* begin, const std::int32_t* end, std::int32_t* kept) {
-  return prune_all<L>(
-      input, block, end - begin, [&](std::int64_t n) { return begin[n]; }, kept);
+std::size_t prune_list(const PruneInput<typename L::Real>& input, std::size_t block,
+                       const Candidates& from, const Candidates& kept) {
+  const BlockPlaces<L> places(input, block);
+  std::size_t count = 0;
+  if (from.lanes == nullptr) {
+    for (std::size_t n = 0; n < from.count; ++n) {
+      kept.value[count] = from.value[n];
+      count += meets<L, false>(input, places, block, from.value[n], 0);
+    }
+    return count;
+  }
+  for (std::size_t n = 0; n < from.count; ++n) {
+    kept.value[count] = from.value[n];
+    kept.lanes[count] = from.lanes[n];
+    count += meets<L, true>(input, places, block, from.value[n], from.lanes[n]);
+  }
+  return count;
 }
 
 }  // namespace sinew::kernel

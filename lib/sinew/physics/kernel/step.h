@@ -3,8 +3,12 @@
 // a piece of blocks. Lanes are summed in their order within the block, whatever the width.
 #pragma once
 
+#include <type_traits>
+
+#include <sinew/physics/kernel/bonds.h>
 #include <sinew/physics/kernel/bones.h>
 #include <sinew/physics/kernel/pairs.h>
+#include <sinew/physics/kernel/strain.h>
 
 namespace sinew::kernel {
 
@@ -14,8 +18,8 @@ struct Sums {
   using Real = typename L::Real;
   static constexpr int block = Traits<Real>::block;
   Real power[block] = {}, lost[block] = {}, pair_energy[block] = {}, bone_energy[block] = {};
-  Real fastest[block] = {};
-  bool sound = true;
+  Real muscle_power[block] = {}, fastest[block] = {};
+  bool sound = true, broke = false;
 };
 
 template <class L>
@@ -23,11 +27,32 @@ struct Forces {
   PairSums<L> pairs;
   Triple<L> damping;
   BoneSums<L> bones;
+  Triple<L> muscle = none<L>();
   Triple<L> acceleration;
+  bool strained = false;  ///< a bond creeps or breaks
 };
 
+/// What a law needs in all lanes.
+template <class L, PairLaw pairs>
+using LawOf = std::conditional_t<pairs == between_all, PullLaw<L>, SolidLaw<L>>;
+
+template <class L, PairLaw pairs>
+SINEW_INLINE LawOf<L, pairs> law_of(const Step<typename L::Real>& step) {
+  if constexpr (pairs == between_all)
+    return PullLaw<L>(step.law);
+  else
+    return SolidLaw<L>(step);
+}
+
 template <class L, bool energy>
-SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullLaw<L>& law,
+SINEW_INLINE void add_volumes(const Step<typename L::Real>& step, std::size_t block, int lane,
+                              std::ptrdiff_t i, PairSums<L>& sums) {
+  sums.force = sums.force + thrust_force<L>(step, step.volumes.thrust, block, lane, i);
+  if constexpr (energy) sums.energy = sums.energy + volume_energy<L>(step.volumes, i);
+}
+
+template <class L, PairLaw pairs, bool energy>
+SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                                  std::size_t block, int lane, const Place<L>& here,
                                  const Triple<L>& velocity) {
   const std::ptrdiff_t i =
@@ -35,12 +60,23 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const PullL
   Forces<L> forces;
   // First: this long chain of operations completes while those of the pairs run.
   forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
-  const Lists& lists = step.lists[block / blocks_per_piece];
-  const std::uint32_t* first = lists.first + block % blocks_per_piece;
-  forces.pairs = pair_sums<L, energy>(step, law, i, lists.value + first[0], lists.value + first[1]);
+  if constexpr (pairs == between_all) {
+    const Lists& lists = step.lists[block / blocks_per_piece];
+    const std::uint32_t* first = lists.first + block % blocks_per_piece;
+    forces.pairs =
+        pair_sums<L, energy>(step, law, i, lists.value + first[0], lists.value + first[1]);
+  } else {
+    forces.pairs = partner_sums<L, pairs, energy>(step, law, block, lane, forces.strained);
+  }
+  if constexpr (pairs == springs || pairs == changing_springs)
+    if (step.volumes.stiffness != nullptr)
+      add_volumes<L, energy>(step, block, lane, i, forces.pairs);
+  if (step.fibers.first != nullptr)
+    forces.muscle = thrust_force<L>(step, step.fibers.thrust, block, lane, i);
   forces.damping = damping_of<L>(forces.pairs, L::all(step.law.damping), velocity);
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
+  if (step.fibers.first != nullptr) forces.acceleration = forces.acceleration + forces.muscle;
   return forces;
 }
 
@@ -53,6 +89,8 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
                              dot<L>(forces.damping, middle);
   add_to<L>(sums.power + lane, forces.bones.power);
   add_to<L>(sums.lost + lane, lost);
+  if (step.fibers.first != nullptr)
+    add_to<L>(sums.muscle_power + lane, dot<L>(forces.muscle, middle));
 }
 
 /// The largest speed relative to the piece's motion.
@@ -78,14 +116,14 @@ SINEW_INLINE void check_speed(const Step<typename L::Real>& step, const Triple<L
   sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
 }
 
-template <class L>
-SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& law,
+template <class L, PairLaw pairs>
+SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                           std::size_t block, int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
-  const Forces<L> forces = forces_on<L, false>(step, law, block, lane, here, velocity);
+  const Forces<L> forces = forces_on<L, pairs, false>(step, law, block, lane, here, velocity);
   const Triple<L> kicked = fused<L>(L::all(step.kick), forces.acceleration, velocity);
   const Triple<L> drifting = step.drift_first ? velocity : kicked;
   const Triple<L> by = L::all(step.drift) * drifting;
@@ -96,19 +134,23 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const PullLaw<L>& 
   account<L>(step, forces, velocity, lane, sums);
   check_speed<L>(step, kicked, forces.bones.carried, sums);
   track_fastest<L>(step, block, lane, here, drifting, sums);
+  if constexpr (pairs == changing_springs)
+    if (forces.strained) [[unlikely]]
+      change_bonds<L>(step, block, lane, sums.lost + lane, sums.broke);
 }
 
-template <class L>
-SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const PullLaw<L>& law,
+template <class L, PairLaw pairs>
+SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                                std::size_t block, int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
-  const Forces<L> forces = forces_on<L, true>(step, law, block, lane, here, velocity);
+  const Forces<L> forces = forces_on<L, pairs, true>(step, law, block, lane, here, velocity);
   store<L>(step.probed.pair, i, forces.pairs.force);
   store<L>(step.probed.damping, i, forces.damping);
   store<L>(step.probed.bone, i, forces.bones.spring + forces.bones.damping);
+  if (step.probed.muscle[0] != nullptr) store<L>(step.probed.muscle, i, forces.muscle);
   typename L::Real count[L::width];
   L::store(count, forces.pairs.count);
   for (int k = 0; k < L::width; ++k)
@@ -122,8 +164,14 @@ template <class L>
 SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
   typename L::Real fastest = 0;
   for (const typename L::Real speed2 : sums.fastest) fastest = speed2 > fastest ? speed2 : fastest;
-  return {sum_of<L>(sums.power),       sum_of<L>(sums.lost),         sum_of<L>(sums.pair_energy),
-          sum_of<L>(sums.bone_energy), static_cast<double>(fastest), sums.sound};
+  return {sum_of<L>(sums.power),
+          sum_of<L>(sums.muscle_power),
+          sum_of<L>(sums.lost),
+          sum_of<L>(sums.pair_energy),
+          sum_of<L>(sums.bone_energy),
+          static_cast<double>(fastest),
+          sums.sound,
+          sums.broke};
 }
 
 /// Calls visit(block, lane, sums) for every vector of the pieces, and stores their totals.
@@ -140,23 +188,23 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
   }
 }
 
-template <class L>
+template <class L, PairLaw pairs>
 void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  const PullLaw<L> law(step.law);
+  const LawOf<L, pairs> law = law_of<L, pairs>(step);
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
-        advance<L>(step, law, block, lane, sums);
+        advance<L, pairs>(step, law, block, lane, sums);
       });
 }
 
-template <class L>
+template <class L, PairLaw pairs>
 void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  const PullLaw<L> law(step.law);
+  const LawOf<L, pairs> law = law_of<L, pairs>(step);
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
-        probe_vector<L>(step, law, block, lane, sums);
+        probe_vector<L, pairs>(step, law, block, lane, sums);
       });
 }
 

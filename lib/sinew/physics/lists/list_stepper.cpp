@@ -7,6 +7,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
+#include <sinew/physics/laws.h>
 #include <sinew/physics/lists/particle_order.h>
 
 namespace sinew {
@@ -18,6 +19,14 @@ constexpr double column_edge = 1.2, most_growth = 1.3;
 // bits of sums depend on the order. The lists built for the check cost about one step in a hundred.
 constexpr std::int64_t steps_between_order_checks = 1024;
 
+kernel::PairLaw pair_law_of(const Material& material) {
+  const ForceLaw& law = law_of(material);
+  if (!law.has_memory) return kernel::between_all;
+  if (!law.has_bonds) return kernel::among_neighbors;
+  const bool changing = material.bond.breaking_strain > 0 || material.bond.yield_strain > 0;
+  return changing ? kernel::changing_springs : kernel::springs;
+}
+
 }  // namespace
 
 template <class Real>
@@ -27,7 +36,8 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       stepping_(stepping),
       mass_(particles.mass),
       kernel_(kernel::functions_of<Real>(instructions)),
-      lists_(kernel_, body_->material.pair, stepping.step) {
+      law_(pair_law_of(body_->material)),
+      lists_(kernel_, body_->material, stepping.step) {
   load(particles);
 }
 
@@ -46,12 +56,28 @@ void ListStepper<Real>::load(const Particles& particles) {
     state_.set_velocity(k, particles.velocity(i), units_);
   }
   find_slots();
+  find_bonds();
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
 template <class Real>
 void ListStepper<Real>::find_slots() {
   slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, units_);
+}
+
+template <class Real>
+void ListStepper<Real>::find_bonds() {
+  const std::span<const std::int32_t> id(id_.data() + block, caller_.size());
+  bonds_ = bond_lists<Real>(*body_, id, units_);
+  strain_ = strain_lists<Real>(*body_, id, bonds_, units_);
+}
+
+/// Before a step and a probe: what particles exert depends on the deformation around each.
+template <class Real>
+void ListStepper<Real>::strain(const kernel::Step<Real>& now) {
+  if (strain_.empty()) return;
+  parallel_split(totals_.size(), pieces_per_thread,
+                 [&](std::size_t begin, std::size_t end) { kernel_.strain(now, begin, end); });
 }
 
 template <class Real>
@@ -81,6 +107,8 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.motions = lists_.motions();
   step.holds = holds();
   step.law = law_in<Real>(units_, pair, material.damping, mass_);
+  step.bonds = bonds_.arrays(material, dt);
+  strain_.put_into(step);
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(units_.acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
@@ -103,6 +131,15 @@ ListCounts ListStepper<Real>::counts() const {
 }
 
 template <class Real>
+std::vector<std::int32_t> ListStepper<Real>::broken_bonds() const {
+  const bool bonded = law_ == kernel::springs || law_ == kernel::changing_springs;
+  std::vector<std::int32_t> broken(bonded ? caller_.size() : 0);
+  for (std::size_t k = 0; k < broken.size() && !bonds_.broken.empty(); ++k)
+    broken[caller_[k]] = bonds_.broken[k];
+  return broken;
+}
+
+template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
   const double watts =
       mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
@@ -118,8 +155,9 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   update_lists();
   place_bones(pose);
   const auto now = job();
+  strain(now);
   parallel_split(totals_.size(), pieces_per_thread,
-                 [&](std::size_t begin, std::size_t end) { kernel_.step(now, begin, end); });
+                 [&](std::size_t begin, std::size_t end) { kernel_.step[law_](now, begin, end); });
   StepSums sums = sums_of_totals();
   if (!std::all_of(totals_.begin(), totals_.end(),
                    [](const kernel::Totals& piece) { return piece.sound; })) {
@@ -179,8 +217,9 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
     now.probed.bone[axis] = probed[6 + axis].data();
   }
   now.probed.neighbors = neighbors.data();
+  strain(now);
   parallel_split(totals_.size(), pieces_per_thread,
-                 [&](std::size_t begin, std::size_t end) { kernel_.probe(now, begin, end); });
+                 [&](std::size_t begin, std::size_t end) { kernel_.probe[law_](now, begin, end); });
   const double newtons = mass_ * units_.length / (units_.time * units_.time);
   for (Points* of_particles : {&forces.pair, &forces.damping, &forces.bone})
     of_particles->resize(n);
@@ -229,19 +268,25 @@ template <class Real>
 void ListStepper<Real>::update_lists() {
   const bool stepped = std::exchange(stepped_, false), anew = change_units();
   if (order_check_due()) {
-    lists_.make(state_, units_);
+    make_lists();
     if (lists_.mean_of_outer() > most_growth * mean_when_sorted_) sort();
   } else if (anew || !lists_.made()) {
-    lists_.make(state_, units_);
+    make_lists();
   } else if (stepped) {
-    lists_.follow(state_, units_, totals_);
+    lists_.follow(state_, bonds_, units_, totals_);
   }
 }
 
-/// A second check before the same step, as in a run resumed there, would change nothing.
+template <class Real>
+void ListStepper<Real>::make_lists() {
+  lists_.make(state_, bonds_, units_);
+}
+
+/// What keeps its neighbors keeps its order. A second check before the same step, as in a run
+/// resumed there, would change nothing.
 template <class Real>
 bool ListStepper<Real>::order_check_due() {
-  return steps_ % steps_between_order_checks == 0 &&
+  return law_ == kernel::between_all && steps_ % steps_between_order_checks == 0 &&
          std::exchange(order_checked_, steps_) != steps_;
 }
 
@@ -252,12 +297,12 @@ void ListStepper<Real>::sort() {
   auto order = order_by_columns(state_, column_edge * 2 * body_->material.pair.r / units_.length);
   const double unsorted = lists_.mean_of_outer();
   swap_order(order);
-  lists_.make(state_, units_);
+  make_lists();
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {
     swap_order(order);
-    lists_.make(state_, units_);
+    make_lists();
   } else {
     ++sorts_;
     find_slots();
@@ -299,6 +344,8 @@ bool ListStepper<Real>::change_units() {
     }
   });
   find_slots();
+  bonds_.set_units(*body_, units_);
+  strain_ = strain_lists<Real>(*body_, {id_.data() + block, caller_.size()}, bonds_, units_);
   return true;
 }
 
@@ -316,6 +363,7 @@ void ListStepper<Real>::save(SimulationState& state) const {
   state.order = caller_;
   state.whole_numbers = {units_.length, units_.origin, units_box_, traveled_};
   state.mean_when_sorted = mean_when_sorted_;
+  bonds_.save(state);
 }
 
 template <class Real>
@@ -324,18 +372,21 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   const auto* moving = std::get_if<Columns>(&state.moving);
   if (moving == nullptr) throw not_a_state("it is in another precision");
   check_moving(*moving, caller_.size());
-  if (!state.rest_length.empty()) throw not_a_state("it has bonds");
+  if (!state.rest_length.empty()) throw not_a_state("it is of cells");
   restore_order(state.order);
   restore_units(state.whole_numbers);
   state_.set_columns(*moving);
   next_ = state_;
   find_slots();
+  bonds_ = bond_lists<Real>(*body_, {id_.data() + block, caller_.size()}, units_);
+  bonds_.restore(state);
+  strain_ = strain_lists<Real>(*body_, {id_.data() + block, caller_.size()}, bonds_, units_);
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;
   steps_ = state.steps;
   order_checked_ = -1;
   stepped_ = false;
-  lists_ = VerletLists<Real>(kernel_, body_->material.pair, stepping_.step);
+  lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);
 }
 
 /// `order` contains each particle's place in the caller's order once.

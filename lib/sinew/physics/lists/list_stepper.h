@@ -9,7 +9,9 @@
 
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/bond_lists.h>
 #include <sinew/physics/lists/bone_slots.h>
+#include <sinew/physics/lists/strain_lists.h>
 #include <sinew/physics/lists/verlet_lists.h>
 #include <sinew/physics/stepper.h>
 
@@ -25,6 +27,8 @@ class ListStepper {
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
   ListCounts counts() const;
+  /// By particle in the caller's order; none where the material has no bonds.
+  std::vector<std::int32_t> broken_bonds() const;
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);
@@ -40,6 +44,8 @@ class ListStepper {
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
   kernel::Step<Real> job();
+  void strain(const kernel::Step<Real>& now);
+  void find_bonds();
 
   void update_lists();
   bool change_units();
@@ -47,6 +53,7 @@ class ListStepper {
   bool order_check_due();
   void sort();
   void swap_order(std::vector<std::uint32_t>& order);
+  void make_lists();
   void find_slots();
   void restore_order(const std::vector<std::uint32_t>& order);
   void restore_units(const WholeNumbers& saved);
@@ -64,7 +71,10 @@ class ListStepper {
   BlockState<Real> state_, next_;
   std::vector<std::int32_t> id_;       ///< padded like the states
   std::vector<std::uint32_t> caller_;  ///< place in the caller's order
+  kernel::PairLaw law_;
   BoneSlots<Real> slots_;
+  BondLists<Real> bonds_;
+  StrainLists<Real> strain_;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)

@@ -113,20 +113,36 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 }
 
 template <class Real>
+void remove_bonded(const BondLists<Real>& bonds, std::size_t piece, OffsetLists& lists) {
+  constexpr std::uint32_t all = (std::uint64_t{1} << BlockState<Real>::block) - 1;
+  lists.lanes.assign(lists.value.size() + 1, 0);  // never empty: it tells what the lists are
+  for (std::size_t k = 0; k + 1 < lists.first.size(); ++k)
+    for (std::uint32_t n = lists.first[k]; n < lists.first[k + 1]; ++n)
+      lists.lanes[n] = static_cast<std::uint16_t>(
+          all & ~bonds.bonded_lanes(piece * blocks_per_piece + k, lists.value[n]));
+}
+
+template <class Real>
 OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                           std::size_t piece, const OffsetLists& outer, double range) {
   const auto input = prune_input(state, range);
-  std::vector<std::int32_t> values(outer.value.size() + 1);
-  std::int32_t* kept = values.data();
+  std::vector<std::int32_t> values(outer.value);  // what is kept moves to the front
+  std::vector<std::uint16_t> lanes(outer.lanes);
   OffsetLists lists;
   lists.first.push_back(0);
+  std::uint32_t kept = 0;
   const BlocksOf blocks(piece, state.blocks());
   for (std::size_t k = 0; k + 1 < outer.first.size(); ++k) {
-    kept = kernel.prune(input, blocks.first + k, outer.value.data() + outer.first[k],
-                        outer.value.data() + outer.first[k + 1], kept);
-    lists.first.push_back(static_cast<std::uint32_t>(kept - values.data()));
+    const auto at = [&](std::uint32_t n) {
+      return kernel::Candidates{values.data() + n, lanes.empty() ? nullptr : lanes.data() + n,
+                                outer.first[k + 1] - outer.first[k]};
+    };
+    kept += static_cast<std::uint32_t>(
+        kernel.prune(input, blocks.first + k, at(outer.first[k]), at(kept)));
+    lists.first.push_back(kept);
   }
-  lists.value.assign(values.data(), kept);
+  lists.value.assign(values.data(), values.data() + kept);
+  if (!lanes.empty()) lists.lanes.assign(lanes.data(), lanes.data() + kept + 1);
   return lists;
 }
 
@@ -141,5 +157,8 @@ template OffsetLists prune_offsets(const kernel::Functions<double>&, BlockState<
                                    std::size_t, const OffsetLists&, double);
 template OffsetLists prune_offsets(const kernel::Functions<float>&, BlockState<float>&, std::size_t,
                                    const OffsetLists&, double);
+
+template void remove_bonded(const BondLists<double>&, std::size_t, OffsetLists&);
+template void remove_bonded(const BondLists<float>&, std::size_t, OffsetLists&);
 
 }  // namespace sinew

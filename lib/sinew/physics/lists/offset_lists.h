@@ -9,6 +9,7 @@
 
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/bond_lists.h>
 
 namespace sinew {
 
@@ -16,8 +17,11 @@ namespace sinew {
 struct OffsetLists {
   std::vector<std::uint32_t> first;  ///< one longer than the piece has blocks
   std::vector<std::int32_t> value;   ///< ascending within a block
+  std::vector<std::uint16_t> lanes;  ///< that each is for; empty: all
 
-  kernel::Lists arrays() const { return {first.data(), value.data()}; }
+  kernel::Lists arrays() const {
+    return {first.data(), value.data(), lanes.empty() ? nullptr : lanes.data()};
+  }
 };
 
 /// Bounding boxes of blocks, in lengths of the kernel: least x y z, largest x y z.
@@ -33,6 +37,10 @@ template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          std::size_t piece, std::span<const std::uint32_t> near,
                          const BlockBoxes& boxes, double range);
+
+/// Without the pairs that are bonded. All of those left have lanes.
+template <class Real>
+void remove_bonded(const BondLists<Real>& bonds, std::size_t piece, OffsetLists& lists);
 
 /// Those among `outer` that have a pair closer than `range`.
 template <class Real>

@@ -10,13 +10,15 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
+#include <sinew/physics/laws.h>
 
 namespace sinew {
 namespace {
 
 // In diameters, by measurement: longer lists cost every step, shorter ones are made more often. The
-// inner skin excludes the second neighbors of a packed body.
+// inner skin excludes the second neighbors of a packed body; of contacts, the outer one does.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
+constexpr double outer_skin_of_contacts = 0.4, inner_skin_of_contacts = 0.1;
 constexpr std::size_t pieces_at_a_time = 4;
 using kernel::blocks_per_piece;
 
@@ -43,9 +45,17 @@ Vec3 spin_of(const Mat3& spread, const Vec3& moment) {
 }  // namespace
 
 template <class Real>
-VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const PairForce& pair,
+VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Material& material,
                                double step)
-    : kernel_(kernel), pair_(pair), step_(step) {}
+    : kernel_(kernel), contacts_(law_of(material).has_memory), step_(step) {
+  const double diameter = 2 * material.pair.r;
+  if (contacts_)
+    wanted_ = {diameter, diameter * (1 + inner_skin_of_contacts),
+               diameter * (1 + outer_skin_of_contacts)};
+  else
+    wanted_ = {material.pair.b, material.pair.b + inner_skin * diameter,
+               material.pair.b + outer_skin * diameter};
+}
 
 template <class Real>
 double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
@@ -56,9 +66,10 @@ double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
 }
 
 template <class Real>
-void VerletLists<Real>::make(BlockState<Real>& state, const Units& units) {
-  const double diameter = 2 * pair_.r / units.length, force = pair_.b / units.length;
-  ranges_ = {force, force + inner_skin * diameter, force + outer_skin * diameter};
+void VerletLists<Real>::make(BlockState<Real>& state, const BondLists<Real>& bonds,
+                             const Units& units) {
+  ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
+             wanted_.outer / units.length};
   time_ = step_ / units.time;
   const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
   outer_.assign(pieces, {});
@@ -74,7 +85,7 @@ void VerletLists<Real>::make(BlockState<Real>& state, const Units& units) {
   survey(state);
   std::vector<std::uint32_t> all(pieces);
   std::iota(all.begin(), all.end(), 0U);
-  list(state, all);
+  list(state, bonds, all);
   ++counts_.rebuilds;
 }
 
@@ -145,8 +156,8 @@ void VerletLists<Real>::move_fields() {
 }
 
 template <class Real>
-void VerletLists<Real>::follow(BlockState<Real>& state, const Units& units,
-                               std::span<const kernel::Totals> totals) {
+void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& bonds,
+                               const Units& units, std::span<const kernel::Totals> totals) {
   Stopwatch watch;
   ++moment_;
   // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
@@ -155,19 +166,31 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const Units& units,
   for (std::size_t piece = 0; piece < totals.size(); ++piece)
     fastest_[piece] =
         std::sqrt(totals[piece].fastest) * (1 + 1e-5) + unit + rounding<Real> * speed_[piece];
-  if (!near_.advance(fastest_, time_)) return make(state, units);
+  if (!near_.advance(fastest_, time_)) return make(state, bonds, units);
   if (near_.survey_due())
     survey(state);
   else
     move_fields();
   counts_.checking += watch.lap();
-  list(state, near_.to_list());
+  list(state, bonds, to_list(totals));
   const std::vector<std::uint32_t>& pieces = near_.to_prune();
   parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) prune(state, pieces[k]);
   });
   counts_.pruned += static_cast<std::int64_t>(pieces.size());
   counts_.pruning += watch.lap();
+}
+
+/// Also those where a bond broke: its particles now touch like others.
+template <class Real>
+std::vector<std::uint32_t> VerletLists<Real>::to_list(
+    std::span<const kernel::Totals> totals) const {
+  std::vector<std::uint32_t> pieces = near_.to_list();
+  for (std::uint32_t piece = 0; piece < totals.size(); ++piece)
+    if (totals[piece].broke) pieces.push_back(piece);
+  std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  return pieces;
 }
 
 template <class Real>
@@ -183,7 +206,8 @@ void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
 }
 
 template <class Real>
-void VerletLists<Real>::list(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces) {
+void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bonds,
+                             const std::vector<std::uint32_t>& pieces) {
   if (pieces.empty()) return;
   Stopwatch watch;
   find_boxes_around(state, pieces);
@@ -193,6 +217,10 @@ void VerletLists<Real>::list(BlockState<Real>& state, const std::vector<std::uin
       std::vector<std::uint32_t> near;
       for (const NearPieces::Near& one : near_.of(piece)) near.push_back(one.piece);
       outer_[piece] = find_offsets(kernel_, state, piece, near, boxes_, ranges_.outer);
+      if (contacts_) {
+        remove_bonded(bonds, piece, outer_[piece]);
+        outer_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.outer);
+      }
       near_.listed(piece);
       prune(state, piece);
     }

@@ -6,8 +6,11 @@
 // of its neighbors have approached by their skins (see near_pieces.h), and are then made again for
 // that piece alone.
 //
-//     lists.make(state, units);                       // at first, and in a new order
-//     lists.follow(state, units, totals);             // after every step
+// Of materials that know their neighbors at rest, the lists hold contacts: pairs that are not
+// bonded, within 2r. In a packed body they are empty until its surface folds onto itself.
+//
+//     lists.make(state, bonds, units);            // at first, and in a new order
+//     lists.follow(state, bonds, units, totals);  // after every step
 //     step.lists = lists.arrays(), step.motions = lists.motions();
 #pragma once
 
@@ -19,7 +22,7 @@
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/near_pieces.h>
 #include <sinew/physics/lists/offset_lists.h>
-#include <sinew/physics/pair_force.h>
+#include <sinew/physics/material.h>
 #include <sinew/physics/stepper.h>
 
 namespace sinew {
@@ -29,7 +32,7 @@ class VerletLists {
  public:
   VerletLists() = default;
   /// For steps of `step` (s).
-  VerletLists(const kernel::Functions<Real>& kernel, const PairForce& pair, double step);
+  VerletLists(const kernel::Functions<Real>& kernel, const Material& material, double step);
 
   /// The inner lists and the velocity fields, by piece.
   const kernel::Lists* arrays() const { return arrays_.data(); }
@@ -37,9 +40,10 @@ class VerletLists {
 
   bool made() const { return !inner_.empty(); }
   /// Makes all lists.
-  void make(BlockState<Real>& state, const Units& units);
+  void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
   /// Makes those that are no longer valid after a step with these sums.
-  void follow(BlockState<Real>& state, const Units& units, std::span<const kernel::Totals> totals);
+  void follow(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
+              std::span<const kernel::Totals> totals);
 
   /// Differences per block in the outer lists, on average.
   double mean_of_outer() const { return mean(outer_); }
@@ -51,15 +55,18 @@ class VerletLists {
   void move_fields();
   PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
                      std::size_t particles) const;
-  void list(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces);
+  std::vector<std::uint32_t> to_list(std::span<const kernel::Totals> totals) const;
+  void list(BlockState<Real>& state, const BondLists<Real>& bonds,
+            const std::vector<std::uint32_t>& pieces);
   void prune(BlockState<Real>& state, std::size_t piece);
   void find_boxes_around(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces);
 
   kernel::Functions<Real> kernel_{};
-  PairForce pair_;
-  double step_ = 0;    ///< s
-  double time_ = 0;    ///< of a step, in times of the kernel
-  ListRanges ranges_;  ///< in its lengths
+  bool contacts_ = false;  ///< not all pairs
+  ListRanges wanted_;      ///< m
+  double step_ = 0;        ///< s
+  double time_ = 0;        ///< of a step, in times of the kernel
+  ListRanges ranges_;      ///< in its lengths
 
   NearPieces near_;
   std::vector<double> fastest_;  ///< by piece, in the last step

@@ -75,7 +75,7 @@ double CellStepper::stored_in_pairs() {
   return solid_ ? solid_->energy(particles_) : pair_energy(particles_, body_->material.pair);
 }
 
-std::span<const std::int32_t> CellStepper::broken_bonds() const {
+std::vector<std::int32_t> CellStepper::broken_bonds() const {
   if (!solid_ || body_->material.model == MaterialModel::paper) return {};
   return solid_->bonds().broken;
 }

@@ -28,7 +28,7 @@ class CellStepper {
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
   /// Bonds broken so far, by particle; none for a body without bonds.
-  std::span<const std::int32_t> broken_bonds() const;
+  std::vector<std::int32_t> broken_bonds() const;
   /// As evaluated last; none without a world.
   std::span<const Reaction> reactions_of_obstacles() const { return world_.reactions; }
 

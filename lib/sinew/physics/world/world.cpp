@@ -142,6 +142,8 @@ double largest_few(std::vector<double> values) {
 
 }  // namespace
 
+bool has_muscles(const Body& body) { return body.world && !body.world->muscles.active.empty(); }
+
 WorldNow world_at(const World& world, double time, const Pose& pose) {
   WorldNow now;
   for (const Obstacle& obstacle : world.obstacles) now.obstacles.push_back(obstacle.at(time, pose));

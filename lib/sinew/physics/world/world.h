@@ -27,6 +27,9 @@ struct World {
   std::vector<Pinned> pins;  ///< applied by the stepper; ascending particles
 };
 
+/// Whether a body has muscles with fibers.
+bool has_muscles(const Body& body);
+
 /// The world at one moment.
 struct WorldNow {
   std::vector<ObstaclePose> obstacles;

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces in materials that know their neighbors at rest: ../solid.h gives them for cells.
+#pragma once
+
+#include <sinew/physics/kernel/pairs.h>
+
+namespace sinew::kernel {
+
+/// What bonds and contacts need of the laws, in all lanes.
+template <class L>
+struct SolidLaw {
+  using V = typename L::V;
+
+  SINEW_INLINE explicit SolidLaw(const Step<typename L::Real>& step)
+      : pull(step.law),
+        inverse(step.law),
+        b2(L::all(step.law.b2)),
+        touching2(L::all(4 * step.law.r * step.law.r)),
+        k1(L::all(step.law.k1 / step.law.r)),
+        push(push_of<L>(step.law)),
+        yield(L::all(step.bonds.yield)),
+        breaking(L::all(1 + step.bonds.breaking)) {}
+
+  PullLaw<L> pull;
+  InverseLength<L> inverse;
+  V b2, touching2, k1, push, yield, breaking;
+};
+
+/// What a vector's bonds and contacts have met.
+template <class L>
+struct Met {
+  typename L::V least, most;           ///< squared distances
+  typename L::V strained = L::all(0);  ///< positive where a bond creeps or breaks
+};
+
+/// The bonds of a vector with the particles at one difference.
+template <class L>
+struct Bond {
+  const BondKind<typename L::Real>* kind;
+  typename L::M mask;
+  std::ptrdiff_t difference;
+  typename L::V length;  ///< with what it has crept
+};
+
+/// Calls visit(bond, entry) for the bonds of a vector.
+template <class L, class Visit>
+SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::size_t block, int lane,
+                                Visit&& visit) {
+  constexpr int size = Traits<typename L::Real>::block;
+  constexpr std::uint32_t own = (std::uint64_t{1} << L::width) - 1;
+  const std::uint32_t end = bonds.first[block + 1];
+  for (std::uint32_t e = bonds.first[block]; e != end; ++e) {
+    const BondEntry& entry = bonds.entries[e];
+    const std::uint32_t lanes = (entry.lanes >> lane) & own;
+    if (size != L::width && lanes == 0) continue;
+    const BondKind<typename L::Real>& kind = bonds.kinds[entry.kind];
+    typename L::V length = L::all(kind.length);
+    if (bonds.creep != nullptr)
+      length = length + L::load(bonds.creep + static_cast<std::size_t>(e) * size + lane);
+    visit(Bond<L>{&kind, L::mask(lanes), entry.difference, length}, e);
+  }
+}
+
+/// f / d of a spring.
+template <class L, bool careful>
+SINEW_INLINE typename L::V spring(const SolidLaw<L>& law, const Bond<L>& bond,
+                                  typename L::V squared, typename L::V& d) {
+  const typename L::V k = L::all(bond.kind->stiffness);
+  const typename L::V inverse = law.inverse.template of<careful>(squared);
+  d = squared * inverse;
+  return L::fused(k * bond.length, inverse, L::all(0) - k);
+}
+
+template <class L>
+SINEW_INLINE typename L::V spring_energy(const Bond<L>& bond, typename L::V d) {
+  const typename L::V longer = d - bond.length;
+  return L::all(bond.kind->stiffness) * (longer * longer) *
+         L::all(static_cast<typename L::Real>(0.5));
+}
+
+/// How far a bond is beyond its yield or breaking strain, where it is.
+template <class L>
+SINEW_INLINE typename L::V excess(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                                  const Bond<L>& bond, typename L::V d) {
+  typename L::V beyond = L::all(0);
+  if (step.bonds.breaking > 0) beyond = L::larger(beyond, d - law.breaking * bond.length);
+  if (step.bonds.yield > 0)
+    beyond = L::larger(beyond, L::size(d - bond.length) - law.yield * bond.length);
+  return beyond;
+}
+
+/// The energy of eq. 1's repulsion.
+template <class L>
+SINEW_INLINE typename L::V repulsion_energy(const Law<typename L::Real>& law, typename L::V d) {
+  const typename L::V r = L::all(law.r), overlap = L::larger(r + r - d, L::all(0));
+  return L::all(law.k1) * (overlap * overlap) * (L::all(4) * r + d) / (L::all(3) * r);
+}
+
+/// Sums of a vector in registers.
+template <class L, bool energy>
+struct Adder {
+  using V = typename L::V;
+  V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
+
+  template <class Energy>
+  SINEW_INLINE void add(const Step<typename L::Real>& step, std::ptrdiff_t j, typename L::M near,
+                        V pull, const Triple<L>& apart, Energy&& energy_of) {
+    pull = L::keep(near, pull);
+    fx = L::fused(pull, apart.x, fx);
+    fy = L::fused(pull, apart.y, fy);
+    fz = L::fused(pull, apart.z, fz);
+    su = L::add_where(near, su, L::load(step.before.v[0] + j));
+    sv = L::add_where(near, sv, L::load(step.before.v[1] + j));
+    sw = L::add_where(near, sw, L::load(step.before.v[2] + j));
+    count = L::add_where(near, count, L::all(1));
+    if constexpr (energy)
+      stored = L::add_where(near, stored, L::all(typename L::Real(0.5)) * energy_of());
+  }
+};
+
+/// The sums over a vector's bonds and contacts. `careful` handles all distances; without it, those
+/// for which the law's `inverse` is made.
+template <class L, PairLaw pairs, bool energy, bool careful>
+SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                                      std::size_t block, int lane, Met<L>& met) {
+  using V = typename L::V;
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  Adder<L, energy> sums;
+  V least = law.touching2, most = law.touching2, strained = L::all(0);
+  for_each_bond<L>(
+      step.bonds, block,
+      lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
+        const std::ptrdiff_t j = i + bond.difference;
+        Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
+        const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
+        V d, pull;
+        if constexpr (pairs == among_neighbors) {
+          const auto near = L::less(L::pick(bond.mask, squared, law.b2), law.b2);
+          pull = law.pull.template pull<careful>(squared, d);
+          if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
+          sums.add(step, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
+        } else {
+          pull = spring<L, careful>(law, bond, squared, d);
+          if constexpr (careful)
+            part<L>(step, i, j, squared, L::all(bond.kind->stiffness) * bond.length, pull, d,
+                    apart.x);
+          if constexpr (pairs == changing_springs)
+            strained = L::larger(strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
+          sums.add(step, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
+        }
+        if constexpr (sizeof(typename L::Real) == 8)
+          least = L::smaller(squared, least), most = L::larger(squared, most);
+      });
+  const Lists& lists = step.lists[block / blocks_per_piece];
+  const std::uint32_t* first = lists.first + block % blocks_per_piece;
+  for (std::uint32_t n = first[0]; n != first[1]; ++n) {
+    const std::ptrdiff_t j = i + lists.value[n];
+    Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
+    const V squared = L::pick(L::mask(static_cast<std::uint32_t>(lists.lanes[n]) >> lane),
+                              squared_distance<L>(apart), law.touching2);
+    const auto near = L::less(squared, law.touching2);
+    if (!L::any(near)) continue;
+    const V inverse = law.inverse.template of<careful>(squared);
+    V d = squared * inverse;
+    V pull = L::less_fused(law.k1, squared, law.push) * inverse;
+    if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
+    sums.add(step, j, near, pull, apart, [&] { return repulsion_energy<L>(step.law, d); });
+    if constexpr (sizeof(typename L::Real) == 8) least = L::smaller(squared, least);
+  }
+  met = {least, most, strained};
+  return {{sums.fx, sums.fy, sums.fz}, {sums.su, sums.sv, sums.sw}, sums.count, sums.stored};
+}
+
+/// A function of its own, so that the fast path keeps its values in registers.
+template <class L, PairLaw pairs, bool energy>
+[[gnu::noinline, gnu::cold]] void sum_partners_carefully(const Step<typename L::Real>& step,
+                                                         std::size_t block, int lane,
+                                                         PairSums<L>& sums, Met<L>& met) {
+  sums = sum_partners<L, pairs, energy, true>(step, SolidLaw<L>(step), block, lane, met);
+}
+
+template <class L>
+SINEW_INLINE bool needs_care(const SolidLaw<L>& law, const Met<L>& met, typename L::V force) {
+  if constexpr (sizeof(typename L::Real) == 4)
+    return !L::every(L::at_most(force, force));
+  else
+    return L::any(L::less(met.least, law.inverse.least)) ||
+           L::any(L::less(law.inverse.most, met.most));
+}
+
+template <class L, PairLaw pairs, bool energy>
+SINEW_INLINE PairSums<L> partner_sums(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                                      std::size_t block, int lane, bool& strained) {
+  Met<L> met;
+  PairSums<L> sums = sum_partners<L, pairs, energy, false>(step, law, block, lane, met);
+  if (needs_care(law, met, sums.force.x)) [[unlikely]] {
+    PairSums<L> careful;
+    sum_partners_carefully<L, pairs, energy>(step, block, lane, careful, met);
+    sums = careful;
+  }
+  strained = pairs == changing_springs && L::any(L::less(L::all(0), met.strained));
+  return sums;
+}
+
+/// The energy of a particle's volume.
+template <class L>
+SINEW_INLINE typename L::V volume_energy(const Volumes<typename L::Real>& volumes,
+                                         std::ptrdiff_t i) {
+  const typename L::V growth = L::load(volumes.growth + i);
+  return L::all(static_cast<typename L::Real>(0.5)) * L::load(volumes.stiffness + i) *
+         (growth * growth);
+}
+
+/// A particle that lost a bond keeps its volume no longer. Returns the energy that is lost.
+template <class Real>
+Real forget_volume(const Volumes<Real>& volumes, std::ptrdiff_t i) {
+  const Real growth = volumes.growth[i];
+  const Real energy = volumes.stiffness[i] * growth * growth / 2;
+  volumes.stiffness[i] = 0;
+  return energy;
+}
+
+/// Lets the bonds of a vector creep and break: both directions of a bond see the same distance to
+/// the last bit, and change alike. Returns the energy that is lost. A pair whose bond broke repels
+/// like any other.
+template <class L>
+[[gnu::noinline]] void change_bonds(const Step<typename L::Real>& step, std::size_t block, int lane,
+                                    typename L::Real* lost, bool& broke) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  constexpr int size = Traits<Real>::block;
+  const SolidLaw<L> law(step);
+  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  for_each_bond<L>(step.bonds, block, lane, [&](const Bond<L>& bond, std::uint32_t e) {
+    const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
+    // As in the sums, so that a bond that counts as strained there is so here.
+    const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
+    const V d = squared * law.inverse.template of<true>(squared);
+    V freed = L::all(0);
+    if (step.bonds.yield > 0) {
+      const V longer = d - bond.length;
+      const V beyond =
+          L::keep(bond.mask, L::larger(L::size(longer) - law.yield * bond.length, L::all(0)));
+      const V share = L::all(step.bonds.crept) * beyond;
+      const V by = L::pick(L::less(L::all(0), longer), share, L::all(0) - share);
+      Real* crept = step.bonds.creep + static_cast<std::size_t>(e) * size + lane;
+      const V total = L::load(crept) + by;
+      L::store(crept, total);
+      Bond<L> after = bond;
+      after.length = L::all(bond.kind->length) + total;
+      freed = spring_energy<L>(bond, d) - spring_energy<L>(after, d);
+    }
+    if (step.bonds.breaking > 0) {
+      const auto breaks =
+          L::less(L::keep(bond.mask, law.breaking * bond.length), L::keep(bond.mask, d));
+      if (L::any(breaks)) {
+        broke = true;
+        Real gone[L::width];
+        L::store(gone, L::keep(breaks, L::all(1)));
+        for (int n = 0; n < L::width; ++n) {
+          if (gone[n] == 0) continue;
+          step.bonds.entries[e].lanes &= ~(std::uint32_t{1} << (lane + n));
+          ++step.bonds.broken[i + n];
+          if (step.volumes.stiffness != nullptr)
+            lost[n] += forget_volume(step.volumes, i + n) / step.drift;
+        }
+        freed =
+            L::pick(breaks, spring_energy<L>(bond, d) - repulsion_energy<L>(step.law, d), freed);
+      }
+    }
+    add_to<L>(lost, L::keep(bond.mask, freed) * L::all(Real(0.5) / step.drift));
+  });
+}
+
+}  // namespace sinew::kernel

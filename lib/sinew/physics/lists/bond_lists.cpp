@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/lists/bond_lists.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/particles.h>
+#include <sinew/physics/laws.h>
+#include <sinew/physics/stepper.h>
+#include <sinew/physics/world/world.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t blocks_per_search = 512;
+constexpr double same_kind = 1e-9;  // in radii: far above rounding, far below any strain
+
+/// Kinds by their vectors, in the order in which they were met.
+class Kinds {
+ public:
+  explicit Kinds(double unit) : unit_(unit) {}
+
+  std::uint32_t of(const Vec3& rest) {
+    std::array<std::int64_t, 3> key{};
+    for (int axis = 0; axis < 3; ++axis) key[axis] = std::llround(rest[axis] / unit_);
+    const auto [at, added] = number_.try_emplace(key, static_cast<std::uint32_t>(met.size()));
+    if (added) met.push_back(rest);
+    return at->second;
+  }
+
+  std::vector<Vec3> met;
+
+ private:
+  double unit_;
+  std::map<std::array<std::int64_t, 3>, std::uint32_t> number_;
+};
+
+/// The neighbors at rest of a body's particles, by place in the kernel's order.
+struct RestNeighbors {
+  Points rest;  ///< in the kernel's order
+  NeighborLists near;
+  bool kinds;  ///< whether they differ
+
+  RestNeighbors(const Body& body, std::span<const std::int32_t> id)
+      : kinds(law_of(body.material).has_bonds || has_muscles(body)) {
+    rest.reserve(id.size());
+    for (const std::int32_t i : id) rest.push_back(body.rest[static_cast<std::size_t>(i)]);
+    near = neighbors_within(rest, rest_neighbor_range(body.material.pair.r));
+  }
+};
+
+/// The entries of some blocks, with kinds of their own.
+struct Piece {
+  std::vector<std::uint32_t> count;  ///< entries by block
+  std::vector<kernel::BondEntry> entries;
+  std::vector<Vec3> kinds;
+};
+
+bool ascending(const kernel::BondEntry& a, const kernel::BondEntry& b) {
+  return a.difference != b.difference ? a.difference < b.difference : a.kind < b.kind;
+}
+
+Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, std::size_t begin,
+                 std::size_t end) {
+  Piece piece;
+  Kinds kinds(unit);
+  std::vector<kernel::BondEntry> found;
+  for (std::size_t block = begin; block < end; ++block) {
+    found.clear();
+    for (std::size_t lane = 0; lane < block_size; ++lane) {
+      const std::size_t k = block * block_size + lane;
+      if (k >= of.rest.size()) break;
+      for (const std::uint32_t j : of.near.of(k)) {
+        const auto difference =
+            static_cast<std::int32_t>(static_cast<std::int64_t>(j) - static_cast<std::int64_t>(k));
+        const std::uint32_t kind =
+            of.kinds ? kinds.of(of.rest[j] - of.rest[k]) : kinds.of(Vec3::Zero());
+        const std::uint32_t own = std::uint32_t{1} << lane;
+        found.push_back({difference, kind, own | own << kernel::at_rest});
+      }
+    }
+    std::sort(found.begin(), found.end(), ascending);
+    const std::size_t before = piece.entries.size();
+    for (const kernel::BondEntry& one : found) {
+      if (piece.entries.size() > before && !ascending(piece.entries.back(), one))
+        piece.entries.back().lanes |= one.lanes;
+      else
+        piece.entries.push_back(one);
+    }
+    piece.count.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
+  }
+  piece.kinds = std::move(kinds.met);
+  return piece;
+}
+
+/// Joins the pieces in their order; equal kinds become one.
+template <class Real>
+void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds) {
+  Kinds kinds(unit);
+  std::size_t entries = 0;
+  for (const Piece& piece : pieces) entries += piece.entries.size();
+  bonds.entries.reserve(entries);
+  bonds.first.push_back(0);
+  for (const Piece& piece : pieces) {
+    std::vector<std::uint32_t> number;
+    for (const Vec3& rest : piece.kinds) number.push_back(kinds.of(rest));
+    for (kernel::BondEntry entry : piece.entries) {
+      entry.kind = number[entry.kind];
+      bonds.entries.push_back(entry);
+    }
+    for (const std::uint32_t count : piece.count) bonds.first.push_back(bonds.first.back() + count);
+  }
+  bonds.rest = std::move(kinds.met);
+}
+
+/// Calls visit(place in `creep`) for the lanes of all entries that are whole.
+template <class Real, class Visit>
+void for_each_whole(const BondLists<Real>& bonds, Visit&& visit) {
+  constexpr std::size_t size = kernel::Traits<Real>::block;
+  if (bonds.creep.empty()) return;
+  for (std::size_t e = 0; e < bonds.entries.size(); ++e)
+    for (std::size_t lane = 0; lane < size; ++lane)
+      if ((bonds.entries[e].lanes >> lane & 1) != 0) visit(e * size + lane);
+}
+
+}  // namespace
+
+template <class Real>
+void BondLists<Real>::set_units(const Body& body, const Units& units) {
+  const double spring = body.material.bond.stiffness * units.time * units.time / body.material.mass;
+  const double longer =
+      kinds.empty() ? 1 : rest[0].norm() / units.length / static_cast<double>(kinds[0].length);
+  if (!kinds.empty() && kinds[0].length > 0)
+    for (Real& one : creep) one = static_cast<Real>(static_cast<double>(one) * longer);
+  kinds.clear();
+  for (const Vec3& to : rest) {
+    kernel::BondKind<Real> kind{};
+    for (int axis = 0; axis < 3; ++axis)
+      kind.rest[axis] = static_cast<Real>(to[axis] / units.length);
+    kind.length = static_cast<Real>(to.norm() / units.length);
+    kind.stiffness = static_cast<Real>(spring);
+    kinds.push_back(kind);
+  }
+}
+
+template <class Real>
+kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double step) {
+  const BondStrength& strength = material.bond;
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  return {first.data(),
+          entries.data(),
+          kinds.data(),
+          creep.empty() ? nullptr : creep.data(),
+          broken.empty() ? nullptr : broken.data(),
+          real(strength.yield_strain),
+          real(-std::expm1(-strength.creep_rate * step)),
+          real(strength.breaking_strain)};
+}
+
+template <class Real>
+std::uint32_t BondLists<Real>::bonded_lanes(std::size_t block, std::int32_t difference) const {
+  const auto end = entries.begin() + first[block + 1];
+  std::uint32_t lanes = 0;
+  for (auto at = std::lower_bound(entries.begin() + first[block], end, difference,
+                                  [](const kernel::BondEntry&entry, std::int32_t wanted) {
+                                    return entry.difference < wanted;
+                                  });
+       at != end && at->difference == difference; ++at)
+    lanes |= at->lanes;
+  return lanes & ((std::uint32_t{1} << kernel::at_rest) - 1);
+}
+
+template <class Real>
+void BondLists<Real>::save(SimulationState& state) const {
+  if (broken.empty() && creep.empty()) return;
+  state.bonded_lanes.clear();
+  state.creep.clear();
+  for (const kernel::BondEntry& entry : entries) state.bonded_lanes.push_back(entry.lanes);
+  for_each_whole(*this,
+                 [&](std::size_t at) { state.creep.push_back(static_cast<double>(creep[at])); });
+}
+
+template <class Real>
+void BondLists<Real>::restore(const SimulationState& state) {
+  constexpr std::size_t size = kernel::Traits<Real>::block;
+  if (broken.empty() && creep.empty()) return;
+  if (state.bonded_lanes.size() != entries.size()) throw not_a_state("it has other bonds");
+  for (std::size_t block = 0; block + 1 < first.size(); ++block)
+    for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
+      const std::uint32_t made = std::exchange(entries[e].lanes, state.bonded_lanes[e]);
+      if ((entries[e].lanes & ~made) != 0 || (made & ~entries[e].lanes) >> kernel::at_rest != 0)
+        throw not_a_state("it has other bonds");
+      for (std::size_t lane = 0; lane < size && !broken.empty(); ++lane)
+        broken[block * size + lane] +=
+            static_cast<std::int32_t>((made & ~entries[e].lanes) >> lane & 1);
+    }
+  std::size_t next = 0;
+  for_each_whole(*this, [&](std::size_t at) {
+    if (next == state.creep.size() || !std::isfinite(state.creep[next]))
+      throw not_a_state("a bond has no length");
+    creep[at] = static_cast<Real>(state.creep[next++]);
+  });
+  if (next != state.creep.size()) throw not_a_state("it has other bonds");
+}
+
+template <class Real>
+BondLists<Real> bond_lists(const Body& body, std::span<const std::int32_t> id, const Units& units) {
+  constexpr std::size_t size = kernel::Traits<Real>::block;
+  BondLists<Real> bonds;
+  if (!law_of(body.material).has_memory && !has_muscles(body)) return bonds;
+  const RestNeighbors of(body, id);
+  const double unit = same_kind * body.material.pair.r;
+  const std::size_t blocks = (id.size() + size - 1) / size;
+  std::vector<Piece> pieces((blocks + blocks_per_search - 1) / blocks_per_search);
+  parallel_for(blocks, blocks_per_search, [&](std::size_t begin, std::size_t end) {
+    pieces[begin / blocks_per_search] = entries_of(of, size, unit, begin, end);
+  });
+  join(pieces, unit, bonds);
+  bonds.set_units(body, units);
+  if (!law_of(body.material).has_bonds) return bonds;
+  const BondStrength& strength = body.material.bond;
+  if (strength.yield_strain > 0) bonds.creep.assign(bonds.entries.size() * size, 0);
+  if (strength.breaking_strain > 0) bonds.broken.assign(blocks * size, 0);
+  return bonds;
+}
+
+template struct BondLists<double>;
+template struct BondLists<float>;
+template BondLists<double> bond_lists(const Body&, std::span<const std::int32_t>, const Units&);
+template BondLists<float> bond_lists(const Body&, std::span<const std::int32_t>, const Units&);
+
+}  // namespace sinew

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bonds of a solid in the kernel's layout: for each block the differences to the neighbors of
+// its particles at rest, with the lanes that have one there. They are made once: bonds stay where
+// they are, creep and break.
+//
+//     BondLists<Real> bonds = bond_lists<Real>(body, id, units);
+//     step.bonds = bonds.arrays(body.material, step, units);
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/physics/forces.h>
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/lists/block_state.h>
+
+namespace sinew {
+
+template <class Real>
+struct BondLists {
+  std::vector<std::uint32_t> first;        ///< blocks + 1 long; empty: the material knows no bonds
+  std::vector<kernel::BondEntry> entries;  ///< of a block: ascending differences, then kinds
+  std::vector<Vec3> rest;                  ///< by kind, m
+  std::vector<kernel::BondKind<Real>> kinds;
+  std::vector<Real> creep;           ///< entries x block; empty: none creeps
+  std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
+
+  /// The lengths in these units.
+  void set_units(const Body& body, const Units& units);
+  /// For steps of `step` (s).
+  kernel::Bonds<Real> arrays(const Material& material, double step);
+  /// Lanes of a block that are bonded at a difference.
+  std::uint32_t bonded_lanes(std::size_t block, std::int32_t difference) const;
+
+  /// What changes: of each entry the lanes that are whole, and what those have crept by.
+  void save(SimulationState& state) const;
+  /// Of the same particles in the same order. Throws bad input where they are not these bonds.
+  void restore(const SimulationState& state);
+};
+
+/// Of the particles `id` in the kernel's order. None where no force depends on the neighbors at
+/// rest.
+template <class Real>
+BondLists<Real> bond_lists(const Body& body, std::span<const std::int32_t> id, const Units& units);
+
+}  // namespace sinew

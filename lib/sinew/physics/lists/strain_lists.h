@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the kernel needs for forces that follow from the deformation around each particle: volumes
+// that are kept, and the fibers of muscles.
+//
+//     StrainLists<Real> strain = strain_lists<Real>(body, id, bonds, units);
+//     strain.put_into(step);
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/physics/forces.h>
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/lists/bond_lists.h>
+#include <sinew/physics/world/world.h>
+
+namespace sinew {
+
+/// By particle, with a block of zeros at each end.
+template <class Real>
+struct StrainLists {
+  std::array<std::vector<Real>, 6> inverse;
+  std::vector<Real> stiffness, growth;  ///< of volumes; empty: none is kept
+  std::array<std::vector<Real>, 9> volume_thrust, fiber_thrust;
+  std::vector<std::uint32_t> first;  ///< fibers of a block; empty: there are none
+  std::vector<std::int32_t> muscle;
+  std::vector<Real> strength, direction, level;
+
+  bool empty() const { return stiffness.empty() && first.empty(); }
+  void set_activations(const Activations& now);
+  void put_into(kernel::Step<Real>& step);
+};
+
+/// Of the particles `id` in the kernel's order, with their bonds: those that lost one keep no
+/// volume.
+template <class Real>
+StrainLists<Real> strain_lists(const Body& body, std::span<const std::int32_t> id,
+                               const BondLists<Real>& bonds, const Units& units);
+
+}  // namespace sinew
