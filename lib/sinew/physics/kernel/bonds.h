@@ -134,7 +134,7 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
       lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
         const std::ptrdiff_t j = i + bond.difference;
         Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
-        const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
+        const V squared = squared_distance<L>(apart);
         V d, pull;
         if constexpr (pairs == among_neighbors) {
           const auto near = L::less(L::pick(bond.mask, squared, law.b2), law.b2);
@@ -150,8 +150,10 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
             strained = L::larger(strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
           sums.add(step, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
         }
-        if constexpr (sizeof(typename L::Real) == 8)
-          least = L::smaller(squared, least), most = L::larger(squared, most);
+        if constexpr (sizeof(typename L::Real) == 8) {
+          const V met_at = L::pick(bond.mask, squared, law.touching2);
+          least = L::smaller(met_at, least), most = L::larger(met_at, most);
+        }
       });
   const Lists& lists = step.lists[block / blocks_per_piece];
   const std::uint32_t* first = lists.first + block % blocks_per_piece;
