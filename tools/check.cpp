@@ -29,7 +29,7 @@ constexpr double slower_with_lists_in_motion = 1.8;
 /// body becomes unstable.
 double speed_at_rest(const Settings& settings, Setup setup, const Particles& particles,
                      std::vector<std::string>& warnings) {
-  const double usual = usual_speed(stepper_choice(settings.solver, setup.body, setup.motion));
+  const double usual = usual_speed(stepper_choice(settings.solver));
   setup.motion = {};
   Simulation simulation = start(settings, std::move(setup), particles);
   double spent = 0;
@@ -138,9 +138,9 @@ Exit check(const std::string& scene, const Common& common) {
   const Setup setup = set_up(settings, filling.particles);
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
-  const StepperChoice way = stepper_choice(settings.solver, setup.body, setup.motion);
+  const StepperChoice way = stepper_choice(settings.solver);
   const double speed = bone_speed(setup, settings.output.interval);
-  auto warnings = warnings_of(setup, settings.solver, speed);
+  auto warnings = warnings_of(setup, speed);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);

@@ -92,6 +92,11 @@ World tearing(const std::string& name, MaterialModel model) {
   return world;
 }
 
+World in(Precision precision, World world) {
+  world.settings.solver.precision = precision;
+  return world;
+}
+
 /// Between an approaching wall and a wind, in a medium, held at both ends, with a muscle that
 /// twitches.
 World surrounded(const std::string& name, Integrator integrator) {
@@ -127,21 +132,27 @@ World surrounded(const std::string& name, Integrator integrator) {
 
 std::vector<World> worlds() {
   using enum Precision;
-  return {bend("BendInDouble", binary64),
-          bend("BendInSingle", binary32),
-          with(bend("VerletInDouble", binary64), Integrator::velocity_verlet),
-          with(bend("VerletInSingle", binary32), Integrator::velocity_verlet),
-          with(bend("ExplicitInSingle", binary32), Integrator::explicit_euler),
-          melt("MeltInDouble", binary64),
-          melt("MeltInSingle", binary32),
-          flight("Flight"),
-          with(bend("Cells", binary64, 17), NeighborSearch::cells),
-          with(with(bend("VerletWithCells", binary64, 17), NeighborSearch::cells),
-               Integrator::velocity_verlet),
-          tearing("Bonded", MaterialModel::bonded),
-          tearing("BondedVolume", MaterialModel::bonded_volume),
-          surrounded("Surrounded", Integrator::symplectic_euler),
-          surrounded("VerletSurrounded", Integrator::velocity_verlet)};
+  return {
+      bend("BendInDouble", binary64),
+      bend("BendInSingle", binary32),
+      with(bend("VerletInDouble", binary64), Integrator::velocity_verlet),
+      with(bend("VerletInSingle", binary32), Integrator::velocity_verlet),
+      with(bend("ExplicitInSingle", binary32), Integrator::explicit_euler),
+      melt("MeltInDouble", binary64),
+      melt("MeltInSingle", binary32),
+      flight("Flight"),
+      with(bend("Cells", binary64, 17), NeighborSearch::cells),
+      with(with(bend("VerletWithCells", binary64, 17), NeighborSearch::cells),
+           Integrator::velocity_verlet),
+      tearing("Bonded", MaterialModel::bonded),
+      tearing("BondedVolume", MaterialModel::bonded_volume),
+      in(binary32, tearing("BondedInSingle", MaterialModel::bonded)),
+      in(binary32, tearing("BondedVolumeInSingle", MaterialModel::bonded_volume)),
+      with(tearing("BondedInCells", MaterialModel::bonded_volume), NeighborSearch::cells),
+      surrounded("Surrounded", Integrator::symplectic_euler),
+      in(binary32, surrounded("SurroundedInSingle", Integrator::symplectic_euler)),
+      with(surrounded("SurroundedInCells", Integrator::symplectic_euler), NeighborSearch::cells),
+      surrounded("VerletSurrounded", Integrator::velocity_verlet)};
 }
 
 /// All results of a simulation at one moment.
@@ -308,9 +319,24 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   bad = bend("", binary32).begin().save();
   bad.whole_numbers.length = 0;
   refuse(bend("", binary32), bad, "units");
-  bad = tearing("", MaterialModel::bonded).begin().save();
+  const World tears = tearing("", MaterialModel::bonded);
+  const SimulationState torn = tears.begin().save();
+  bad = torn;
+  bad.bonded_lanes.pop_back();
+  refuse(tears, bad, "bonds");
+  bad = torn;
+  bad.bonded_lanes.front() = ~bad.bonded_lanes.front();
+  refuse(tears, bad, "bonds");
+  for (const double value : {double(NAN), HUGE_VAL}) {
+    bad = torn;
+    bad.creep[7] = value;
+    refuse(tears, bad, "length");
+  }
+  const World in_cells = with(tears, NeighborSearch::cells);
+  bad = in_cells.begin().save();
+  refuse(tears, bad, "cells");
   bad.rest_length.pop_back();
-  refuse(tearing("", MaterialModel::bonded), bad, "bonds");
+  refuse(in_cells, bad, "bonds");
 }
 
 }  // namespace sinew::resume_test

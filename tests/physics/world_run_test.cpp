@@ -19,7 +19,6 @@ class Box {
   explicit Box(bool bound = false, int height = 9) : rest(test::fcc_box(5, 5, height, r)) {
     settings = test::box_scene(height);
     settings.material.damping_form = DampingForm::symmetric;
-    settings.solver.neighbor_search = NeighborSearch::cells;
     if (!bound) settings = test::unbound(settings);
     const Material material = test::material_of(settings);
     stiffness = material.pair.contact_stiffness();

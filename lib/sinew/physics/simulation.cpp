@@ -31,18 +31,10 @@ bool is_finite(const LedgerEntries& ledger) {
 
 }  // namespace
 
-bool lists_support(const Body& body, const Motion& motion) {
-  return !body.world && !stretches(motion) && body.material.damping_form == DampingForm::paper &&
-         std::all_of(body.springs.begin(), body.springs.end(), [](const BoneSprings& bone) {
-           return bone.form == BoneForce::paper && bone.twist_form == TwistForm::servo;
-         });
-}
-
 Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& body,
-                                             const Motion& motion, const Stepping& stepping,
-                                             const Particles& particles,
+                                             const Stepping& stepping, const Particles& particles,
                                              kernel::InstructionSet instructions) {
-  if (stepping.neighbor_search == NeighborSearch::cells || !lists_support(*body, motion))
+  if (stepping.neighbor_search == NeighborSearch::cells)
     return CellStepper(body, stepping, particles);
   if (stepping.precision == Precision::binary32)
     return ListStepper<float>(body, stepping, particles, instructions);
@@ -55,7 +47,7 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
       motion_(std::make_shared<const Motion>(std::move(motion))),
       cursor_(body_->skeleton, *motion_),
       stepping_(stepping),
-      stepper_(make_stepper(body_, *motion_, stepping, checked(particles), instructions)),
+      stepper_(make_stepper(body_, stepping, checked(particles), instructions)),
       ledger_(stepping.step),
       world_ledger_(stepping.step),
       particles_(std::move(particles)) {
@@ -64,7 +56,7 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
 
 void Simulation::step() {
   const Pose& now = pose();
-  print_time();
+  set_time();
   StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
   if (sums.failure) {
     offenders_ = std::move(sums.failure->all);
@@ -78,9 +70,8 @@ void Simulation::step() {
   if (read_) forget_read();
 }
 
-/// Only the cell stepper supports surroundings that change with time.
-void Simulation::print_time() const {
-  if (auto* cells = std::get_if<CellStepper>(&stepper_)) cells->set_time(time());
+void Simulation::set_time() const {
+  std::visit([&](auto& stepper) { stepper.set_time(time()); }, stepper_);
 }
 
 /// The particles read last are obsolete, and take half as much memory as the state.
@@ -110,7 +101,7 @@ void Simulation::fail(const Offender& first) const {
 const Particles& Simulation::particles() const {
   if (!read_) {
     const Pose& now = pose();
-    print_time();
+    set_time();
     std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
     read_ = true;
   }
@@ -120,7 +111,7 @@ const Particles& Simulation::particles() const {
 void Simulation::evaluate() {
   if (evaluated_) return;
   const Pose& now = pose();
-  print_time();
+  set_time();
   balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
   evaluated_ = true;
 }
@@ -168,10 +159,9 @@ std::vector<std::int32_t> Simulation::broken_bonds() const {
   return std::visit([](const auto& stepper) { return stepper.broken_bonds(); }, stepper_);
 }
 
-std::span<const Reaction> Simulation::reactions_of_obstacles() {
+std::vector<Reaction> Simulation::reactions_of_obstacles() {
   evaluate();
-  const auto* cells = std::get_if<CellStepper>(&stepper_);
-  return cells != nullptr ? cells->reactions_of_obstacles() : std::span<const Reaction>();
+  return std::visit([](const auto& stepper) { return stepper.reactions_of_obstacles(); }, stepper_);
 }
 
 SimulationState Simulation::save() const {

@@ -25,9 +25,6 @@
 
 namespace sinew {
 
-/// Whether the list stepper supports all that the body is subject to; the cell stepper always does.
-bool lists_support(const Body& body, const Motion& motion);
-
 class Simulation {
  public:
   /// `particles` in any order; their id is their place in body.rest. The kernel is compiled for
@@ -61,7 +58,7 @@ class Simulation {
   std::vector<std::int32_t> broken_bonds() const;
 
   /// The force of the body on each obstacle of its world at the present moment, about its frame.
-  std::span<const Reaction> reactions_of_obstacles();
+  std::vector<Reaction> reactions_of_obstacles();
 
   /// The state from which a simulation continues with the same bits, on any number of threads.
   SimulationState save() const;
@@ -75,12 +72,11 @@ class Simulation {
  private:
   using Stepper = std::variant<CellStepper, ListStepper<double>, ListStepper<float>>;
 
-  static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Motion& motion,
-                              const Stepping& stepping, const Particles& particles,
-                              kernel::InstructionSet instructions);
+  static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
+                              const Particles& particles, kernel::InstructionSet instructions);
   void evaluate();
   void forget_read();
-  void print_time() const;
+  void set_time() const;
   [[noreturn]] void fail(const Offender& first) const;
 
   std::shared_ptr<const Body> body_;

@@ -101,7 +101,7 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
-  describe(stepper_choice(settings.solver, setup.body, setup.motion));
+  describe(stepper_choice(settings.solver));
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();
@@ -114,13 +114,12 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
 }
 
 void RunLog::describe(const StepperChoice& choice) {
+  record_["stepper"] = choice.search == NeighborSearch::lists ? "kernel" : "reference";
   record_["precision"] = name_of(choice.precision);
   record_["neighbor_search"] = name_of(choice.search);
   record_["instruction_set"] = kernel::name_of(choice.instructions);
   log(std::string("steps in ") + name_of(choice.precision) + " precision, neighbors by " +
-      name_of(choice.search) + ", instructions " + kernel::name_of(choice.instructions) +
-      (choice.unsupported ? ", for " + choice.unsupported->key + " is " + choice.unsupported->value
-                          : ""));
+      name_of(choice.search) + ", instructions " + kernel::name_of(choice.instructions));
 }
 
 void RunLog::spend(const std::string& stage, double seconds) {

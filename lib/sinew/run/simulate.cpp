@@ -238,8 +238,7 @@ void say_what_is_doubtful(const Settings& scene, const Setup& setup,
   say(options, "step " + three_digits(setup.steps.step) + " s, " +
                    three_digits(setup.steps.factor()) + " of the stability limit " +
                    three_digits(setup.steps.limit) + " s");
-  for (const std::string& warning :
-       warnings_of(setup, scene.solver, bone_speed(setup, scene.output.interval)))
+  for (const std::string& warning : warnings_of(setup, bone_speed(setup, scene.output.interval)))
     if (options.warning) options.warning(warning);
 }
 

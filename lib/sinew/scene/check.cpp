@@ -80,7 +80,7 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   Needs needs;
   needs.disk = static_cast<std::uint64_t>(
       (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
-  const StepperChoice choice = stepper_choice(settings.solver, setup.body, setup.motion);
+  const StepperChoice choice = stepper_choice(settings.solver);
   needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(choice) +
                                             points * memory_per_point + memory_beside);
   return needs;
@@ -234,19 +234,6 @@ void warn_of_unreached(const Binding& binding, Warnings& warnings) {
         "by straight distance; close the body's gaps, or give it a bone in each piece");
 }
 
-void warn_of_cells(const Setup& setup, const SolverSettings& solver, Warnings& warnings) {
-  const StepperChoice choice = stepper_choice(solver, setup.body, setup.motion);
-  if (!choice.unsupported || setup.body.material.model != MaterialModel::paper) return;
-  const auto& [key, value, supported] = *choice.unsupported;
-  std::string warning = key;
-  warning += " is " + value + ", which neighbor lists do not support: steps use the paper's cells";
-  if (solver.precision == Precision::binary32) warning += ", in double precision";
-  warning += ", about " + three_digits(std::round(slowness_of_cells(solver.precision))) +
-             " times slower; use " + key + ' ' + supported +
-             " where its difference does not matter";
-  warnings.push_back(warning);
-}
-
 /// A body that begins inside an obstacle is pushed out of it violently.
 void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
   if (!setup.body.world) return;
@@ -270,8 +257,7 @@ void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
-                                     double bone_speed) {
+std::vector<std::string> warnings_of(const Setup& setup, double bone_speed) {
   Warnings warnings;
   if (setup.body.material.model == MaterialModel::paper)
     warn_of_material(setup.body.material.pair, warnings);
@@ -284,7 +270,6 @@ std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& s
   warn_of_idle_bones(setup.body, warnings);
   warn_of_far_particles(setup.body, warnings);
   warn_of_unreached(setup.body.binding, warnings);
-  warn_of_cells(setup, solver, warnings);
   warn_of_overlaps(setup, warnings);
   return warnings;
 }

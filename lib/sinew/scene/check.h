@@ -37,7 +37,6 @@ std::string bytes_text(std::uint64_t bytes);
 // What is doubtful in a scene that can be run all the same.
 
 /// One line each, with the number, the reason and the cure. `bone_speed` in radii per step.
-std::vector<std::string> warnings_of(const Setup& setup, const SolverSettings& solver,
-                                     double bone_speed);
+std::vector<std::string> warnings_of(const Setup& setup, double bone_speed);
 
 }  // namespace sinew

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/stepper_choice.h>
 
-#include <sinew/physics/simulation.h>
-
 namespace sinew {
 namespace {
 
@@ -22,25 +20,10 @@ constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
 // Whatever the instruction set: cells are sorted again, and pairs processed one by one.
 constexpr double speed_with_cells = 2e6;
 
-Unsupported unsupported_by_lists(const Body& body, const Motion& motion) {
-  if (body.world) return {"the section world", "not empty", "without entries"};
-  if (stretches(motion)) return {"a key's stretch", "not 1", "1"};
-  if (body.material.damping_form != DampingForm::paper)
-    return {"material.damping_form",
-            body.material.damping_form == DampingForm::central ? "central" : "symmetric", "paper"};
-  for (const BoneSprings& bone : body.springs)
-    if (bone.form == BoneForce::anchor) return {"binding.force", "anchor", "paper"};
-  return {"binding.twist_form", "open_loop", "servo"};
-}
-
 }  // namespace
 
-StepperChoice stepper_choice(const SolverSettings& solver, const Body& body, const Motion& motion) {
+StepperChoice stepper_choice(const SolverSettings& solver) {
   StepperChoice choice{solver.neighbor_search, solver.precision};
-  if (choice.search == NeighborSearch::lists && !lists_support(body, motion)) {
-    choice.search = NeighborSearch::cells;
-    choice.unsupported = unsupported_by_lists(body, motion);
-  }
   if (choice.search == NeighborSearch::cells) {
     choice.precision = Precision::binary64;
     choice.instructions = InstructionSet::plain;
@@ -62,10 +45,6 @@ double usual_speed(const StepperChoice& choice) {
     if (speed.set == choice.instructions)
       return choice.precision == Precision::binary64 ? speed.in_double : speed.in_single;
   return speed_with_cells;
-}
-
-double slowness_of_cells(Precision precision) {
-  return usual_speed({NeighborSearch::lists, precision}) / speed_with_cells;
 }
 
 }  // namespace sinew

@@ -96,38 +96,16 @@ SINEW_INLINE typename L::V repulsion_energy(const Law<typename L::Real>& law, ty
   return L::all(law.k1) * (overlap * overlap) * (L::all(4) * r + d) / (L::all(3) * r);
 }
 
-/// Sums of a vector in registers.
-template <class L, bool energy>
-struct Adder {
-  using V = typename L::V;
-  V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
-
-  template <class Energy>
-  SINEW_INLINE void add(const Step<typename L::Real>& step, std::ptrdiff_t j, typename L::M near,
-                        V pull, const Triple<L>& apart, Energy&& energy_of) {
-    pull = L::keep(near, pull);
-    fx = L::fused(pull, apart.x, fx);
-    fy = L::fused(pull, apart.y, fy);
-    fz = L::fused(pull, apart.z, fz);
-    su = L::add_where(near, su, L::load(step.before.v[0] + j));
-    sv = L::add_where(near, sv, L::load(step.before.v[1] + j));
-    sw = L::add_where(near, sw, L::load(step.before.v[2] + j));
-    count = L::add_where(near, count, L::all(1));
-    if constexpr (energy)
-      stored = L::add_where(near, stored, L::all(typename L::Real(0.5)) * energy_of());
-  }
-};
-
 /// The sums over a vector's bonds and contacts. `careful` handles all distances; without it, those
 /// for which the law's `inverse` is made.
-template <class L, PairLaw pairs, bool energy, bool careful>
+template <class L, PairLaw pairs, Pass pass, bool energy, bool careful>
 SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                                       std::size_t block, int lane, Met<L>& met) {
   using V = typename L::V;
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
-  Adder<L, energy> sums;
+  Adder<L, pass, energy> sums;
   V least = law.touching2, most = law.touching2, strained = L::all(0);
   for_each_bond<L>(
       step.bonds, block,
@@ -140,7 +118,7 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
           const auto near = L::less(L::pick(bond.mask, squared, law.b2), law.b2);
           pull = law.pull.template pull<careful>(squared, d);
           if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
-          sums.add(step, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
+          sums.add(step, i, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
         } else {
           pull = spring<L, careful>(law, bond, squared, d);
           if constexpr (careful)
@@ -148,7 +126,7 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
                     apart.x);
           if constexpr (pairs == changing_springs)
             strained = L::larger(strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
-          sums.add(step, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
+          sums.add(step, i, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
         }
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(bond.mask, squared, law.touching2);
@@ -168,19 +146,19 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
     V d = squared * inverse;
     V pull = L::less_fused(law.k1, squared, law.push) * inverse;
     if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
-    sums.add(step, j, near, pull, apart, [&] { return repulsion_energy<L>(step.law, d); });
+    sums.add(step, i, j, near, pull, apart, [&] { return repulsion_energy<L>(step.law, d); });
     if constexpr (sizeof(typename L::Real) == 8) least = L::smaller(squared, least);
   }
   met = {least, most, strained};
-  return {{sums.fx, sums.fy, sums.fz}, {sums.su, sums.sv, sums.sw}, sums.count, sums.stored};
+  return sums.sums();
 }
 
 /// A function of its own, so that the fast path keeps its values in registers.
-template <class L, PairLaw pairs, bool energy>
+template <class L, PairLaw pairs, Pass pass, bool energy>
 [[gnu::noinline, gnu::cold]] void sum_partners_carefully(const Step<typename L::Real>& step,
                                                          std::size_t block, int lane,
                                                          PairSums<L>& sums, Met<L>& met) {
-  sums = sum_partners<L, pairs, energy, true>(step, SolidLaw<L>(step), block, lane, met);
+  sums = sum_partners<L, pairs, pass, energy, true>(step, SolidLaw<L>(step), block, lane, met);
 }
 
 template <class L>
@@ -192,14 +170,14 @@ SINEW_INLINE bool needs_care(const SolidLaw<L>& law, const Met<L>& met, typename
            L::any(L::less(law.inverse.most, met.most));
 }
 
-template <class L, PairLaw pairs, bool energy>
+template <class L, PairLaw pairs, Pass pass, bool energy>
 SINEW_INLINE PairSums<L> partner_sums(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                                       std::size_t block, int lane, bool& strained) {
   Met<L> met;
-  PairSums<L> sums = sum_partners<L, pairs, energy, false>(step, law, block, lane, met);
+  PairSums<L> sums = sum_partners<L, pairs, pass, energy, false>(step, law, block, lane, met);
   if (needs_care(law, met, sums.force.x)) [[unlikely]] {
     PairSums<L> careful;
-    sum_partners_carefully<L, pairs, energy>(step, block, lane, careful, met);
+    sum_partners_carefully<L, pairs, pass, energy>(step, block, lane, careful, met);
     sums = careful;
   }
   strained = pairs == changing_springs && L::any(L::less(L::all(0), met.strained));

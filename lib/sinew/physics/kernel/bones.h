@@ -85,6 +85,21 @@ SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held
   return pull;
 }
 
+/// Turns the particle about the bone, whatever it does: nothing is stored.
+template <class L>
+SINEW_INLINE Pull<L> open_loop_pull(typename L::V k, const Triple<L>& at) {
+  return {{L::all(0), L::all(0) - k * at.z, k * at.y}, L::all(0)};
+}
+
+/// Keeps the particle at its place.
+template <class L, bool energy>
+SINEW_INLINE Pull<L> anchor_pull(typename L::V k, const Triple<L>& at, const Held<L>& held) {
+  const Triple<L> away{at.x - held.along, at.y - held.across_1, at.z - held.across_2};
+  Pull<L> pull{(L::all(0) - k) * away, L::all(0)};
+  if constexpr (energy) pull.energy = k * dot<L>(away, away);
+  return pull;
+}
+
 /// Resists sliding along the bone.
 template <class L, bool energy>
 SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held<L>& held) {
@@ -94,26 +109,75 @@ SINEW_INLINE Pull<L> axial_pull(typename L::V k, const Triple<L>& at, const Held
   return pull;
 }
 
+/// The springs about a bone's axis, in its frame; `slides`: the force that each spring takes from
+/// the bone as it grows, times where it holds on along the bone.
+template <class L, bool energy>
+SINEW_INLINE Pull<L> spring_pull(const BoneNow<typename L::Real>& bone, const Triple<L>& at,
+                                 const Held<L>& held, const Held<L>& at_rest,
+                                 typename L::V& slides) {
+  if (bone.pulls == anchor) [[unlikely]] {
+    const Pull<L> pull = anchor_pull<L, energy>(L::all(bone.radial), at, held);
+    slides = pull.force.x * (at_rest.along + L::all(bone.center));
+    return pull;
+  }
+  const Pull<L> radial = radial_pull<L, energy>(L::all(bone.radial), at, held);
+  const Pull<L> axial = axial_pull<L, energy>(L::all(bone.axial), at, held);
+  Pull<L> twist;
+  if (bone.pulls == open_loop) [[unlikely]]
+    twist = open_loop_pull<L>(L::all(bone.turning), at);
+  else
+    twist = twist_pull<L, energy>(L::all(bone.twist), at, held);
+  slides = radial.force.x * (at_rest.foot + L::all(bone.center)) +
+           axial.force.x * (at_rest.along + L::all(bone.center));
+  return {{radial.force.x + axial.force.x, radial.force.y + twist.force.y,
+           radial.force.z + twist.force.z},
+          radial.energy + twist.energy + axial.energy};
+}
+
+/// Velocity of the bone's point at `at` in its frame, beyond that of a rigid bone.
+template <class L>
+SINEW_INLINE Triple<L> stretching(const BoneNow<typename L::Real>& bone, typename L::V along) {
+  const typename L::Real rate = bone.stretch_rate / bone.stretch;
+  return (L::all(rate) * (along + L::all(bone.stretch * bone.center))) * all<L>(bone.frame.axes);
+}
+
+/// A damped bone brings its own velocity at the particle, or at its place for an anchor.
+template <class L>
+SINEW_INLINE Triple<L> braked_to(const BoneNow<typename L::Real>& bone, const Held<L>& held,
+                                 const Triple<L>& carried) {
+  if (bone.pulls != anchor) return carried;
+  const Triple<L> arm = from_frame<L>(bone.frame, {held.along, held.across_1, held.across_2});
+  Triple<L> velocity = carried_by<L>(bone.frame, arm);
+  if (bone.stretch_rate != 0) velocity = velocity + stretching<L>(bone, held.along);
+  return velocity;
+}
+
 /// The forces of one bone with a weight of 1.
 template <class L, bool energy>
-SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const Held<L>& held,
+SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const Held<L>& at_rest,
                                     const Place<L>& here, const Triple<L>& velocity) {
   const Triple<L> arm = from_center<L>(bone.frame, here);
   const Triple<L> at = into_frame<L>(bone.frame, arm);
-  const Pull<L> radial = radial_pull<L, energy>(L::all(bone.radial), at, held);
-  const Pull<L> twist = twist_pull<L, energy>(L::all(bone.twist), at, held);
-  const Pull<L> axial = axial_pull<L, energy>(L::all(bone.axial), at, held);
+  Held<L> held = at_rest;
+  if (bone.stretch != 1) {
+    held.foot = L::all(bone.stretch) * held.foot;
+    held.along = L::all(bone.stretch) * held.along;
+  }
+  typename L::V slides;
+  const Pull<L> springs = spring_pull<L, energy>(bone, at, held, at_rest, slides);
   BoneSums<L> pull;
+  pull.spring = from_frame<L>(bone.frame, springs.force);
   pull.carried = carried_by<L>(bone.frame, arm);
-  pull.spring =
-      from_frame<L>(bone.frame, {radial.force.x + axial.force.x, radial.force.y + twist.force.y,
-                                 radial.force.z + twist.force.z});
-  pull.damping = L::all(bone.damping) * (pull.carried - velocity);
+  // Springs are fixed at the foot at rest, not at the particle.
+  typename L::V spring_power = dot<L>(pull.spring, pull.carried);
+  if (bone.stretch_rate != 0) {
+    spring_power = L::fused(L::all(bone.stretch_rate), slides, spring_power);
+    pull.carried = pull.carried + stretching<L>(bone, at.x);
+  }
+  pull.damping = L::all(bone.damping) * (braked_to<L>(bone, held, pull.carried) - velocity);
   pull.damping_power = dot<L>(pull.damping, pull.carried);
-  pull.power = pull.damping_power + dot<L>(pull.spring, pull.carried);
-  if constexpr (energy)
-    pull.energy =
-        (radial.energy + twist.energy + axial.energy) * L::all(static_cast<typename L::Real>(0.5));
+  pull.power = pull.damping_power + spring_power;
+  if constexpr (energy) pull.energy = springs.energy * L::all(static_cast<typename L::Real>(0.5));
   return pull;
 }
 

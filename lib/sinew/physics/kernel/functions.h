@@ -34,34 +34,33 @@ class FlushedToZero {
   FlushedToZero& operator=(const FlushedToZero&) = delete;
 };
 
-template <class L, PairLaw pairs>
-void step_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+template <class L, Work<typename L::Real> work>
+void flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const FlushedToZero<L> mode;
-  step_pieces<L, pairs>(step, begin, end);
+  work(step, begin, end);
 }
 
 template <class L, PairLaw pairs>
-void probe_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  const FlushedToZero<L> mode;
-  probe_pieces<L, pairs>(step, begin, end);
-}
-
-template <class L>
-void strain_flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  const FlushedToZero<L> mode;
-  strain_pieces<L>(step, begin, end);
+constexpr void add(Functions<typename L::Real>& functions) {
+  functions.count[pairs] = flushed<L, count_pieces<L, pairs>>;
+  functions.step[pairs][to_the_mean] = flushed<L, step_pieces<L, pairs, forces_to_the_mean>>;
+  functions.step[pairs][pairwise] = flushed<L, step_pieces<L, pairs, forces_pairwise>>;
+  functions.probe[pairs][to_the_mean] = flushed<L, probe_pieces<L, pairs, forces_to_the_mean>>;
+  functions.probe[pairs][pairwise] = flushed<L, probe_pieces<L, pairs, forces_pairwise>>;
 }
 
 template <class L>
 constexpr Functions<typename L::Real> functions() {
-  return {strain_flushed<L>,
-          {step_flushed<L, between_all>, step_flushed<L, among_neighbors>, step_flushed<L, springs>,
-           step_flushed<L, changing_springs>},
-          {probe_flushed<L, between_all>, probe_flushed<L, among_neighbors>,
-           probe_flushed<L, springs>, probe_flushed<L, changing_springs>},
-          prune_range<L>,
-          prune_list<L>,
-          survey<L>};
+  Functions<typename L::Real> all{};
+  all.strain = flushed<L, strain_pieces<L>>;
+  add<L, between_all>(all);
+  add<L, among_neighbors>(all);
+  add<L, springs>(all);
+  add<L, changing_springs>(all);
+  all.prune_range = prune_range<L>;
+  all.prune = prune_list<L>;
+  all.survey = survey<L>;
+  return all;
 }
 
 }  // namespace sinew::kernel

@@ -58,13 +58,17 @@ struct Lists {
 /// others; the same with springs that creep and break.
 enum PairLaw { between_all, among_neighbors, springs, changing_springs, pair_laws };
 
+/// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
+/// particles' shares.
+enum Damping { to_the_mean, pairwise, dampings };
+
 /// Bonds of some lanes of a block with the particles at one difference from them.
 struct BondEntry {
   std::int32_t difference;
   std::uint32_t kind;
   std::uint32_t lanes;  ///< bit by lane, at rest and, 16 bits lower, now: what breaks is cleared
 };
-inline constexpr int at_rest = 16;
+inline constexpr int rest_lanes = 16;
 
 /// Bonds that were equal and parallel at rest.
 template <class Real>
@@ -103,11 +107,20 @@ struct FrameNow {
   Real velocity[3], spin[3];  ///< of the center; angular
 };
 
+/// How a bone pulls: with springs about its axis, the twist as a servo or in open loop; or each
+/// particle to its place.
+enum BonePulls { servo, open_loop, anchor };
+
 /// A bone at the present moment, and its springs. The first axis of its frame points along it.
 template <class Real>
 struct BoneNow {
   FrameNow<Real> frame;
   Real radial, twist, axial, damping;
+  BonePulls pulls;
+  Real turning;       ///< of open loop: twist times the angle
+  Real center;        ///< of the frame, along the bone at rest
+  Real stretch;       ///< factor of lengths along the bone
+  Real stretch_rate;  ///< per time
 };
 
 /// A bone that holds particles of a block. Its lanes' fields are in `held`, field after field.
@@ -184,6 +197,17 @@ struct Probed {
   std::int32_t* neighbors;
 };
 
+/// What surrounds the body acts through a function outside of the kernel, on the blocks that it may
+/// touch.
+template <class Real>
+struct Surroundings {
+  const std::uint8_t* touched;  ///< by block; null: there is nothing
+  void* context;
+  /// Adds to the accelerations of `count` particles from i on, axis by axis; `held` becomes 1 for
+  /// those that pins hold, else 0.
+  void (*act)(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3], Real* held);
+};
+
 template <class Real>
 struct Step {
   State<Real> before, after;
@@ -194,10 +218,13 @@ struct Step {
   const PieceMotion<Real>* motions;  ///< by piece
   Holds<Real> holds;
   Law<Real> law;
+  Real* share;        ///< 1 / neighbors, or 0; of pairwise damping
+  bool central;       ///< that acts along the pair alone
   Bonds<Real> bonds;  ///< of laws that know neighbors at rest, and of fibers
   Real* inverse[6];   ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
   Volumes<Real> volumes;
   Fibers<Real> fibers;
+  Surroundings<Real> surroundings;
   Real unit;         ///< length of one unit of coordinates
   Real gravity[3];   ///< per time squared
   Real kick;         ///< v += kick a
@@ -239,15 +266,21 @@ struct Candidates {
   std::size_t count;  ///< to be read, not of room
 };
 
+/// On the pieces [begin, end).
+template <class Real>
+using Work = void (*)(const Step<Real>&, std::size_t begin, std::size_t end);
+
 /// The functions of one instruction set.
 template <class Real>
 struct Functions {
   /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
-  void (*strain)(const Step<Real>&, std::size_t begin, std::size_t end);
-  /// By PairLaw: advances the blocks of the pieces [begin, end).
-  void (*step[pair_laws])(const Step<Real>&, std::size_t begin, std::size_t end);
+  Work<Real> strain;
+  /// By PairLaw: finds the shares that pairwise damping needs, before a step.
+  Work<Real> count[pair_laws];
+  /// By PairLaw and Damping: advances the blocks of the pieces.
+  Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
-  void (*probe[pair_laws])(const Step<Real>&, std::size_t begin, std::size_t end);
+  Work<Real> probe[pair_laws][dampings];
   /// Copies the differences in [from, to) with a pair of the block within range; returns the end.
   std::int32_t* (*prune_range)(const PruneInput<Real>&, std::size_t block, std::int64_t from,
                                std::int64_t to, std::int32_t* kept);

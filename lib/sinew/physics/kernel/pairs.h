@@ -9,7 +9,7 @@ namespace sinew::kernel {
 template <class L>
 struct PairSums {
   Triple<L> force = none<L>();       ///< eq. 1
-  Triple<L> velocities = none<L>();  ///< of the neighbors
+  Triple<L> velocities = none<L>();  ///< of the neighbors; pairwise: relative, times both shares
   typename L::V count = L::all(0);
   typename L::V energy = L::all(0);  ///< half of each pair's; only where requested
 };
@@ -178,17 +178,60 @@ SINEW_INLINE typename L::V push_of(const Law<typename L::Real>& law) {
   return L::all(4 * law.k1 * law.r);
 }
 
+/// What a pass over the pairs sums up: the forces and what a form of damping needs, or the number
+/// of neighbors alone.
+enum Pass { forces_to_the_mean, forces_pairwise, counts };
+
+/// Sums of a vector, in registers.
+template <class L, Pass pass, bool energy>
+struct Adder {
+  using V = typename L::V;
+  V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
+
+  /// What `pull` and `apart` are of particle j to `near` lanes of the vector at i.
+  template <class Energy>
+  SINEW_INLINE void add(const Step<typename L::Real>& step, std::ptrdiff_t i, std::ptrdiff_t j,
+                        typename L::M near, V pull, const Triple<L>& apart, Energy&& energy_of) {
+    if constexpr (pass != forces_pairwise || energy) count = L::add_where(near, count, L::all(1));
+    if constexpr (pass == counts) return;
+    pull = L::keep(near, pull);
+    fx = L::fused(pull, apart.x, fx);
+    fy = L::fused(pull, apart.y, fy);
+    fz = L::fused(pull, apart.z, fz);
+    if constexpr (pass == forces_to_the_mean) {
+      su = L::add_where(near, su, L::load(step.before.v[0] + j));
+      sv = L::add_where(near, sv, L::load(step.before.v[1] + j));
+      sw = L::add_where(near, sw, L::load(step.before.v[2] + j));
+    } else if constexpr (pass == forces_pairwise) {
+      add_pairwise(step, i, j, near, apart);
+    }
+    if constexpr (energy)
+      stored = L::add_where(near, stored, L::all(typename L::Real(0.5)) * energy_of());
+  }
+
+  SINEW_INLINE void add_pairwise(const Step<typename L::Real>& step, std::ptrdiff_t i,
+                                 std::ptrdiff_t j, typename L::M near, const Triple<L>& apart) {
+    const V shares = L::load(step.share + i) + L::load(step.share + j);
+    Triple<L> relative = load<L>(step.before.v, j) - load<L>(step.before.v, i);
+    if (step.central) relative = (dot<L>(relative, apart) / squared_distance<L>(apart)) * apart;
+    su = L::add_where(near, su, shares * relative.x);
+    sv = L::add_where(near, sv, shares * relative.y);
+    sw = L::add_where(near, sw, shares * relative.z);
+  }
+
+  SINEW_INLINE PairSums<L> sums() const { return {{fx, fy, fz}, {su, sv, sw}, count, stored}; }
+};
+
 /// The sums over the differences [begin, end); `least` becomes the least squared distance.
 /// `careful` handles all distances; without it, those for which `law` needs no care.
-template <class L, bool energy, bool careful>
+template <class L, Pass pass, bool energy, bool careful>
 SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const PullLaw<L>& law,
                                    std::ptrdiff_t i, const std::int32_t* begin,
                                    const std::int32_t* end, typename L::V& least) {
   using V = typename L::V;
   const Place<L> here = load_place<L>(step.before.x, i);
   const V b2 = L::all(step.law.b2);
-  // Separate variables, not a PairSums: the compiler keeps them in registers.
-  V fx = L::all(0), fy = fx, fz = fx, su = fx, sv = fx, sw = fx, count = fx, stored = fx;
+  Adder<L, pass, energy> adder;
   V closest = b2;
   for (const std::int32_t* difference = begin; difference != end; ++difference) {
     const std::ptrdiff_t j = i + *difference;
@@ -197,53 +240,46 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
     const auto near = L::less(squared, b2);
     if (!L::any(near)) continue;
     closest = L::smaller(squared, closest);
-    V d;
-    V pull = law.template pull<careful>(squared, d);
+    V d, pull = L::all(0);
+    if constexpr (pass != counts) pull = law.template pull<careful>(squared, d);
     if constexpr (careful) part<L>(step, i, j, squared, push_of<L>(step.law), pull, d, apart.x);
-    pull = L::keep(near, pull);
-    fx = L::fused(pull, apart.x, fx);
-    fy = L::fused(pull, apart.y, fy);
-    fz = L::fused(pull, apart.z, fz);
-    su = L::add_where(near, su, L::load(step.before.v[0] + j));
-    sv = L::add_where(near, sv, L::load(step.before.v[1] + j));
-    sw = L::add_where(near, sw, L::load(step.before.v[2] + j));
-    count = L::add_where(near, count, L::all(1));
-    if constexpr (energy)
-      stored =
-          L::add_where(near, stored, L::all(typename L::Real(0.5)) * potential<L>(step.law, d));
+    adder.add(step, i, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
   }
   least = closest;
-  return {{fx, fy, fz}, {su, sv, sw}, count, stored};
+  return adder.sums();
 }
 
 /// A function of its own, so that the fast path keeps its values in registers.
-template <class L, bool energy>
+template <class L, Pass pass, bool energy>
 [[gnu::noinline, gnu::cold]] void sum_pairs_carefully(const Step<typename L::Real>& step,
                                                       std::ptrdiff_t i, const std::int32_t* begin,
                                                       const std::int32_t* end, PairSums<L>& sums) {
   typename L::V least;
-  sums = sum_pairs<L, energy, true>(step, PullLaw<L>(step.law), i, begin, end, least);
+  sums = sum_pairs<L, pass, energy, true>(step, PullLaw<L>(step.law), i, begin, end, least);
 }
 
-template <class L, bool energy>
+template <class L, Pass pass, bool energy>
 SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const PullLaw<L>& law,
                                    std::ptrdiff_t i, const std::int32_t* begin,
                                    const std::int32_t* end) {
   typename L::V least;
-  PairSums<L> sums = sum_pairs<L, energy, false>(step, law, i, begin, end, least);
+  PairSums<L> sums = sum_pairs<L, pass, energy, false>(step, law, i, begin, end, least);
   if (law.needs_care(least, sums.force.x)) [[unlikely]] {
     PairSums<L> careful;
-    sum_pairs_carefully<L, energy>(step, i, begin, end, careful);
+    sum_pairs_carefully<L, pass, energy>(step, i, begin, end, careful);
     sums.force = {careful.force.x, careful.force.y, careful.force.z};
+    sums.velocities = {careful.velocities.x, careful.velocities.y, careful.velocities.z};
     sums.energy = careful.energy;
   }
   return sums;
 }
 
-/// Eq. 2: towards the mean velocity of the neighbors.
-template <class L>
+/// Eq. 2.
+template <class L, Pass pass>
 SINEW_INLINE Triple<L> damping_of(const PairSums<L>& sums, typename L::V rate,
                                   const Triple<L>& velocity) {
+  if constexpr (pass == forces_pairwise)
+    return (rate * L::all(static_cast<typename L::Real>(0.5))) * sums.velocities;
   const auto some = L::less(L::all(0), rate * sums.count);
   const typename L::V share = L::all(1) / L::larger(sums.count, L::all(1));
   const Triple<L> drag = rate * (share * sums.velocities - velocity);

@@ -44,6 +44,20 @@ SINEW_INLINE LawOf<L, pairs> law_of(const Step<typename L::Real>& step) {
     return SolidLaw<L>(step);
 }
 
+template <class L, PairLaw pairs, Pass pass, bool energy>
+SINEW_INLINE PairSums<L> sums_of(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
+                                 std::size_t block, int lane, bool& strained) {
+  if constexpr (pairs != between_all) {
+    return partner_sums<L, pairs, pass, energy>(step, law, block, lane, strained);
+  } else {
+    const std::ptrdiff_t i =
+        static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+    const Lists& lists = step.lists[block / blocks_per_piece];
+    const std::uint32_t* first = lists.first + block % blocks_per_piece;
+    return pair_sums<L, pass, energy>(step, law, i, lists.value + first[0], lists.value + first[1]);
+  }
+}
+
 template <class L, bool energy>
 SINEW_INLINE void add_volumes(const Step<typename L::Real>& step, std::size_t block, int lane,
                               std::ptrdiff_t i, PairSums<L>& sums) {
@@ -51,7 +65,7 @@ SINEW_INLINE void add_volumes(const Step<typename L::Real>& step, std::size_t bl
   if constexpr (energy) sums.energy = sums.energy + volume_energy<L>(step.volumes, i);
 }
 
-template <class L, PairLaw pairs, bool energy>
+template <class L, PairLaw pairs, Pass pass, bool energy>
 SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                                  std::size_t block, int lane, const Place<L>& here,
                                  const Triple<L>& velocity) {
@@ -60,24 +74,44 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   Forces<L> forces;
   // First: this long chain of operations completes while those of the pairs run.
   forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
-  if constexpr (pairs == between_all) {
-    const Lists& lists = step.lists[block / blocks_per_piece];
-    const std::uint32_t* first = lists.first + block % blocks_per_piece;
-    forces.pairs =
-        pair_sums<L, energy>(step, law, i, lists.value + first[0], lists.value + first[1]);
-  } else {
-    forces.pairs = partner_sums<L, pairs, energy>(step, law, block, lane, forces.strained);
-  }
+  forces.pairs = sums_of<L, pairs, pass, energy>(step, law, block, lane, forces.strained);
   if constexpr (pairs == springs || pairs == changing_springs)
     if (step.volumes.stiffness != nullptr)
       add_volumes<L, energy>(step, block, lane, i, forces.pairs);
   if (step.fibers.first != nullptr)
     forces.muscle = thrust_force<L>(step, step.fibers.thrust, block, lane, i);
-  forces.damping = damping_of<L>(forces.pairs, L::all(step.law.damping), velocity);
+  forces.damping = damping_of<L, pass>(forces.pairs, L::all(step.law.damping), velocity);
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
   if (step.fibers.first != nullptr) forces.acceleration = forces.acceleration + forces.muscle;
   return forces;
+}
+
+/// The surroundings act on what all other forces leave. Particles that pins hold move as told.
+template <class L>
+[[gnu::noinline]] void surround(const Step<typename L::Real>& step, std::ptrdiff_t i,
+                                const Triple<L>& velocity, Forces<L>& forces) {
+  typename L::Real acceleration[3][L::width], held[L::width];
+  L::store(acceleration[0], forces.acceleration.x);
+  L::store(acceleration[1], forces.acceleration.y);
+  L::store(acceleration[2], forces.acceleration.z);
+  typename L::Real* const axes[3] = {acceleration[0], acceleration[1], acceleration[2]};
+  step.surroundings.act(step.surroundings.context, i, L::width, axes, held);
+  forces.acceleration = {L::load(acceleration[0]), L::load(acceleration[1]),
+                         L::load(acceleration[2])};
+  const auto told = L::less(L::all(0), L::load(held));
+  const Triple<L>& carried = forces.bones.carried;
+  forces.bones.carried = {L::pick(told, velocity.x, carried.x),
+                          L::pick(told, velocity.y, carried.y),
+                          L::pick(told, velocity.z, carried.z)};
+}
+
+template <class L>
+SINEW_INLINE void surround_if_touched(const Step<typename L::Real>& step, std::size_t block,
+                                      std::ptrdiff_t i, const Triple<L>& velocity,
+                                      Forces<L>& forces) {
+  if (step.surroundings.touched == nullptr || step.surroundings.touched[block] == 0) return;
+  surround<L>(step, i, velocity, forces);
 }
 
 /// The ledger: power of the bones, and losses at the velocity in the middle of the step.
@@ -116,14 +150,15 @@ SINEW_INLINE void check_speed(const Step<typename L::Real>& step, const Triple<L
   sums.sound = sums.sound && L::every(L::at_most(speed2, L::all(step.most)));
 }
 
-template <class L, PairLaw pairs>
+template <class L, PairLaw pairs, Pass pass>
 SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                           std::size_t block, int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
-  const Forces<L> forces = forces_on<L, pairs, false>(step, law, block, lane, here, velocity);
+  Forces<L> forces = forces_on<L, pairs, pass, false>(step, law, block, lane, here, velocity);
+  surround_if_touched<L>(step, block, i, velocity, forces);
   const Triple<L> kicked = fused<L>(L::all(step.kick), forces.acceleration, velocity);
   const Triple<L> drifting = step.drift_first ? velocity : kicked;
   const Triple<L> by = L::all(step.drift) * drifting;
@@ -139,14 +174,15 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
       change_bonds<L>(step, block, lane, sums.lost + lane, sums.broke);
 }
 
-template <class L, PairLaw pairs>
+template <class L, PairLaw pairs, Pass pass>
 SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                                std::size_t block, int lane, Sums<L>& sums) {
   const std::ptrdiff_t i =
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
-  const Forces<L> forces = forces_on<L, pairs, true>(step, law, block, lane, here, velocity);
+  Forces<L> forces = forces_on<L, pairs, pass, true>(step, law, block, lane, here, velocity);
+  surround_if_touched<L>(step, block, i, velocity, forces);
   store<L>(step.probed.pair, i, forces.pairs.force);
   store<L>(step.probed.damping, i, forces.damping);
   store<L>(step.probed.bone, i, forces.bones.spring + forces.bones.damping);
@@ -188,24 +224,41 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
   }
 }
 
-template <class L, PairLaw pairs>
+template <class L, PairLaw pairs, Pass pass>
 void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const LawOf<L, pairs> law = law_of<L, pairs>(step);
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
-        advance<L, pairs>(step, law, block, lane, sums);
+        advance<L, pairs, pass>(step, law, block, lane, sums);
       });
 }
 
-template <class L, PairLaw pairs>
+template <class L, PairLaw pairs, Pass pass>
 void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const LawOf<L, pairs> law = law_of<L, pairs>(step);
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
-        probe_vector<L, pairs>(step, law, block, lane, sums);
+        probe_vector<L, pairs, pass>(step, law, block, lane, sums);
       });
+}
+
+/// The shares of pairwise damping.
+template <class L, PairLaw pairs>
+void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  constexpr int size = Traits<typename L::Real>::block;
+  const LawOf<L, pairs> law = law_of<L, pairs>(step);
+  const std::size_t last = end * blocks_per_piece;
+  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
+    for (int lane = 0; lane < size; lane += L::width) {
+      bool strained = false;
+      const typename L::V count =
+          sums_of<L, pairs, counts, false>(step, law, block, lane, strained).count;
+      const auto some = L::less(L::all(0), count);
+      L::store(step.share + static_cast<std::ptrdiff_t>(block) * size + lane,
+               L::keep(some, L::all(1) / L::larger(count, L::all(1))));
+    }
 }
 
 }  // namespace sinew::kernel

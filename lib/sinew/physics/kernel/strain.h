@@ -38,7 +38,7 @@ SINEW_INLINE void for_each_at_rest(const Bonds<typename L::Real>& bonds, std::si
                                    int lane, Visit&& visit) {
   constexpr std::uint32_t own = (std::uint64_t{1} << L::width) - 1;
   for (std::uint32_t e = bonds.first[block]; e != bonds.first[block + 1]; ++e) {
-    const std::uint32_t lanes = (bonds.entries[e].lanes >> (lane + at_rest)) & own;
+    const std::uint32_t lanes = (bonds.entries[e].lanes >> (lane + rest_lanes)) & own;
     if (lanes != 0) visit(bonds.entries[e], L::mask(lanes));
   }
 }

@@ -81,7 +81,7 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
         const std::uint32_t kind =
             of.kinds ? kinds.of(of.rest[j] - of.rest[k]) : kinds.of(Vec3::Zero());
         const std::uint32_t own = std::uint32_t{1} << lane;
-        found.push_back({difference, kind, own | own << kernel::at_rest});
+        found.push_back({difference, kind, own | own << kernel::rest_lanes});
       }
     }
     std::sort(found.begin(), found.end(), ascending);
@@ -172,7 +172,7 @@ std::uint32_t BondLists<Real>::bonded_lanes(std::size_t block, std::int32_t diff
                                   });
        at != end && at->difference == difference; ++at)
     lanes |= at->lanes;
-  return lanes & ((std::uint32_t{1} << kernel::at_rest) - 1);
+  return lanes & ((std::uint32_t{1} << kernel::rest_lanes) - 1);
 }
 
 template <class Real>
@@ -193,7 +193,7 @@ void BondLists<Real>::restore(const SimulationState& state) {
   for (std::size_t block = 0; block + 1 < first.size(); ++block)
     for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
       const std::uint32_t made = std::exchange(entries[e].lanes, state.bonded_lanes[e]);
-      if ((entries[e].lanes & ~made) != 0 || (made & ~entries[e].lanes) >> kernel::at_rest != 0)
+      if ((entries[e].lanes & ~made) != 0 || (made & ~entries[e].lanes) >> kernel::rest_lanes != 0)
         throw not_a_state("it has other bonds");
       for (std::size_t lane = 0; lane < size && !broken.empty(); ++lane)
         broken[block * size + lane] +=

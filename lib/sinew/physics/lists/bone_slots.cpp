@@ -34,7 +34,8 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
   const double r = body.material.pair.r;
-  const bool aside = std::hypot(local.y(), local.z()) >= least_distance * r;
+  const bool aside = std::hypot(local.y(), local.z()) >= least_distance * r ||
+                     body.springs[influence.bone].form == BoneForce::anchor;
   const double distance =
       influence.rest_distance < least_distance * r ? 0 : influence.rest_distance;
   const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
@@ -138,6 +139,11 @@ void put_axes(const Mat3& rotation, Real* axes) {
   for (int axis = 0; axis < 3; ++axis) put(Vec3(rotation.col(axis)), 1, axes + 3 * axis);
 }
 
+kernel::BonePulls pulls_of(const BoneSprings& springs) {
+  if (springs.form == BoneForce::anchor) return kernel::anchor;
+  return springs.twist_form == TwistForm::open_loop ? kernel::open_loop : kernel::servo;
+}
+
 }  // namespace
 
 template <class Real>
@@ -145,7 +151,7 @@ kernel::FrameNow<Real> frame_now(const BonePose& pose, const Vec3& center, const
   kernel::FrameNow<Real> frame{};
   put_center(center, units, frame);
   put_axes(pose.frame.rotation, frame.axes);
-  put(pose.velocity_at(center), units.velocity(1), frame.velocity);
+  put(pose.rigid_velocity_at(center), units.velocity(1), frame.velocity);
   put(pose.angular_velocity, units.time, frame.spin);
   return frame;
 }
@@ -176,13 +182,18 @@ std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
   std::vector<kernel::BoneNow<Real>> bones(pose.size());
   const double spring = units.time * units.time / mass;
   for (std::size_t b = 0; b < pose.size(); ++b) {
-    const Vec3 at = pose[b].frame.origin + center[b] * pose[b].axis();
+    const Vec3 at = pose[b].frame.origin + pose[b].stretch * center[b] * pose[b].axis();
     const BoneSprings& springs = body.springs[b];
     bones[b].frame = frame_now<Real>(pose[b], at, units);
     bones[b].radial = static_cast<Real>(springs.radial * spring);
     bones[b].twist = static_cast<Real>(springs.twist * spring);
     bones[b].axial = static_cast<Real>(springs.axial * spring);
     bones[b].damping = static_cast<Real>(springs.damping * units.time / mass);
+    bones[b].pulls = pulls_of(springs);
+    bones[b].turning = static_cast<Real>(springs.twist * pose[b].twist * spring);
+    bones[b].center = static_cast<Real>(center[b] / units.length);
+    bones[b].stretch = static_cast<Real>(pose[b].stretch);
+    bones[b].stretch_rate = static_cast<Real>(pose[b].stretch_rate * units.time);
   }
   return bones;
 }

@@ -37,6 +37,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       mass_(particles.mass),
       kernel_(kernel::functions_of<Real>(instructions)),
       law_(pair_law_of(body_->material)),
+      surroundings_(body_, stepping, particles.mass),
       lists_(kernel_, body_->material, stepping.step) {
   load(particles);
 }
@@ -57,12 +58,16 @@ void ListStepper<Real>::load(const Particles& particles) {
   }
   find_slots();
   find_bonds();
+  if (body_->material.damping_form != DampingForm::paper && body_->material.damping > 0)
+    share_.assign((state_.blocks() + 2) * block, 0);
   totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
 template <class Real>
 void ListStepper<Real>::find_slots() {
-  slots_ = bone_slots<Real>(*body_, {id_.data() + block, caller_.size()}, units_);
+  const std::span<const std::int32_t> id(id_.data() + block, caller_.size());
+  slots_ = bone_slots<Real>(*body_, id, units_);
+  surroundings_.set_order(id);
 }
 
 template <class Real>
@@ -70,14 +75,6 @@ void ListStepper<Real>::find_bonds() {
   const std::span<const std::int32_t> id(id_.data() + block, caller_.size());
   bonds_ = bond_lists<Real>(*body_, id, units_);
   strain_ = strain_lists<Real>(*body_, id, bonds_, units_);
-}
-
-/// Before a step and a probe: what particles exert depends on the deformation around each.
-template <class Real>
-void ListStepper<Real>::strain(const kernel::Step<Real>& now) {
-  if (strain_.empty()) return;
-  parallel_split(totals_.size(), pieces_per_thread,
-                 [&](std::size_t begin, std::size_t end) { kernel_.strain(now, begin, end); });
 }
 
 template <class Real>
@@ -109,6 +106,9 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.law = law_in<Real>(units_, pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
+  step.share = share_.empty() ? nullptr : share_.data() + block;
+  step.central = material.damping_form == DampingForm::central;
+  step.surroundings = surroundings_.calls();
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(units_.acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
@@ -120,6 +120,36 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.most = real(most * most);
   step.totals = totals_.data();
   return step;
+}
+
+template <class Real>
+template <class Run>
+void ListStepper<Real>::on_all_pieces(const Run& run) {
+  parallel_split(totals_.size(), pieces_per_thread, run);
+}
+
+/// Puts everything at its place at the pose.
+template <class Real>
+void ListStepper<Real>::prepare(const Pose& pose) {
+  moved_.resize(totals_.size());
+  surroundings_.hold(pose, state_, units_, moved_);
+  update_lists();
+  place_bones(pose);
+}
+
+/// The work at the pose, with what must be known of all particles before.
+template <class Real>
+kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces) {
+  prepare(pose);
+  surroundings_.begin(pose, time_, state_, units_, world_forces);
+  if (has_muscles(*body_)) strain_.set_activations(activations_at(body_->world->muscles, time_));
+  const auto now = job();
+  if (!strain_.empty())
+    on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
+  if (!share_.empty())
+    on_all_pieces(
+        [&](std::size_t first, std::size_t last) { kernel_.count[law_](now, first, last); });
+  return now;
 }
 
 template <class Real>
@@ -144,20 +174,24 @@ StepSums ListStepper<Real>::sums_of_totals() const {
   const double watts =
       mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
   StepSums sums;
-  for (const kernel::Totals& piece : totals_)  // in this order, whichever thread made them
-    sums.power += piece.power, sums.lost += piece.lost;
-  sums.power *= watts, sums.lost *= watts;
+  for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
+    sums.power += piece.power;
+    sums.lost += piece.lost;
+    sums.world_power += piece.muscle_power;
+  }
+  const WorldSums world = surroundings_.sums();
+  sums.power *= watts;
+  sums.lost = sums.lost * watts + world.lost;
+  sums.world_power = sums.world_power * watts + world.power;
+  sums.held_kinetic = world.held_kinetic;
   return sums;
 }
 
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
-  update_lists();
-  place_bones(pose);
-  const auto now = job();
-  strain(now);
-  parallel_split(totals_.size(), pieces_per_thread,
-                 [&](std::size_t begin, std::size_t end) { kernel_.step[law_](now, begin, end); });
+  const auto now = begin(pose, nullptr);
+  const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
   StepSums sums = sums_of_totals();
   if (!std::all_of(totals_.begin(), totals_.end(),
                    [](const kernel::Totals& piece) { return piece.sound; })) {
@@ -180,6 +214,7 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
                       (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < caller_.size(); ++k) {
+    if (surroundings_.is_held(k) && next_.velocity(k, units_).allFinite()) continue;
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
     const bool finite = std::isfinite(moved) && next_.velocity(k, units_).allFinite();
     const Offender one{caller_[k], finite, std::isfinite(moved) ? moved : 0};
@@ -204,25 +239,28 @@ Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
-  update_lists();
-  place_bones(pose);
   const std::size_t n = caller_.size(), slots = state_.blocks() * block;
-  std::array<std::vector<Real>, 9> probed;
-  for (auto& axis : probed) axis.resize(slots);
-  std::vector<std::int32_t> neighbors(slots);
-  auto now = job();
-  for (int axis = 0; axis < 3; ++axis) {
-    now.probed.pair[axis] = probed[axis].data();
-    now.probed.damping[axis] = probed[3 + axis].data();
-    now.probed.bone[axis] = probed[6 + axis].data();
+  const bool muscles = has_muscles(*body_);
+  Points of_world;
+  auto now = begin(pose, surroundings_.any() ? &of_world : nullptr);
+  std::array<std::vector<Real>, 12> probed;
+  Real* axes[12] = {};
+  for (std::size_t axis = 0; axis < (muscles ? 12U : 9U); ++axis) {
+    probed[axis].resize(slots);
+    axes[axis] = probed[axis].data();
   }
+  std::vector<std::int32_t> neighbors(slots);
+  std::copy(axes, axes + 3, now.probed.pair);
+  std::copy(axes + 3, axes + 6, now.probed.damping);
+  std::copy(axes + 6, axes + 9, now.probed.bone);
+  std::copy(axes + 9, axes + 12, now.probed.muscle);
   now.probed.neighbors = neighbors.data();
-  strain(now);
-  parallel_split(totals_.size(), pieces_per_thread,
-                 [&](std::size_t begin, std::size_t end) { kernel_.probe[law_](now, begin, end); });
+  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
   const double newtons = mass_ * units_.length / (units_.time * units_.time);
   for (Points* of_particles : {&forces.pair, &forces.damping, &forces.bone})
     of_particles->resize(n);
+  forces.world.assign(body_->world ? n : 0, Vec3::Zero());
   forces.neighbors.resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -230,11 +268,14 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
       forces.pair[i] = newtons * Vec3(probed[0][k], probed[1][k], probed[2][k]);
       forces.damping[i] = newtons * Vec3(probed[3][k], probed[4][k], probed[5][k]);
       forces.bone[i] = newtons * Vec3(probed[6][k], probed[7][k], probed[8][k]);
+      if (muscles) forces.world[i] = newtons * Vec3(probed[9][k], probed[10][k], probed[11][k]);
+      if (!of_world.empty()) forces.world[i] += of_world[k];
       forces.neighbors[i] = neighbors[k];
     }
   });
   const StepSums sums = sums_of_totals();
-  Balance balance{sums.power, sums.lost, 0, 0};
+  Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
+  balance.contact_energy = surroundings_.sums().contact_energy;
   const double joules = newtons * units_.length;
   for (const kernel::Totals& piece : totals_) {
     balance.pair_energy += joules * piece.pair_energy;
@@ -246,6 +287,8 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
 template <class Real>
 void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
   const std::size_t n = caller_.size();
+  moved_.resize(totals_.size());
+  surroundings_.hold(pose, state_, units_, moved_);
   for (auto* all :
        {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
     all->resize(n);
@@ -267,6 +310,7 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
 template <class Real>
 void ListStepper<Real>::update_lists() {
   const bool stepped = std::exchange(stepped_, false), anew = change_units();
+  add_moved();
   if (order_check_due()) {
     make_lists();
     if (lists_.mean_of_outer() > most_growth * mean_when_sorted_) sort();
@@ -274,6 +318,17 @@ void ListStepper<Real>::update_lists() {
     make_lists();
   } else if (stepped) {
     lists_.follow(state_, bonds_, units_, totals_);
+  }
+}
+
+/// What pins moved counts as faster motion of the step before.
+template <class Real>
+void ListStepper<Real>::add_moved() {
+  for (std::size_t piece = 0; piece < moved_.size(); ++piece) {
+    const double moved = std::exchange(moved_[piece], 0) / units_.length;
+    if (moved == 0) continue;
+    const double speed = std::sqrt(totals_[piece].fastest) + moved / (stepping_.step / units_.time);
+    totals_[piece].fastest = speed * speed;
   }
 }
 

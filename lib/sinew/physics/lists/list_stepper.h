@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps with the vectorized kernel and neighbor lists: for the paper's pair force, damping and
-// bones.
+// Steps with the vectorized kernel and neighbor lists.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <sinew/physics/lists/bond_lists.h>
 #include <sinew/physics/lists/bone_slots.h>
 #include <sinew/physics/lists/strain_lists.h>
+#include <sinew/physics/lists/surroundings.h>
 #include <sinew/physics/lists/verlet_lists.h>
 #include <sinew/physics/stepper.h>
 
@@ -23,12 +23,15 @@ class ListStepper {
   ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
               const Particles& particles, kernel::InstructionSet instructions);
 
+  void set_time(double time) { time_ = time; }  ///< of the pose, s
   StepSums step(const Pose& pose);
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
   ListCounts counts() const;
   /// By particle in the caller's order; none where the material has no bonds.
   std::vector<std::int32_t> broken_bonds() const;
+  /// As evaluated last.
+  std::vector<Reaction> reactions_of_obstacles() const { return surroundings_.reactions(); }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);
@@ -44,7 +47,10 @@ class ListStepper {
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
   kernel::Step<Real> job();
-  void strain(const kernel::Step<Real>& now);
+  template <class Run>
+  void on_all_pieces(const Run& run);
+  void prepare(const Pose& pose);
+  kernel::Step<Real> begin(const Pose& pose, Points* world_forces);
   void find_bonds();
 
   void update_lists();
@@ -53,6 +59,7 @@ class ListStepper {
   bool order_check_due();
   void sort();
   void swap_order(std::vector<std::uint32_t>& order);
+  void add_moved();
   void make_lists();
   void find_slots();
   void restore_order(const std::vector<std::uint32_t>& order);
@@ -75,6 +82,10 @@ class ListStepper {
   BoneSlots<Real> slots_;
   BondLists<Real> bonds_;
   StrainLists<Real> strain_;
+  Surroundings<Real> surroundings_;
+  std::vector<double> moved_;  ///< by pins, by piece, since the lists followed, m
+  std::vector<Real> share_;    ///< padded; empty unless damping acts pair by pair
+  double time_ = 0;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)

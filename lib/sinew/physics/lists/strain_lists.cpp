@@ -54,7 +54,7 @@ class StrainMaker {
     for (std::uint32_t e = bonds_.first[k]; e < bonds_.first[k + 1]; ++e) {
       const Vec3& X = bonds_.rest[bonds_.entries[e].kind];
       for (std::size_t lane = 0; lane < block; ++lane)
-        if ((bonds_.entries[e].lanes >> (lane + kernel::at_rest) & 1) != 0)
+        if ((bonds_.entries[e].lanes >> (lane + kernel::rest_lanes) & 1) != 0)
           spread[lane] += X * X.transpose();
     }
     for (std::size_t lane = 0; lane < block && k * block + lane < id_.size(); ++lane) {

@@ -30,7 +30,7 @@ class CellStepper {
   /// Bonds broken so far, by particle; none for a body without bonds.
   std::vector<std::int32_t> broken_bonds() const;
   /// As evaluated last; none without a world.
-  std::span<const Reaction> reactions_of_obstacles() const { return world_.reactions; }
+  std::vector<Reaction> reactions_of_obstacles() const { return world_.reactions; }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);

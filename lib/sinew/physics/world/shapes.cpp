@@ -121,6 +121,11 @@ bool may_be_within(const Shape& shape, const Vec3& point, double range) {
   return !mesh || !(mesh->bounds.squaredExteriorDistance(point) >= range * range);
 }
 
+bool may_be_near(const Shape& shape, const Vec3& point, double range) {
+  return may_be_within(shape, point, range) && (std::holds_alternative<MeshShape>(shape) ||
+                                                signed_distance(shape, point).distance < range);
+}
+
 CapsuleShape capsule_about(const Bone& bone, double radius) {
   return {bone.head(), bone.tail(), radius};
 }

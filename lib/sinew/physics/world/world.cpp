@@ -182,6 +182,57 @@ WorldPowers world_powers(const WorldForces& forces, const Points& velocities) {
   return powers;
 }
 
+ParticleWorld world_on(const HeldParticle& particle, double mass, const World& world,
+                       const WorldNow& now, const Vec3& others, double step,
+                       std::span<Reaction> reactions) {
+  ParticleWorld on;
+  const auto add = [&](const Vec3& force, const Vec3& losing, const Vec3& source) {
+    on.force += force;
+    on.losing += losing;
+    on.power += force.dot(source);
+    on.losing_power += losing.dot(source);
+  };
+  const auto add_contact = [&](std::size_t k, const Vec3& force, const Vec3& losing) {
+    const ObstaclePose& pose = now.obstacles[k];
+    add(force, losing, pose.velocity_at(particle.position));
+    reactions[k].force -= force;
+    reactions[k].moment -= (particle.position - pose.frame.origin).cross(force);
+  };
+  const auto contact_with = [&](std::size_t k) {
+    return contact(world.obstacles[k], now.obstacles[k], particle.position, particle.velocity,
+                   particle.radius);
+  };
+  bool touched = false;
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    const Contact touch = contact_with(k);
+    if (!(touch.pressing > 0)) continue;
+    touched = true;
+    add_contact(k, touch.force(), touch.losing());
+    on.contact_energy += touch.energy;
+  }
+  if (world.drag.rate > 0) {
+    const Vec3 drag = -world.drag.rate * mass * (particle.velocity - world.drag.velocity);
+    add(drag, drag, world.drag.velocity);
+  }
+  const Grain grain = {mass, volume_per_particle(particle.radius)};
+  for (std::size_t k = 0; k < world.fields.size(); ++k)
+    on.field += field_force(world.fields[k], now.scales[k], particle.position, grain);
+  on.force += on.field;
+  if (!touched) return on;
+  Vec3 velocity = particle.velocity + step / mass * (others + on.force);
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    const Obstacle& obstacle = world.obstacles[k];
+    if (obstacle.stick > 0 || obstacle.friction == 0) continue;
+    const Contact touch = contact_with(k);
+    if (!(touch.pressing > 0)) continue;
+    const Vec3 relative = velocity - now.obstacles[k].velocity_at(particle.position);
+    const Vec3 friction = stopping_friction(obstacle, touch, relative, mass, step);
+    add_contact(k, friction, friction);
+    velocity += step / mass * friction;
+  }
+  return on;
+}
+
 double added_stiffness(const World& world, const Particles& particles) {
   const Grain grain = {particles.mass, volume_per_particle(particles.radius)};
   std::vector<double> springs;

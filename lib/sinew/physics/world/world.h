@@ -7,6 +7,7 @@
 //     world_forces(particles, world, world_at(world, time, pose), forces);
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <sinew/core/particles.h>
@@ -56,6 +57,22 @@ struct WorldForces {
 /// All forces of the world on particles at their places and velocities. In parallel.
 void world_forces(const Particles& particles, const World& world, const WorldNow& now,
                   WorldForces& forces);
+
+/// What the world does to one particle.
+struct ParticleWorld {
+  Vec3 force = Vec3::Zero();   ///< of obstacles, drag and fields, N
+  Vec3 field = Vec3::Zero();   ///< the part of the fields
+  Vec3 losing = Vec3::Zero();  ///< the part that dissipates energy
+  double power = 0;            ///< of contact and drag at their source's own velocity, W
+  double losing_power = 0;     ///< the dissipative part of it, W
+  double contact_energy = 0;   ///< stored, J
+};
+
+/// All of it but muscles, dry friction included: see world_forces() and stop_sliding(). `others`:
+/// all other forces on it, N, the weight included. Adds to the obstacles' reactions.
+ParticleWorld world_on(const HeldParticle& particle, double mass, const World& world,
+                       const WorldNow& now, const Vec3& others, double step,
+                       std::span<Reaction> reactions);
 
 /// Adds the dry friction of obstacles without `stick`, given all other forces on each particle (n,
 /// in the order of the particles, N; including those of the world) and the step (s): a particle

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What surrounds a body, for the list stepper: obstacles, drag, fields and pins, evaluated in
+// double precision for the blocks of particles that they may touch. ../world/world.h gives the
+// forces.
+//
+//     surroundings.begin(pose, time, state, units, lists);   // before a step
+//     step.surroundings = surroundings.calls();
+//     const WorldSums sums = surroundings.sums();            // after it
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <sinew/physics/forces.h>
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/stepper.h>
+#include <sinew/physics/world/world.h>
+
+namespace sinew {
+
+/// Contributions to the ledger, W and J.
+struct WorldSums {
+  double power = 0;  ///< of obstacles, fields and pins
+  double lost = 0;
+  double contact_energy = 0, held_kinetic = 0;
+};
+
+template <class Real>
+class Surroundings {
+ public:
+  /// For particles of `mass` (kg) and `radius` (m), and steps as given.
+  Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping, double mass);
+
+  /// Whether there is anything but muscles.
+  bool any() const { return any_; }
+  /// The particles `id` in the kernel's order.
+  void set_order(std::span<const std::int32_t> id);
+
+  /// Moves what pins hold exactly to its place: no error accumulates over steps. Adds to `moved`,
+  /// by piece, how far (m).
+  void hold(const Pose& pose, BlockState<Real>& state, const Units& units,
+            std::vector<double>& moved) const;
+  /// Finds which blocks may be touched at this moment. `forces`: where the forces of the world are
+  /// to be stored, in the kernel's order (N), or null.
+  void begin(const Pose& pose, double time, BlockState<Real>& state, const Units& units,
+             Points* forces);
+  kernel::Surroundings<Real> calls();
+
+  /// Of the last step or probe, added in the order of the pieces.
+  WorldSums sums() const;
+  std::vector<Reaction> reactions() const;
+  bool is_held(std::size_t k) const { return !pin_.empty() && pin_[k] != no_pin; }
+
+ private:
+  static constexpr std::uint32_t no_pin = UINT32_MAX;
+  struct Piece {
+    WorldSums sums;
+    std::vector<Reaction> reactions;
+  };
+  struct Act;
+
+  static void act(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3],
+                  Real* held);
+  void act_on(std::size_t k, Vec3& acceleration, Real& held);
+  bool may_touch(const Box& box) const;
+  void find_touched(std::size_t piece);
+  Box box_of(std::size_t first, std::size_t last) const;
+
+  std::shared_ptr<const Body> body_;
+  Stepping stepping_;
+  double mass_;
+  bool any_, everywhere_;
+  std::vector<std::uint32_t> pin_;     ///< by particle in the kernel's order; empty without pins
+  std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
+  std::vector<std::uint8_t> touched_;  ///< by block
+  std::vector<std::uint8_t> held_;     ///< by block: whether it has pins
+  std::vector<Piece> pieces_;
+
+  // Of the moment:
+  WorldNow now_;
+  BlockState<Real>* state_ = nullptr;
+  Units units_;
+  double until_middle_ = 0;  ///< of the step, s
+  Points* forces_ = nullptr;
+};
+
+}  // namespace sinew

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every combination of materials, damping, bones, surroundings and integrators: the kernel takes
+// the steps that the readable reference takes, in both precisions.
+#include <functional>
+
+#include <sinew/physics/world/world.h>
+
+#include "all_steppers.h"
+
+namespace sinew::every_setting_test {
+
+constexpr double r = 0.01;
+constexpr int height = 11;
+
+struct Choice {
+  std::string name;
+  std::function<void(Settings&)> choose;
+};
+
+std::vector<Choice> materials() {
+  return {{"paper", [](Settings&) {}},
+          {"initial_neighbors",
+           [](Settings& settings) { settings.material.cohesion = Cohesion::initial_neighbors; }},
+          {"bonded", [](Settings& settings) { settings.material.model = MaterialModel::bonded; }},
+          {"bonded_volume",
+           [](Settings& settings) { settings.material.model = MaterialModel::bonded_volume; }},
+          {"bonded, changing",
+           [](Settings& settings) {
+             settings.material.model = MaterialModel::bonded;
+             settings.material.breaking_strain = 0.02;
+             settings.material.yield_strain = 0.01;
+             settings.material.creep_rate = 50;
+           }},
+          {"bonded_volume, changing", [](Settings& settings) {
+             settings.material.model = MaterialModel::bonded_volume;
+             settings.material.breaking_strain = 0.02;
+             settings.material.yield_strain = 0.01;
+           }}};
+}
+
+std::vector<Choice> dampings() {
+  std::vector<Choice> all{{"undamped", [](Settings& settings) { settings.material.damping = 0; }}};
+  for (const auto& [name, form] :
+       {std::pair{"paper", DampingForm::paper}, std::pair{"symmetric", DampingForm::symmetric},
+        std::pair{"central", DampingForm::central}})
+    all.push_back(
+        {name, [form = form](Settings& settings) { settings.material.damping_form = form; }});
+  return all;
+}
+
+std::vector<Choice> bones() {
+  const auto stretch = [](Settings& settings) { settings.tracks[1].keys.back().stretch = 1.05; };
+  return {
+      {"servo", [](Settings&) {}},
+      {"joint zone", [](Settings& settings) { settings.binding.joint_zone = 2; }},
+      {"open loop", [](Settings& settings) { settings.binding.twist_form = TwistForm::open_loop; }},
+      {"anchor", [](Settings& settings) { settings.binding.force = BoneForce::anchor; }},
+      {"stretching", stretch},
+      {"stretching anchor",
+       [=](Settings& settings) {
+         stretch(settings);
+         settings.binding.force = BoneForce::anchor;
+       }},
+      {"none", [](Settings& settings) { settings = test::unbound(settings); }}};
+}
+
+Obstacle obstacle(const Material& material, const Shape& shape, double friction) {
+  Obstacle made;
+  made.name = "wall";
+  made.shape = shape;
+  made.motion = [](double time, const Pose&) {
+    return ObstaclePose{{{0.05 * time, 0, 0}, Mat3::Identity()}, {0.05, 0, 0}, Vec3::Zero()};
+  };
+  made.stiffness = material.pair.contact_stiffness();
+  made.damping = 0.5 * std::sqrt(made.stiffness * material.mass);
+  made.friction = friction;
+  return made;
+}
+
+struct Around {
+  std::string name;
+  std::function<void(const Points& rest, const Material&, World&)> surround;
+};
+
+std::vector<Around> surroundings() {
+  const auto walls = [](const Points& rest, const Material& material, World& world) {
+    world.obstacles = {
+        obstacle(material, PlaneShape{{rest.front().x() - 0.9 * r, 0, 0}, {1, 0, 0}}, 0.4),
+        obstacle(material, SphereShape{rest.back() + Vec3(2 * r, 0, 2 * r), 2 * r}, 0)};
+    world.obstacles[1].friction = 0.2;
+    world.obstacles[1].stick = 0.1 * material.mass / 1e-3;
+  };
+  const auto pins = [](const Points& rest, const Material&, World& world) {
+    world.pins = pinned(rest,
+                        {{{BoxShape{rest.front(), {1, 1, 1.5 * r}}, 0}, no_bone},
+                         {{BoxShape{rest.back(), {1, 1, 1.5 * r}}, 0}, 1}},
+                        2);
+  };
+  const auto fields = [](const Points& rest, const Material&, World& world) {
+    world.drag = {2, {0.1, 0, 0}};
+    world.fields = {{"wind", UniformAcceleration{{2, 0, 0}}, {}, {{0, 0.02}, {0, 1}}},
+                    {"pull", Attraction{rest.back(), 3, 2 * r}, {}, {}}};
+  };
+  const auto muscles = [](const Points& rest, const Material&, World& world) {
+    Muscle whole, part;
+    whole.name = "whole";
+    whole.strength = 600;
+    whole.activation = {{0, 0.02}, {0, 1}};
+    whole.shares = shares_in({}, rest);
+    part.name = "part";
+    part.direction = {1, 0.2, 0};
+    part.strength = 400;
+    part.shares = shares_in({SphereShape{rest.back(), 3 * r}, 0.02}, rest);
+    world.muscles = make_muscles(rest, r, {whole, part});
+  };
+  const auto all = [=](const Points& rest, const Material& material, World& world) {
+    for (const auto& part : {std::function<void(const Points&, const Material&, World&)>(walls),
+                             {pins},
+                             {fields},
+                             {muscles}})
+      part(rest, material, world);
+  };
+  return {{"nothing", nullptr}, {"walls", walls},     {"pins", pins},
+          {"fields", fields},   {"muscles", muscles}, {"all", all}};
+}
+
+Settings moving_scene() {
+  Settings settings = test::box_scene(height);
+  KeyDefinition end = test::bend_key(0.1, 20);
+  end.twist = 15;
+  settings.tracks = {test::track("lower", {test::bend_key(-0.1, 0), test::bend_key(0.1, -5)}),
+                     test::track("upper", {test::bend_key(-0.1, 0), end})};
+  return settings;
+}
+
+struct Story {
+  Settings settings;
+  Points rest = test::fcc_box(5, 5, height, r);
+  Body body;
+  Particles particles;
+  double step;
+
+  Story(const Settings& chosen, const Around& around) : settings(chosen) {
+    body = test::make_body(settings, rest);
+    particles = test::shaken(rest, body.material, 0.02 * r, 0.05);
+    step = settings.material.damping == 0 ? 1e-4 : test::step_of(settings, body, 0.2);
+    if (!around.surround) return;
+    World world;
+    around.surround(rest, body.material, world);
+    body.world = std::make_shared<const World>(world);
+  }
+
+  Simulation begin(NeighborSearch search, Precision precision) const {
+    Settings in = settings;
+    in.solver.neighbor_search = search;
+    in.solver.precision = precision;
+    return Simulation(body, motion_of(in, body.skeleton), particles, stepping_of(in.solver, step));
+  }
+};
+
+double largest(const Points& a, const Points& b) {
+  double most = 0;
+  EXPECT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+void expect_same_ledger(const Energies& a, const Energies& b, double part) {
+  const double ledger[2][8] = {{a.kinetic, a.gravity, a.pair, a.bone, a.work_of_bones,
+                                a.dissipation, a.contact, a.work_of_world},
+                               {b.kinetic, b.gravity, b.pair, b.bone, b.work_of_bones,
+                                b.dissipation, b.contact, b.work_of_world}};
+  double scale = 1e-9;
+  for (const double energy : ledger[1]) scale = std::max(scale, std::abs(energy));
+  for (int k = 0; k < 8; ++k) EXPECT_NEAR(ledger[0][k], ledger[1][k], part * scale) << k;
+}
+
+void expect_same(Simulation& kernel, Simulation& reference, double part) {
+  const Material& material = reference.body().material;
+  EXPECT_LE(test::largest_distance(kernel.particles(), reference.particles()), part * r);
+  const Forces &f = kernel.forces(), &g = reference.forces();
+  const double force = material.stiffness() * r;
+  EXPECT_LE(largest(f.pair, g.pair), 10 * part * force);
+  EXPECT_LE(largest(f.damping, g.damping), 10 * part * force);
+  EXPECT_LE(largest(f.bone, g.bone), 10 * part * force);
+  EXPECT_LE(largest(f.world, g.world), 10 * part * force);
+  expect_same_ledger(kernel.energies(), reference.energies(), part);
+  const auto on = kernel.reactions_of_obstacles(), expected = reference.reactions_of_obstacles();
+  ASSERT_EQ(on.size(), expected.size());
+  for (std::size_t k = 0; k < on.size(); ++k) {
+    EXPECT_LE((on[k].force - expected[k].force).norm(), 100 * part * force);
+    EXPECT_LE((on[k].moment - expected[k].moment).norm(), 100 * part * force * r * height);
+  }
+}
+
+void expect_same_steps(const Settings& settings, const Around& around) {
+  const Story story(settings, around);
+  Simulation reference = story.begin(NeighborSearch::cells, Precision::binary64);
+  Simulation doubles = story.begin(NeighborSearch::lists, Precision::binary64);
+  Simulation floats = story.begin(NeighborSearch::lists, Precision::binary32);
+  EXPECT_EQ(reference.list_counts().rebuilds, 0);
+  while (reference.steps() < 15) reference.step(), doubles.step(), floats.step();
+  EXPECT_GT(doubles.list_counts().rebuilds, 0);
+  EXPECT_GT(floats.list_counts().rebuilds, 0);
+  expect_same(doubles, reference, 1e-11);
+  EXPECT_EQ(doubles.forces().neighbors, reference.forces().neighbors);
+  EXPECT_EQ(doubles.broken_bonds(), reference.broken_bonds());
+  if (settings.material.breaking_strain) return;  // rounding decides which bonds break first
+  expect_same(floats, reference, 3e-4);
+}
+
+class EverySetting : public testing::TestWithParam<int> {};
+
+TEST_P(EverySetting, StepsInTheKernelAsInTheReference) {
+  const Choice material = materials()[static_cast<std::size_t>(GetParam())];
+  for (const Integrator integrator :
+       {Integrator::symplectic_euler, Integrator::explicit_euler, Integrator::velocity_verlet})
+    for (const Choice& damping : dampings())
+      for (const Choice& bone : bones())
+        for (const Around& around : surroundings()) {
+          Settings settings = moving_scene();
+          settings.solver.integrator = integrator;
+          for (const Choice* choice : {&material, &damping, &bone}) choice->choose(settings);
+          SCOPED_TRACE(material.name + ", " + damping.name + ", " + bone.name + ", " + around.name +
+                       ", integrator " + std::to_string(int(integrator)));
+          expect_same_steps(settings, around);
+          if (testing::Test::HasFailure()) return;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, EverySetting, testing::Range(0, 6), [](const auto& test) {
+  std::string name = materials()[static_cast<std::size_t>(test.param)].name;
+  std::erase_if(name, [](char c) { return c == ',' || c == ' ' || c == '_'; });
+  return name;
+});
+
+}  // namespace sinew::every_setting_test
