@@ -141,7 +141,7 @@ void ListStepper<Real>::prepare(const Pose& pose) {
 template <class Real>
 kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces) {
   prepare(pose);
-  surroundings_.begin(pose, time_, state_, units_, world_forces);
+  surroundings_.begin(pose, time_, state_, units_, lists_, world_forces);
   if (has_muscles(*body_)) strain_.set_activations(activations_at(body_->world->muscles, time_));
   const auto now = job();
   if (!strain_.empty())

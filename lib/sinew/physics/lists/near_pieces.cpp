@@ -185,6 +185,11 @@ void NearPieces::sort_out() {
   }
 }
 
+Box NearPieces::box_of(std::size_t piece, double elapsed) const {
+  const Vec3 way = elapsed * common_;
+  return expanded(pieces_[piece].box, traveled_).translate(way);
+}
+
 bool NearPieces::survey_due() const {
   // A step may take particles as far again as the last one did.
   const double soon = traveled_ + (steps_ > 0 ? traveled_ / steps_ : 0);

@@ -63,6 +63,8 @@ class NearPieces {
   /// to the velocity field. False where particles have gone too far since the survey: all lists are
   /// to be made again.
   bool advance(std::span<const double> fastest, double time);
+  /// Around the particles of a piece now, `elapsed` after the survey.
+  Box box_of(std::size_t piece, double elapsed) const;
   /// Whether a survey must come before the next step, or would serve.
   bool survey_due() const;
 

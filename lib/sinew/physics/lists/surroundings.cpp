@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t pieces_per_look = 4;
+constexpr std::size_t pieces_per_look = 64;
 
 bool fills_space(const World& world) { return world.drag.rate > 0 || !world.fields.empty(); }
 
@@ -88,22 +88,23 @@ bool Surroundings<Real>::may_touch(const Box& box) const {
   return false;
 }
 
+/// `box`: around the piece.
 template <class Real>
-void Surroundings<Real>::find_touched(std::size_t piece) {
+void Surroundings<Real>::find_touched(std::size_t piece, const Box& box) {
   constexpr std::size_t block = BlockState<Real>::block;
   const std::size_t first = piece * kernel::blocks_per_piece;
   const std::size_t last = std::min(first + kernel::blocks_per_piece, touched_.size());
-  const auto box = [&](std::size_t from, std::size_t to) {
-    return box_of(from * block, std::min(to * block, state_->size()));
-  };
-  const bool some = everywhere_ || may_touch(box(first, last));
-  for (std::size_t k = first; k < last; ++k)
-    touched_[k] = everywhere_ || held_[k] != 0 || (some && may_touch(box(k, k + 1))) ? 1 : 0;
+  const bool some = everywhere_ || may_touch(box);
+  for (std::size_t k = first; k < last; ++k) {
+    touched_[k] = everywhere_ || (!held_.empty() && held_[k] != 0) ? 1 : 0;
+    if (some && touched_[k] == 0)
+      touched_[k] = may_touch(box_of(k * block, std::min((k + 1) * block, state_->size()))) ? 1 : 0;
+  }
 }
 
 template <class Real>
 void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& state,
-                               const Units& units, Points* forces) {
+                               const Units& units, const VerletLists<Real>& lists, Points* forces) {
   if (!any_) return;
   now_ = world_at(*body_->world, time, pose);
   state_ = &state;
@@ -114,7 +115,7 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};
       pieces_[piece].reactions.assign(body_->world->obstacles.size(), {});
-      find_touched(piece);
+      find_touched(piece, lists.box_of(piece, units_));
     }
   });
 }

@@ -3,9 +3,9 @@
 // double precision for the blocks of particles that they may touch. ../world/world.h gives the
 // forces.
 //
-//     surroundings.begin(pose, time, state, units, lists);   // before a step
+//     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
 //     step.surroundings = surroundings.calls();
-//     const WorldSums sums = surroundings.sums();            // after it
+//     const WorldSums sums = surroundings.sums();                    // after it
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/verlet_lists.h>
 #include <sinew/physics/stepper.h>
 #include <sinew/physics/world/world.h>
 
@@ -46,7 +47,7 @@ class Surroundings {
   /// Finds which blocks may be touched at this moment. `forces`: where the forces of the world are
   /// to be stored, in the kernel's order (N), or null.
   void begin(const Pose& pose, double time, BlockState<Real>& state, const Units& units,
-             Points* forces);
+             const VerletLists<Real>& lists, Points* forces);
   kernel::Surroundings<Real> calls();
 
   /// Of the last step or probe, added in the order of the pieces.
@@ -60,13 +61,12 @@ class Surroundings {
     WorldSums sums;
     std::vector<Reaction> reactions;
   };
-  struct Act;
 
   static void act(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3],
                   Real* held);
   void act_on(std::size_t k, Vec3& acceleration, Real& held);
   bool may_touch(const Box& box) const;
-  void find_touched(std::size_t piece);
+  void find_touched(std::size_t piece, const Box& box);
   Box box_of(std::size_t first, std::size_t last) const;
 
   std::shared_ptr<const Body> body_;

@@ -237,6 +237,14 @@ void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece) {
 }
 
 template <class Real>
+Box VerletLists<Real>::box_of(std::size_t piece, const Units& units) const {
+  Box box = near_.box_of(piece, elapsed_);
+  box.min() = units.origin + units.length * box.min();
+  box.max() = units.origin + units.length * box.max();
+  return box;
+}
+
+template <class Real>
 ListCounts VerletLists<Real>::counts() const {
   ListCounts counts = counts_;
   counts.outer = mean(outer_);

@@ -45,6 +45,9 @@ class VerletLists {
   void follow(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
               std::span<const kernel::Totals> totals);
 
+  /// Around the particles of a piece, m.
+  Box box_of(std::size_t piece, const Units& units) const;
+
   /// Differences per block in the outer lists, on average.
   double mean_of_outer() const { return mean(outer_); }
   ListCounts counts() const;
