@@ -8,8 +8,11 @@
 #include <sinew/physics/world/world.h>
 
 #include "world.h"
+#include "world_forces.h"
 
 namespace sinew::obstacle_work_test {
+
+using namespace test;
 
 constexpr double r = 0.01, mass = 0.005;
 

@@ -8,8 +8,11 @@
 
 #include "expect_error.h"
 #include "world.h"
+#include "world_forces.h"
 
 namespace sinew::obstacles_test {
+
+using namespace test;
 
 constexpr double r = 0.01, mass = 0.005, g = 9.81;
 

@@ -8,8 +8,11 @@
 
 #include "expect_error.h"
 #include "world.h"
+#include "world_forces.h"
 
 namespace sinew::world_fields_test {
+
+using namespace test;
 
 constexpr Grain grain = {0.005, 6e-6};
 

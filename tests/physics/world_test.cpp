@@ -7,8 +7,11 @@
 
 #include "expect_error.h"
 #include "world.h"
+#include "world_forces.h"
 
 namespace sinew::world_test {
+
+using namespace test;
 
 constexpr double r = 0.01;
 
@@ -73,37 +76,6 @@ void expect_same_bits(const Points& a, const Points& b) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i], b[i]);
 }
 
-TEST(World, BitsDoNotDependOnThreads) {
-  const Points rest = test::fcc_ball(26, r);
-  ASSERT_GT(rest.size(), 4096U);  // several pieces
-  const World world = busy_world(rest);
-  const Particles particles =
-      test::shaken(rest, test::material_of(test::box_scene()), 0.3 * r, 0.5);
-  const WorldNow now = world_at(world, 0.05, {});
-  WorldForces one, many;
-  WorldPowers one_power, many_power;
-  with_threads(1, [&] {
-    all_forces(particles, world, now, 1e-3, one);
-    one_power = world_powers(one, velocities_of(particles));
-  });
-  with_threads(7, [&] {
-    all_forces(particles, world, now, 1e-3, many);
-    many_power = world_powers(many, velocities_of(particles));
-  });
-  for (const auto part : {&WorldForces::contact, &WorldForces::drag, &WorldForces::field,
-                          &WorldForces::muscle, &WorldForces::losing})
-    expect_same_bits(one.*part, many.*part);
-  EXPECT_EQ(one.contact_energy, many.contact_energy);
-  EXPECT_EQ(one.muscle_energy.stored, many.muscle_energy.stored);
-  EXPECT_EQ(one_power.lost, many_power.lost);
-  EXPECT_EQ(one_power.obstacles, many_power.obstacles);
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(one.reactions[k].force, many.reactions[k].force);
-    EXPECT_EQ(one.reactions[k].moment, many.reactions[k].moment);
-    EXPECT_GT(one.reactions[k].force.norm(), 0);
-  }
-}
-
 TEST(World, ObstaclesFeelWhatTheyDoToBodiesOfAnyNumberOfParticles) {
   const Points whole = test::fcc_ball(20, r);
   World world;
@@ -120,23 +92,6 @@ TEST(World, ObstaclesFeelWhatTheyDoToBodiesOfAnyNumberOfParticles) {
     EXPECT_GT(most, 0);
     EXPECT_LT((given + felt).norm(), 1e-12 * most) << count;
   }
-}
-
-TEST(World, BuffersMayBeUsedAgain) {
-  const Points rest = test::fcc_ball(6, r);
-  const World world = busy_world(rest);
-  const Particles particles =
-      test::shaken(rest, test::material_of(test::box_scene()), 0.3 * r, 0.5);
-  const WorldNow now = world_at(world, 0.05, {});
-  WorldForces fresh, used;
-  world_forces(particles, world, now, fresh);
-  world_forces(particles, world, now, used);
-  world_forces(particles, world, now, used);
-  expect_same_bits(fresh.contact, used.contact);
-  expect_same_bits(fresh.losing, used.losing);
-  EXPECT_EQ(fresh.power, used.power);
-  EXPECT_EQ(fresh.contact_energy, used.contact_energy);
-  EXPECT_EQ(fresh.reactions[1].moment, used.reactions[1].moment);
 }
 
 TEST(World, AnEmptyOneDoesNothing) {

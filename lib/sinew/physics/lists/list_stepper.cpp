@@ -37,49 +37,28 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       mass_(particles.mass),
       kernel_(kernel::functions_of<Real>(instructions)),
       law_(pair_law_of(body_->material)),
+      layout_(*body_, particles, stepping.step),
+      bonds_(bond_lists<Real>(*body_, layout_.id(), layout_.units())),
+      strain_(strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass),
       lists_(kernel_, body_->material, stepping.step) {
-  load(particles);
-}
-
-template <class Real>
-void ListStepper<Real>::load(const Particles& particles) {
-  const std::size_t n = particles.size();
-  for (std::size_t i = 0; i < n; ++i) units_box_.extend(particles.position(i));
-  units_ = units_for<Real>(units_box_, body_->material.pair, stepping_.step);
-  state_ = next_ = BlockState<Real>(n);
-  id_.assign((state_.blocks() + 2) * block, 0);
-  caller_ = order_at_rest(*body_, particles.id);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t i = caller_[k];
-    id_[k + block] = particles.id[i];
-    state_.set_position(k, particles.position(i), units_);
-    state_.set_velocity(k, particles.velocity(i), units_);
-  }
   find_slots();
-  find_bonds();
+  const std::size_t blocks = layout_.now.blocks();
   if (body_->material.damping_form != DampingForm::paper && body_->material.damping > 0)
-    share_.assign((state_.blocks() + 2) * block, 0);
-  totals_.resize((state_.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
+    share_.assign((blocks + 2) * block, 0);
+  totals_.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
+/// What depends on the order of the particles and on the units.
 template <class Real>
 void ListStepper<Real>::find_slots() {
-  const std::span<const std::int32_t> id(id_.data() + block, caller_.size());
-  slots_ = bone_slots<Real>(*body_, id, units_);
-  surroundings_.set_order(id);
-}
-
-template <class Real>
-void ListStepper<Real>::find_bonds() {
-  const std::span<const std::int32_t> id(id_.data() + block, caller_.size());
-  bonds_ = bond_lists<Real>(*body_, id, units_);
-  strain_ = strain_lists<Real>(*body_, id, bonds_, units_);
+  slots_ = bone_slots<Real>(*body_, layout_.id(), layout_.units());
+  surroundings_.set_order(layout_.id());
 }
 
 template <class Real>
 void ListStepper<Real>::place_bones(const Pose& pose) {
-  bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, units_);
+  bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, layout_.units());
 }
 
 template <class Real>
@@ -92,31 +71,31 @@ template <class Real>
 kernel::Step<Real> ListStepper<Real>::job() {
   const Material& material = body_->material;
   const PairForce& pair = material.pair;
-  const double T = units_.time, dt = stepping_.step;
+  const double T = layout_.units().time, dt = stepping_.step;
   const auto real = [](double value) { return static_cast<Real>(value); };
   kernel::Step<Real> step{};
-  step.before = state_.arrays();
-  step.after = next_.arrays();
-  step.blocks = state_.blocks();
-  step.id = id_.data() + block;
-  step.live = state_.live();
+  step.before = layout_.now.arrays();
+  step.after = layout_.next.arrays();
+  step.blocks = layout_.now.blocks();
+  step.id = layout_.padded_id();
+  step.live = layout_.now.live();
   step.lists = lists_.arrays();
   step.motions = lists_.motions();
   step.holds = holds();
-  step.law = law_in<Real>(units_, pair, material.damping, mass_);
+  step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
   step.share = share_.empty() ? nullptr : share_.data() + block;
   step.central = material.damping_form == DampingForm::central;
   step.surroundings = surroundings_.calls();
   for (int axis = 0; axis < 3; ++axis)
-    step.gravity[axis] = real(units_.acceleration(stepping_.gravity[axis]));
+    step.gravity[axis] = real(layout_.units().acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
   step.kick = real(dt / T * (first_of_verlet ? 0.5 : 1));
   step.drift = real(dt / T);
   step.middle = real(dt / T / 2);
   step.drift_first = stepping_.integrator == Integrator::explicit_euler;
-  const double most = units_.velocity(most_radii_per_step * pair.r / dt);
+  const double most = layout_.units().velocity(most_radii_per_step * pair.r / dt);
   step.most = real(most * most);
   step.totals = totals_.data();
   return step;
@@ -128,20 +107,20 @@ void ListStepper<Real>::on_all_pieces(const Run& run) {
   parallel_split(totals_.size(), pieces_per_thread, run);
 }
 
-/// Puts everything at its place at the pose.
+/// Puts what pins hold at its place.
 template <class Real>
-void ListStepper<Real>::prepare(const Pose& pose) {
+void ListStepper<Real>::hold(const Pose& pose) {
   moved_.resize(totals_.size());
-  surroundings_.hold(pose, state_, units_, moved_);
-  update_lists();
-  place_bones(pose);
+  surroundings_.hold(pose, layout_.now, layout_.units(), moved_);
 }
 
 /// The work at the pose, with what must be known of all particles before.
 template <class Real>
 kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces) {
-  prepare(pose);
-  surroundings_.begin(pose, time_, state_, units_, lists_, world_forces);
+  hold(pose);
+  update_lists();
+  place_bones(pose);
+  surroundings_.begin(pose, time_, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_)) strain_.set_activations(activations_at(body_->world->muscles, time_));
   const auto now = job();
   if (!strain_.empty())
@@ -163,16 +142,16 @@ ListCounts ListStepper<Real>::counts() const {
 template <class Real>
 std::vector<std::int32_t> ListStepper<Real>::broken_bonds() const {
   const bool bonded = law_ == kernel::springs || law_ == kernel::changing_springs;
-  std::vector<std::int32_t> broken(bonded ? caller_.size() : 0);
+  std::vector<std::int32_t> broken(bonded ? layout_.caller().size() : 0);
   for (std::size_t k = 0; k < broken.size() && !bonds_.broken.empty(); ++k)
-    broken[caller_[k]] = bonds_.broken[k];
+    broken[layout_.caller()[k]] = bonds_.broken[k];
   return broken;
 }
 
 template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
-  const double watts =
-      mass_ * units_.length * units_.length / (units_.time * units_.time * units_.time);
+  const double watts = mass_ * layout_.units().length * layout_.units().length /
+                       (layout_.units().time * layout_.units().time * layout_.units().time);
   StepSums sums;
   for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
     sums.power += piece.power;
@@ -198,10 +177,8 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
     sums.failure = failure(pose);
     return sums;
   }
-  std::swap(state_, next_);
-  state_.pad_last_block();
+  layout_.advance(travel_of_step(pose));
   kicked_ = stepped_ = true;
-  if (sizeof(Real) == 4) traveled_ += travel_of_step(pose);
   ++steps_;
   return sums;
 }
@@ -213,11 +190,12 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
   const double most = most_radii_per_step * body_->material.pair.r *
                       (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
-  for (std::size_t k = 0; k < caller_.size(); ++k) {
-    if (surroundings_.is_held(k) && next_.velocity(k, units_).allFinite()) continue;
+  for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
+    if (surroundings_.is_held(k) && layout_.next.velocity(k, layout_.units()).allFinite()) continue;
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
-    const bool finite = std::isfinite(moved) && next_.velocity(k, units_).allFinite();
-    const Offender one{caller_[k], finite, std::isfinite(moved) ? moved : 0};
+    const bool finite =
+        std::isfinite(moved) && layout_.next.velocity(k, layout_.units()).allFinite();
+    const Offender one{layout_.caller()[k], finite, std::isfinite(moved) ? moved : 0};
     if (finite && moved > fastest.moved) fastest = one;
     if (!finite || moved > most) failure.all.push_back(one);
   }
@@ -231,15 +209,16 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
 /// Velocity after the step relative to the leading bone or, without one, to the velocity before.
 template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
-  const int bone = body_->binding.bone(static_cast<std::size_t>(id_[k + block]));
-  const Vec3 carried = bone == no_bone ? state_.velocity(k, units_)
-                                       : pose[bone].velocity_at(state_.position(k, units_));
-  return next_.velocity(k, units_) - carried;
+  const int bone = body_->binding.bone(static_cast<std::size_t>(layout_.padded_id()[k]));
+  const Vec3 carried = bone == no_bone
+                           ? layout_.now.velocity(k, layout_.units())
+                           : pose[bone].velocity_at(layout_.now.position(k, layout_.units()));
+  return layout_.next.velocity(k, layout_.units()) - carried;
 }
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
-  const std::size_t n = caller_.size(), slots = state_.blocks() * block;
+  const std::size_t n = layout_.caller().size(), slots = layout_.now.blocks() * block;
   const bool muscles = has_muscles(*body_);
   Points of_world;
   auto now = begin(pose, surroundings_.any() ? &of_world : nullptr);
@@ -257,14 +236,15 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   now.probed.neighbors = neighbors.data();
   const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
-  const double newtons = mass_ * units_.length / (units_.time * units_.time);
+  const double newtons =
+      mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
   for (Points* of_particles : {&forces.pair, &forces.damping, &forces.bone})
     of_particles->resize(n);
   forces.world.assign(body_->world ? n : 0, Vec3::Zero());
   forces.neighbors.resize(n);
   parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = caller_[k];
+      const std::uint32_t i = layout_.caller()[k];
       forces.pair[i] = newtons * Vec3(probed[0][k], probed[1][k], probed[2][k]);
       forces.damping[i] = newtons * Vec3(probed[3][k], probed[4][k], probed[5][k]);
       forces.bone[i] = newtons * Vec3(probed[6][k], probed[7][k], probed[8][k]);
@@ -276,7 +256,7 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
   balance.contact_energy = surroundings_.sums().contact_energy;
-  const double joules = newtons * units_.length;
+  const double joules = newtons * layout_.units().length;
   for (const kernel::Totals& piece : totals_) {
     balance.pair_energy += joules * piece.pair_energy;
     balance.bone_energy += joules * piece.bone_energy;
@@ -286,22 +266,12 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
 
 template <class Real>
 void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
-  const std::size_t n = caller_.size();
-  moved_.resize(totals_.size());
-  surroundings_.hold(pose, state_, units_, moved_);
-  for (auto* all :
-       {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
-    all->resize(n);
-  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      particles.set_position(caller_[k], state_.position(k, units_));
-      particles.set_velocity(caller_[k], state_.velocity(k, units_));
-    }
-  });
+  hold(pose);
+  layout_.read(particles);
   if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
   Forces forces;
   evaluate(pose, forces);
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < particles.size(); ++i)
     particles.set_velocity(
         i, particles.velocity(i) +
                stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
@@ -309,7 +279,8 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
 
 template <class Real>
 void ListStepper<Real>::update_lists() {
-  const bool stepped = std::exchange(stepped_, false), anew = change_units();
+  const bool stepped = std::exchange(stepped_, false), anew = layout_.change_units();
+  if (anew) follow_units();
   add_moved();
   if (order_check_due()) {
     make_lists();
@@ -317,7 +288,7 @@ void ListStepper<Real>::update_lists() {
   } else if (anew || !lists_.made()) {
     make_lists();
   } else if (stepped) {
-    lists_.follow(state_, bonds_, units_, totals_);
+    lists_.follow(layout_.now, bonds_, layout_.units(), totals_);
   }
 }
 
@@ -325,16 +296,24 @@ void ListStepper<Real>::update_lists() {
 template <class Real>
 void ListStepper<Real>::add_moved() {
   for (std::size_t piece = 0; piece < moved_.size(); ++piece) {
-    const double moved = std::exchange(moved_[piece], 0) / units_.length;
+    const double moved = std::exchange(moved_[piece], 0) / layout_.units().length;
     if (moved == 0) continue;
-    const double speed = std::sqrt(totals_[piece].fastest) + moved / (stepping_.step / units_.time);
+    const double speed =
+        std::sqrt(totals_[piece].fastest) + moved / (stepping_.step / layout_.units().time);
     totals_[piece].fastest = speed * speed;
   }
 }
 
 template <class Real>
+void ListStepper<Real>::follow_units() {
+  find_slots();
+  bonds_.set_units(*body_, layout_.units());
+  strain_ = strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units());
+}
+
+template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(state_, bonds_, units_);
+  lists_.make(layout_.now, bonds_, layout_.units());
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run
@@ -349,124 +328,57 @@ bool ListStepper<Real>::order_check_due() {
 template <class Real>
 void ListStepper<Real>::sort() {
   Stopwatch watch;
-  auto order = order_by_columns(state_, column_edge * 2 * body_->material.pair.r / units_.length);
+  auto order = order_by_columns(layout_.now,
+                                column_edge * 2 * body_->material.pair.r / layout_.units().length);
   const double unsorted = lists_.mean_of_outer();
-  swap_order(order);
+  layout_.reorder(order);
   make_lists();
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {
-    swap_order(order);
+    layout_.reorder(order);
     make_lists();
   } else {
     ++sorts_;
     find_slots();
+    bonds_ = bond_lists<Real>(*body_, layout_.id(), layout_.units());  // of muscles
+    strain_ = strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units());
   }
   sorting_ += watch.lap();
-}
-
-/// Particle order[k] becomes the k-th one; `order` then leads back.
-template <class Real>
-void ListStepper<Real>::swap_order(std::vector<std::uint32_t>& order) {
-  reorder(state_, order, next_);
-  std::swap(state_, next_);
-  std::vector<std::int32_t> id(id_.size(), 0);
-  std::vector<std::uint32_t> caller(caller_.size()), back(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    id[k + block] = id_[order[k] + block];
-    caller[k] = caller_[order[k]];
-    back[order[k]] = static_cast<std::uint32_t>(k);
-  }
-  id_ = std::move(id);
-  caller_ = std::move(caller);
-  order = std::move(back);
-}
-
-/// Chooses other units where the body may have left the range of the present ones, and has. When
-/// that is checked follows from the bones' motion alone: lists differ in a resumed run.
-template <class Real>
-bool ListStepper<Real>::change_units() {
-  if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
-  units_box_ = state_.box(units_, particles_per_thread);
-  traveled_ = 0;
-  if (sinew::covers<Real>(units_, units_box_)) return false;
-  const Units before =
-      std::exchange(units_, units_for<Real>(units_box_, body_->material.pair, stepping_.step));
-  parallel_split(caller_.size(), particles_per_thread, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      state_.set_velocity(k, state_.velocity(k, before), units_);
-      state_.set_position(k, state_.position(k, before), units_);
-    }
-  });
-  find_slots();
-  bonds_.set_units(*body_, units_);
-  strain_ = strain_lists<Real>(*body_, {id_.data() + block, caller_.size()}, bonds_, units_);
-  return true;
 }
 
 /// How far a particle may travel in a valid step: with its bone, and relative to it.
 template <class Real>
 double ListStepper<Real>::travel_of_step(const Pose& pose) const {
-  return 1.001 * (fastest_within(units_box_, pose, traveled_) * stepping_.step +
+  return 1.001 * (fastest_within(layout_.box(), pose, layout_.traveled()) * stepping_.step +
                   most_radii_per_step * body_->material.pair.r);
 }
 
 template <class Real>
 void ListStepper<Real>::save(SimulationState& state) const {
-  state.moving = state_.columns();
-  state.kicked = kicked_;
-  state.order = caller_;
-  state.whole_numbers = {units_.length, units_.origin, units_box_, traveled_};
-  state.mean_when_sorted = mean_when_sorted_;
+  layout_.save(state);
   bonds_.save(state);
+  state.kicked = kicked_;
+  state.mean_when_sorted = mean_when_sorted_;
 }
 
 template <class Real>
 void ListStepper<Real>::restore(const SimulationState& state) {
-  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
-  const auto* moving = std::get_if<Columns>(&state.moving);
-  if (moving == nullptr) throw not_a_state("it is in another precision");
-  check_moving(*moving, caller_.size());
   if (!state.rest_length.empty()) throw not_a_state("it is of cells");
-  restore_order(state.order);
-  restore_units(state.whole_numbers);
-  state_.set_columns(*moving);
-  next_ = state_;
+  ParticleLayout<Real> layout = layout_;
+  layout.restore(state);
+  auto bonds = bond_lists<Real>(*body_, layout.id(), layout.units());
+  bonds.restore(state);
+  layout_ = std::move(layout);
+  bonds_ = std::move(bonds);
+  strain_ = strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units());
   find_slots();
-  bonds_ = bond_lists<Real>(*body_, {id_.data() + block, caller_.size()}, units_);
-  bonds_.restore(state);
-  strain_ = strain_lists<Real>(*body_, {id_.data() + block, caller_.size()}, bonds_, units_);
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;
   steps_ = state.steps;
   order_checked_ = -1;
   stepped_ = false;
   lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);
-}
-
-/// `order` contains each particle's place in the caller's order once.
-template <class Real>
-void ListStepper<Real>::restore_order(const std::vector<std::uint32_t>& order) {
-  std::vector<std::int32_t> id_of(caller_.size(), -1);
-  for (std::size_t k = 0; k < caller_.size(); ++k) id_of[caller_[k]] = id_[k + block];
-  if (order.size() != id_of.size()) throw not_a_state("it has no order of the particles");
-  std::vector<std::int32_t> id(id_.size(), 0);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (order[k] >= id_of.size() || id_of[order[k]] < 0)
-      throw not_a_state("its order of the particles names one twice");
-    id[k + block] = std::exchange(id_of[order[k]], -1);
-  }
-  id_ = std::move(id);
-  caller_ = order;
-}
-
-template <class Real>
-void ListStepper<Real>::restore_units(const WholeNumbers& saved) {
-  if (!is_sound(saved)) throw not_a_state("its units are none");
-  units_.length = saved.length;
-  units_.origin = saved.origin;
-  units_box_ = saved.box;
-  traveled_ = saved.traveled;
 }
 
 template class ListStepper<double>;

@@ -10,6 +10,7 @@
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/bond_lists.h>
 #include <sinew/physics/lists/bone_slots.h>
+#include <sinew/physics/lists/particle_layout.h>
 #include <sinew/physics/lists/strain_lists.h>
 #include <sinew/physics/lists/surroundings.h>
 #include <sinew/physics/lists/verlet_lists.h>
@@ -43,27 +44,22 @@ class ListStepper {
   static constexpr std::size_t pieces_per_thread =
       particles_per_thread / (kernel::blocks_per_piece * BlockState<Real>::block);
 
-  void load(const Particles& particles);
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
   kernel::Step<Real> job();
   template <class Run>
   void on_all_pieces(const Run& run);
-  void prepare(const Pose& pose);
+  void hold(const Pose& pose);
+  void follow_units();
   kernel::Step<Real> begin(const Pose& pose, Points* world_forces);
-  void find_bonds();
 
   void update_lists();
-  bool change_units();
   double travel_of_step(const Pose& pose) const;
   bool order_check_due();
   void sort();
-  void swap_order(std::vector<std::uint32_t>& order);
   void add_moved();
   void make_lists();
   void find_slots();
-  void restore_order(const std::vector<std::uint32_t>& order);
-  void restore_units(const WholeNumbers& saved);
   StepSums sums_of_totals() const;
   Failure failure(const Pose& pose);
   Vec3 relative_velocity(const Pose& pose, std::size_t k) const;
@@ -72,13 +68,8 @@ class ListStepper {
   Stepping stepping_;
   double mass_;  ///< of a particle, kg
   kernel::Functions<Real> kernel_;
-  Units units_;
-  Box units_box_;        ///< around the particles when the units were last checked, m
-  double traveled_ = 0;  ///< upper bound since then, m
-  BlockState<Real> state_, next_;
-  std::vector<std::int32_t> id_;       ///< padded like the states
-  std::vector<std::uint32_t> caller_;  ///< place in the caller's order
   kernel::PairLaw law_;
+  ParticleLayout<Real> layout_;
   BoneSlots<Real> slots_;
   BondLists<Real> bonds_;
   StrainLists<Real> strain_;

@@ -144,8 +144,7 @@ void Surroundings<Real>::act(void* context, std::ptrdiff_t i, int count,
   }
 }
 
-/// In the order of world_forces() and stop_sliding(): contacts, drag, fields, friction; then pins
-/// take what is left.
+/// Pins take what all other forces leave.
 template <class Real>
 void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const Vec3 position = state_->position(k, units_), velocity = state_->velocity(k, units_);
@@ -154,9 +153,9 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const Vec3 others = mass_ * acceleration;
   const ParticleWorld world =
       world_on(particle, mass_, *body_->world, now_, others, stepping_.step, piece.reactions);
-  const Vec3 unheld = others + world.force;
+  const Vec3 unheld = others + world.force();
   const bool pin = is_held(k);
-  acceleration = pin ? Vec3(Vec3::Zero()) : Vec3(acceleration + world.force / mass_);
+  acceleration = pin ? Vec3(Vec3::Zero()) : Vec3(acceleration + world.force() / mass_);
   held = pin ? Real(1) : Real(0);
   const Vec3 middle = velocity + until_middle_ * acceleration;
   WorldSums& sums = piece.sums;
@@ -167,7 +166,7 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
     sums.power -= unheld.dot(middle);
     sums.held_kinetic += mass_ / 2 * middle.squaredNorm();
   }
-  if (forces_ != nullptr) (*forces_)[k] = pin ? Vec3(-others) : world.force;
+  if (forces_ != nullptr) (*forces_)[k] = pin ? Vec3(-others) : world.force();
 }
 
 template <class Real>

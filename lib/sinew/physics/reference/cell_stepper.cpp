@@ -50,14 +50,17 @@ void CellStepper::find_world_forces(const Pose& pose) {
   const World& world = *body_->world;
   const WorldNow now = world_at(world, time_, pose);
   const Vec3 weight = particles_.mass * stepping_.gravity;
-  world_forces(particles_, world, now, world_);
-  forces_.world.clear();
-  Points others(particles_.size());
-  for (std::size_t i = 0; i < others.size(); ++i)
-    others[i] = forces_.total(i) + world_.total(i) + weight;
-  stop_sliding(particles_, world, now, others, stepping_.step, world_);
-  forces_.world.resize(particles_.size());
-  for (std::size_t i = 0; i < others.size(); ++i) forces_.world[i] = world_.total(i);
+  muscle_forces(world.muscles, now.activations, particles_, muscle_);
+  reactions_.assign(world.obstacles.size(), {});
+  around_.resize(particles_.size());
+  forces_.world = muscle_;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const HeldParticle particle{
+        {}, particles_.position(i), particles_.velocity(i), particles_.radius};
+    around_[i] = world_on(particle, particles_.mass, world, now, forces_.total(i) + weight,
+                          stepping_.step, reactions_);
+    forces_.world[i] += around_[i].force();
+  }
   for (const std::size_t i : held_) forces_.world[i] -= forces_.total(i) + weight;
 }
 
@@ -68,6 +71,7 @@ void CellStepper::find_forces(const Pose& pose) {
   else
     pair_forces(particles_, body_->material, forces_);
   bone_forces(particles_, *body_, pose, forces_);
+  forces_.world.clear();
   if (body_->world) find_world_forces(pose);
 }
 
@@ -113,14 +117,16 @@ Vec3 CellStepper::velocity_now(std::size_t i) const {
 }
 
 void CellStepper::add_world(StepSums& sums) const {
-  Points velocities(particles_.size());
-  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = velocity_now(i);
-  const WorldPowers powers = world_powers(world_, velocities);
-  sums.lost += powers.lost;
-  sums.world_power = powers.obstacles + powers.fields + powers.muscles;
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    const Vec3 velocity = velocity_now(i);
+    const ParticleWorld& on = around_[i];
+    sums.lost += on.losing_power - on.losing.dot(velocity);
+    sums.world_power += on.power + (on.field + muscle_[i]).dot(velocity);
+  }
   for (const std::size_t i : held_) {
-    sums.world_power += (forces_.world[i] - world_.total(i)).dot(velocities[i]);
-    sums.held_kinetic += particles_.mass / 2 * velocities[i].squaredNorm();
+    const Vec3 velocity = velocity_now(i), others = around_[i].force() + muscle_[i];
+    sums.world_power += (forces_.world[i] - others).dot(velocity);
+    sums.held_kinetic += particles_.mass / 2 * velocity.squaredNorm();
   }
 }
 
@@ -217,10 +223,10 @@ Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   forces.bone = forces_.bone;
   forces.world = forces_.world;
   forces.neighbors = forces_.neighbors;
-  return {now.power,         now.lost,
-          stored_in_pairs(), bone_energy(particles_, *body_, pose),
-          now.world_power,   world_.contact_energy,
-          now.held_kinetic};
+  double contact = 0;
+  for (const ParticleWorld& on : around_) contact += on.contact_energy;
+  return {now.power,       now.lost, stored_in_pairs(), bone_energy(particles_, *body_, pose),
+          now.world_power, contact,  now.held_kinetic};
 }
 
 void CellStepper::read(const Pose& pose, Particles& particles) {

@@ -30,7 +30,7 @@ class CellStepper {
   /// Bonds broken so far, by particle; none for a body without bonds.
   std::vector<std::int32_t> broken_bonds() const;
   /// As evaluated last; none without a world.
-  std::vector<Reaction> reactions_of_obstacles() const { return world_.reactions; }
+  std::vector<Reaction> reactions_of_obstacles() const { return reactions_; }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);
@@ -60,10 +60,12 @@ class CellStepper {
   Forces forces_;
   MovingInDouble before_;  ///< the step
   double time_ = 0;
-  WorldForces world_;
-  std::vector<std::size_t> held_;  ///< index of the particle of each pin of the world
-  std::vector<bool> is_held_;      ///< empty without pins
-  bool kicked_ = false;            ///< velocities are half a step ahead (velocity Verlet)
+  std::vector<ParticleWorld> around_;
+  Points muscle_;
+  std::vector<Reaction> reactions_;  ///< of obstacles
+  std::vector<std::size_t> held_;    ///< index of the particle of each pin of the world
+  std::vector<bool> is_held_;        ///< empty without pins
+  bool kicked_ = false;              ///< velocities are half a step ahead (velocity Verlet)
 };
 
 }  // namespace sinew

@@ -13,7 +13,7 @@
 // A damping s (kg/s, "stick") makes sliding below the speed mu f_n / s viscous: the force depends
 // on the state alone and adds a rate s / m that the step must resolve (s = m / (2 step) keeps the
 // usual half of the limit), but a load creeps at load / s. Without s, friction acts only through
-// stop_sliding() of world.h, which depends on the step: contacts stick, and need no shorter step.
+// a force of world_on() that depends on the step: contacts stick, and need no shorter step.
 // An obstacle thinner than about 2r pushes a particle that passed its middle out on the far side.
 #pragma once
 
@@ -48,7 +48,7 @@ struct Obstacle {
   double stiffness = 0;   ///< k, N/m
   double damping = 0;     ///< c, kg/s
   double friction = 0;    ///< mu
-  double stick = 0;       ///< s, kg/s; 0: left to stop_sliding
+  double stick = 0;       ///< s, kg/s; 0: friction stops what slides in a step
 
   ObstaclePose at(double time, const Pose& pose) const;
 };

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/lists/particle_layout.h>
+
+#include <utility>
+
+#include <sinew/core/parallel.h>
+#include <sinew/physics/lists/particle_order.h>
+#include <sinew/physics/stepper.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t particles_per_conversion = 8192;
+
+}  // namespace
+
+template <class Real>
+ParticleLayout<Real>::ParticleLayout(const Body& body, const Particles& particles, double step)
+    : now(particles.size()),
+      next(now),
+      pair_(body.material.pair),
+      step_(step),
+      id_((now.blocks() + 2) * block, 0),
+      caller_(order_at_rest(body, particles.id)) {
+  for (std::size_t i = 0; i < particles.size(); ++i) units_box_.extend(particles.position(i));
+  units_ = units_for<Real>(units_box_, pair_, step_);
+  for (std::size_t k = 0; k < size(); ++k) {
+    const std::uint32_t i = caller_[k];
+    id_[k + block] = particles.id[i];
+    now.set_position(k, particles.position(i), units_);
+    now.set_velocity(k, particles.velocity(i), units_);
+  }
+}
+
+template <class Real>
+void ParticleLayout<Real>::advance(double travel) {
+  std::swap(now, next);
+  now.pad_last_block();
+  if (sizeof(Real) == 4) traveled_ += travel;
+}
+
+template <class Real>
+void ParticleLayout<Real>::reorder(std::vector<std::uint32_t>& order) {
+  sinew::reorder(now, order, next);
+  std::swap(now, next);
+  std::vector<std::int32_t> id(id_.size(), 0);
+  std::vector<std::uint32_t> caller(caller_.size()), back(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    id[k + block] = id_[order[k] + block];
+    caller[k] = caller_[order[k]];
+    back[order[k]] = static_cast<std::uint32_t>(k);
+  }
+  id_ = std::move(id);
+  caller_ = std::move(caller);
+  order = std::move(back);
+}
+
+template <class Real>
+bool ParticleLayout<Real>::change_units() {
+  if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
+  units_box_ = now.box(units_, particles_per_conversion);
+  traveled_ = 0;
+  if (covers<Real>(units_, units_box_)) return false;
+  const Units before = std::exchange(units_, units_for<Real>(units_box_, pair_, step_));
+  parallel_split(size(), particles_per_conversion, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      now.set_velocity(k, now.velocity(k, before), units_);
+      now.set_position(k, now.position(k, before), units_);
+    }
+  });
+  return true;
+}
+
+template <class Real>
+void ParticleLayout<Real>::read(Particles& particles) const {
+  for (auto* all :
+       {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
+    all->resize(size());
+  parallel_split(size(), particles_per_conversion, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      particles.set_position(caller_[k], now.position(k, units_));
+      particles.set_velocity(caller_[k], now.velocity(k, units_));
+    }
+  });
+}
+
+template <class Real>
+void ParticleLayout<Real>::save(SimulationState& state) const {
+  state.moving = now.columns();
+  state.order = caller_;
+  state.whole_numbers = {units_.length, units_.origin, units_box_, traveled_};
+}
+
+template <class Real>
+void ParticleLayout<Real>::restore(const SimulationState& state) {
+  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
+  const auto* moving = std::get_if<Columns>(&state.moving);
+  if (moving == nullptr) throw not_a_state("it is in another precision");
+  check_moving(*moving, size());
+  restore_order(state.order);
+  restore_units(state.whole_numbers);
+  now.set_columns(*moving);
+  next = now;
+}
+
+/// `order` contains each particle's place in the caller's order once.
+template <class Real>
+void ParticleLayout<Real>::restore_order(const std::vector<std::uint32_t>& order) {
+  std::vector<std::int32_t> id_of(size(), -1);
+  for (std::size_t k = 0; k < size(); ++k) id_of[caller_[k]] = id_[k + block];
+  if (order.size() != id_of.size()) throw not_a_state("it has no order of the particles");
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (order[k] >= id_of.size() || id_of[order[k]] < 0)
+      throw not_a_state("its order of the particles names one twice");
+    id_[k + block] = std::exchange(id_of[order[k]], -1);
+  }
+  caller_ = order;
+}
+
+template <class Real>
+void ParticleLayout<Real>::restore_units(const WholeNumbers& saved) {
+  if (!is_sound(saved)) throw not_a_state("its units are none");
+  units_.length = saved.length;
+  units_.origin = saved.origin;
+  units_box_ = saved.box;
+  traveled_ = saved.traveled;
+}
+
+template class ParticleLayout<double>;
+template class ParticleLayout<float>;
+
+}  // namespace sinew
