@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Materials that know their neighbors at rest: whole steps with lists and with cells.
+#include <numeric>
+
+#include "both_steppers.h"
+
+namespace sinew::steppers_of_solids_test {
+
+using namespace both_steppers;
+
+/// The moving scene with every material that knows its neighbors at rest.
+std::vector<std::pair<std::string, Settings>> solids() {
+  std::vector<std::pair<std::string, Settings>> solids;
+  const auto add = [&](const std::string& name, auto&& change) {
+    Settings settings = moving_scene();
+    settings.material.model = MaterialModel::bonded;
+    change(settings.material);
+    solids.emplace_back(name, settings);
+  };
+  add("bonded", [](MaterialOptions&) {});
+  add("undamped", [](MaterialOptions& material) { material.damping = 0; });
+  add("initial_neighbors", [](MaterialOptions& material) {
+    material.model = MaterialModel::paper;
+    material.cohesion = Cohesion::initial_neighbors;
+  });
+  add("bonded_volume", [](MaterialOptions& material) {
+    material.model = MaterialModel::bonded_volume;
+    material.poisson_ratio = 0.45;
+  });
+  add("breaking", [](MaterialOptions& material) { material.breaking_strain = 0.01; });
+  add("breaking volumes", [](MaterialOptions& material) {
+    material.model = MaterialModel::bonded_volume;
+    material.breaking_strain = 0.01;
+  });
+  add("yielding", [](MaterialOptions& material) {
+    material.yield_strain = 0.01;
+    material.creep_rate = 100;
+  });
+  add("breaking and yielding", [](MaterialOptions& material) {
+    material.yield_strain = 0.01;
+    material.creep_rate = 100;
+    material.breaking_strain = 0.012;
+  });
+  return solids;
+}
+
+int broken_bonds(const Simulation& simulation) {
+  const auto broken = simulation.broken_bonds();
+  return std::accumulate(broken.begin(), broken.end(), 0);
+}
+
+TEST(SteppersOfSolids, TakeTheSameSteps) {
+  for (const auto& [name, settings] : solids())
+    for (const Integrator integrator : integrators) {
+      SCOPED_TRACE(name);
+      Settings chosen = settings;
+      chosen.solver.integrator = integrator;
+      if (chosen.material.damping == 0 && integrator == Integrator::explicit_euler) continue;
+      expect_same_steps(chosen);
+    }
+}
+
+TEST(SteppersOfSolids, TakeTheSameStepsOfADisorderedBody) {
+  for (const auto& [name, settings] : solids()) {
+    SCOPED_TRACE(name);
+    const Points rest = test::fcc_box(7, 7, 25, r);
+    const Body body = test::make_body(settings, rest);
+    Both both(settings, rest, test::shaken(rest, body.material, 0.8 * r, 0.1),
+              test::step_of(settings, body, 0.1));
+    for (const int steps : {1, 10}) {
+      both.step_until(steps);
+      expect_same(both, 1e-12);
+      EXPECT_EQ(both.lists.broken_bonds(), both.cells.broken_bonds());
+    }
+  }
+}
+
+TEST(SteppersOfSolids, BreakTheSameBonds) {
+  for (const auto& [name, settings] : solids()) {
+    if (!settings.material.breaking_strain) continue;
+    SCOPED_TRACE(name);
+    const Points rest = test::fcc_box(7, 7, 25, r);
+    const Body body = test::make_body(settings, rest);
+    Both both(settings, rest, test::shaken(rest, body.material, 0.02 * r, 0.05),
+              test::step_of(settings, body));
+    both.step_until(200);
+    EXPECT_GT(broken_bonds(both.cells), 20);
+    EXPECT_EQ(both.lists.broken_bonds(), both.cells.broken_bonds());
+    expect_same_energies(both.lists.energies(), both.cells.energies(), 1e-9);
+  }
+}
+
+TEST(SteppersOfSolids, TakeTheSameStepsInAnyOrderAndPacking) {
+  for (const auto& [name, settings] : solids()) {
+    SCOPED_TRACE(name);
+    const Points rest = test::hcp_ball(7, r);
+    const Body body = test::make_body(settings, rest);
+    std::vector<std::size_t> order(rest.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), std::mt19937(3));
+    Both both(settings, rest,
+              test::reordered(test::shaken(rest, body.material, 0.02 * r, 0.05), order),
+              test::step_of(settings, body));
+    both.step_until(50);
+    expect_same(both, 1e-11);
+  }
+}
+
+TEST(SteppersOfSolids, SeparateCoincidentParticlesAlike) {
+  for (const auto& [name, settings] : solids()) {
+    SCOPED_TRACE(name);
+    const Points rest = test::fcc_box(5, 5, 25, r);
+    const Body body = test::make_body(settings, rest);
+    Particles particles = particles_at(rest, r, body.material.mass);
+    for (std::size_t i = 1; i < rest.size(); i += 4)
+      particles.set_position(i, particles.position(i - 1));
+    Both both(settings, rest, particles, test::step_of(settings, body, 0.05));
+    expect_same(both, 1e-12);
+    both.step_until(5);
+    expect_same(both, 1e-12);
+  }
+}
+
+TEST(SteppersOfSolids, AreCloseInSinglePrecision) {
+  for (const auto& [name, settings] : solids()) {
+    if (settings.material.breaking_strain) continue;  // rounding decides what breaks first
+    SCOPED_TRACE(name);
+    const Points rest = test::fcc_box(7, 7, 25, r);
+    const Body body = test::make_body(settings, rest);
+    const double step = test::step_of(settings, body);
+    const Particles start = test::shaken(rest, body.material, 0.02 * r, 0.05);
+    Simulation floats =
+        test::simulation_from(test::in(Precision::binary32, settings), rest, start, step);
+    Simulation cells = test::simulation_from(test::with_cells(settings), rest, start, step);
+    while (cells.steps() < 100) floats.step(), cells.step();
+    EXPECT_LT(test::largest_distance(floats.particles(), cells.particles()), 1e-4 * r);
+    expect_same_energies(floats.energies(), cells.energies(), 1e-4);
+  }
+}
+
+}  // namespace sinew::steppers_of_solids_test
