@@ -27,6 +27,9 @@ LAMMPS_STATES = ("rest", "flowed")  # nothing holds the others there: they would
 WITH_CELLS = 300_000  # particles; cells take as long per particle beyond
 WITH_ALL_PAIRS = 3_000
 
+LAWS = 30_000  # particles of bodies that are not the paper's
+LAW_ROUNDS, QUICK_LAW_ROUNDS = 4, 1
+
 # particles -> (states, rounds)
 FULL = {3_000: (STATES, 5), 30_000: (STATES, 5), 300_000: (STATES, 4), 3_000_000: (LAMMPS_STATES, 3)}
 QUICK = {3_000: (LAMMPS_STATES, 3), 30_000: (LAMMPS_STATES, 2)}
@@ -34,6 +37,13 @@ QUICK = {3_000: (LAMMPS_STATES, 3), 30_000: (LAMMPS_STATES, 2)}
 
 def kinds_for(count):
     return (["single", "double"] + ["cells"] * (count <= WITH_CELLS) + ["all_pairs"] * (count <= WITH_ALL_PAIRS))
+
+
+def measure_laws(runs, rounds):
+    """What is not the paper's, beside the paper's law at rest."""
+    for number in range(rounds):
+        print(f"laws, {LAWS:,} particles: round {number + 1} of {rounds}", file=sys.stderr, flush=True)
+        runs.laws(LAWS, ["single", "double"] + ["cells"] * (number == 0 and rounds > 1))
 
 
 def measure(runs, plan):
@@ -79,6 +89,7 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=options.out) as scratch:
         runs = Runs(options.programs.resolve(), Path(scratch))
+        measure_laws(runs, QUICK_LAW_ROUNDS if options.quick else LAW_ROUNDS)
         measure(runs, QUICK if options.quick else FULL)
     results = runs.results()
     table, plot = speed_tables.markdown(results), speed_plot.svg(results)

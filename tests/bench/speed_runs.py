@@ -93,6 +93,13 @@ class Runs:
             self.figures[f"{state}/{count}/{kind}/{threads}"].append(row["Mps"])
             self.hashes[f"{state}/{count}/{kind}"].add(row["label"])
 
+    def laws(self, count, kinds):
+        """All variants, beside the paper's law at rest, in turn."""
+        for row in self.benchmarks(f"^law/.*/{count}/({'|'.join(kinds)})/"):
+            variant, state, kind, threads = re.search(r"^law/(\w+)/(\w+)/\d+/(\w+)/threads:(\d+)", row["name"]).groups()
+            self.figures[f"{variant}, {state}/{count}/{kind}/{threads}"].append(row["Mps"])
+            self.hashes[f"{variant}, {state}/{count}/{kind}"].add(row["label"])
+
     def run_lammps(self, script, state, **values):
         (self.scratch / "in.lammps").write_text(script.format(state=state, **values), encoding="utf-8")
         return output_of(["lmp", "-in", "in.lammps", "-log", "none"], self.scratch)
@@ -117,7 +124,8 @@ class Runs:
 
     def memory(self):
         for row in self.benchmarks("^memory"):
-            self.bytes[row["name"].split("/")[1]] = row["bytes"]
+            _, variant, kind, *_ = row["name"].split("/")
+            self.bytes[kind if variant == "paper" else f"{variant}, {kind}"] = row["bytes"]
 
     def results(self):
         return {

@@ -53,17 +53,35 @@ def head(first):
 
 def counts_of(results, state=None):
     """Requested numbers of particles with figures, ascending."""
-    keys = (key.split("/") for key in results["figures"])
+    keys = (key.split("/") for key in results["figures"] if ", " not in key)
     return sorted({int(count) for name, count, *_ in keys if state in (None, name)})
 
 
 def states_of(results, count):
-    names = (key.split("/") for key in results["figures"])
+    names = (key.split("/") for key in results["figures"] if ", " not in key)
     return list(dict.fromkeys(state for state, number, *_ in names if int(number) == count))
 
 
 def largest_with_all_states(results):
     return max(counts_of(results), key=lambda count: (len(states_of(results, count)), count))
+
+
+def law_table(results, figures):
+    """Of what is not the paper's: speeds, and ratios to the paper's law at rest in the same round."""
+    keys = [key.split("/") for key in results["figures"] if ", " in key]
+    count = int(keys[0][1])
+    names = list(dict.fromkeys(name for name, *_ in keys))
+
+    def share(name, kind):
+        rest = figures.of("paper, rest", count, kind)
+        ratios = [a / b for a, b in zip(figures.of(name, count, kind), rest)]
+        return f"{median(ratios):.2f}"
+
+    rows = [[name, figures.cell(name, count, "single", (1, 2)), share(name, "single"),
+             figures.cell(name, count, "double", (1, 2)), share(name, "double"), figures.cell(name, count, "cells")]
+            for name in names]
+    return table(["body, state", "single, 1 / 2 threads", "to the paper's at rest", "double, 1 / 2 threads",
+                  "to the paper's at rest", "the paper's cells"], rows)
 
 
 def limits(results):
@@ -112,6 +130,7 @@ def markdown(results):
              "medians, and ranges of the ratios within rounds:\n",
              table(head("particles"), by_count),
              f"The states, {results['particles'][count]:,} particles:\n", table(head("state"), by_state),
+             "What is not the paper's law, 30,000 particles:\n", law_table(results, figures),
              f"The limits, at {FLOP} floating-point operations and {BYTES['single']} bytes (double: {BYTES['double']}) "
              "per particle-step (memory: for bodies beyond the caches):\n",
              limit_table(results, figures), "\n".join(remarks(results, figures)) + "\n"]

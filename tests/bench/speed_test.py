@@ -14,6 +14,9 @@ RESULTS = {
         "rest/3000/single/1": [80, 50], "rest/3000/single/2": [160, 100], "rest/3000/lammps/1": [20, 10],
         "rest/3000/cells/1": [2, 1], "rest/3000/all_pairs/1": [0.5, 0.25], "rest/3000/double/1": [40, 20],
         "rest/300000/single/1": [100, 90], "rest/300000/double/1": [60, 50], "flowed/300000/single/1": [45, 40],
+        "paper, rest/30000/single/1": [100, 50], "paper, rest/30000/double/1": [40, 20],
+        "bonded, bending/30000/single/1": [80, 45], "bonded, bending/30000/double/1": [30, 15],
+        "bonded, bending/30000/single/2": [90], "bonded, bending/30000/double/2": [40],
     },
     "limits": {"peak/single GFLOP/s": [84, 80], "peak/double GFLOP/s": [42], "triad/threads:1 traffic": [36, 30]},
     "bytes_per_particle": {"single": 200.4},
@@ -34,6 +37,9 @@ class Tables(unittest.TestCase):
     def test_states_are_those_of_the_size_with_most_of_them(self):
         self.assertTrue(self.line("| flowed").startswith("| flowed | – |"))
         self.assertIn("The states, 300,415 particles:", self.lines)
+
+    def test_laws_are_compared_with_the_paper_at_rest(self):
+        self.assertIn("| 62.5 / 90 | 0.85 | 22.5 / 40 | 0.75 | – |", self.line("| bonded, bending"))
 
     def test_the_tighter_limit_is_named(self):
         self.assertIn("| 84 GFLOP/s | 200 | 48 % |", self.line("| single, arithmetic (the tighter)"))

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include <sinew/physics/world/world.h>
+
 #include "bench/states.h"
 #include "world.h"
 
@@ -15,7 +17,11 @@ constexpr double bend_zone = 3;         // widths; the faces stretch and shrink 
 constexpr double crushed_width = 0.75;  // near the body-centered packing: 14 neighbors, not 12
 constexpr double strong_grip = 64;      // springs as stiff as bonds in the paper's box
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
-constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed"};
+constexpr double approach = 0.5;                    // s, of bones that bend
+constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed", "bending"};
+constexpr std::array variant_names{
+    "paper",     "initial_neighbors", "bonded", "bonded_volume", "breaking", "yielding",
+    "symmetric", "central",           "plane",  "sphere",        "pinned",   "muscle"};
 
 struct Bar {
   int across = 0, along = 0;  // half-planes, odd: a site is in the middle
@@ -23,6 +29,7 @@ struct Bar {
   double width() const { return across * half_plane_spacing(r); }
   double length() const { return along * half_plane_spacing(r); }
   double zone() const { return bend_zone * width(); }
+  double slower() const { return along / static_cast<double>(paper_along); }  ///< than the paper's
 };
 
 int odd(double value) { return 2 * static_cast<int>(value / 2) + 1; }
@@ -68,8 +75,64 @@ void grip(BindingOptions& binding, const Bar& bar) {
       strong_grip * widths * widths;
 }
 
-Settings settings_of(Condition condition, const Bar& bar) {
+/// From upright to 90 degrees in twice the approach, beginning at `time` (s).
+TrackDefinition bending(double time, const Bar& bar) {
+  const double end = time + 2 * approach * bar.slower();
+  return test::track("upper", {test::bend_key(time, 0), test::bend_key(end, turn)});
+}
+
+void choose(Variant variant, MaterialOptions& material) {
+  if (variant == Variant::initial_neighbors) material.cohesion = Cohesion::initial_neighbors;
+  if (variant == Variant::symmetric) material.damping_form = DampingForm::symmetric;
+  if (variant == Variant::central) material.damping_form = DampingForm::central;
+  if (variant == Variant::bonded_volume) material.model = MaterialModel::bonded_volume;
+  if (variant == Variant::bonded || variant == Variant::breaking || variant == Variant::yielding)
+    material.model = MaterialModel::bonded;
+  if (variant == Variant::breaking) material.breaking_strain = 0.3;
+  if (variant == Variant::yielding) material.yield_strain = 0.02;
+}
+
+Obstacle wall(const Material& material, const Shape& shape) {
+  Obstacle made;
+  made.shape = shape;
+  made.stiffness = material.pair.contact_stiffness();
+  made.damping = std::sqrt(made.stiffness * material.mass) / 2;
+  made.friction = 0.5;
+  return made;
+}
+
+/// What the variant puts around a body at `rest`; obstacles overlap it by a tenth of a radius.
+std::shared_ptr<const World> world_of(Variant variant, const Bar& bar, const Points& rest,
+                                      const Material& material) {
+  World world;
+  Box box;
+  for (const Vec3& point : rest) box.extend(point);
+  if (variant == Variant::plane)
+    world.obstacles = {wall(material, PlaneShape{{0, 0, box.min().z() - 0.9 * r}, Vec3::UnitZ()})};
+  if (variant == Variant::sphere) {
+    const Vec3 center(box.min().x() - 0.9 * r - bar.width(), 0, bar.length() / 4);
+    world.obstacles = {wall(material, SphereShape{center, bar.width()})};
+  }
+  if (variant == Variant::pinned) {
+    const PlaneShape lowest{{0, 0, box.min().z() + r / 2}, Vec3::UnitZ()};
+    world.pins = pinned(rest, {{{lowest, 0}, 0}}, 2);
+  }
+  if (variant == Variant::muscle) {
+    Muscle muscle;
+    muscle.name = "all";
+    muscle.strength = 0.02 * material.young_modulus();
+    muscle.shares = shares_in({}, rest);
+    world.muscles = make_muscles(rest, r, {muscle});
+  }
+  const bool any =
+      !world.obstacles.empty() || !world.pins.empty() || !world.muscles.muscles.empty();
+  return any ? std::make_shared<const World>(std::move(world)) : nullptr;
+}
+
+Settings settings_of(Condition condition, Variant variant, const Bar& bar) {
   Settings settings = test::box_scene(bar.along);
+  choose(variant, settings.material);
+  if (condition == Condition::bending) settings.tracks = {bending(-approach * bar.slower(), bar)};
   settings.bones = bones_of(condition, bar);
   if (condition == Condition::bent || condition == Condition::crushed) grip(settings.binding, bar);
   if (condition == Condition::twisted) {
@@ -113,7 +176,8 @@ Particles in_written_order(const Particles& particles) {
   return written;
 }
 
-Particles after(int steps, const Scene& scene, const Particles& start) {
+Particles after(int steps, Scene scene, const Particles& start) {
+  if (!scene.approach.tracks.empty()) scene.motion = scene.approach;
   Simulation simulation = simulation_of(scene, start, Precision::binary64, NeighborSearch::lists);
   for (int step = 0; step < steps; ++step) simulation.step();
   return in_written_order(simulation.particles());
@@ -123,28 +187,39 @@ Particles after(int steps, const Scene& scene, const Particles& start) {
 
 std::string_view name_of(Condition condition) { return names[static_cast<std::size_t>(condition)]; }
 
+std::string_view name_of(Variant variant) {
+  return variant_names[static_cast<std::size_t>(variant)];
+}
+
 Condition condition_named(std::string_view name) {
   for (const Condition condition : conditions)
     if (name == name_of(condition)) return condition;
   throw bad_input("no state '" + std::string(name) + "'",
-                  "use rest, bent, twisted, crushed or flowed");
+                  "use rest, bent, twisted, crushed, flowed or bending");
 }
 
-Scene scene_of(Condition condition, std::size_t count) {
+Scene scene_of(Condition condition, std::size_t count, Variant variant) {
   const Bar bar = bar_of(count);
-  const Settings settings = settings_of(condition, bar);
+  Settings settings = settings_of(condition, variant, bar);
   Scene scene;
   scene.body = test::make_body(settings, rest_of(condition, bar));
+  scene.body.world = world_of(variant, bar, scene.body.rest, scene.body.material);
   scene.motion = motion_of(settings, scene.body.skeleton);
   scene.start = start_of(condition, bar, scene.body);
+  if (condition == Condition::bending) {
+    settings.tracks = {bending(0, bar)};
+    scene.approach = motion_of(settings, scene.body.skeleton);
+  }
   const double limit =
       step_limit(settings.solver.integrator, scene.body.material, scene.body.springs);
   scene.step = choose_step(settings.solver, limit, settings.output.interval).step;
+  scene.approach_steps = static_cast<int>(std::ceil(approach * bar.slower() / scene.step));
   return scene;
 }
 
 Particles settled(const Scene& scene, Condition condition) {
   if (condition == Condition::rest) return scene.start;
+  if (condition == Condition::bending) return after(scene.approach_steps, scene, scene.start);
   if (condition != Condition::flowed) return after(100, scene, scene.start);
   Particles particles = scene.start;  // overlapping, they would burst apart in full steps
   for (const double share : {0.1, 0.4, 1.0, 1.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Boxes of the paper's proportions in five states, held on two bones end to end: what stepping is
+// Boxes of the paper's proportions in six states, held on two bones end to end: what stepping is
 // timed on. A state is an analytic map of the rest positions that follows the bones, left to relax.
 #pragma once
 
@@ -16,12 +16,38 @@ enum class Condition {
   twisted,  ///< by 90 degrees, evenly over the whole length, by its bones
   crushed,  ///< to 0.75 of its width along x, and held there by strong bones
   flowed,   ///< wholly disordered
+  bending,  ///< at 45 degrees, by 90 degrees per second
 };
 
-inline constexpr std::array conditions{Condition::rest, Condition::bent, Condition::twisted,
-                                       Condition::crushed, Condition::flowed};
+inline constexpr std::array conditions{Condition::rest,    Condition::bent,   Condition::twisted,
+                                       Condition::crushed, Condition::flowed, Condition::bending};
+
+/// What a body is made of, how it is damped, and what surrounds it: one thing is not as in the
+/// paper.
+enum class Variant {
+  paper,
+  initial_neighbors,
+  bonded,
+  bonded_volume,
+  breaking,
+  yielding,
+  symmetric,
+  central,
+  plane,   ///< that it stands on
+  sphere,  ///< pressed into its side
+  pinned,  ///< at its lower end
+  muscle,  ///< in all of it
+};
+
+inline constexpr std::array variants{Variant::paper,     Variant::initial_neighbors,
+                                     Variant::bonded,    Variant::bonded_volume,
+                                     Variant::breaking,  Variant::yielding,
+                                     Variant::symmetric, Variant::central,
+                                     Variant::plane,     Variant::sphere,
+                                     Variant::pinned,    Variant::muscle};
 
 std::string_view name_of(Condition condition);
+std::string_view name_of(Variant variant);
 /// Throws bad input for another name.
 Condition condition_named(std::string_view name);
 
@@ -29,15 +55,17 @@ Condition condition_named(std::string_view name);
 struct Scene {
   Body body;
   Motion motion;
+  Motion approach;  ///< of the bones until the state is reached; none: they stay
+  int approach_steps = 0;
   Particles start;  ///< without velocity
   double step = 0;  ///< half of the stability limit, s
 };
 
 /// About `count` particles of the default material, r = 10 mm.
-Scene scene_of(Condition condition, std::size_t count);
+Scene scene_of(Condition condition, std::size_t count, Variant variant = Variant::paper);
 
-/// The state after 100 steps (flowed: 400, rest: none) from the scene's start, in the written
-/// order.
+/// The state after 100 steps (flowed: 400, rest: none; bending: half a second) from the scene's
+/// start, in the written order.
 Particles settled(const Scene& scene, Condition condition);
 
 /// A simulation of the scene's body that starts with `particles`.

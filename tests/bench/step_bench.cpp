@@ -7,7 +7,9 @@
 //   build/bench/step_bench --benchmark_filter=/rest/
 //   build/bench/step_bench --states=FOLDER ...      states written by make_state
 //
-// Names are step/CONDITION/PARTICLES/KIND/threads:N. tests/bench/run.sh makes tables of them.
+// Names are step/CONDITION/PARTICLES/KIND/threads:N, and
+// law/VARIANT/CONDITION/PARTICLES/KIND/threads:N for what is not the paper's. tests/bench/run.sh
+// makes tables of them.
 
 #include <benchmark/benchmark.h>
 #include <algorithm>
@@ -41,29 +43,32 @@ struct Case {
   std::size_t count;
   Kind kind;
   int threads;
+  Variant variant = Variant::paper;
 };
 
 struct Prepared {
   Condition condition;
   std::size_t count;
+  Variant variant;
   Scene scene;
   Particles particles;
 };
 
-Prepared prepare(Condition condition, std::size_t count) {
-  Prepared prepared{condition, count, scene_of(condition, count), {}};
+Prepared prepare(Condition condition, std::size_t count, Variant variant) {
+  Prepared prepared{condition, count, variant, scene_of(condition, count, variant), {}};
   const auto path = state_path(states_folder, condition, count);
-  prepared.particles = !states_folder.empty() && exists(path) ? read_state(path, prepared.scene)
-                                                              : settled(prepared.scene, condition);
+  const bool made = !states_folder.empty() && variant == Variant::paper && exists(path);
+  prepared.particles = made ? read_state(path, prepared.scene) : settled(prepared.scene, condition);
   return prepared;
 }
 
 /// The state of the last call is cached: those of all sizes together are large.
-const Prepared& prepared(Condition condition, std::size_t count) {
+const Prepared& prepared(const Case& what) {
   static std::unique_ptr<Prepared> last;
-  if (!last || last->condition != condition || last->count != count) {
+  if (!last || last->condition != what.condition || last->count != what.count ||
+      last->variant != what.variant) {
     last.reset();
-    last = std::make_unique<Prepared>(prepare(condition, count));
+    last = std::make_unique<Prepared>(prepare(what.condition, what.count, what.variant));
   }
   return *last;
 }
@@ -122,7 +127,7 @@ void count_lists(benchmark::State& state, const ListCounts& lists) {
 
 /// Every lap begins with the same state, which would otherwise relax during the measurement.
 void step(benchmark::State& state, Case what) {
-  const Prepared& from = prepared(what.condition, what.count);
+  const Prepared& from = prepared(what);
   const int steps = steps_per_lap(what);
   std::uint64_t hash = 0;
   ListCounts lists;
@@ -147,7 +152,7 @@ void step(benchmark::State& state, Case what) {
 
 /// Peak memory of a simulation's construction and first steps, including the body's description.
 void memory(benchmark::State& state, Case what) {
-  const Prepared& from = prepared(what.condition, what.count);
+  const Prepared& from = prepared(what);
   double bytes = 0;
   for (auto _ : state)
     bytes = peak_memory_of([&] { Stepper(from, what.kind).advance(first_steps); });
@@ -189,16 +194,31 @@ std::string path_of(const Parts&... parts) {
   return path;
 }
 
+std::string case_path(const Case& what) {
+  return path_of(name_of(what.condition), std::to_string(what.count),
+                 kinds[static_cast<int>(what.kind)], "threads:" + std::to_string(what.threads));
+}
+
+void register_case(const std::string& name, const Case& what) {
+  benchmark::RegisterBenchmark(name.c_str(), step, what)
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
 void register_steps(Condition condition, std::size_t count, Kind kind) {
   if (kind == Kind::all_pairs && count > most_for_all_pairs) return;
   for (const int threads : {1, 2}) {
-    const std::string name =
-        path_of("step", name_of(condition), std::to_string(count), kinds[static_cast<int>(kind)],
-                "threads:" + std::to_string(threads));
-    benchmark::RegisterBenchmark(name.c_str(), step, Case{condition, count, kind, threads})
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
+    const Case what{condition, count, kind, threads};
+    register_case(path_of("step", case_path(what)), what);
   }
+}
+
+void register_laws(Variant variant, Condition condition, std::size_t count) {
+  for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells})
+    for (const int threads : {1, 2}) {
+      const Case what{condition, count, kind, threads, variant};
+      register_case(path_of("law", name_of(variant), case_path(what)), what);
+    }
 }
 
 void register_all() {
@@ -206,10 +226,16 @@ void register_all() {
     for (const std::size_t count : counts)
       for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells, Kind::all_pairs})
         register_steps(condition, count, kind);
-  for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells})
-    benchmark::RegisterBenchmark(path_of("memory", kinds[static_cast<int>(kind)]).c_str(), memory,
-                                 Case{Condition::rest, 300'000, kind, 1})
-        ->Iterations(1);
+  for (const Variant variant : variants)
+    for (const Condition condition : {Condition::rest, Condition::bending})
+      for (const std::size_t count : {std::size_t{30'000}, std::size_t{300'000}})
+        register_laws(variant, condition, count);
+  for (const Variant variant : {Variant::paper, Variant::bonded, Variant::bonded_volume})
+    for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells})
+      benchmark::RegisterBenchmark(
+          path_of("memory", name_of(variant), kinds[static_cast<int>(kind)]).c_str(), memory,
+          Case{Condition::rest, 300'000, kind, 1, variant})
+          ->Iterations(1);
   benchmark::RegisterBenchmark("peak/single", peak, &multiply_add_single);
   benchmark::RegisterBenchmark("peak/double", peak, &multiply_add_double);
   for (const int threads : {1, 2})

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every combination of materials, damping, bones, surroundings and integrators: the kernel takes
 // the steps that the readable reference takes, in both precisions.
-#include <functional>
-
-#include <sinew/physics/world/world.h>
-
 #include "all_steppers.h"
+#include "surroundings.h"
 
 namespace sinew::every_setting_test {
 
-constexpr double r = 0.01;
+using namespace surroundings;
+
 constexpr int height = 11;
 
 struct Choice {
@@ -62,66 +60,6 @@ std::vector<Choice> bones() {
          settings.binding.force = BoneForce::anchor;
        }},
       {"none", [](Settings& settings) { settings = test::unbound(settings); }}};
-}
-
-Obstacle obstacle(const Material& material, const Shape& shape, double friction) {
-  Obstacle made;
-  made.name = "wall";
-  made.shape = shape;
-  made.motion = [](double time, const Pose&) {
-    return ObstaclePose{{{0.05 * time, 0, 0}, Mat3::Identity()}, {0.05, 0, 0}, Vec3::Zero()};
-  };
-  made.stiffness = material.pair.contact_stiffness();
-  made.damping = 0.5 * std::sqrt(made.stiffness * material.mass);
-  made.friction = friction;
-  return made;
-}
-
-struct Around {
-  std::string name;
-  std::function<void(const Points& rest, const Material&, World&)> surround;
-};
-
-std::vector<Around> surroundings() {
-  const auto walls = [](const Points& rest, const Material& material, World& world) {
-    world.obstacles = {
-        obstacle(material, PlaneShape{{rest.front().x() - 0.9 * r, 0, 0}, {1, 0, 0}}, 0.4),
-        obstacle(material, SphereShape{rest.back() + Vec3(2 * r, 0, 2 * r), 2 * r}, 0)};
-    world.obstacles[1].friction = 0.2;
-    world.obstacles[1].stick = 0.1 * material.mass / 1e-3;
-  };
-  const auto pins = [](const Points& rest, const Material&, World& world) {
-    world.pins = pinned(rest,
-                        {{{BoxShape{rest.front(), {1, 1, 1.5 * r}}, 0}, no_bone},
-                         {{BoxShape{rest.back(), {1, 1, 1.5 * r}}, 0}, 1}},
-                        2);
-  };
-  const auto fields = [](const Points& rest, const Material&, World& world) {
-    world.drag = {2, {0.1, 0, 0}};
-    world.fields = {{"wind", UniformAcceleration{{2, 0, 0}}, {}, {{0, 0.02}, {0, 1}}},
-                    {"pull", Attraction{rest.back(), 3, 2 * r}, {}, {}}};
-  };
-  const auto muscles = [](const Points& rest, const Material&, World& world) {
-    Muscle whole, part;
-    whole.name = "whole";
-    whole.strength = 600;
-    whole.activation = {{0, 0.02}, {0, 1}};
-    whole.shares = shares_in({}, rest);
-    part.name = "part";
-    part.direction = {1, 0.2, 0};
-    part.strength = 400;
-    part.shares = shares_in({SphereShape{rest.back(), 3 * r}, 0.02}, rest);
-    world.muscles = make_muscles(rest, r, {whole, part});
-  };
-  const auto all = [=](const Points& rest, const Material& material, World& world) {
-    for (const auto& part : {std::function<void(const Points&, const Material&, World&)>(walls),
-                             {pins},
-                             {fields},
-                             {muscles}})
-      part(rest, material, world);
-  };
-  return {{"nothing", nullptr}, {"walls", walls},     {"pins", pins},
-          {"fields", fields},   {"muscles", muscles}, {"all", all}};
 }
 
 Settings moving_scene() {
@@ -218,7 +156,7 @@ TEST_P(EverySetting, StepsInTheKernelAsInTheReference) {
        {Integrator::symplectic_euler, Integrator::explicit_euler, Integrator::velocity_verlet})
     for (const Choice& damping : dampings())
       for (const Choice& bone : bones())
-        for (const Around& around : surroundings()) {
+        for (const Around& around : all_surroundings()) {
           Settings settings = moving_scene();
           settings.solver.integrator = integrator;
           for (const Choice* choice : {&material, &damping, &bone}) choice->choose(settings);
