@@ -120,6 +120,7 @@ int steps_per_lap(const Case& what) {
 /// Lists built in a lap, its first steps included.
 void count_lists(benchmark::State& state, const ListCounts& lists) {
   state.counters["rebuilds"] = static_cast<double>(lists.rebuilds);
+  state.counters["listed"] = static_cast<double>(lists.listed);
   state.counters["pruned"] = static_cast<double>(lists.pruned);
   state.counters["sorts"] = static_cast<double>(lists.sorts);
   state.counters["offsets"] = lists.inner;

@@ -14,7 +14,9 @@ constexpr std::size_t pieces_per_task = 16;
 constexpr std::size_t branches = 4;  // of the tree of boxes
 // Pieces this much farther apart than lists reach count as near: they are found again when
 // particles may have come that much nearer. In outer ranges, and in steps of the fastest one.
-constexpr double least_margin = 0.3, margin_in_steps = 24;
+constexpr double least_margin = 0.5, margin_in_steps = 24;
+// What a step may take particles without warning, in outer ranges: bonds that snap.
+constexpr double jump = 0.06;
 // Surveys serve when particles have drifted by this share of the inner skin, but not every few
 // steps.
 constexpr double drift_share = 0.1;
@@ -191,8 +193,9 @@ Box NearPieces::box_of(std::size_t piece, double elapsed) const {
 }
 
 bool NearPieces::survey_due() const {
-  // A step may take particles as far again as the last one did.
-  const double soon = traveled_ + (steps_ > 0 ? traveled_ / steps_ : 0);
+  // A step may take particles as far again as the last one did, or farther.
+  const double mean = steps_ > 0 ? traveled_ / steps_ : 0;
+  const double soon = traveled_ + std::max(mean, jump * ranges_.outer);
   return 4 * soon > margin_ ||
          (steps_ >= least_steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
 }
