@@ -2,6 +2,8 @@
 // Materials that know their neighbors at rest: whole steps with lists and with cells.
 #include <numeric>
 
+#include <sinew/core/error.h>
+
 #include "both_steppers.h"
 
 namespace sinew::steppers_of_solids_test {
@@ -136,6 +138,53 @@ TEST(SteppersOfSolids, AreCloseInSinglePrecision) {
     EXPECT_LT(test::largest_distance(floats.particles(), cells.particles()), 1e-4 * r);
     expect_same_energies(floats.energies(), cells.energies(), 1e-4);
   }
+}
+
+TEST(SteppersOfSolids, KeepTheirLedgersWhenABondedPairMeetsInAPoint) {
+  for (const auto& [name, settings] : solids()) {
+    SCOPED_TRACE(name);
+    const Points rest = test::fcc_box(5, 5, 25, r);
+    const Body body = test::make_body(settings, rest);
+    Particles particles = particles_at(rest, r, body.material.mass);
+    std::size_t nearest = 1;
+    for (std::size_t i = 1; i < rest.size(); ++i)
+      if ((rest[i] - rest[0]).norm() < (rest[nearest] - rest[0]).norm()) nearest = i;
+    particles.set_position(nearest, particles.position(0));
+    Both both(settings, rest, particles, test::step_of(settings, body, 0.05));
+    both.step_until(5);
+    expect_same(both, 1e-11);
+    EXPECT_TRUE(std::isfinite(both.lists.energies().dissipation));
+  }
+}
+
+TEST(SteppersOfSolids, OfAnotherMassThanTheMaterialsAreAlike) {
+  for (const auto& [name, settings] : solids()) {
+    SCOPED_TRACE(name);
+    const Points rest = test::fcc_box(5, 5, 25, r);
+    const Body body = test::make_body(settings, rest);
+    Particles particles = test::shaken(rest, body.material, 0.02 * r, 0.05);
+    particles.mass *= 4;
+    Both both(settings, rest, particles, test::step_of(settings, body, 0.3));
+    both.step_until(20);
+    expect_same(both, 1e-11);
+  }
+}
+
+TEST(SteppersOfSolids, GoOnAlikeAfterAStepThatFailed) {
+  Settings settings = test::unbound(moving_scene());
+  settings.material.model = MaterialModel::bonded;
+  settings.material.breaking_strain = 0.05;
+  const Points rest = test::fcc_box(5, 5, 9, r);
+  const Body body = test::make_body(settings, rest);
+  Particles particles = particles_at(rest, r, body.material.mass);
+  particles.set_position(0, particles.position(0) - Vec3(0.3 * r, 0.3 * r, 0));
+  particles.set_velocity(rest.size() - 1, Vec3(0, 0, 1e3));  // fails
+  Both both(settings, rest, particles, test::step_of(settings, body, 0.3));
+  EXPECT_THROW(both.lists.step(), Error);
+  EXPECT_THROW(both.cells.step(), Error);
+  EXPECT_GT(broken_bonds(both.cells), 0);
+  EXPECT_EQ(both.lists.broken_bonds(), both.cells.broken_bonds());
+  expect_same(both, 1e-11);
 }
 
 }  // namespace sinew::steppers_of_solids_test

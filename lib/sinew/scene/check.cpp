@@ -36,12 +36,18 @@ constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 // double and 160 in single precision.
 constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 1130;
 constexpr double memory_with_cells = 1500;
+constexpr double memory_of_strain = 170, memory_of_changing_bonds = 120;  // in double precision
 constexpr double memory_per_point = 600, memory_beside = 30e6;
 
-double memory_per_particle(const StepperChoice& choice) {
+double memory_per_particle(const StepperChoice& choice, const Body& body) {
   if (choice.search == NeighborSearch::cells) return memory_with_cells;
-  return choice.precision == Precision::binary64 ? memory_with_lists_double
-                                                 : memory_with_lists_single;
+  const bool single = choice.precision == Precision::binary32;
+  double bytes = single ? memory_with_lists_single : memory_with_lists_double;
+  const BondStrength& bond = body.material.bond;
+  const double share = single ? 0.5 : 1;
+  if (body.material.volume_stiffness > 0 || has_muscles(body)) bytes += share * memory_of_strain;
+  if (bond.yield_strain > 0 || bond.breaking_strain > 0) bytes += share * memory_of_changing_bonds;
+  return bytes;
 }
 
 /// Numbers per particle in the arrays that the scene requests.
@@ -81,7 +87,7 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   needs.disk = static_cast<std::uint64_t>(
       (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
   const StepperChoice choice = stepper_choice(settings.solver);
-  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(choice) +
+  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(choice, setup.body) +
                                             points * memory_per_point + memory_beside);
   return needs;
 }

@@ -113,9 +113,11 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
         const std::ptrdiff_t j = i + bond.difference;
         Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
         const V squared = squared_distance<L>(apart);
+        [[maybe_unused]] typename L::M counted = bond.mask;
         V d, pull;
         if constexpr (pairs == among_neighbors) {
           const auto near = L::less(L::pick(bond.mask, squared, law.b2), law.b2);
+          counted = near;
           pull = law.pull.template pull<careful>(squared, d);
           if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
           sums.add(step, i, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
@@ -129,7 +131,7 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
           sums.add(step, i, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
         }
         if constexpr (sizeof(typename L::Real) == 8) {
-          const V met_at = L::pick(bond.mask, squared, law.touching2);
+          const V met_at = L::pick(counted, squared, law.touching2);
           least = L::smaller(met_at, least), most = L::larger(met_at, most);
         }
       });
@@ -218,7 +220,8 @@ template <class L>
     const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
     // As in the sums, so that a bond that counts as strained there is so here.
     const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
-    const V d = squared * law.inverse.template of<true>(squared);
+    const V d = L::pick(L::less(L::all(0), squared),
+                        squared * law.inverse.template of<true>(squared), L::all(0));
     V freed = L::all(0);
     if (step.bonds.yield > 0) {
       const V longer = d - bond.length;

@@ -168,6 +168,7 @@ struct Volumes {
 template <class Real>
 struct Fibers {
   const std::uint32_t* first;  ///< null: there are none
+  const std::uint8_t* near;    ///< by block: whether a particle or a neighbor at rest has one
   const std::int32_t* muscle;  ///< by slot
   const Real* strength;        ///< slots x block: times weight and volume
   const Real* direction;       ///< by muscle, 3 each
@@ -183,6 +184,7 @@ struct Totals {
   double pair_energy;  ///< only from probe
   double bone_energy;  ///< only from probe
   double fastest;      ///< largest squared speed relative to the piece's motion
+  double speed2;       ///< the largest squared speed, of what steps store as fixed point
   bool sound;          ///< none too fast (see most_radii_per_step), all values finite
   bool broke;          ///< a bond
 };
@@ -225,7 +227,6 @@ struct Step {
   Volumes<Real> volumes;
   Fibers<Real> fibers;
   Surroundings<Real> surroundings;
-  Real unit;         ///< length of one unit of coordinates
   Real gravity[3];   ///< per time squared
   Real kick;         ///< v += kick a
   Real drift;        ///< x += drift v, in units of coordinates

@@ -18,7 +18,7 @@ struct Sums {
   using Real = typename L::Real;
   static constexpr int block = Traits<Real>::block;
   Real power[block] = {}, lost[block] = {}, pair_energy[block] = {}, bone_energy[block] = {};
-  Real muscle_power[block] = {}, fastest[block] = {};
+  Real muscle_power[block] = {}, fastest[block] = {}, speed2[block] = {};
   bool sound = true, broke = false;
 };
 
@@ -78,7 +78,7 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   if constexpr (pairs == springs || pairs == changing_springs)
     if (step.volumes.stiffness != nullptr)
       add_volumes<L, energy>(step, block, lane, i, forces.pairs);
-  if (step.fibers.first != nullptr)
+  if (step.fibers.first != nullptr && step.fibers.near[block] != 0)
     forces.muscle = thrust_force<L>(step, step.fibers.thrust, block, lane, i);
   forces.damping = damping_of<L, pass>(forces.pairs, L::all(step.law.damping), velocity);
   forces.acceleration = forces.pairs.force + forces.damping +
@@ -135,11 +135,14 @@ SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t 
   const Place<L> center{L::all_coord(motion.center[0]), L::all_coord(motion.center[1]),
                         L::all_coord(motion.center[2])};
   const Triple<L> arm = offset<L>(here, center);
+  const typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
   const Triple<L> relative =
-      live_lanes<L>(step.blocks, step.live, block, lane) *
-      (drifting - all<L>(motion.velocity) - cross<L>(all<L>(motion.spin), arm));
+      live * (drifting - all<L>(motion.velocity) - cross<L>(all<L>(motion.spin), arm));
   L::store(sums.fastest + lane,
            L::larger(dot<L>(relative, relative), L::load(sums.fastest + lane)));
+  if constexpr (sizeof(typename L::Real) == 4)
+    L::store(sums.speed2 + lane,
+             L::larger(live * dot<L>(drifting, drifting), L::load(sums.speed2 + lane)));
 }
 
 template <class L>
@@ -198,14 +201,18 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L
 
 template <class L>
 SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
-  typename L::Real fastest = 0;
-  for (const typename L::Real speed2 : sums.fastest) fastest = speed2 > fastest ? speed2 : fastest;
+  typename L::Real fastest = 0, speed2 = 0;
+  for (int k = 0; k < Sums<L>::block; ++k) {
+    fastest = sums.fastest[k] > fastest ? sums.fastest[k] : fastest;
+    speed2 = sums.speed2[k] > speed2 ? sums.speed2[k] : speed2;
+  }
   return {sum_of<L>(sums.power),
           sum_of<L>(sums.muscle_power),
           sum_of<L>(sums.lost),
           sum_of<L>(sums.pair_energy),
           sum_of<L>(sums.bone_energy),
           static_cast<double>(fastest),
+          static_cast<double>(speed2),
           sums.sound,
           sums.broke};
 }

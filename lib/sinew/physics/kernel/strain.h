@@ -125,7 +125,10 @@ template <class L>
 void strain_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   constexpr int size = Traits<typename L::Real>::block;
   const std::size_t last = end * blocks_per_piece;
-  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
+  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block) {
+    if (step.volumes.stiffness == nullptr &&
+        step.fibers.first[block] == step.fibers.first[block + 1])
+      continue;  // what it exerts is zero and remains so
     for (int lane = 0; lane < size; lane += L::width) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
       typename L::V inverse[6];
@@ -134,6 +137,7 @@ void strain_pieces(const Step<typename L::Real>& step, std::size_t begin, std::s
       if (step.volumes.stiffness != nullptr) find_volumes<L>(step.volumes, F, inverse, i);
       if (step.fibers.first != nullptr) find_fibers<L>(step.fibers, F, inverse, block, lane, i);
     }
+  }
 }
 
 /// The force of the thrusts around a vector, and its own.

@@ -195,18 +195,6 @@ bool is_sound(const WholeNumbers& saved) {
          std::isfinite(saved.traveled);
 }
 
-double fastest_within(const Box& box, const Pose& pose, double beyond) {
-  double fastest = 0;
-  for (const BonePose& bone : pose) {
-    const double spread = bone.angular_velocity.norm() * beyond;
-    for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
-      const Vec3 at = box.corner(static_cast<Box::CornerType>(corner));
-      fastest = std::max(fastest, bone.velocity_at(at).norm() + spread);
-    }
-  }
-  return fastest;
-}
-
 template <class Real>
 kernel::Law<Real> law_in(const Units& units, const PairForce& pair, double damping, double mass) {
   const double L = units.length, T = units.time, per_mass = pair.r * T * T / mass;

@@ -13,7 +13,6 @@
 #include <sinew/core/vector.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/pair_force.h>
-#include <sinew/rig/pose.h>
 
 namespace sinew {
 
@@ -45,10 +44,6 @@ double free_travel(const Units& units);
 
 /// Whether units that were saved are finite and positive where they have to be.
 bool is_sound(const WholeNumbers& saved);
-
-/// The largest velocity that the pose's bones give a place in the box, or `beyond` (m) around it,
-/// m/s.
-double fastest_within(const Box& box, const Pose& pose, double beyond);
 
 /// Eq. 1 and the damping constant (kg/s) in these units, per particle `mass` (kg).
 template <class Real>

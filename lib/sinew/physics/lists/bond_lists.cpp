@@ -131,8 +131,8 @@ void for_each_whole(const BondLists<Real>& bonds, Visit&& visit) {
 }  // namespace
 
 template <class Real>
-void BondLists<Real>::set_units(const Body& body, const Units& units) {
-  const double spring = body.material.bond.stiffness * units.time * units.time / body.material.mass;
+void BondLists<Real>::set_units(const Body& body, double mass, const Units& units) {
+  const double spring = body.material.bond.stiffness * units.time * units.time / mass;
   const double longer =
       kinds.empty() ? 1 : rest[0].norm() / units.length / static_cast<double>(kinds[0].length);
   if (!kinds.empty() && kinds[0].length > 0)
@@ -209,7 +209,8 @@ void BondLists<Real>::restore(const SimulationState& state) {
 }
 
 template <class Real>
-BondLists<Real> bond_lists(const Body& body, std::span<const std::int32_t> id, const Units& units) {
+BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::int32_t> id,
+                           const Units& units) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
   BondLists<Real> bonds;
   if (!law_of(body.material).has_memory && !has_muscles(body)) return bonds;
@@ -221,7 +222,7 @@ BondLists<Real> bond_lists(const Body& body, std::span<const std::int32_t> id, c
     pieces[begin / blocks_per_search] = entries_of(of, size, unit, begin, end);
   });
   join(pieces, unit, bonds);
-  bonds.set_units(body, units);
+  bonds.set_units(body, mass, units);
   if (!law_of(body.material).has_bonds) return bonds;
   const BondStrength& strength = body.material.bond;
   if (strength.yield_strain > 0) bonds.creep.assign(bonds.entries.size() * size, 0);
@@ -231,7 +232,9 @@ BondLists<Real> bond_lists(const Body& body, std::span<const std::int32_t> id, c
 
 template struct BondLists<double>;
 template struct BondLists<float>;
-template BondLists<double> bond_lists(const Body&, std::span<const std::int32_t>, const Units&);
-template BondLists<float> bond_lists(const Body&, std::span<const std::int32_t>, const Units&);
+template BondLists<double> bond_lists(const Body&, double, std::span<const std::int32_t>,
+                                      const Units&);
+template BondLists<float> bond_lists(const Body&, double, std::span<const std::int32_t>,
+                                     const Units&);
 
 }  // namespace sinew

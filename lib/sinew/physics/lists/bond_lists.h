@@ -3,8 +3,8 @@
 // its particles at rest, with the lanes that have one there. They are made once: bonds stay where
 // they are, creep and break.
 //
-//     BondLists<Real> bonds = bond_lists<Real>(body, id, units);
-//     step.bonds = bonds.arrays(body.material, step, units);
+//     BondLists<Real> bonds = bond_lists<Real>(body, mass, id, units);
+//     step.bonds = bonds.arrays(body.material, step);
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct BondLists {
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
 
   /// The lengths in these units.
-  void set_units(const Body& body, const Units& units);
+  void set_units(const Body& body, double mass, const Units& units);
   /// For steps of `step` (s).
   kernel::Bonds<Real> arrays(const Material& material, double step);
   /// Lanes of a block that are bonded at a difference.
@@ -39,9 +39,11 @@ struct BondLists {
   void restore(const SimulationState& state);
 };
 
-/// Of the particles `id` in the kernel's order. None where no force depends on the neighbors at
-/// rest.
+/// Of particles of `mass` (kg), `id` in the kernel's order. None where no force depends on the
+/// neighbors at rest. Made for lattices: elsewhere each bond is a kind of its own, which takes ten
+/// times the memory.
 template <class Real>
-BondLists<Real> bond_lists(const Body& body, std::span<const std::int32_t> id, const Units& units);
+BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::int32_t> id,
+                           const Units& units);
 
 }  // namespace sinew

@@ -38,8 +38,8 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       kernel_(kernel::functions_of<Real>(instructions)),
       law_(pair_law_of(body_->material)),
       layout_(*body_, particles, stepping.step),
-      bonds_(bond_lists<Real>(*body_, layout_.id(), layout_.units())),
-      strain_(strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units())),
+      bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
+      strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass),
       lists_(kernel_, body_->material, stepping.step) {
   find_slots();
@@ -175,9 +175,10 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
   if (!std::all_of(totals_.begin(), totals_.end(),
                    [](const kernel::Totals& piece) { return piece.sound; })) {
     sums.failure = failure(pose);
+    lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);  // bonds stay broken
     return sums;
   }
-  layout_.advance(travel_of_step(pose));
+  layout_.advance(travel_of_step());
   kicked_ = stepped_ = true;
   ++steps_;
   return sums;
@@ -307,8 +308,8 @@ void ListStepper<Real>::add_moved() {
 template <class Real>
 void ListStepper<Real>::follow_units() {
   find_slots();
-  bonds_.set_units(*body_, layout_.units());
-  strain_ = strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units());
+  bonds_.set_units(*body_, mass_, layout_.units());
+  strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
 }
 
 template <class Real>
@@ -341,17 +342,18 @@ void ListStepper<Real>::sort() {
   } else {
     ++sorts_;
     find_slots();
-    bonds_ = bond_lists<Real>(*body_, layout_.id(), layout_.units());  // of muscles
-    strain_ = strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units());
+    bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // of muscles
+    strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   }
   sorting_ += watch.lap();
 }
 
-/// How far a particle may travel in a valid step: with its bone, and relative to it.
+/// How far any particle has traveled in the step, m.
 template <class Real>
-double ListStepper<Real>::travel_of_step(const Pose& pose) const {
-  return 1.001 * (fastest_within(layout_.box(), pose, layout_.traveled()) * stepping_.step +
-                  most_radii_per_step * body_->material.pair.r);
+double ListStepper<Real>::travel_of_step() const {
+  double speed2 = 0;
+  for (const kernel::Totals& piece : totals_) speed2 = std::max(speed2, piece.speed2);
+  return 1.001 * std::sqrt(speed2) * layout_.units().length / layout_.units().time * stepping_.step;
 }
 
 template <class Real>
@@ -367,11 +369,11 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   if (!state.rest_length.empty()) throw not_a_state("it is of cells");
   ParticleLayout<Real> layout = layout_;
   layout.restore(state);
-  auto bonds = bond_lists<Real>(*body_, layout.id(), layout.units());
+  auto bonds = bond_lists<Real>(*body_, mass_, layout.id(), layout.units());
   bonds.restore(state);
   layout_ = std::move(layout);
   bonds_ = std::move(bonds);
-  strain_ = strain_lists<Real>(*body_, layout_.id(), bonds_, layout_.units());
+  strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;

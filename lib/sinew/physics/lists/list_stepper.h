@@ -54,7 +54,7 @@ class ListStepper {
   kernel::Step<Real> begin(const Pose& pose, Points* world_forces);
 
   void update_lists();
-  double travel_of_step(const Pose& pose) const;
+  double travel_of_step() const;
   bool order_check_due();
   void sort();
   void add_moved();

@@ -33,16 +33,12 @@ class ParticleLayout {
   /// Their places in the caller's order.
   const std::vector<std::uint32_t>& caller() const { return caller_; }
 
-  /// The state after the step becomes that before the next one. `travel`: how far a particle may
-  /// have moved, m.
+  /// The state after the step becomes that before the next one. `travel`: how far particles have
+  /// moved, at most, m.
   void advance(double travel);
-  /// Around all particles when the units were last checked; they may have traveled since. m.
-  const Box& box() const { return units_box_; }
-  double traveled() const { return traveled_; }
   /// Particle order[k] becomes the k-th one; `order` then leads back.
   void reorder(std::vector<std::uint32_t>& order);
-  /// Chooses other units where the body may have left the range of the present ones, and has. When
-  /// that is checked follows from the bones' motion alone: lists differ in a resumed run.
+  /// Chooses other units where the body may have left the range of the present ones, and has.
   bool change_units();
   void read(Particles& particles) const;
 
@@ -59,8 +55,8 @@ class ParticleLayout {
   PairForce pair_;
   double step_ = 0;  ///< s
   Units units_;
-  Box units_box_;
-  double traveled_ = 0;
+  Box units_box_;        ///< around the particles when the units were last checked, m
+  double traveled_ = 0;  ///< by any particle since then, at most, m
   std::vector<std::int32_t> id_;
   std::vector<std::uint32_t> caller_;
 };

@@ -19,13 +19,13 @@ class StrainMaker {
  public:
   static constexpr std::size_t block = kernel::Traits<Real>::block;
 
-  StrainMaker(const Body& body, std::span<const std::int32_t> id, const BondLists<Real>& bonds,
-              const Units& units, StrainLists<Real>& out)
+  StrainMaker(const Body& body, double mass, std::span<const std::int32_t> id,
+              const BondLists<Real>& bonds, const Units& units, StrainLists<Real>& out)
       : body_(body),
         id_(id),
         bonds_(bonds),
         per_length2_(units.length * units.length),
-        per_energy_(units.time * units.time / (body.material.mass * per_length2_)),
+        per_energy_(units.time * units.time / (mass * per_length2_)),
         volume_(volume_per_particle(body.material.pair.r)),
         out_(out) {}
 
@@ -88,6 +88,24 @@ class StrainMaker {
         add_fibers(muscles, static_cast<std::size_t>(id_[k * block + lane]), lane, begin);
       out_.first.push_back(static_cast<std::uint32_t>(out_.muscle.size()));
     }
+    find_near_fibers(blocks);
+  }
+
+  /// Blocks that feel fibers: their own, and those of neighbors at rest.
+  void find_near_fibers(std::size_t blocks) {
+    const auto some = [&](std::size_t k) { return out_.first[k] != out_.first[k + 1]; };
+    out_.near_fibers.assign(blocks, 0);
+    for (std::size_t k = 0; k < blocks; ++k) {
+      bool near = some(k);
+      for (std::uint32_t e = bonds_.first[k]; e < bonds_.first[k + 1] && !near; ++e) {
+        const auto begin = static_cast<std::int64_t>(k * block) + bonds_.entries[e].difference;
+        const auto size = static_cast<std::int64_t>(block);
+        for (const std::int64_t at : {begin, begin + size - 1})
+          near = near || (at >= 0 && at / size < static_cast<std::int64_t>(blocks) &&
+                          some(static_cast<std::size_t>(at / size)));
+      }
+      out_.near_fibers[k] = near ? 1 : 0;
+    }
   }
 
   void add_fibers(const Muscles& muscles, std::size_t particle, std::size_t lane,
@@ -144,6 +162,7 @@ void StrainLists<Real>::put_into(kernel::Step<Real>& step) {
   }
   if (first.empty()) return;
   step.fibers.first = first.data();
+  step.fibers.near = near_fibers.data();
   step.fibers.muscle = muscle.data();
   step.fibers.strength = strength.data();
   step.fibers.direction = direction.data();
@@ -152,18 +171,18 @@ void StrainLists<Real>::put_into(kernel::Step<Real>& step) {
 }
 
 template <class Real>
-StrainLists<Real> strain_lists(const Body& body, std::span<const std::int32_t> id,
+StrainLists<Real> strain_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                                const BondLists<Real>& bonds, const Units& units) {
   StrainLists<Real> lists;
-  StrainMaker<Real>(body, id, bonds, units, lists).make();
+  StrainMaker<Real>(body, mass, id, bonds, units, lists).make();
   return lists;
 }
 
 template struct StrainLists<double>;
 template struct StrainLists<float>;
-template StrainLists<double> strain_lists(const Body&, std::span<const std::int32_t>,
+template StrainLists<double> strain_lists(const Body&, double, std::span<const std::int32_t>,
                                           const BondLists<double>&, const Units&);
-template StrainLists<float> strain_lists(const Body&, std::span<const std::int32_t>,
+template StrainLists<float> strain_lists(const Body&, double, std::span<const std::int32_t>,
                                          const BondLists<float>&, const Units&);
 
 }  // namespace sinew

@@ -2,7 +2,7 @@
 // What the kernel needs for forces that follow from the deformation around each particle: volumes
 // that are kept, and the fibers of muscles.
 //
-//     StrainLists<Real> strain = strain_lists<Real>(body, id, bonds, units);
+//     StrainLists<Real> strain = strain_lists<Real>(body, mass, id, bonds, units);
 //     strain.put_into(step);
 #pragma once
 
@@ -24,7 +24,8 @@ struct StrainLists {
   std::array<std::vector<Real>, 6> inverse;
   std::vector<Real> stiffness, growth;  ///< of volumes; empty: none is kept
   std::array<std::vector<Real>, 9> volume_thrust, fiber_thrust;
-  std::vector<std::uint32_t> first;  ///< fibers of a block; empty: there are none
+  std::vector<std::uint32_t> first;       ///< fibers of a block; empty: there are none
+  std::vector<std::uint8_t> near_fibers;  ///< by block
   std::vector<std::int32_t> muscle;
   std::vector<Real> strength, direction, level;
 
@@ -33,10 +34,10 @@ struct StrainLists {
   void put_into(kernel::Step<Real>& step);
 };
 
-/// Of the particles `id` in the kernel's order, with their bonds: those that lost one keep no
-/// volume.
+/// Of particles of `mass` (kg), `id` in the kernel's order, with their bonds: those that lost one
+/// keep no volume.
 template <class Real>
-StrainLists<Real> strain_lists(const Body& body, std::span<const std::int32_t> id,
+StrainLists<Real> strain_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                                const BondLists<Real>& bonds, const Units& units);
 
 }  // namespace sinew

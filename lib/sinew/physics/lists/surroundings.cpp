@@ -2,6 +2,7 @@
 #include <sinew/physics/lists/surroundings.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include <sinew/core/parallel.h>
@@ -52,20 +53,28 @@ void Surroundings<Real>::set_order(std::span<const std::int32_t> id) {
     pinned_.push_back(k);
     held_[k / block] = 1;
   }
+  constexpr std::size_t size = kernel::blocks_per_piece * block;
+  first_.assign(pieces_.size() + 1, 0);
+  for (const std::uint32_t k : pinned_) ++first_[k / size + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
 template <class Real>
 void Surroundings<Real>::hold(const Pose& pose, BlockState<Real>& state, const Units& units,
                               std::vector<double>& moved) const {
-  constexpr std::size_t piece = kernel::blocks_per_piece * BlockState<Real>::block;
-  for (const std::uint32_t k : pinned_) {
-    const Pinned& pin = body_->world->pins[pin_[k]];
-    const PinPose place = pin_pose(pin, body_->rest[pin.particle], body_->skeleton, pose);
-    const Vec3 before = state.position(k, units);
-    state.set_position(k, place.position, units);
-    state.set_velocity(k, place.velocity, units);
-    moved[k / piece] = std::max(moved[k / piece], (state.position(k, units) - before).norm());
-  }
+  if (pinned_.empty()) return;
+  parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece)
+      for (std::size_t n = first_[piece]; n < first_[piece + 1]; ++n) {
+        const std::uint32_t k = pinned_[n];
+        const Pinned& pin = body_->world->pins[pin_[k]];
+        const PinPose place = pin_pose(pin, body_->rest[pin.particle], body_->skeleton, pose);
+        const Vec3 before = state.position(k, units);
+        state.set_position(k, place.position, units);
+        state.set_velocity(k, place.velocity, units);
+        moved[piece] = std::max(moved[piece], (state.position(k, units) - before).norm());
+      }
+  });
 }
 
 template <class Real>
@@ -83,7 +92,7 @@ bool Surroundings<Real>::may_touch(const Box& box) const {
   for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
     const RigidFrame& frame = now_.obstacles[k].frame;
     const Vec3 center = frame.rotation.transpose() * (box.center() - frame.origin);
-    if (may_be_near(world.obstacles[k].shape, center, reach * (1 + 1e-9))) return true;
+    if (may_be_near(world.obstacles[k].shape, center, reach * (1 + 1e-5))) return true;
   }
   return false;
 }

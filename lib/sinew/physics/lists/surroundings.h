@@ -32,7 +32,7 @@ struct WorldSums {
 template <class Real>
 class Surroundings {
  public:
-  /// For particles of `mass` (kg) and `radius` (m), and steps as given.
+  /// For particles of `mass` (kg), and steps as given.
   Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping, double mass);
 
   /// Whether there is anything but muscles.
@@ -75,6 +75,7 @@ class Surroundings {
   bool any_, everywhere_;
   std::vector<std::uint32_t> pin_;     ///< by particle in the kernel's order; empty without pins
   std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
+  std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces
   std::vector<std::uint8_t> touched_;  ///< by block
   std::vector<std::uint8_t> held_;     ///< by block: whether it has pins
   std::vector<Piece> pieces_;

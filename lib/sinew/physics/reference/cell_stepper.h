@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps as the paper describes them, with its cells sorted again in every step: the readable
-// reference, and the stepper for whatever the kernel does not support.
+// reference.
 //
 //     CellStepper stepper(body, stepping, particles);
 //     const StepSums sums = stepper.step(pose);
