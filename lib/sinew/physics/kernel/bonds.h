@@ -156,11 +156,11 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
 }
 
 /// A function of its own, so that the fast path keeps its values in registers.
-template <class L, PairLaw pairs, Pass pass, bool energy>
+template <class L, PairLaw pairs, Pass pass>
 [[gnu::noinline, gnu::cold]] void sum_partners_carefully(const Step<typename L::Real>& step,
                                                          std::size_t block, int lane,
                                                          PairSums<L>& sums, Met<L>& met) {
-  sums = sum_partners<L, pairs, pass, energy, true>(step, SolidLaw<L>(step), block, lane, met);
+  sums = sum_partners<L, pairs, pass, false, true>(step, SolidLaw<L>(step), block, lane, met);
 }
 
 template <class L>
@@ -176,12 +176,13 @@ template <class L, PairLaw pairs, Pass pass, bool energy>
 SINEW_INLINE PairSums<L> partner_sums(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                                       std::size_t block, int lane, bool& strained) {
   Met<L> met;
-  PairSums<L> sums = sum_partners<L, pairs, pass, energy, false>(step, law, block, lane, met);
-  if (needs_care(law, met, sums.force.x)) [[unlikely]] {
-    PairSums<L> careful;
-    sum_partners_carefully<L, pairs, pass, energy>(step, block, lane, careful, met);
-    sums = careful;
-  }
+  PairSums<L> sums = sum_partners<L, pairs, pass, energy, energy>(step, law, block, lane, met);
+  if constexpr (pass != counts && !energy)
+    if (needs_care(law, met, sums.force.x)) [[unlikely]] {
+      PairSums<L> careful;
+      sum_partners_carefully<L, pairs, pass>(step, block, lane, careful, met);
+      sums = careful;
+    }
   strained = pairs == changing_springs && L::any(L::less(L::all(0), met.strained));
   return sums;
 }

@@ -250,27 +250,28 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
 }
 
 /// A function of its own, so that the fast path keeps its values in registers.
-template <class L, Pass pass, bool energy>
+template <class L, Pass pass>
 [[gnu::noinline, gnu::cold]] void sum_pairs_carefully(const Step<typename L::Real>& step,
                                                       std::ptrdiff_t i, const std::int32_t* begin,
                                                       const std::int32_t* end, PairSums<L>& sums) {
   typename L::V least;
-  sums = sum_pairs<L, pass, energy, true>(step, PullLaw<L>(step.law), i, begin, end, least);
+  sums = sum_pairs<L, pass, false, true>(step, PullLaw<L>(step.law), i, begin, end, least);
 }
 
+/// With energies, what is probed and not stepped, always with care.
 template <class L, Pass pass, bool energy>
 SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const PullLaw<L>& law,
                                    std::ptrdiff_t i, const std::int32_t* begin,
                                    const std::int32_t* end) {
   typename L::V least;
-  PairSums<L> sums = sum_pairs<L, pass, energy, false>(step, law, i, begin, end, least);
-  if (law.needs_care(least, sums.force.x)) [[unlikely]] {
-    PairSums<L> careful;
-    sum_pairs_carefully<L, pass, energy>(step, i, begin, end, careful);
-    sums.force = {careful.force.x, careful.force.y, careful.force.z};
-    sums.velocities = {careful.velocities.x, careful.velocities.y, careful.velocities.z};
-    sums.energy = careful.energy;
-  }
+  PairSums<L> sums = sum_pairs<L, pass, energy, energy>(step, law, i, begin, end, least);
+  if constexpr (pass != counts && !energy)
+    if (law.needs_care(least, sums.force.x)) [[unlikely]] {
+      PairSums<L> careful;
+      sum_pairs_carefully<L, pass>(step, i, begin, end, careful);
+      sums.force = {careful.force.x, careful.force.y, careful.force.z};
+      sums.velocities = {careful.velocities.x, careful.velocities.y, careful.velocities.z};
+    }
   return sums;
 }
 

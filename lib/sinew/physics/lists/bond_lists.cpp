@@ -20,24 +20,32 @@ namespace {
 constexpr std::size_t blocks_per_search = 512;
 constexpr double same_kind = 1e-9;  // in radii: far above rounding, far below any strain
 
-/// Kinds by their vectors, in the order in which they were met.
+/// Kinds by their vectors, in the order in which they were met. Both directions of a bond have the
+/// same length to the last bit.
 class Kinds {
  public:
   explicit Kinds(double unit) : unit_(unit) {}
 
   std::uint32_t of(const Vec3& rest) {
-    std::array<std::int64_t, 3> key{};
-    for (int axis = 0; axis < 3; ++axis) key[axis] = std::llround(rest[axis] / unit_);
+    Key key{}, opposite{};
+    for (int axis = 0; axis < 3; ++axis) {
+      key[axis] = std::llround(rest[axis] / unit_);
+      opposite[axis] = -key[axis];
+    }
     const auto [at, added] = number_.try_emplace(key, static_cast<std::uint32_t>(met.size()));
-    if (added) met.push_back(rest);
+    if (!added) return at->second;
+    const auto known = number_.find(opposite);
+    met.push_back(known == number_.end() || known == at ? rest : Vec3(-met[known->second]));
     return at->second;
   }
 
   std::vector<Vec3> met;
 
  private:
+  using Key = std::array<std::int64_t, 3>;
+
   double unit_;
-  std::map<std::array<std::int64_t, 3>, std::uint32_t> number_;
+  std::map<Key, std::uint32_t> number_;
 };
 
 /// The neighbors at rest of a body's particles, by place in the kernel's order.
