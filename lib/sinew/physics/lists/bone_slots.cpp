@@ -30,7 +30,7 @@ std::vector<double> centers(const Body& body) {
 template <class Real>
 void hold(const Body& body, const Influence& influence, const Vec3& rest, double center,
           const Units& units, Real* lane) {
-  constexpr int block = kernel::Traits<Real>::block;
+  constexpr std::size_t block = kernel::Traits<Real>::block;
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
   const double r = body.material.pair.r;
@@ -41,7 +41,7 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
                                               aside ? local.y() : 0, aside ? local.z() : 0,
                                               distance};
-  for (int field = 0; field < kernel::held_fields; ++field)
+  for (std::size_t field = 0; field < kernel::held_fields; ++field)
     lane[field * block] = static_cast<Real>(fields[field] / units.length);
 }
 
@@ -49,7 +49,7 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
 template <class Real>
 class Filler {
  public:
-  static constexpr int block = kernel::Traits<Real>::block;
+  static constexpr std::size_t block = kernel::Traits<Real>::block;
 
   Filler(const Body& body, const Units& units, BoneSlots<Real>& out)
       : body_(body), units_(units), out_(out) {}
