@@ -96,17 +96,12 @@ SINEW_INLINE typename L::V repulsion_energy(const Law<typename L::Real>& law, ty
   return L::all(law.k1) * (overlap * overlap) * (L::all(4) * r + d) / (L::all(3) * r);
 }
 
-/// The sums over a vector's bonds and contacts. `careful` handles all distances; without it, those
-/// for which the law's `inverse` is made.
+/// Adds a vector's bonds.
 template <class L, PairLaw pairs, Pass pass, bool energy, bool careful>
-SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const SolidLaw<L>& law,
-                                      std::size_t block, int lane, Met<L>& met) {
+SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                            std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
+                            Adder<L, pass, energy>& sums, Met<L>& met) {
   using V = typename L::V;
-  const std::ptrdiff_t i =
-      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
-  const Place<L> here = load_place<L>(step.before.x, i);
-  Adder<L, pass, energy> sums;
-  V least = law.touching2, most = law.touching2, strained = L::all(0);
   for_each_bond<L>(
       step.bonds, block,
       lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
@@ -127,14 +122,23 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
             part<L>(step, i, j, squared, L::all(bond.kind->stiffness) * bond.length, pull, d,
                     apart.x);
           if constexpr (pairs == changing_springs)
-            strained = L::larger(strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
+            met.strained =
+                L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
           sums.add(step, i, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
         }
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(counted, squared, law.touching2);
-          least = L::smaller(met_at, least), most = L::larger(met_at, most);
+          met.least = L::smaller(met_at, met.least), met.most = L::larger(met_at, met.most);
         }
       });
+}
+
+/// Adds its contacts: pairs that touch and are not bonded.
+template <class L, Pass pass, bool energy, bool careful>
+SINEW_INLINE void add_contacts(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                               std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
+                               Adder<L, pass, energy>& sums, Met<L>& met) {
+  using V = typename L::V;
   const Lists& lists = step.lists[block / blocks_per_piece];
   const std::uint32_t* first = lists.first + block % blocks_per_piece;
   for (std::uint32_t n = first[0]; n != first[1]; ++n) {
@@ -149,9 +153,23 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
     V pull = L::less_fused(law.k1, squared, law.push) * inverse;
     if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
     sums.add(step, i, j, near, pull, apart, [&] { return repulsion_energy<L>(step.law, d); });
-    if constexpr (sizeof(typename L::Real) == 8) least = L::smaller(squared, least);
+    if constexpr (sizeof(typename L::Real) == 8) met.least = L::smaller(squared, met.least);
   }
-  met = {least, most, strained};
+}
+
+/// The sums over both. `careful` handles all distances; without it, those for which the law's
+/// `inverse` is made.
+template <class L, PairLaw pairs, Pass pass, bool energy, bool careful>
+SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                                      std::size_t block, int lane, Met<L>& met) {
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  Adder<L, pass, energy> sums;
+  Met<L> now{law.touching2, law.touching2};
+  add_bonds<L, pairs, pass, energy, careful>(step, law, block, lane, i, here, sums, now);
+  add_contacts<L, pass, energy, careful>(step, law, block, lane, i, here, sums, now);
+  met = now;
   return sums.sums();
 }
 
@@ -206,8 +224,8 @@ Real forget_volume(const Volumes<Real>& volumes, std::ptrdiff_t i) {
 }
 
 /// Lets the bonds of a vector creep and break: both directions of a bond see the same distance to
-/// the last bit, and change alike. Returns the energy that is lost. A pair whose bond broke repels
-/// like any other.
+/// the last bit, and change alike. Adds the energy that is lost, per time, to `lost`. A pair whose
+/// bond broke repels like any other.
 template <class L>
 [[gnu::noinline]] void change_bonds(const Step<typename L::Real>& step, std::size_t block, int lane,
                                     typename L::Real* lost, bool& broke) {
