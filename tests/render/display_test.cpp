@@ -45,4 +45,19 @@ TEST(Display, ends_with_the_program_even_when_that_is_killed) {
   EXPECT_FALSE(std::filesystem::exists(socket));
 }
 
+TEST(Display, answers_a_program_that_connects_again_and_again) {
+  // The greeting of a client without credentials, least significant byte first; 1 means welcome.
+  const std::string connect =
+      "python3 -c \"import os, socket, struct\n"
+      "for _ in range(500):\n"
+      " server = socket.socket(socket.AF_UNIX)\n"
+      " server.connect('/tmp/.X11-unix/X' + os.environ['DISPLAY'][1:])\n"
+      " server.send(struct.pack('<BxHHHH2x', 0x6c, 11, 0, 0, 0))\n"
+      " assert server.recv(8)[:1] == bytes([1])\n"
+      " server.close()\"";
+  std::string output;
+  EXPECT_EQ(run("env -u DISPLAY " + self() + " --become " + connect + " 2>&1", &output), 0)
+      << output;
+}
+
 }  // namespace sinew::display_test

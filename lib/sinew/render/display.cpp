@@ -23,8 +23,8 @@ Error no_display(const std::string& why) {
                "no display to draw on: " + why + "; install it with: apt-get install xvfb");
 }
 
-/// The connection stays open while the program runs: a server whose last client disconnects resets,
-/// and meanwhile refuses connections.
+/// The connection stays open while the program runs: another's server may reset when its last
+/// client disconnects, and meanwhile refuse connections.
 bool display_answers() {
   static Display* connection = nullptr;
   if (!connection && std::getenv("DISPLAY")) connection = XOpenDisplay(nullptr);
@@ -39,8 +39,10 @@ bool display_answers() {
   const int null = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
   fcntl(report, F_SETFD, 0);
-  execlp("Xvfb", "Xvfb", name, "-displayfd", report_text, "-screen", "0", "1280x1024x24",
-         "-nolisten", "tcp", static_cast<char*>(nullptr));
+  // Without -noreset a server whose last client disconnects resets, and meanwhile refuses
+  // connections: a program that opens one display after another, as ParaView does, would abort.
+  execlp("Xvfb", "Xvfb", name, "-displayfd", report_text, "-noreset", "-screen", "0",
+         "1280x1024x24", "-nolisten", "tcp", static_cast<char*>(nullptr));
   _exit(errno == ENOENT ? not_found : 1);
 }
 
