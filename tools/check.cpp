@@ -176,6 +176,6 @@ int main(int argc, char** argv) {
        "Reports what a run needs, and doubtful settings of its scene.",
        {"sinew check configs/box_bend.yaml",
         "sinew check configs/box_bend.yaml --set body.radius=0.005"}},
-      [&](CLI::App& app) { app.add_option("SCENE", scene, "Scene file (YAML)")->required(); },
+      [&](OptionList& list) { list.add("SCENE", scene, "Scene file (YAML)").required(); },
       [&](const Common& common) { return check(scene, common); });
 }

@@ -19,15 +19,12 @@ struct Options {
   BodyFlags body;
 };
 
-void declare(CLI::App& app, Options& options) {
-  app.add_option("INPUT", options.input, "Scene (YAML), or mesh (" + mesh_formats() + ')')
-      ->required();
-  app.add_option("-o", options.output, "File of the filled body")
-      ->type_name("FILE")
-      ->capture_default_str();
-  app.add_flag("--verify", options.verify,
-               "Check every site against CGAL's Side_of_triangle_mesh (closed meshes; slow)");
-  options.body.declare(app);
+void declare(OptionList& list, Options& options) {
+  list.add("INPUT", options.input, "Scene (YAML), or mesh (" + mesh_formats() + ')').required();
+  list.add("-o", options.output, "File of the filled body").type_name("FILE").show_default();
+  list.add_flag("--verify", options.verify,
+                "Check every site against CGAL's Side_of_triangle_mesh (closed meshes; slow)");
+  options.body.declare(list);
 }
 
 Settings settings_for_mesh(const Options& options, const Common& common) {
@@ -81,6 +78,6 @@ int main(int argc, char** argv) {
        "Fills a mesh, or the mesh of a scene, with closest-packed particles.",
        {"sinew fill configs/box_bend.yaml", "sinew fill body.obj --radius 0.01 -o body.vtu",
         "sinew fill body.stl --unit mm --count 100000 --packing hcp --verify"}},
-      [&](CLI::App& app) { declare(app, options); },
+      [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) { return fill(options, common); });
 }

@@ -288,17 +288,17 @@ int main(int argc, char** argv) {
        "Describes a mesh, rig, clip or scene and lists its defects.",
        {"sinew info data/meshes/box.obj", "sinew info part.stl --unit mm -o defects.vtu",
         "sinew info configs/box_bend.yaml", "sinew info data/motions/walk.bvh --radius 0.01"}},
-      [&](CLI::App& app) {
-        app.add_option("FILE", options.path,
-                       "Mesh (" + mesh_formats() + "), rig (" + rig_formats +
-                           ") or scene, rig or clip (YAML)")
-            ->required();
-        app.add_option("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
-            ->type_name("FILE.vtu");
-        app.add_option("--radius", options.radius,
-                       "Radius of particles, m: report how fast the rig would move them")
-            ->check(CLI::PositiveNumber);
-        options.body.declare(app, BodyFlags::Kind::mesh);
+      [&](OptionList& list) {
+        list.add("FILE", options.path,
+                 "Mesh (" + mesh_formats() + "), rig (" + rig_formats +
+                     ") or scene, rig or clip (YAML)")
+            .required();
+        list.add("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
+            .type_name("FILE.vtu");
+        list.add("--radius", options.radius,
+                 "Radius of particles, m: report how fast the rig would move them")
+            .positive();
+        options.body.declare(list, BodyFlags::Kind::mesh);
       },
       [&](const Common& common) { return info(options, common); });
 }

@@ -22,24 +22,23 @@ struct Options {
   std::string reference, arrays, out;
 };
 
-void declare(CLI::App& app, Options& options) {
-  app.add_option("DIR", options.folders, "Folder of the run, or folders of two runs to compare")
-      ->required()
-      ->expected(1, 2);
-  app.add_option("-o", options.out, "Folder for the comparison of two runs")->type_name("DIR");
-  app.add_option("--fail-on", options.limits,
-                 "Exit with code 1 if this holds in any frame, such as 'volume_error > 0.05'; for "
-                 "two runs a metric is the second's minus the first's")
-      ->type_name("LIMIT")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--reference", options.reference,
-                 "Also measure the distance to the surfaces of this series")
-      ->type_name("FILE.pvd");
-  app.add_option("--arrays", options.arrays,
-                 "Also write these arrays of every particle and frame, as values.pvd: F, J, "
-                 "stress, ...; all")
-      ->type_name("NAMES");
+void declare(OptionList& list, Options& options) {
+  list.add("DIR", options.folders, "Folder of the run, or folders of two runs to compare")
+      .required()
+      .expected(1, 2);
+  list.add("-o", options.out, "Folder for the comparison of two runs").type_name("DIR");
+  list.add("--fail-on", options.limits,
+           "Exit with code 1 if this holds in any frame, such as 'volume_error > 0.05'; for "
+           "two runs a metric is the second's minus the first's")
+      .type_name("LIMIT")
+      .repeatable();
+  list.add("--reference", options.reference,
+           "Also measure the distance to the surfaces of this series")
+      .type_name("FILE.pvd");
+  list.add("--arrays", options.arrays,
+           "Also write these arrays of every particle and frame, as values.pvd: F, J, "
+           "stress, ...; all")
+      .type_name("NAMES");
 }
 
 double worst_of(const Measured& measured, const Metric& metric, const MetricSummary& summary) {
@@ -149,7 +148,7 @@ int main(int argc, char** argv) {
        "sinew measure out/box_bend --arrays 'J, strain, stress'"}};
   about.takes_scene = false;
   return run_command(
-      argc, argv, about, [&](CLI::App& app) { declare(app, options); },
+      argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) {
         return options.folders.size() == 2 ? compare_folders(options, common)
                                            : measure_folder(options, common);

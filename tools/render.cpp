@@ -37,44 +37,36 @@ std::string help_of_colormap() {
   return text;
 }
 
-void declare_what(CLI::App& app, Options& options) {
-  app.add_option("DIR", options.folder, "Folder of the run")->required();
-  app.add_option("--view", options.views, help_of_views())
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NAMES");
-  app.add_option("--compare", options.other_folder, "Another run, shown beside this one")
-      ->type_name("DIR");
-  app.add_option("--times", options.times,
-                 "Times of the pictures, s; chosen by the motion if not given")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("T,T,...");
-  app.add_option("--array", options.array,
-                 "Array shown in color: displacement, velocity, force_pair, strain, J, ...")
-      ->type_name("NAME");
-  app.add_flag("--no-movie", options.no_movie, "Pictures only");
-  app.add_option("-o", options.target, "Folder of the pictures, by default DIR/pictures");
+void declare_what(OptionList& list, Options& options) {
+  list.add("DIR", options.folder, "Folder of the run").required();
+  list.add("--view", options.views, help_of_views()).comma_separated().type_name("NAMES");
+  list.add("--compare", options.other_folder, "Another run, shown beside this one")
+      .type_name("DIR");
+  list.add("--times", options.times, "Times of the pictures, s; chosen by the motion if not given")
+      .comma_separated()
+      .type_name("T,T,...");
+  list.add("--array", options.array,
+           "Array shown in color: displacement, velocity, force_pair, strain, J, ...")
+      .type_name("NAME");
+  list.add_flag("--no-movie", options.no_movie, "Pictures only");
+  list.add("-o", options.target, "Folder of the pictures, by default DIR/pictures");
 }
 
-void declare_how(CLI::App& app, Options& options) {
-  app.add_option("--range", options.range, "Values of the lowest and highest color")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("LOW,HIGH");
-  app.add_option("--colormap", options.colors, help_of_colormap())
-      ->type_name("NAME")
-      ->capture_default_str();
-  app.add_option("--camera", options.camera,
-                 "three_quarter, front, back, left, right, top, or the direction toward the viewer")
-      ->type_name("NAME or X,Y,Z")
-      ->capture_default_str();
-  app.add_option("--width", options.width, "Width of pictures and movie, pixels")
-      ->check(CLI::Range(64, 8192))
-      ->capture_default_str();
-  app.add_option("--height", options.height, "Height of pictures and movie, pixels")
-      ->check(CLI::Range(64, 8192))
-      ->capture_default_str();
+void declare_how(OptionList& list, Options& options) {
+  list.add("--range", options.range, "Values of the lowest and highest color")
+      .comma_separated()
+      .type_name("LOW,HIGH");
+  list.add("--colormap", options.colors, help_of_colormap()).type_name("NAME").show_default();
+  list.add("--camera", options.camera,
+           "three_quarter, front, back, left, right, top, or the direction toward the viewer")
+      .type_name("NAME or X,Y,Z")
+      .show_default();
+  list.add("--width", options.width, "Width of pictures and movie, pixels")
+      .range(64, 8192)
+      .show_default();
+  list.add("--height", options.height, "Height of pictures and movie, pixels")
+      .range(64, 8192)
+      .show_default();
 }
 
 FigureSetOptions figure_set_options(const Options& options) {
@@ -137,6 +129,6 @@ int main(int argc, char** argv) {
   about.takes_scene = false;
   return run_command(
       argc, argv, about,
-      [&](CLI::App& app) { declare_what(app, options), declare_how(app, options); },
+      [&](OptionList& list) { declare_what(list, options), declare_how(list, options); },
       [&](const Common& common) { return render(options, common); });
 }

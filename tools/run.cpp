@@ -85,9 +85,9 @@ int main(int argc, char** argv) {
        "Fills, simulates, renders and measures a scene.",
        {"sinew run configs/box_bend.yaml",
         "sinew run configs/box_bend.yaml -o /tmp/soft --set body.radius=0.014"}},
-      [&](CLI::App& app) {
-        declare(app, options);
-        app.add_flag("--no-movie", options.no_movie, "Pictures only");
+      [&](OptionList& list) {
+        declare(list, options);
+        list.add_flag("--no-movie", options.no_movie, "Pictures only");
       },
       [&](const Common& common) { return run(options, common); });
 }

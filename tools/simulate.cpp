@@ -82,6 +82,6 @@ int main(int argc, char** argv) {
        "Moves the bones of a scene and writes the motion of the body.",
        {"sinew simulate configs/box_bend.yaml",
         "sinew simulate configs/box_bend.yaml -o /tmp/soft --set material.young_modulus=5000"}},
-      [&](CLI::App& app) { declare(app, options); },
+      [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) { return simulate_scene(argc, argv, options, common); });
 }

@@ -29,22 +29,18 @@ struct Options {
   bool live = false;
 };
 
-void declare(CLI::App& app, Options& options) {
-  app.add_option("DIR", options.folder, "Folder of the run")->required();
-  app.add_flag("--live", options.live, "Follow a run in progress");
-  app.add_option("--array", options.array,
-                 "Array that colors the particles, by default displacement");
-  app.add_option("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
-  app.add_option("--forces", options.forces,
-                 "Arrows of a force: force_pair if none is named, force_bone, force, ...")
-      ->expected(0, 1);
-  app.add_option("--time", options.time, "Time of the picture, s");
-  app.add_option("--size", options.size, "Size of the picture, pixels")
-      ->expected(2)
-      ->type_name("W H");
-  app.add_option("--picture", options.picture,
-                 "Write a picture to this file instead of opening a window")
-      ->type_name("FILE.png");
+void declare(OptionList& list, Options& options) {
+  list.add("DIR", options.folder, "Folder of the run").required();
+  list.add_flag("--live", options.live, "Follow a run in progress");
+  list.add("--array", options.array, "Array that colors the particles, by default displacement");
+  list.add("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
+  list.add("--forces", options.forces,
+           "Arrows of a force: force_pair if none is named, force_bone, force, ...")
+      .expected(0, 1);
+  list.add("--time", options.time, "Time of the picture, s");
+  list.add("--size", options.size, "Size of the picture, pixels").expected(2).type_name("W H");
+  list.add("--picture", options.picture, "Write a picture to this file instead of opening a window")
+      .type_name("FILE.png");
 }
 
 /// The options of the script.
@@ -180,6 +176,6 @@ int main(int argc, char** argv) {
                "sinew view out/box_bend --picture bent.png --time 1"}};
   about.takes_scene = false;
   return run_command(
-      argc, argv, about, [&](CLI::App& app) { declare(app, options); },
+      argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common&) { return view(options); });
 }

@@ -113,4 +113,16 @@ TEST(RotationPart, IsProperForInvertedAndSingularGradients) {
   EXPECT_LT((rotation_part(R * Vec3(1.2, 1, 0).asDiagonal()) - R).norm(), 1e-12);
 }
 
+TEST(RotationPart, OfALineIsTheShortest) {
+  std::mt19937 random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vec3 from = random_matrix(random).col(0).normalized();
+    const Vec3 to = trial == 0 ? Vec3(-from) : Vec3(random_matrix(random).col(1).normalized());
+    const Mat3 R = rotation_part(2 * to * from.transpose());
+    EXPECT_LT((R * from - to).norm(), 1e-12);
+    EXPECT_LT((R * R.transpose() - Mat3::Identity()).norm(), 1e-12);
+    EXPECT_NEAR(R.trace(), 1 + 2 * from.dot(to), 1e-12);  // 1 + 2 cos of the angle between them
+  }
+}
+
 }  // namespace sinew::deformation_test

@@ -41,9 +41,9 @@ Exit sample(const Options& options, const Common& common) {
 
 int main(int argc, char** argv) {
   Options options;
-  const auto declare = [&](CLI::App& app) {
-    app.add_option("SCENE", options.scene, "The scene")->required();
-    app.add_option("--fail", options.fail, "A way to fail");
+  const auto declare = [&](OptionList& list) {
+    list.add("SCENE", options.scene, "The scene").required();
+    list.add("--fail", options.fail, "A way to fail");
   };
   return run_command(argc, argv, about, declare,
                      [&](const Common& common) { return sample(options, common); });

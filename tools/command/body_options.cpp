@@ -54,7 +54,7 @@ std::string help_of(const Row& row) {
 
 }  // namespace
 
-void BodyFlags::declare(CLI::App& app, Kind kind) {
+void BodyFlags::declare(OptionList& list, Kind kind) {
   const auto wanted = wanted_rows(kind);
   given_.resize(wanted.size());  // options keep pointers to their values
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -64,19 +64,16 @@ void BodyFlags::declare(CLI::App& app, Kind kind) {
     one.option = option_name(row);
     one.flag = row.kind == FieldKind::flag;
     const std::string help = help_of(row);
-    CLI::Option* option =
-        one.flag ? app.add_flag_function(
-                       one.option, [](std::int64_t) {}, help)
-                 : app.add_option(one.option, one.value, help)->type_name(type_name(row));
-    option->group("Options for a mesh");
-    one.parsed = option;
+    one.parsed = one.flag ? list.add_flag(one.option, help)
+                          : list.add(one.option, one.value, help).type_name(type_name(row));
+    one.parsed->group("Options for a mesh");
   }
 }
 
 std::vector<Override> BodyFlags::overrides() const {
   std::vector<Override> all;
   for (const Given& one : given_) {
-    if (one.parsed->count() == 0) continue;
+    if (!one.parsed->given()) continue;
     std::string value = one.flag ? "true" : one.value;
     if (value.find(',') != std::string::npos && value.front() != '[') value = '[' + value + ']';
     all.push_back({one.path, value, one.option + (one.flag ? "" : ' ' + one.value)});

@@ -3,15 +3,15 @@
 // body.radius. They are generated from the table of settings.
 //
 //     BodyFlags flags;
-//     flags.declare(app);
+//     flags.declare(list);
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <sinew/settings/read_scene.h>
+#include "command/option_list.h"
 
 namespace sinew {
 
@@ -23,7 +23,7 @@ class BodyFlags {
   };
 
   /// Adds one option for each.
-  void declare(CLI::App& app, Kind kind = Kind::all);
+  void declare(OptionList& list, Kind kind = Kind::all);
 
   bool any() const { return !overrides().empty(); }
 
@@ -34,7 +34,7 @@ class BodyFlags {
   struct Given {
     std::string path, option, value;
     bool flag;
-    const CLI::Option* parsed;
+    std::optional<CommandOption> parsed;
   };
   std::vector<Given> given_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command/command.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -33,16 +34,16 @@ std::string help_footer(const About& about) {
 void declare_common(CLI::App& app, const About& about, Given& given) {
   app.set_help_flag("-h,--help", "Show this help and exit");
   app.set_version_flag("--version", "sinew " + version(), "Show the version and exit");
-  app.add_flag("--quiet", given.common.quiet, "Print no progress and no messages");
-  app.add_flag("--json", given.common.json, "Print the results as one JSON object");
-  app.add_option("--threads", given.common.threads, "Threads to use; 0: one per core")
-      ->type_name("N")
-      ->check(CLI::Range(0, most_threads));
+  OptionList list(app);
+  list.add_flag("--quiet", given.common.quiet, "Print no progress and no messages");
+  list.add_flag("--json", given.common.json, "Print the results as one JSON object");
+  list.add("--threads", given.common.threads, "Threads to use; 0: one per core")
+      .type_name("N")
+      .range(0, most_threads);
   if (about.takes_scene)
-    app.add_option("--set", given.sets, "Use this value instead of the scene's; may be repeated")
-        ->type_name("SECTION.KEY=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    list.add("--set", given.sets, "Use this value instead of the scene's; may be repeated")
+        .type_name("SECTION.KEY=VALUE")
+        .repeatable();
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -82,13 +83,14 @@ bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
 }
 
 Exit parse_and_run(int argc, char** argv, const About& about,
-                   const std::function<void(CLI::App&)>& declare,
+                   const std::function<void(OptionList&)>& declare,
                    const std::function<Exit(const Common&)>& job) {
   CLI::App app(about.purpose, "sinew " + about.name);
   Given given;
   app.option_defaults()->always_capture_default(false);
   app.get_formatter()->column_width(34);
-  declare(app);
+  OptionList list(app);
+  declare(list);
   declare_common(app, about, given);
   app.footer(help_footer(about));
   if (!parse(app, argc, argv, "see sinew " + about.name + " --help")) return Exit::done;
@@ -124,7 +126,7 @@ int run_reporting_errors(const std::function<Exit()>& job) {
 }
 
 int run_command(int argc, char** argv, const About& about,
-                const std::function<void(CLI::App&)>& declare,
+                const std::function<void(OptionList&)>& declare,
                 const std::function<Exit(const Common&)>& job) {
   return run_reporting_errors([&] { return parse_and_run(argc, argv, about, declare, job); });
 }

@@ -4,7 +4,6 @@
 //     int main(int argc, char** argv) { return run_command(argc, argv, about, declare, job); }
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/settings/read_scene.h>
+#include "command/option_list.h"
 
 namespace sinew {
 
@@ -35,7 +35,7 @@ struct Common {
 /// threads. Returns the exit code; an error, also in the command line, is printed as one line
 /// "sinew: WHAT; CURE" on standard error.
 int run_command(int argc, char** argv, const About& about,
-                const std::function<void(CLI::App&)>& declare,
+                const std::function<void(OptionList&)>& declare,
                 const std::function<Exit(const Common&)>& job);
 
 /// Runs `job` and returns its exit code, or that of the error it throws, reported as above.
@@ -52,14 +52,15 @@ struct RunOptions {
   std::string invoked_as = "simulate";  ///< the command that the user called, to be named in hints
 };
 
-inline void declare(CLI::App& app, RunOptions& options) {
-  app.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
-  app.add_option("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
-      ->type_name("DIR");
-  auto* force = app.add_flag("--force", options.force, "Replace an older run in the folder");
-  app.add_flag("--resume", options.resume, "Continue a run that was stopped")->excludes(force);
+inline void declare(OptionList& list, RunOptions& options) {
+  list.add("SCENE", options.scene, "Scene file (YAML)").required();
+  list.add("-o", options.folder, "Folder of the run; by default out/NAME-OF-SCENE")
+      .type_name("DIR");
+  const CommandOption force =
+      list.add_flag("--force", options.force, "Replace an older run in the folder");
+  list.add_flag("--resume", options.resume, "Continue a run that was stopped").excludes(force);
   // Passed by run to simulate; in no help.
-  app.add_option("--invoked-as", options.invoked_as)->group("");
+  list.add("--invoked-as", options.invoked_as).group("");
 }
 
 }  // namespace sinew

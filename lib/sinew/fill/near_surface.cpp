@@ -176,7 +176,7 @@ Interval DilatedTriangle::along_at_most(double across, double up) const {
 namespace {
 
 constexpr int tile_edge = 16;  // layers, and rows of each
-constexpr std::size_t faces_at_a_time = 1024, points_at_a_time = 8192;
+constexpr std::size_t faces_per_task = 1024, points_per_task = 8192;
 
 /// Divides the rows into tiles, so that working memory stays small and each row belongs to one
 /// thread. All faces that may meet a tile's rows are assigned to it first.
@@ -220,17 +220,17 @@ class Rasterizer {
   }
 
   void turn_points() {
-    parallel_for(points_.size(), points_at_a_time, [&](std::size_t begin, std::size_t end) {
+    parallel_for(points_.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) points_[i] = rows_.turned(surface_.points[i]);
     });
   }
 
   void sort_into_tiles() {
     const std::size_t faces = surface_.faces.size();
-    std::vector<std::vector<Meeting>> meetings((faces + faces_at_a_time - 1) / faces_at_a_time);
-    parallel_for(faces, faces_at_a_time, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<Meeting>> meetings((faces + faces_per_task - 1) / faces_per_task);
+    parallel_for(faces, faces_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        put_down(static_cast<int>(i), meetings[begin / faces_at_a_time]);
+        put_down(static_cast<int>(i), meetings[begin / faces_per_task]);
     });
     first_.assign(std::size_t(tiles_up_) * tiles_across_ + 1, 0);
     for (const auto& piece : meetings)

@@ -9,38 +9,38 @@
 namespace sinew {
 namespace {
 
-using M = BoneMetrics;
+using B = BoneMetrics;
 
 constexpr std::array bone_table = {
-    BoneMetric{"time", "s", "Simulated time", "t", &M::time},
-    BoneMetric{"bone", "", "Index of the bone, as in frames.pvd", "", &M::bone},
+    BoneMetric{"time", "s", "Simulated time", "t", &B::time},
+    BoneMetric{"bone", "", "Index of the bone, as in frames.pvd", "", &B::bone},
     BoneMetric{"followers", "", "Particles that follow this bone more than any other", "count",
-               &M::followers},
+               &B::followers},
     BoneMetric{"adherence_rms", "m", "Change of their distance to the bone, rms",
-               "sqrt(mean (|x - p| - l0)^2)", &M::adherence_rms},
+               "sqrt(mean (|x - p| - l0)^2)", &B::adherence_rms},
     BoneMetric{"adherence_95", "m", "The same, not exceeded by 95 % of them",
-               "95 % of ||x - p| - l0|", &M::adherence_95},
-    BoneMetric{"adherence_max", "m", "The same, maximum", "max ||x - p| - l0|", &M::adherence_max},
+               "95 % of ||x - p| - l0|", &B::adherence_95},
+    BoneMetric{"adherence_max", "m", "The same, maximum", "max ||x - p| - l0|", &B::adherence_max},
     BoneMetric{"adherence_joint_rms", "m", "The same, rms, within half a width of a joint",
-               "where |c - joint| <= sqrt(A_B) / 2", &M::adherence_joint_rms},
+               "where |c - joint| <= sqrt(A_B) / 2", &B::adherence_joint_rms},
     BoneMetric{"adherence_far_rms", "m", "The same, rms, of the others",
-               "where |c - joint| > sqrt(A_B) / 2", &M::adherence_far_rms},
+               "where |c - joint| > sqrt(A_B) / 2", &B::adherence_far_rms},
     BoneMetric{"radial_mean", "m", "Mean outward displacement from the bone; negative: inward",
-               "mean (|x - p| - l0)", &M::radial_mean},
+               "mean (|x - p| - l0)", &B::radial_mean},
     BoneMetric{"twist_rms", "deg", "Twist about the bone relative to the bone's own, rms",
-               "angle about the axis from q - p to x - p", &M::twist_rms},
-    BoneMetric{"twist_mean", "deg", "The same, mean, signed", "mean alpha", &M::twist_mean},
+               "angle about the axis from q - p to x - p", &B::twist_rms},
+    BoneMetric{"twist_mean", "deg", "The same, mean, signed", "mean alpha", &B::twist_mean},
     BoneMetric{"pose_error_rms", "m", "Distance from the rigid pose, rms", "sqrt(mean |x - q|^2)",
-               &M::pose_error_rms},
+               &B::pose_error_rms},
     BoneMetric{"pose_error_max", "m", "Distance from the rigid pose, maximum", "max |x - q|",
-               &M::pose_error_max},
+               &B::pose_error_max},
     BoneMetric{"volume", "m^3", "Volume of the strained particles that follow it",
-               "sum V0 J, V0 = 4 sqrt(2) r^3, where J is defined", &M::volume},
-    BoneMetric{"volume_ratio", "", "The same, relative to rest", "mean J", &M::volume_ratio},
+               "sum V0 J, V0 = 4 sqrt(2) r^3, where J is defined", &B::volume},
+    BoneMetric{"volume_ratio", "", "The same, relative to rest", "mean J", &B::volume_ratio},
     BoneMetric{"volume_joint_ratio", "", "The same, within half a width of a joint",
-               "mean J where |c - joint| <= sqrt(A_B) / 2", &M::volume_joint_ratio},
+               "mean J where |c - joint| <= sqrt(A_B) / 2", &B::volume_joint_ratio},
     BoneMetric{"volume_far_ratio", "", "The same, of the others",
-               "mean J where |c - joint| > sqrt(A_B) / 2", &M::volume_far_ratio},
+               "mean J where |c - joint| > sqrt(A_B) / 2", &B::volume_far_ratio},
 };
 
 /// Errors in the position of one particle.

@@ -11,10 +11,10 @@
 namespace sinew {
 namespace {
 
-std::string path_of(std::size_t track) { return "tracks[" + std::to_string(track) + "]"; }
+std::string path_in_tracks(std::size_t track) { return "tracks[" + std::to_string(track) + "]"; }
 
-std::string path_of(std::size_t track, std::size_t key) {
-  return path_of(track) + ".keys[" + std::to_string(key) + "]";
+std::string path_in_tracks(std::size_t track, std::size_t key) {
+  return path_in_tracks(track) + ".keys[" + std::to_string(key) + "]";
 }
 
 Quat from_euler(const Vec3& angles, const std::string& order) {
@@ -106,7 +106,7 @@ std::vector<double> times_of(const TrackDefinition& track, std::size_t index,
   std::vector<double> times;
   for (std::size_t i = 0; i < track.keys.size(); ++i) {
     const KeyDefinition& key = track.keys[i];
-    const std::string path = path_of(index, i);
+    const std::string path = path_in_tracks(index, i);
     const double time = time_of(frame_rate, key, path);
     if (i > 0 && !(time > times.back()))
       throw bad_value(path + (key.frame ? ".frame" : ".time"), "keys are not in ascending time",
@@ -114,7 +114,7 @@ std::vector<double> times_of(const TrackDefinition& track, std::size_t index,
     times.push_back(time);
   }
   if (times.empty())
-    throw bad_value(path_of(index), "a track without keys", "give it keys, or remove it");
+    throw bad_value(path_in_tracks(index), "a track without keys", "give it keys, or remove it");
   return times;
 }
 
@@ -122,7 +122,7 @@ RotationCurve rotation_curve(const TrackDefinition& track, std::size_t index) {
   RotationCurve curve;
   for (std::size_t i = 0; i < track.keys.size(); ++i) {
     const KeyDefinition& key = track.keys[i];
-    const Quat rotation = rotation_of(key, track.order, (path_of(index, i)));
+    const Quat rotation = rotation_of(key, track.order, (path_in_tracks(index, i)));
     curve.turns.push_back(
         i > 0 ? turn_between(track.keys[i - 1], key, curve.values.back(), rotation) : Vec3::Zero());
     curve.values.push_back(rotation);
@@ -140,7 +140,7 @@ Curve<Value> curve_of(const TrackDefinition& track, Of&& of) {
 int bone_of(const TrackDefinition& track, std::size_t index, const Skeleton& skeleton,
             const Motion& earlier) {
   const std::string& name = track.bone;
-  const std::string key = path_of(index) + ".bone";
+  const std::string key = path_in_tracks(index) + ".bone";
   const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
                                   [&](const Bone& bone) { return bone.name == name; });
   if (found == skeleton.bones.end())
@@ -181,7 +181,7 @@ Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skel
                    std::optional<double> frame_rate) {
   Motion motion;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    check_order(tracks[i], path_of(i) + ".order");
+    check_order(tracks[i], path_in_tracks(i) + ".order");
     const int bone = bone_of(tracks[i], i, skeleton, motion);
     motion.tracks.push_back(make_track(tracks[i], i, frame_rate));
     motion.tracks.back().bone = bone;

@@ -15,7 +15,7 @@ namespace {
 
 using Bones = std::span<const BoneDefinition>;
 
-std::string path_of(std::size_t bone, const std::string& key = "") {
+std::string path_in_bones(std::size_t bone, const std::string& key = "") {
   const std::string path = "bones[" + std::to_string(bone) + "]";
   return key.empty() ? path : path + '.' + key;
 }
@@ -31,7 +31,8 @@ int parent_of(Bones bones, std::size_t bone, const Skeleton& earlier) {
   if (name.empty()) return no_bone;
   const int parent = index_of(earlier, name);
   if (parent == no_bone)
-    throw bad_value(path_of(bone, "parent"), "no bone before this one is named '" + name + "'",
+    throw bad_value(path_in_bones(bone, "parent"),
+                    "no bone before this one is named '" + name + "'",
                     "name the parent first, or correct the name");
   return parent;
 }
@@ -39,7 +40,7 @@ int parent_of(Bones bones, std::size_t bone, const Skeleton& earlier) {
 void check_connected(Bones bones, std::size_t bone, int parent) {
   const BoneDefinition& given = bones[bone];
   if (!given.connected.value_or(false)) return;
-  const std::string key = path_of(bone, "connected");
+  const std::string key = path_in_bones(bone, "connected");
   if (given.head)
     throw bad_value(key, "bone '" + given.name + "' is connected and has a head of its own",
                     "take out one of them");
@@ -53,11 +54,11 @@ Vec3 head_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent)
   check_connected(bones, bone, parent);
   if (given.head) return *given.head;
   if (parent == no_bone)
-    throw bad_value(path_of(bone, "name"),
+    throw bad_value(path_in_bones(bone, "name"),
                     "bone '" + given.name + "' has neither a parent nor a head",
                     "give it a head: [x, y, z]");
   if (!given.connected.value_or(true))
-    throw bad_value(path_of(bone, "connected"),
+    throw bad_value(path_in_bones(bone, "connected"),
                     "bone '" + given.name + "' is not connected and has no head",
                     "give it a head: [x, y, z]");
   return earlier.bones[static_cast<std::size_t>(parent)].tail();
@@ -68,11 +69,11 @@ Vec3 direction_of(Bones bones, std::size_t bone, const Skeleton& earlier, int pa
   const BoneDefinition& given = bones[bone];
   if (given.direction && given.direction->norm() > 0) return given.direction->normalized();
   if (given.direction)
-    throw bad_value(path_of(bone, "direction"),
+    throw bad_value(path_in_bones(bone, "direction"),
                     "bone '" + given.name + "' has a direction of no length",
                     "give direction: [x, y, z], not all zero");
   if (parent == no_bone)
-    throw bad_value(path_of(bone, "length"),
+    throw bad_value(path_in_bones(bone, "length"),
                     "bone '" + given.name + "' has a length and no direction",
                     "give direction: [x, y, z], or a tail");
   return earlier.bones[static_cast<std::size_t>(parent)].axis();
@@ -81,12 +82,12 @@ Vec3 direction_of(Bones bones, std::size_t bone, const Skeleton& earlier, int pa
 Vec3 tail_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent, const Vec3& head) {
   const BoneDefinition& given = bones[bone];
   if (given.tail && (given.length || given.direction))
-    throw bad_value(path_of(bone, given.length ? "length" : "direction"),
+    throw bad_value(path_in_bones(bone, given.length ? "length" : "direction"),
                     "bone '" + given.name + "' has a tail already",
                     "keep either tail or length and direction");
   if (given.tail) return *given.tail;
   if (!given.length)
-    throw bad_value(path_of(bone), path_of(bone, "tail") + " is missing",
+    throw bad_value(path_in_bones(bone), path_in_bones(bone, "tail") + " is missing",
                     "add tail: [x, y, z], or length: and direction:");
   return head + *given.length * direction_of(bones, bone, earlier, parent);
 }
@@ -98,7 +99,7 @@ JointLimits limits_of(Bones bones, std::size_t bone) {
   if (!given.twist) return limits;
   const auto [least, most] = *given.twist;
   if (!(least <= most))
-    throw bad_value(path_of(bone, "limits.twist"),
+    throw bad_value(path_in_bones(bone, "limits.twist"),
                     "the twist of bone '" + bones[bone].name + "' could be no number from " +
                         number_text(least) + " to " + number_text(most),
                     "give the smaller limit first");
@@ -116,7 +117,7 @@ Mat3 frame_of(const Vec3& axis, double roll) {
 Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
   const BoneDefinition& given = bones[index];
   if (index_of(earlier, given.name) != no_bone)
-    throw bad_value(path_of(index, "name"), "two bones are named '" + given.name + "'",
+    throw bad_value(path_in_bones(index, "name"), "two bones are named '" + given.name + "'",
                     "give each bone a name of its own");
   Bone bone;
   bone.name = given.name;
@@ -126,7 +127,7 @@ Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
       tail_of(bones, index, earlier, bone.parent, bone.rest.origin) - bone.rest.origin;
   bone.length = along.norm();
   if (!(bone.length > 0))
-    throw bad_value(path_of(index, "tail"), "bone '" + given.name + "' has no length",
+    throw bad_value(path_in_bones(index, "tail"), "bone '" + given.name + "' has no length",
                     "move its tail away from its head");
   bone.rest.rotation = frame_of(along, radians(given.roll));
   bone.limits = limits_of(bones, index);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "glTF";
+constexpr std::string_view glb_magic = "glTF";
 constexpr std::size_t header_size = 12;                                    // magic, version, length
 constexpr std::size_t chunk_header_size = 8;                               // length, kind
 constexpr std::uint32_t json_kind = 0x4E4F534A, binary_kind = 0x004E4942;  // "JSON", "BIN\0"
@@ -141,7 +141,7 @@ GltfContainer gltf_container(std::string file, const std::filesystem::path& exte
   if (kind != ".gltf" && kind != ".glb")
     throw bad_input("its extension is " + shown(kind), "give a .gltf or .glb file");
   if (file.empty()) throw damaged_gltf("it is empty");
-  const bool binary = file.starts_with(magic);
+  const bool binary = file.starts_with(glb_magic);
   if (binary && kind == ".gltf") throw bad_input("it is a binary glTF", "rename it to .glb");
   if (binary) return chunks_of(file);
   const auto first = file.find_first_not_of(" \t\r\n");

@@ -110,15 +110,15 @@ int mesh_of(const GltfDocument& document, const GltfShape& shape) {
   return document.nodes[static_cast<std::size_t>(shape.node)].mesh;
 }
 
-struct Size {
+struct MeshSize {
   double vertices = 0, triangles = 0;  // at most
 };
 
-Size size_of(const GltfDocument& document, const GltfMesh& mesh) {
+MeshSize size_of(const GltfDocument& document, const GltfMesh& mesh) {
   const auto count_of = [&](int accessor) {
     return static_cast<double>(document.accessors[static_cast<std::size_t>(accessor)].count);
   };
-  Size size;
+  MeshSize size;
   for (const GltfPrimitive& primitive : mesh.primitives) {
     if (!primitive.is_surface()) continue;
     const double vertices = count_of(primitive.positions());
@@ -132,11 +132,11 @@ Size size_of(const GltfDocument& document, const GltfMesh& mesh) {
 /// A small file can instance one mesh many thousand times.
 void check_size(const CheckedGltf& gltf, const std::vector<GltfShape>& shapes) {
   constexpr double vertex = 64, triangle = 56;  // bytes
-  std::vector<Size> sizes;
+  std::vector<MeshSize> sizes;
   for (const GltfMesh& mesh : gltf.document.meshes) sizes.push_back(size_of(gltf.document, mesh));
-  Size all;
+  MeshSize all;
   for (const GltfShape& shape : shapes) {
-    const Size& size = sizes[static_cast<std::size_t>(mesh_of(gltf.document, shape))];
+    const MeshSize& size = sizes[static_cast<std::size_t>(mesh_of(gltf.document, shape))];
     all.vertices += size.vertices;
     all.triangles += size.triangles;
   }
