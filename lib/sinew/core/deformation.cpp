@@ -73,7 +73,7 @@ std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now
 
 Mat3 rotation_part(const Mat3& F) {
   const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3 sizes = svd.singularValues();
+  const Vec3& sizes = svd.singularValues();
   if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest rotation; of a point: none
     return sizes[0] > 0 ? shortest_rotation(svd.matrixV().col(0), svd.matrixU().col(0))
                         : Mat3(Mat3::Identity());

@@ -261,7 +261,7 @@ class Rasterizer {
     if (first_[tile] == first_[tile + 1]) return runs;
     const int layer = static_cast<int>(tile) / tiles_across_ * tile_edge,
               row = static_cast<int>(tile) % tiles_across_ * tile_edge;
-    std::vector<SiteRanges> found(tile_edge * tile_edge);
+    std::vector<SiteRanges> found(std::size_t{tile_edge} * tile_edge);
     for (std::size_t i = first_[tile]; i < first_[tile + 1]; ++i)
       rasterize(corners(faces_[i]), layer, row, found);
     for (int i = 0; i < tile_edge * tile_edge; ++i) {

@@ -64,7 +64,7 @@ class RowRanges {
         sites_per_meter_(1 / (2 * along_unit_)) {}
 
   Vec3 turned(const Vec3& p) const {
-    const Vec3 from = p - lattice_.origin;
+    Vec3 from = p - lattice_.origin;
     if (!diagonal_) return from;
     return {(from.x() + from.y()) * half_root, (from.x() - from.y()) * half_root, from.z()};
   }

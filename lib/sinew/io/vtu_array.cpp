@@ -88,7 +88,9 @@ template <class From, class To>
 void convert(std::string_view bytes, To* to) {
   const std::size_t count = bytes.size() / sizeof(From);
   parallel_for(count, values_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) to[i] = static_cast<To>(number_at<From>(bytes, i));
+    for (std::size_t i = begin; i < end; ++i)
+      to[i] = static_cast<To>(
+          number_at<From>(bytes, i));  // NOLINT(bugprone-signed-char-misuse): a number
   });
 }
 

@@ -51,6 +51,7 @@ Element element_of(const Column& column, ArrayPlace place, const VtuFormat& form
 std::vector<Element> elements_of(const std::vector<Column>& columns, ArrayPlace place,
                                  const VtuFormat& format) {
   std::vector<Element> elements;
+  elements.reserve(columns.size());
   for (const Column& column : columns) elements.push_back(element_of(column, place, format));
   return elements;
 }

@@ -93,7 +93,7 @@ Surface wrapped(const Surface& surface, double alpha, FillRule rule) {
 Surface prepare(PolygonSoup soup, const BodyOptions& body) {
   check_soup(soup);
   place(soup, body);
-  Surface surface = clean(std::move(soup), {body.weld, body.rule});
+  Surface surface = clean(soup, {body.weld, body.rule});
   if (body.close_holes) surface = without_holes(surface, body.rule);
   if (body.wrap) surface = wrapped(surface, *body.wrap, body.rule);
   return surface;

@@ -175,7 +175,6 @@ SelfIntersections self_intersections(const Triangles& surface, std::size_t most)
 }
 
 std::vector<bool> flat_faces(const Triangles& surface) {
-  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
   const auto point = [&](int i) {
     const Vec3& p = surface.points[i];
     return Point(p.x(), p.y(), p.z());

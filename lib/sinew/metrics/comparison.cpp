@@ -13,7 +13,11 @@ std::string csv_head() {
   std::string line = "time";
   for (const Metric& metric : metrics_table().subspan(1)) {
     const std::string name = ',' + std::string(metric.name);
-    line += is_distance(metric.name) ? name : name + "_a" + name + "_b" + name + "_difference";
+    if (is_distance(metric.name)) {
+      line += name;
+      continue;
+    }
+    for (const char* part : {"_a", "_b", "_difference"}) (line += name) += part;
   }
   return line + '\n';
 }

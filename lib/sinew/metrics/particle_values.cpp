@@ -256,6 +256,7 @@ Column stresses(std::string_view name, const RestBody& rest, const Points& now) 
 
 Column inverted(std::string_view name, const std::vector<double>& J) {
   std::vector<std::int32_t> flags;
+  flags.reserve(J.size());
   for (const double one : J) flags.push_back(one <= 0);
   return column(std::string(name), std::move(flags));
 }

@@ -98,6 +98,7 @@ constexpr std::array<NamedColorMap, 7> names = {{{"indigo", ColorMap::indigo},
 const ColorTable& table_of(ColorMap map) {
   static const std::vector<ColorTable> tables = [] {
     std::vector<ColorTable> made;
+    made.reserve(names.size());
     for (const NamedColorMap& named : names) made.push_back(make_table(named.map));
     return made;
   }();

@@ -105,6 +105,7 @@ void Movie::Encoder::start(const MovieOptions& options) {
 
 void Movie::Encoder::spawn(const std::vector<std::string>& words, int its_end) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

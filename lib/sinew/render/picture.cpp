@@ -26,6 +26,8 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
                       "draw one run at a time");
 }
 
+std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(std::lround(value)); }
+
 /// The exposure with its hollows darkened, but never to black.
 Image with_shadows(const Exposure& exposure, double radius) {
   constexpr float strength = 1.1F, least = 0.3F;
@@ -34,7 +36,7 @@ Image with_shadows(const Exposure& exposure, double radius) {
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     const float light = std::max(least, 1 - strength * hidden[i]);
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      image.rgb[c] = static_cast<std::uint8_t>(light * static_cast<float>(image.rgb[c]) + 0.5F);
+      image.rgb[c] = byte_of(light * static_cast<float>(image.rgb[c]));
   }
   return image;
 }
@@ -44,17 +46,15 @@ void shine_through(Image& image, const Exposure& over, float strength) {
   for (std::size_t i = 0; i < over.coverage.size(); ++i)
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
       const float part = strength * over.coverage[i];
-      image.rgb[c] =
-          static_cast<std::uint8_t>(part * static_cast<float>(over.image.rgb[c]) +
-                                    (1 - part) * static_cast<float>(image.rgb[c]) + 0.5F);
+      image.rgb[c] = byte_of(part * static_cast<float>(over.image.rgb[c]) +
+                             (1 - part) * static_cast<float>(image.rgb[c]));
     }
 }
 
 /// Lightened toward white, so that what is drawn over it is visible.
 void pale(Image& image) {
   constexpr float left = 0.45F;
-  for (std::uint8_t& part : image.rgb)
-    part = static_cast<std::uint8_t>(255 - left * static_cast<float>(255 - part) + 0.5F);
+  for (std::uint8_t& part : image.rgb) part = byte_of(255 - left * static_cast<float>(255 - part));
 }
 
 }  // namespace

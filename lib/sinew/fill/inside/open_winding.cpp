@@ -112,7 +112,8 @@ OpenWinding::Share OpenWinding::share(std::size_t row, int site) const {
 
 OpenWinding::Share OpenWinding::share(std::size_t row, int site, const Enough& enough) const {
   const View from = view(row, site);
-  for (double farness = 3; farness < 50; farness *= 1.7) {
+  double farness = 3;
+  for (int attempt = 0; attempt < 6; ++attempt, farness *= 1.7) {
     double doubt = 0;
     const Share found = sum(from, farness, doubt);
     if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > 3 * doubt) return found;

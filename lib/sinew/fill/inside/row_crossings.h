@@ -42,7 +42,7 @@ class RowFrame {
   /// A point relative to the lattice's origin, in right-handed axes with x along the rows and z up,
   /// m.
   Vec3 turned(const Vec3& p) const {
-    const Vec3 from = p - lattice_.origin;
+    Vec3 from = p - lattice_.origin;
     if (!fcc_) return from;
     constexpr double half = std::numbers::sqrt2 / 2;
     return {(from.x() + from.y()) * half, (from.y() - from.x()) * half, from.z()};
@@ -50,7 +50,7 @@ class RowFrame {
 
   /// b - a in these axes. Accurate across and up even where it is much longer along the rows.
   Vec3 turned_between(const Vec3& a, const Vec3& b) const {
-    const Vec3 d = b - a;
+    Vec3 d = b - a;
     if (!fcc_) return d;
     constexpr double half = std::numbers::sqrt2 / 2;
     const double lost = lost_in(b.y(), a.y(), d.y()) - lost_in(b.x(), a.x(), d.x());
@@ -130,7 +130,7 @@ struct Crossing {
 
 struct RowSite {
   std::int32_t row, site;
-  auto operator<=>(const RowSite&) const = default;
+  auto operator<=>(const RowSite&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct RowCrossings {

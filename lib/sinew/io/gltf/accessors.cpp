@@ -68,7 +68,7 @@ std::int64_t GltfElements::index(std::int64_t i) const {
 void GltfElements::put(std::int64_t i, bool normalized, double* to) const {
   const char* from = first_ + i * step_;
   for (int k = 0; k < parts_; ++k)
-    to[k] = number_at(from + k * size_of(number_), number_, normalized);
+    to[k] = number_at(from + std::ptrdiff_t{k} * size_of(number_), number_, normalized);
 }
 
 std::vector<double> gltf_numbers(const CheckedGltf& gltf, int index) {

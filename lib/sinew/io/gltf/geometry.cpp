@@ -172,7 +172,7 @@ std::vector<GltfShape> shapes_of(const CheckedGltf& gltf) {
 }
 
 PolygonSoup soup_of(const CheckedGltf& gltf) {
-  const PolygonSoup soup = gltf_triangles(gltf, shapes_of(gltf)).soup;
+  PolygonSoup soup = gltf_triangles(gltf, shapes_of(gltf)).soup;
   if (soup.polygons.empty())
     throw bad_input("its scene shows no triangles", "export it with a mesh");
   return soup;

@@ -101,7 +101,7 @@ std::vector<double> sample_times(const GltfNodeMotion& nodes, double rate) {
     throw bad_input("it changes the size of joints, or moves nodes between them, for " +
                         std::to_string(span) + " s: too long to sample",
                     "export it without scale, or in parts");
-  for (double i = 1; i < samples; ++i) times.push_back(first + span * (i / samples));
+  for (int i = 1; i < samples; ++i) times.push_back(first + span * (i / samples));
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

@@ -12,7 +12,7 @@ constexpr double still_scale = 1e-5;
 
 std::vector<double> times_of(const CheckedGltf& gltf, const GltfSampler& sampler,
                              const std::string& user) {
-  const std::vector<double> times = gltf_values(gltf, sampler.times, user + "'s times");
+  std::vector<double> times = gltf_values(gltf, sampler.times, user + "'s times");
   if (times.front() < 0)
     throw damaged_gltf(user + " begins at the time " + std::to_string(times.front()));
   for (std::size_t i = 1; i < times.size(); ++i)

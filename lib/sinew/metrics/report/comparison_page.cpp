@@ -170,7 +170,7 @@ void join_shape(Playback& playback, const Playback& second,
                 const std::array<std::string, 2>& prefixes) {
   const auto bones = static_cast<int>(playback.bone_names.size());
   const auto points = static_cast<int>(playback.points.size());
-  for (std::string& name : playback.bone_names) name = prefixes[0] + name;
+  for (std::string& name : playback.bone_names) name.insert(0, prefixes[0]);
   for (const std::string& name : second.bone_names)
     playback.bone_names.push_back(prefixes[1] + name);
   for (const int bone : second.bone) playback.bone.push_back(bone < 0 ? -1 : bone + bones);

@@ -37,8 +37,8 @@ struct Met {
 template <class L>
 struct Bond {
   const BondKind<typename L::Real>* kind;
-  typename L::M mask;
   std::ptrdiff_t difference;
+  typename L::M mask;
   typename L::V length;  ///< with what it has crept
 };
 
@@ -57,7 +57,7 @@ SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::size_
     typename L::V length = L::all(kind.length);
     if (bonds.creep != nullptr)
       length = length + L::load(bonds.creep + static_cast<std::size_t>(e) * size + lane);
-    visit(Bond<L>{&kind, L::mask(lanes), entry.difference, length}, e);
+    visit(Bond<L>{&kind, entry.difference, L::mask(lanes), length}, e);
   }
 }
 

@@ -57,7 +57,7 @@ constexpr Functions<typename L::Real> functions() {
   add<L, among_neighbors>(all);
   add<L, springs>(all);
   add<L, changing_springs>(all);
-  all.prune_range = prune_range<L>;
+  all.list = list_block<L>;
   all.prune = prune_list<L>;
   all.survey = survey<L>;
   return all;

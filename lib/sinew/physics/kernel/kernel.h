@@ -282,10 +282,11 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
-  /// Copies the differences in [from, to) with a pair of the block within range; returns the end.
-  std::int32_t* (*prune_range)(const PruneInput<Real>&, std::size_t block, std::int64_t from,
-                               std::int64_t to, std::int32_t* kept);
-  /// The same for a list of differences; returns how many are kept.
+  /// Finds the differences with a pair of the block and one of the others (ascending) within range,
+  /// ascending; returns how many. At most twice a block's size for each of the others.
+  std::size_t (*list)(const PruneInput<Real>&, std::size_t block, const std::uint32_t* others,
+                      std::size_t count, std::int32_t* found);
+  /// Keeps the differences with a pair within range; returns how many.
   std::size_t (*prune)(const PruneInput<Real>&, std::size_t block, const Candidates& from,
                        const Candidates& kept);
   /// Surveys a piece relative to `center`.

@@ -12,7 +12,7 @@
 //     fused, less_fused       c + a b and c - a b, rounded once
 //     less, at_most           comparisons, false where a lane is not a number
 //     any, every              over the lanes
-//     mask                    set where the bit of the lane is
+//     mask, bits              set where the bit of the lane is; the reverse
 //     keep, pick, add_where   where the mask is set, else zero, `no`, or `sum` itself
 //     difference, moved       a - b as a number; c displaced by one
 #pragma once

@@ -31,6 +31,7 @@ struct Doubles {
     const __m256i set = _mm256_and_si256(_mm256_set1_epi64x(bits), own);
     return _mm256_castsi256_pd(_mm256_cmpeq_epi64(set, own));
   }
+  static std::uint32_t bits(M m) { return static_cast<std::uint32_t>(_mm256_movemask_pd(m)); }
   static bool any(M m) { return _mm256_movemask_pd(m) != 0; }
   static bool every(M m) { return _mm256_movemask_pd(m) == 0xf; }
   static V keep(M m, V v) { return _mm256_and_pd(m, v); }
@@ -68,6 +69,7 @@ struct Floats {
     const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), own);
     return _mm256_castsi256_ps(_mm256_cmpeq_epi32(set, own));
   }
+  static std::uint32_t bits(M m) { return static_cast<std::uint32_t>(_mm256_movemask_ps(m)); }
   static bool any(M m) { return _mm256_movemask_ps(m) != 0; }
   static bool every(M m) { return _mm256_movemask_ps(m) == 0xff; }
   static V keep(M m, V v) { return _mm256_and_ps(m, v); }

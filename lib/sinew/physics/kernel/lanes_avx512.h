@@ -27,6 +27,7 @@ struct Doubles {
   static M less(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
   static M mask(std::uint32_t bits) { return static_cast<M>(bits); }
+  static std::uint32_t bits(M m) { return m; }
   static bool any(M m) { return m != 0; }
   static bool every(M m) { return m == 0xff; }
   static V keep(M m, V v) { return _mm512_maskz_mov_pd(m, v); }
@@ -60,6 +61,7 @@ struct Floats {
   static M less(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
   static M at_most(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static M mask(std::uint32_t bits) { return static_cast<M>(bits); }
+  static std::uint32_t bits(M m) { return m; }
   static bool any(M m) { return m != 0; }
   static bool every(M m) { return m == 0xffff; }
   static V keep(M m, V v) { return _mm512_maskz_mov_ps(m, v); }

@@ -26,6 +26,7 @@ struct One {
   static M less(V a, V b) { return a < b; }
   static M at_most(V a, V b) { return a <= b; }
   static M mask(std::uint32_t bits) { return (bits & 1) != 0; }
+  static std::uint32_t bits(M m) { return m ? 1 : 0; }
   static bool any(M m) { return m; }
   static bool every(M m) { return m; }
   static V keep(M m, V v) { return m ? v : 0; }

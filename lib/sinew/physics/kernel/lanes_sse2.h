@@ -37,6 +37,7 @@ struct Doubles {
     const __m128i set = _mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), own);
     return _mm_castsi128_pd(_mm_cmpeq_epi32(set, own));
   }
+  static std::uint32_t bits(M m) { return static_cast<std::uint32_t>(_mm_movemask_pd(m)); }
   static bool any(M m) { return _mm_movemask_pd(m) != 0; }
   static bool every(M m) { return _mm_movemask_pd(m) == 0x3; }
   static V keep(M m, V v) { return _mm_and_pd(m, v); }
@@ -79,6 +80,7 @@ struct Floats {
     const __m128i set = _mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), own);
     return _mm_castsi128_ps(_mm_cmpeq_epi32(set, own));
   }
+  static std::uint32_t bits(M m) { return static_cast<std::uint32_t>(_mm_movemask_ps(m)); }
   static bool any(M m) { return _mm_movemask_ps(m) != 0; }
   static bool every(M m) { return _mm_movemask_ps(m) == 0xf; }
   static V keep(M m, V v) { return _mm_and_ps(m, v); }

@@ -28,11 +28,17 @@ Box expanded(Box box, double by) {
   return box;
 }
 
-/// A bound of the difference of two velocity fields in a box.
+/// Of two velocity fields in a box: it is convex, so one of the corners has the largest.
 double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) {
-  const Vec3 middle = box.center();
-  return (a.velocity_at(middle) - b.velocity_at(middle)).norm() +
-         (a.spin - b.spin).norm() * box.sizes().norm() / 2;
+  const Vec3 first = a.velocity_at(box.min()) - b.velocity_at(box.min());
+  const Vec3 spin = a.spin - b.spin, sizes = box.sizes();
+  double most = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 along((corner & 1) != 0 ? sizes.x() : 0, (corner & 2) != 0 ? sizes.y() : 0,
+                     (corner & 4) != 0 ? sizes.z() : 0);
+    most = std::max(most, (first + spin.cross(along)).squaredNorm());
+  }
+  return std::sqrt(most);
 }
 
 /// Boxes of the pieces, around several of them, around several of those, and so on up to one.

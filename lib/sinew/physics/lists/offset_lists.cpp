@@ -11,13 +11,6 @@ namespace {
 
 using kernel::blocks_per_piece;
 
-/// Room for `count` more values at the end.
-std::int32_t* room_for(std::vector<std::int32_t>& values, std::size_t used, std::int64_t count) {
-  const std::size_t needed = used + static_cast<std::size_t>(count) + 1;
-  if (values.size() < needed) values.resize(std::max(needed, values.size() * 3 / 2));
-  return values.data() + used;
-}
-
 template <class Real>
 kernel::PruneInput<Real> prune_input(BlockState<Real>& state, double range) {
   return {state.arrays(), static_cast<Real>(range * range)};
@@ -31,28 +24,6 @@ bool in_range(const std::array<float, 6>& a, const std::array<float, 6>& b, floa
   }
   return true;
 }
-
-/// Joins consecutive blocks into runs: each is one range of differences.
-class Runs {
- public:
-  template <class Prune>
-  void add(std::uint32_t block, Prune&& prune) {
-    if (end_ == block && begin_ != end_) {
-      ++end_;
-      return;
-    }
-    flush(prune);
-    begin_ = block, end_ = block + 1;
-  }
-  template <class Prune>
-  void flush(Prune&& prune) {
-    if (begin_ != end_) prune(begin_, end_);
-    begin_ = end_ = 0;
-  }
-
- private:
-  std::uint32_t begin_ = 0, end_ = 0;
-};
 
 /// The blocks of a piece: [first, last).
 struct BlocksOf {
@@ -82,33 +53,27 @@ template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          std::size_t piece, std::span<const std::uint32_t> near,
                          const BlockBoxes& boxes, double range) {
-  constexpr std::int64_t size = BlockState<Real>::block;
+  constexpr std::size_t most_of_a_block = 2 * BlockState<Real>::block;
   const auto input = prune_input(state, range);
   const auto reach = static_cast<float>(range * (1 + 1e-6));
-  std::vector<std::int32_t> values;
-  std::size_t used = 0;
   OffsetLists lists;
   lists.first.push_back(0);
+  std::vector<std::uint32_t> others;
+  std::vector<std::int32_t> found;
   const BlocksOf blocks(piece, state.blocks());
   for (std::size_t block = blocks.first; block < blocks.last; ++block) {
-    const auto prune = [&](std::uint32_t from, std::uint32_t to) {
-      const auto here = static_cast<std::int64_t>(block);
-      const std::int64_t low = (from - here) * size - (size - 1);
-      const std::int64_t high = (to - here) * size;
-      std::int32_t* kept = room_for(values, used, high - low);
-      used = static_cast<std::size_t>(kernel.prune_range(input, block, low, high, kept) -
-                                      values.data());
-    };
-    Runs runs;
+    others.clear();
     for (const std::uint32_t other : near) {
-      const BlocksOf others(other, state.blocks());
-      for (std::size_t k = others.first; k < others.last; ++k)
-        if (in_range(boxes[block], boxes[k], reach)) runs.add(static_cast<std::uint32_t>(k), prune);
+      const BlocksOf candidates(other, state.blocks());
+      for (std::size_t k = candidates.first; k < candidates.last; ++k)
+        if (in_range(boxes[block], boxes[k], reach))
+          others.push_back(static_cast<std::uint32_t>(k));
     }
-    runs.flush(prune);
-    lists.first.push_back(static_cast<std::uint32_t>(used));
+    found.resize(std::max(found.size(), most_of_a_block * others.size()));
+    const std::size_t count = kernel.list(input, block, others.data(), others.size(), found.data());
+    lists.value.insert(lists.value.end(), found.data(), found.data() + count);
+    lists.first.push_back(static_cast<std::uint32_t>(lists.value.size()));
   }
-  lists.value.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(used));
   return lists;
 }
 
