@@ -132,6 +132,7 @@ std::vector<Influence> influences_on(const Choice& choice, std::size_t i) {
       weights.clear();
   }
   std::vector<Influence> held;
+  held.reserve(weights.size());
   for (const BoneWeight& one : weights) held.push_back(influence_of(choice, one, point));
   return held;
 }

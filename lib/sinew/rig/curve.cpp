@@ -136,7 +136,7 @@ Vec3 made_velocity(const RotationCurve& curve, std::size_t key) {
 
 /// The vector of `rotation` that is nearest to `wanted`, which may be longer than pi.
 Vec3 rotation_vector_near(const Quat& rotation, const Vec3& wanted) {
-  const Vec3 shortest = rotation_vector(rotation);
+  Vec3 shortest = rotation_vector(rotation);
   const double angle = shortest.norm();
   if (angle < 1e-9) return shortest;  // no axis of its own
   const Vec3 axis = shortest / angle;

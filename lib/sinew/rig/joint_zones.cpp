@@ -78,6 +78,7 @@ std::vector<BoneWeight> children_weights(const JointZones& zones, int parent, co
   if (children.size() == 1)
     return {{children[0], share_of_child(zones, children[0], point, distance)}};
   std::vector<double> distances;
+  distances.reserve(children.size());
   for (const int child : children) distances.push_back(distance(child));
   const std::vector<double> near = parted(zones, children, distances, 1);
   double of_all = 0;

@@ -109,7 +109,7 @@ JointLimits limits_of(Bones bones, std::size_t bone) {
 }
 
 Mat3 frame_of(const Vec3& axis, double roll) {
-  const Mat3 frame = frame_along(axis);
+  Mat3 frame = frame_along(axis);
   if (roll == 0) return frame;
   return Eigen::AngleAxisd(roll, frame.col(0)).toRotationMatrix() * frame;
 }
@@ -210,7 +210,7 @@ double size_of(const std::vector<Joint>& joints) {
 Vec3 along(const Joint& joint, const Children& children, double least, const Vec3& unknown) {
   if (joint.end && (*joint.end - joint.place).norm() > least) return *joint.end - joint.place;
   if (children.count > 0) {
-    const Vec3 mean = children.sum / children.count;
+    Vec3 mean = children.sum / children.count;
     if (mean.norm() > least) return mean;
   }
   return children.farthest.norm() > least ? children.farthest : unknown;
@@ -235,7 +235,7 @@ class Names {
     int& count = counts_[joint.name];
     count = std::max(count, 1);
     while (true) {
-      const std::string name = joint.name + "_" + std::to_string(++count);
+      std::string name = joint.name + "_" + std::to_string(++count);
       if (!given_.contains(name) && taken_.insert(name).second) return name;
     }
   }

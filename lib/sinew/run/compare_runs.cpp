@@ -154,7 +154,9 @@ std::vector<FactGroup> differing_settings(const Settings& first, const Settings&
     if (one == other) continue;
     if (groups.empty() || groups.back().title != row.section)
       groups.push_back({std::string(row.section), {}});
-    groups.back().facts.push_back({std::string(row.name), one + " → " + other});
+    std::string change = one;
+    (change += " → ") += other;
+    groups.back().facts.push_back({std::string(row.name), std::move(change)});
   }
   return groups;
 }

@@ -67,6 +67,7 @@ Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<O
 
 std::vector<double> powers_of(const std::vector<Reaction>& reactions) {
   std::vector<double> powers;
+  powers.reserve(reactions.size());
   for (const Reaction& on : reactions) powers.push_back(on.power);
   return powers;
 }

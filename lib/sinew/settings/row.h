@@ -172,7 +172,9 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
 }
 
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
+// Neither a type nor a member stands in parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SINEW_AT(Owner, member) \
   [](Owner & owner) -> auto& { return (owner).member; }
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace sinew::rows

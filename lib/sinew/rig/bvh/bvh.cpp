@@ -219,7 +219,8 @@ void refuse_odd_line(const BvhText& text, const Bvh& bvh, std::string_view frame
 }
 
 void refuse_end(BvhText& text, const Bvh& bvh, std::string_view frames) {
-  const std::size_t channels = bvh.channels(), count = bvh.values.size();
+  const std::size_t channels = std::max<std::size_t>(bvh.channels(), 1);
+  const std::size_t count = bvh.values.size();
   text.next();
   refuse_odd_line(text, bvh, frames);
   throw text.wrong("the file ends in frame " + std::to_string(count / channels) + " (of 0 to " +
