@@ -211,6 +211,7 @@ const Clip& find_clip(const std::vector<Clip>& clips, std::string_view name) {
       std::find_if(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
   if (found != clips.end()) return *found;
   std::vector<std::string_view> names;
+  names.reserve(clips.size());
   for (const Clip& clip : clips) names.push_back(clip.name);
   throw bad_input("there is no clip " + shown(name),
                   names.empty() ? "give a file with an animation" : suggestion(name, names));

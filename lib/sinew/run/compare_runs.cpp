@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>

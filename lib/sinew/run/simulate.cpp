@@ -49,6 +49,7 @@ struct Schedule {
 
   std::vector<double> times_there() const {
     std::vector<double> times;
+    times.reserve(static_cast<std::size_t>(there));
     for (int frame = 0; frame < there; ++frame) times.push_back(frame * interval);
     return times;
   }

@@ -57,6 +57,7 @@ const MeasuredArray* find_measured(const std::string& name) {
 
 Error unknown(const std::string& name) {
   std::vector<std::string_view> names;
+  names.reserve(measured_arrays.size());
   for (const MeasuredArray& array : measured_arrays) names.push_back(array.name);
   for (const WrittenArray& array : written_arrays())
     if (array.series == "particles" && array.place == ArrayPlace::point && array.name != "Points")

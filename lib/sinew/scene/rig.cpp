@@ -36,6 +36,7 @@ Rig read_bvh_rig(const std::filesystem::path& path, const MotionOptions& motion)
 
 std::string names_of(const std::vector<Clip>& clips) {
   std::vector<std::string_view> names;
+  names.reserve(clips.size());
   for (const Clip& clip : clips) names.emplace_back(clip.name);
   return listed(names);
 }

@@ -64,7 +64,7 @@ FieldForm form_of(const FieldSettings& given) {
 }
 
 /// A shape about its own center, and the center's place in the scene.
-struct Placed {
+struct Placed {  // NOLINT(bugprone-exception-escape): moving a shape throws nothing
   Shape shape;
   Vec3 middle = Vec3::Zero();
   Triangles surface;

@@ -52,7 +52,7 @@ bool is_replaced(const Settings& settings, const Field<Settings>& row) {
 /// Paths relative to `folder`, where the scene will be.
 FieldValue value_in(const std::filesystem::path& folder, const Settings& settings,
                     const Field<Settings>& row) {
-  const FieldValue value = row.get(settings);
+  FieldValue value = row.get(settings);
   const auto* text = std::get_if<std::string>(&value);
   if (row.kind != FieldKind::path || text == nullptr) return value;
   return path_in(folder, *text);

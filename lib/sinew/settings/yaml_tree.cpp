@@ -169,9 +169,9 @@ void check_closing_quote(std::string_view text, const Place& place) {
   if (i >= text.size() || (text[i] != '"' && text[i] != '\'')) return;  // a block of text
   const char quote = text[i];
   for (++i; i < text.size(); ++i) {
-    if (quote == '"' && text[i] == '\\')
-      ++i;
-    else if (text[i] == quote && quote == '\'' && text.substr(i + 1, 1) == "'")
+    const bool escaped = quote == '"' && text[i] == '\\';
+    const bool doubled = text[i] == quote && quote == '\'' && text.substr(i + 1, 1) == "'";
+    if (escaped || doubled)
       ++i;
     else if (text[i] == quote)
       return;
