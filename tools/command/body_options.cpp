@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
@@ -75,8 +76,11 @@ std::vector<Override> BodyFlags::overrides() const {
   for (const Given& one : given_) {
     if (!one.parsed->given()) continue;
     std::string value = one.flag ? "true" : one.value;
-    if (value.find(',') != std::string::npos && value.front() != '[') value = '[' + value + ']';
-    all.push_back({one.path, value, one.option + (one.flag ? "" : ' ' + one.value)});
+    if (value.find(',') != std::string::npos && value.front() != '[')
+      value.insert(0, "[").append("]");
+    std::string given = one.option;
+    if (!one.flag) given.append(" ").append(one.value);
+    all.push_back({one.path, value, std::move(given)});
   }
   return all;
 }
