@@ -41,7 +41,7 @@ function(sinew_library room)
     set_target_properties(sinew_${room}_cgal PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_include_directories(sinew_${room}_cgal PRIVATE ${PROJECT_SOURCE_DIR}/lib)
     target_link_libraries(sinew_${room}_cgal PRIVATE sinew_options ${ARG_PUBLIC} CGAL::CGAL)
-    if(room STREQUAL mesh)
+    if(room STREQUAL mesh)  # the first room with such sources: CGAL's headers are compiled once, for all
       target_precompile_headers(sinew_mesh_cgal PRIVATE <CGAL/AABB_traits.h> <CGAL/AABB_tree.h>
         <CGAL/Exact_predicates_inexact_constructions_kernel.h> <CGAL/Surface_mesh.h> ${SINEW_INCLUDED_BY_ALL})
     else()

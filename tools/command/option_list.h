@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of a command. CLI11 parses them; only option_list.cpp and command.cpp include it,
-// because every source that does takes five seconds longer to compile.
+// because every source that does takes seconds longer to compile.
 //
 //     options.add("--threads", threads, "Threads to use").type_name("N").range(0, 64);
 #pragma once

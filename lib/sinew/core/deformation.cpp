@@ -20,7 +20,7 @@ Mat3 inverse_or_zero(const Mat3& spread) {
 }
 
 /// Turns one unit vector to the other; a half turn, of any axis, where they are opposite. Eigen's
-/// FromTwoVectors does the same, but takes five seconds to compile.
+/// FromTwoVectors does the same by a singular value decomposition that takes seconds to compile.
 Mat3 shortest_rotation(const Vec3& from, const Vec3& to) {
   const double cosine = from.dot(to);
   if (!(cosine > -1 + 1e-12)) return Eigen::AngleAxisd(pi, from.unitOrthogonal()).matrix();

@@ -149,7 +149,7 @@ class Listing {
 
   PruneInput<Real> input_;
   Coord reversed_[3][size], first_[3];
-  Real low_[3], high_[3];
+  Real low_[3], high_[3];  ///< of offsets from the first particle
 };
 
 /// Writes the differences of the bits, the first of which is of `from`.
