@@ -176,4 +176,41 @@ TEST(NearPieces, ListOnlyWhatAFastPieceCanMeet) {
   EXPECT_LT(cloud.listed, steps / 3);
 }
 
+/// The largest difference of two velocity fields at points of `inside` within reach of `near`.
+double sampled_difference(const PieceNow& inside, const PieceNow& near, std::mt19937& random) {
+  double most = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Vec3 p =
+        inside.box.center() + test::random_vector(random).cwiseProduct(inside.box.sizes()) / 2;
+    if (near.box.exteriorDistance(p) < ranges.outer)
+      most = std::max(most, (inside.velocity_at(p) - near.velocity_at(p)).norm());
+  }
+  return most;
+}
+
+TEST(NearPieces, BoundTheDifferenceOfVelocityFieldsWhereverPiecesCanMeet) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 30; ++trial) {
+    std::vector<PieceNow> pieces(2);
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 center(3.0 * k, 0, 0);
+      pieces[k].box = Box(Vec3(center - Vec3(1, 1, 1)), Vec3(center + Vec3(1, 1, 1)));
+      pieces[k].center = center;
+      pieces[k].velocity = test::random_vector(random);
+      pieces[k].spin = test::random_vector(random);
+    }
+    NearPieces near(ranges);
+    near.survey(pieces, dt);
+    const double least = std::min(sampled_difference(pieces[0], pieces[1], random),
+                                  sampled_difference(pieces[1], pieces[0], random));
+    ASSERT_GT(least, 0);
+    EXPECT_EQ(near.of(0).size(), 2u);
+    for (const NearPieces::Near& other : near.of(0)) {
+      if (other.piece == 1) {
+        EXPECT_GE(other.rate, least);
+      }
+    }
+  }
+}
+
 }  // namespace sinew::near_pieces_test
