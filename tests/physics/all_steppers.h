@@ -17,8 +17,8 @@ namespace sinew::test {
 
 inline std::vector<kernel::InstructionSet> instruction_sets() {
   std::vector<kernel::InstructionSet> sets;
-  for (const auto set : {kernel::InstructionSet::plain, kernel::InstructionSet::sse2,
-                         kernel::InstructionSet::avx2, kernel::InstructionSet::avx512})
+  for (const auto set : {kernel::InstructionSet::plain, kernel::InstructionSet::avx2,
+                         kernel::InstructionSet::avx512})
     if (kernel::has(set)) sets.push_back(set);
   return sets;
 }

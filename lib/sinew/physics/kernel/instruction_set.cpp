@@ -13,7 +13,6 @@ bool processor_has(InstructionSet set) {
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
     case InstructionSet::avx2:
       return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case InstructionSet::sse2:
     case InstructionSet::plain:
       return true;
   }
@@ -26,7 +25,7 @@ bool processor_has(InstructionSet set) {
 bool has(InstructionSet set) { return processor_has(set); }
 
 InstructionSet best_instruction_set() {
-  for (const auto set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::sse2})
+  for (const auto set : {InstructionSet::avx512, InstructionSet::avx2})
     if (has(set)) return set;
   return InstructionSet::plain;
 }
@@ -37,8 +36,6 @@ const char* name_of(InstructionSet set) {
       return "avx512";
     case InstructionSet::avx2:
       return "avx2";
-    case InstructionSet::sse2:
-      return "sse2";
     case InstructionSet::plain:
       break;
   }
@@ -50,7 +47,6 @@ Functions<double> functions_of(InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::avx512) return doubles_avx512;
   if (set == InstructionSet::avx2) return doubles_avx2;
-  if (set == InstructionSet::sse2) return doubles_sse2;
 #endif
   static_cast<void>(set);
   return doubles_plain;
@@ -61,7 +57,6 @@ Functions<float> functions_of(InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::avx512) return floats_avx512;
   if (set == InstructionSet::avx2) return floats_avx2;
-  if (set == InstructionSet::sse2) return floats_sse2;
 #endif
   static_cast<void>(set);
   return floats_plain;

@@ -293,7 +293,7 @@ struct Functions {
   Survey (*survey)(const SurveyInput<Real>&, std::size_t piece, const Coord<Real>* center);
 };
 
-enum class InstructionSet { plain, sse2, avx2, avx512 };
+enum class InstructionSet { plain, avx2, avx512 };
 
 /// The best one this processor supports.
 InstructionSet best_instruction_set();
@@ -308,8 +308,8 @@ Functions<Real> functions_of(InstructionSet set);
 extern const Functions<double> doubles_plain;
 extern const Functions<float> floats_plain;
 #if defined(__x86_64__)
-extern const Functions<double> doubles_sse2, doubles_avx2, doubles_avx512;
-extern const Functions<float> floats_sse2, floats_avx2, floats_avx512;
+extern const Functions<double> doubles_avx2, doubles_avx512;
+extern const Functions<float> floats_avx2, floats_avx512;
 #endif
 
 }  // namespace sinew::kernel

@@ -27,11 +27,6 @@ namespace lanes = avx512;
 namespace sinew::kernel {
 namespace lanes = avx2;
 }
-#elif defined(__SSE2__) && !defined(SINEW_PLAIN_LANES)
-#include <sinew/physics/kernel/lanes_sse2.h>
-namespace sinew::kernel {
-namespace lanes = sse2;
-}
 #else
 #include <sinew/physics/kernel/lanes_plain.h>
 namespace sinew::kernel {
