@@ -25,7 +25,6 @@ HEAVY = {
     r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "run/run_log.h"),
     r"(libdeflate|lz4|expat)\.h": ("io",),
     r"X11/": ("render",),
-    r"spdlog/": ("run",),
     r"(fmt|CLI)/": (),
 }
 # Pattern of a CMake target -> the rooms that may link it, PRIVATE.
@@ -37,7 +36,6 @@ HEAVY_TARGETS = {
     r"nlohmann_json::": ("io", "metrics", "scene", "run"),
     r"^(deflate|lz4|expat)$": ("io",),
     r"X11::": ("render",),
-    r"spdlog::": ("run",),
     r"fmt::|CLI11::": (),
 }
 PARTS = ("SOURCES", "CGAL_SOURCES", "PUBLIC", "PRIVATE", "INTERFACE")

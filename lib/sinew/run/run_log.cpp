@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/run_log.h>
 
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/spdlog.h>
+#include <array>
+#include <ctime>
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
@@ -50,6 +50,22 @@ Json lists_of(const ListCounts& counts) {
           {"pieces_pruned", counts.pruned}};
 }
 
+std::string local_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::localtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &parts);
+  return text.data();
+}
+
+/// Bytes; none where the file is missing.
+std::uint64_t size_of(const std::filesystem::path& file) {
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(file, missing);
+  return missing ? 0 : size;
+}
+
 /// Restores the times that a resumed run has spent and when it began.
 void go_on_from(const Json& before, Json& record) {
   for (const char* key : {"started", "seconds"})
@@ -60,32 +76,21 @@ void go_on_from(const Json& before, Json& record) {
 }  // namespace
 
 RunLog::RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed)
-    : folder_(folder), record_(begin_record(command)) {
+    : folder_(folder),
+      record_(begin_record(command)),
+      log_(folder.log(), resumed ? size_of(folder.log()) : 0) {
   record_["seconds"] = Json::object();
   record_["resumed"] = 0;
   if (resumed) go_on_from(read_record(folder), record_);
   write_record(folder_, record_);
-  try {
-    auto sink =
-        std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !resumed);
-    log_ = std::make_shared<spdlog::logger>("run", std::move(sink));
-  } catch (const spdlog::spdlog_ex& error) {
-    throw not_written(folder.log().string(), error.what(), "choose another folder with -o");
-  }
-  log_->set_pattern("%Y-%m-%d %H:%M:%S  %v");
-  log_->set_error_handler([this](const std::string&) { log_failed_ = true; });
   std::string words;
   for (const std::string& word : command) words += (words.empty() ? "" : " ") + word;
   log("sinew " + record_["version"].get<std::string>() + ": " + words);
 }
 
-RunLog::~RunLog() = default;
-
 void RunLog::log(const std::string& line) {
-  log_->info(line);
-  log_->flush();
-  if (log_failed_)
-    throw not_written(folder_.log().string(), "could not be written", "make space on the disk");
+  const std::string dated = local_time() + "  " + line + "\n";
+  log_.add(dated.data(), dated.size());
 }
 
 void RunLog::describe(const Settings& settings, const Setup& setup) {

@@ -5,19 +5,15 @@
 //     log.spend("setup", seconds);
 #pragma once
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include <sinew/core/file.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/stepper_choice.h>
 #include <sinew/settings/settings.h>
-
-namespace spdlog {
-class logger;
-}
 
 namespace sinew {
 
@@ -26,9 +22,6 @@ class RunLog {
   /// Begins both files with status "running"; those of a resumed run are continued. Throws not
   /// written.
   RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
-  ~RunLog();
-  RunLog(const RunLog&) = delete;
-  RunLog& operator=(const RunLog&) = delete;
 
   void describe(const Settings& settings, const Setup& setup);
 
@@ -53,8 +46,7 @@ class RunLog {
 
   RunFolder folder_;
   nlohmann::ordered_json record_;
-  std::shared_ptr<spdlog::logger> log_;
-  bool log_failed_ = false;
+  GrowingFile log_;
 };
 
 }  // namespace sinew
