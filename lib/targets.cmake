@@ -13,14 +13,16 @@ endforeach()
 target_compile_options(sinew_test_options INTERFACE -Wno-conversion)
 
 # A third of the time of compiling is headers that all rooms include: these are compiled once, with
-# core. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows who forgot an include.
+# core, and with settings for the light rooms, because GCC optimizes as the precompiled header was.
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows who forgot an include.
 set(SINEW_INCLUDED_BY_ALL <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <functional> <map>
   <memory> <optional> <span> <string> <variant> <vector>)
 
-# sinew_library(ROOM SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets)
-# CGAL asks for -frounding-math: only its own sources get that.
+# sinew_library(ROOM [LIGHT] SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets)
+# LIGHT rooms prepare and report: they are compiled fast rather than optimized. CGAL asks for -frounding-math:
+# only its own sources get that.
 function(sinew_library room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(sinew_${room} STATIC ${ARG_SOURCES})
   add_library(sinew::${room} ALIAS sinew_${room})
   set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON
@@ -30,10 +32,16 @@ function(sinew_library room)
   target_compile_features(sinew_${room} PUBLIC cxx_std_20)
   target_link_libraries(sinew_${room}
     PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:sinew_options> ${ARG_PRIVATE})
-  if(room STREQUAL core)
-    target_precompile_headers(sinew_core PRIVATE ${SINEW_INCLUDED_BY_ALL})
+  if(ARG_LIGHT)
+    target_compile_options(sinew_${room} PRIVATE $<$<CONFIG:Release>:-O1>)
+    set(first settings)
   else()
-    target_precompile_headers(sinew_${room} REUSE_FROM sinew_core)
+    set(first core)
+  endif()
+  if(room STREQUAL first)
+    target_precompile_headers(sinew_${room} PRIVATE ${SINEW_INCLUDED_BY_ALL})
+  else()
+    target_precompile_headers(sinew_${room} REUSE_FROM sinew_${first})
   endif()
   if(ARG_CGAL_SOURCES)
     find_package(CGAL 5.5 REQUIRED)

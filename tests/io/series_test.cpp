@@ -123,6 +123,22 @@ TEST_F(SeriesFiles, AStartRemovesTheOlderSeriesAndNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(folder / "bones.pvd"));
 }
 
+TEST_F(SeriesFiles, RemovesFramesAndTheirBeginningsByTheirWholeName) {
+  const std::vector<std::string> ours = {"bones_000007.vtu", ".bones_000007.vtu.tmp",
+                                         "bones_1234567.vtu"};
+  const std::vector<std::string> others = {
+      "bones_00007.vtu",          "bones_000007.vtk",   "_000007.vtu",        "bones_000007x.vtu",
+      "bones_000007.vtu.tmp.bak", "..bones_000007.vtu", "my_bones_000007.vtu"};
+  std::filesystem::create_directories(folder / "bones");
+  for (const auto* names : {&ours, &others})
+    for (const std::string& name : *names) write_file(folder / "bones" / name, "x");
+  const Series series(folder, bones_format());
+  for (const std::string& name : ours)
+    EXPECT_FALSE(std::filesystem::exists(folder / "bones" / name)) << name;
+  for (const std::string& name : others)
+    EXPECT_TRUE(std::filesystem::exists(folder / "bones" / name)) << name;
+}
+
 TEST_F(SeriesFiles, AFileInTheFoldersPlaceIsNamed) {
   put(folder / "run", "");
   const Error error = error_of([&] { Series(folder / "run", bones_format()); });

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <regex>
 #include <set>
+#include <string_view>
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
@@ -118,16 +118,31 @@ void refuse_not_finite(const Dataset& frame, const std::string& series, double m
         refuse(column.name);
 }
 
+/// Whether a series of this name writes a file of this name: "body_000016.vtu", or its beginnings.
+bool is_frame_of(const std::string& series, std::string_view name) {
+  const auto takes = [&](std::string_view part) {
+    const bool here = name.starts_with(part);
+    if (here) name.remove_prefix(part.size());
+    return here;
+  };
+  takes(".");
+  if (!takes(series + "_")) return false;
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  name.remove_prefix(digits);
+  if (digits < 6 || !takes(".vtu")) return false;
+  takes(".tmp");
+  return name.empty();
+}
+
 /// Only files that a series of this name writes; others are not removed.
 void remove_older(const fs::path& folder, const std::string& series,
                   const std::vector<PvdRow>& kept) {
-  const std::regex ours("\\.?" + series + "_[0-9]{6,}\\.vtu(\\.tmp)?");
   std::set<std::string> stay;
   for (const PvdRow& row : kept) stay.insert(fs::path(row.file).filename().string());
   if (kept.empty()) fs::remove(folder / (series + ".pvd"));
   for (const auto& entry : fs::directory_iterator(folder / series))
     if (const std::string name = entry.path().filename().string();
-        std::regex_match(name, ours) && !stay.contains(name))
+        is_frame_of(series, name) && !stay.contains(name))
       fs::remove(entry.path());
 }
 
