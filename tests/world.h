@@ -124,13 +124,13 @@ inline Particles particles_of(const Settings& settings, const Points& rest) {
 }
 
 inline Body make_body(const Settings& settings, const Points& rest) {
-  return make_body(settings, skeleton_of(settings), particles_of(settings, rest));
+  return make_body(settings, {}, skeleton_of(settings), particles_of(settings, rest));
 }
 
 /// A simulation of particles at `rest`, with the step that the settings choose.
 inline Simulation make_simulation(const Settings& settings, const Points& rest) {
   const Particles particles = particles_of(settings, rest);
-  return start(settings, set_up(settings, particles), particles);
+  return start(settings, set_up(settings, read_files(settings), particles), particles);
 }
 
 /// The scene without bone forces: the body is free.

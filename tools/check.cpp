@@ -47,9 +47,9 @@ double speed_at_rest(const Settings& settings, Setup setup, const Particles& par
   return steps > 0 ? steps * static_cast<double>(particles.size()) / spent : usual;
 }
 
-double speed_in_motion(const Setup& setup, const StepperChoice& way, double at_rest) {
+double speed_in_motion(const Setup& setup, const StepperChoice& choice, double at_rest) {
   const bool lists_are_made_again =
-      way.search == NeighborSearch::lists && !setup.motion.tracks.empty();
+      choice.search == NeighborSearch::lists && !setup.motion.tracks.empty();
   return lists_are_made_again ? at_rest / slower_with_lists_in_motion : at_rest;
 }
 
@@ -125,26 +125,27 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("bone_speed", speed, "radii per step");
 }
 
-void add_way(const StepperChoice& way, Results& results) {
-  results.add("precision", name_of(way.precision));
-  results.add("neighbor_search", name_of(way.search));
-  results.add("instruction_set", kernel::name_of(way.instructions));
+void add_stepper(const StepperChoice& choice, Results& results) {
+  results.add("precision", name_of(choice.precision));
+  results.add("neighbor_search", name_of(choice.search));
+  results.add("instruction_set", kernel::name_of(choice.instructions));
 }
 
 Exit check(const std::string& scene, const Common& common) {
   const Settings settings = read_scene(scene, common.overrides);
   const Surface surface = read_mesh(settings);
+  const SceneFiles files = read_files(settings);
   const Filling filling = fill_body(settings, surface);
-  const Setup setup = set_up(settings, filling.particles);
+  const Setup setup = set_up(settings, files, filling.particles);
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
-  const StepperChoice way = stepper_choice(settings.solver);
+  const StepperChoice choice = stepper_choice(settings.solver);
   const double speed = bone_speed(setup, settings.output.interval);
   auto warnings = warnings_of(setup, speed);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);
-  const double rate = speed_in_motion(setup, way, at_rest);
+  const double rate = speed_in_motion(setup, choice, at_rest);
   const double work = static_cast<double>(setup.frames) * setup.steps.per_frame *
                       static_cast<double>(filling.particles.size());
 
@@ -153,7 +154,7 @@ Exit check(const std::string& scene, const Common& common) {
   add_material(setup.body.material, results);
   add_planes(setup.body, results);
   add_steps(settings, setup, speed, results);
-  add_way(way, results);
+  add_stepper(choice, results);
   results.add("disk", bytes_text(needs.disk));
   results.add("disk_free", bytes_text(free_space(run_folder(scene, "").path)));
   results.add("memory", bytes_text(needs.memory));

@@ -226,7 +226,7 @@ struct Options {
 };
 
 void add_scene(const Settings& settings, Results& results) {
-  SceneRig scene = rig_of(settings);
+  SceneRig scene = rig_of(settings, read_files(settings));
   results.add("mesh", settings.body.mesh);
   results.add("tracks", scene.motion.tracks.size());
   Clip clip = clip_of(std::move(scene.motion), "scene", settings.motion.frame_rate);
@@ -257,7 +257,8 @@ Exit info(const Options& options, const Common& common) {
     results.print(common.json);
     return Exit::done;
   }
-  if (holds_rig(options.path)) add_rig_info(read_rig(options.path, {}), options.radius, results);
+  if (holds_rig(options.path))
+    add_rig_info(read_rig(options.path, {}).rig, options.radius, results);
   if (!holds_mesh(options.path)) {
     results.print(common.json);
     return Exit::done;

@@ -50,6 +50,7 @@ std::string usage() {
 
 std::string name_of(const std::string& word) {
   std::vector<std::string_view> names;
+  names.reserve(std::size(commands));
   for (const Known& command : commands) names.push_back(command.name);
   for (const std::string_view name : names)
     if (name == word) return word;

@@ -73,8 +73,14 @@ std::string quoted(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Empty where the environment lacks it.
+std::string from_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
 fs::path program_named(const std::string& name) {
-  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
+  std::istringstream folders(from_environment("PATH"));
   for (std::string folder; std::getline(folders, folder, ':');)
     if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
   throw Error(Exit::not_written,
@@ -87,7 +93,7 @@ std::vector<fs::path> private_places() {
   const fs::path modules = "usr/lib/python3/dist-packages";
   std::vector<fs::path> places{fs::read_symlink("/proc/self/exe").parent_path().parent_path() /
                                "paraview-python" / modules};
-  if (const char* home = std::getenv("HOME"))
+  if (const std::string home = from_environment("HOME"); !home.empty())
     places.push_back(fs::path(home) / ".local/share/sinew/paraview-python" / modules);
   return places;
 }
@@ -95,7 +101,7 @@ std::vector<fs::path> private_places() {
 /// Debian's ParaView has its Python in a separate package; others include it.
 void find_python(const fs::path& program) {
   std::error_code none;
-  const std::string given = std::getenv("PYTHONPATH") ? std::getenv("PYTHONPATH") : "";
+  const std::string given = from_environment("PYTHONPATH");
   std::istringstream folders(given);
   for (std::string folder; std::getline(folders, folder, ':');)
     if (fs::exists(fs::path(folder) / "paraview", none)) return;
@@ -116,8 +122,7 @@ void find_python(const fs::path& program) {
 }
 
 void check_screen() {
-  const auto set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
-  if (!set("DISPLAY") && !set("WAYLAND_DISPLAY"))
+  if (from_environment("DISPLAY").empty() && from_environment("WAYLAND_DISPLAY").empty())
     throw Error(
         Exit::not_written,
         "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
@@ -126,7 +131,7 @@ void check_screen() {
 /// Both in the build and where sinew is installed.
 fs::path own_script(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path script = program.parent_path().parent_path() / "share/sinew" / name;
+  fs::path script = program.parent_path().parent_path() / "share/sinew" / name;
   if (!fs::exists(script))
     throw bad_input(Place{script.string()}, "is missing", "install all files of sinew");
   return script;
@@ -135,6 +140,7 @@ fs::path own_script(const std::string& name) {
 /// Returns only by throwing.
 Exit become(const fs::path& program, std::vector<std::string> words) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv(program.c_str(), arguments.data());

@@ -10,7 +10,7 @@ void gltf(std::string_view bytes) {
   const auto path = file_of(bytes, binary ? "fuzz.glb" : "fuzz.gltf");
   expect_sound_or_refused([&] { require_sound(read_gltf(path)); });
   expect_sound_or_refused([&] {
-    const GltfRig rig = read_gltf_rig(path);
+    const SkinnedRig rig = read_gltf_rig(path);
     require_sound(rig.mesh);
     for (const Bone& bone : rig.rig.skeleton.bones)
       require(bone.length > 0 && bone.rest.origin.allFinite() && bone.rest.rotation.allFinite() &&

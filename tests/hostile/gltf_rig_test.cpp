@@ -22,7 +22,7 @@ void expect_error_line(const Error& error, const std::string& path) {
 }
 
 /// A rig that was taken holds together: bones, poses at some times, weights.
-void expect_sound(const GltfRig& rig) {
+void expect_sound(const SkinnedRig& rig) {
   const Skeleton& skeleton = rig.rig.skeleton;
   EXPECT_GT(skeleton.size(), 0u);
   for (const Bone& bone : skeleton.bones) EXPECT_GT(bone.length, 0);

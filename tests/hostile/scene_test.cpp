@@ -2,6 +2,7 @@
 // Every kind of mistake in a scene ends with exit code 2 and one line that names file, line, column
 // and cure; never with a crash.
 #include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 #include <sinew/settings/read_scene.h>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/settings/table.h>
 #include "hostile/scenes.h"
+#include "scratch.h"
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
 
@@ -57,6 +59,24 @@ TEST(HostileScenes, MissingFileAndFolderAreNamed) {
   expect_one_line(verdict(folder.path() / "none.yaml"), (folder.path() / "none.yaml").string());
   expect_one_line(verdict(folder.path()), folder.path().string());
   expect_one_line(verdict("/dev/zero"), "/dev/zero");
+}
+
+/// Filling may take minutes; this mesh cannot even be filled.
+TEST(HostileScenes, FilesAreReadBeforeTheBodyIsFilled) {
+  const TempFolder folder;
+  folder.write("box.obj",
+               "v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nv 0 0 0.001\n"
+               "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const auto message_with = [&](const std::string& more) {
+    const Settings settings = read_scene(folder.write("scene.yaml", small_scene + more));
+    return std::string(error_of([&] { prepare(settings); }).what());
+  };
+  EXPECT_EQ(message_with("").find("none."), std::string::npos) << message_with("");
+  for (const char* more : {"motion:\n  file: none.bvh\n",
+                           "world:\n  obstacles: [{name: rock, shape: mesh, mesh: none.obj}]\n"}) {
+    const std::string message = message_with(more);
+    EXPECT_NE(message.find("none."), std::string::npos) << message;
+  }
 }
 
 TEST(HostileScenes, EverySettingRefusesWhatIsNoValueOfIt) {

@@ -17,12 +17,12 @@ constexpr double single = 1e-6;  // what single precision leaves of lengths of m
 
 class ReadGltfRig : public Scratch {
  protected:
-  GltfRig read(const Gltf& gltf, Form form = Form::embedded) const {
+  SkinnedRig read(const Gltf& gltf, Form form = Form::embedded) const {
     return read_gltf_rig(write(folder, gltf, form));
   }
 };
 
-Pose pose_of(const GltfRig& rig, double time, std::size_t clip = 0) {
+Pose pose_of(const SkinnedRig& rig, double time, std::size_t clip = 0) {
   return pose_at(rig.rig.skeleton, rig.rig.clips.at(clip).motion, time);
 }
 
@@ -72,7 +72,7 @@ TEST_F(ReadGltfRig, LeavesMeshesWithoutASkinOut) {
 TEST_F(ReadGltfRig, TakesARigWithoutAMesh) {
   Gltf gltf = bending_bar();
   gltf.json["nodes"][3] = Json::object();
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   EXPECT_EQ(rig.rig.skeleton.size(), 2u);
   EXPECT_EQ(rig.rig.clips.size(), 1u);
   EXPECT_TRUE(rig.mesh.points.empty());
@@ -80,7 +80,7 @@ TEST_F(ReadGltfRig, TakesARigWithoutAMesh) {
 }
 
 TEST_F(ReadGltfRig, TurnsBonesAboutTheirHeads) {
-  const GltfRig rig = read(bending_bar());
+  const SkinnedRig rig = read(bending_bar());
   for (const double time : {0.0, 0.3, 1.0, 7.0}) {
     const Pose pose = pose_of(rig, time);
     EXPECT_LT((pose[1].turn - about_y(pi / 2 * std::min(time, 1.0))).norm(), single) << time;
@@ -94,7 +94,7 @@ TEST_F(ReadGltfRig, KeepsKeysAndTheWaysBetween) {
                                                          {"LINEAR", Interpolation::linear},
                                                          {"CUBICSPLINE", Interpolation::cubic}};
   for (const auto& [name, interpolation] : kinds) {
-    const GltfRig rig = read(bending_bar(name));
+    const SkinnedRig rig = read(bending_bar(name));
     ASSERT_EQ(rig.rig.clips.at(0).motion.tracks.size(), 1u) << "a bone at rest has no track";
     const Track& track = rig.rig.clips[0].motion.tracks[0];
     EXPECT_EQ(track.bone, 1);
@@ -136,7 +136,7 @@ TEST_F(ReadGltfRig, FoldsStaticNodesIn) {
   nodes[1]["translation"] = {0, 0, 0.5};
   nodes[1]["scale"] = {0.5, 0.5, 0.5};
   gltf.json["scenes"][0]["nodes"] = {above, 3};
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   const Bone& upper = rig.rig.skeleton.bones[1];
   EXPECT_LT((upper.head() - Vec3(5, 0.01, 0)).norm(), single) << upper.head().transpose();
   EXPECT_LT((upper.tail() - Vec3(5, 0.02, 0)).norm(), single) << upper.tail().transpose();
@@ -153,7 +153,7 @@ TEST_F(ReadGltfRig, GivesBonesThatStandOtherwiseThanBoundOneKey) {
   gltf.json["nodes"][1]["rotation"] = numbers(Quat(Eigen::AngleAxisd(1, Vec3::UnitY())));
   gltf.json["nodes"][1]["translation"] = {0.5, 0, 1};
   gltf.json["animations"] = {Json::object()};
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   EXPECT_LT((rig.rig.skeleton.bones[1].head() - Vec3(0, 0, 1)).norm(), single);
   ASSERT_EQ(rig.rig.clips[0].motion.tracks.size(), 1u);
   const Pose pose = pose_of(rig, 3);
@@ -170,7 +170,7 @@ TEST_F(ReadGltfRig, TakesConstantScaleForNoMotion) {
 TEST_F(ReadGltfRig, MovesHeadsAsScaleThatChangesMovesThem) {
   Gltf gltf = bending_bar();
   add_keys<Vec3>(gltf, 0, "scale", "LINEAR", {0, 1}, {{1, 1, 1}, {1, 1, 2}});
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   for (const double time : {0.0, 0.5, 1.0})
     EXPECT_LT((pose_of(rig, time)[1].frame.origin - Vec3(0, 0, 1 + time)).norm(), single);
   EXPECT_GT(rig.rig.clips[0].motion.tracks.at(0).rotation.times.size(), 50u);
@@ -199,7 +199,7 @@ TEST_F(ReadGltfRig, TakesNamesIntoOneLine) {
 }
 
 TEST_F(ReadGltfRig, KnowsDurationAndFrames) {
-  const GltfRig even = read(bending_bar());
+  const SkinnedRig even = read(bending_bar());
   EXPECT_EQ(even.rig.clips[0].duration, 1);
   EXPECT_EQ(even.rig.clips[0].frames, 2);
   EXPECT_EQ(even.rig.clips[0].frame_time, 1);
@@ -224,7 +224,7 @@ TEST_F(ReadGltfRig, NormalizesWeights) {
   for (int i = 0; i < 15; ++i) weights.insert(weights.end(), {1, 3, 0, 0});
   weights[4] = weights[5] = 0;
   attributes["WEIGHTS_0"] = gltf.floats(weights, "VEC4");
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   ASSERT_EQ(rig.weights.of(0).size(), 2u);
   EXPECT_EQ(rig.weights.of(0)[0].bone, 1);
   EXPECT_EQ(rig.weights.of(0)[0].weight, 0.75);
@@ -245,7 +245,7 @@ TEST_F(ReadGltfRig, AddsWeightsOfOneBone) {
   gltf.json["accessors"][attributes["WEIGHTS_0"].get<int>()]["normalized"] = true;
   attributes["JOINTS_1"] = attributes["JOINTS_0"];
   attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   ASSERT_EQ(rig.weights.of(3).size(), 2u);
   EXPECT_NEAR(rig.weights.of(3)[0].weight, 32768.0 / 65535, 1e-12);
   EXPECT_EQ(rig.weights.of(3)[0].bone, 1);
@@ -262,7 +262,7 @@ TEST_F(ReadGltfRig, UnitesSkins) {
   const int skin =
       gltf.add("skins", {{"joints", {2, 1}}, {"inverseBindMatrices", gltf.matrices({end, upper})}});
   gltf.json["scenes"][0]["nodes"].push_back(gltf.node({{"mesh", 0}, {"skin", skin}}));
-  const GltfRig rig = read(gltf);
+  const SkinnedRig rig = read(gltf);
   ASSERT_EQ(rig.rig.skeleton.size(), 3u);
   EXPECT_EQ(rig.rig.skeleton.bones[2].parent, 1);
   EXPECT_LT((rig.rig.skeleton.bones[2].tail() - Vec3(0, 0, 3)).norm(), single);
@@ -297,7 +297,7 @@ TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
   const Settings settings = read_scene(source / "configs/box_bend.yaml");
   const Skeleton skeleton = skeleton_of(settings);
   const Motion motion = motion_of(settings, skeleton);
-  const GltfRig rig = read_gltf_rig(source / "data/motions/box_bend.glb");
+  const SkinnedRig rig = read_gltf_rig(source / "data/motions/box_bend.glb");
   ASSERT_EQ(rig.rig.skeleton.size(), 2u);
   const Clip& clip = find_clip(rig.rig.clips, "bend");
   EXPECT_EQ(clip.frames, 151);
@@ -317,7 +317,7 @@ TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
 TEST(BoxBendGlb, HoldsTheBoxAndItsWeights) {
   const std::filesystem::path file =
       std::filesystem::path(SINEW_SOURCE_DIR) / "data/motions/box_bend.glb";
-  const GltfRig rig = read_gltf_rig(file);
+  const SkinnedRig rig = read_gltf_rig(file);
   EXPECT_EQ(rig.mesh.points.size(), 1062u);
   EXPECT_EQ(rig.mesh.polygons.size(), 2120u);
   EXPECT_EQ(read_gltf(file).points, rig.mesh.points);

@@ -68,7 +68,7 @@ VtkPose vtk_pose(const std::filesystem::path& path, int animation, double time) 
   return {vtk_joints(path, animation, time), vtk_corners(path, animation, time)};
 }
 
-Points skinned_corners(const GltfRig& rig, const Pose& pose) {
+Points skinned_corners(const SkinnedRig& rig, const Pose& pose) {
   Points points;
   for (std::size_t i = 0; i < rig.mesh.points.size(); ++i) {
     Vec3 point = Vec3::Zero();

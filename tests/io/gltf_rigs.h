@@ -97,6 +97,6 @@ VtkPose vtk_pose(const std::filesystem::path& path, int animation, double time);
 Points vtk_corners(const std::filesystem::path& path, int animation, double time);
 
 /// Where our rig puts the corners of its mesh, each carried by its bones as they are weighted.
-Points skinned_corners(const GltfRig& rig, const Pose& pose);
+Points skinned_corners(const SkinnedRig& rig, const Pose& pose);
 
 }  // namespace sinew::gltf_files

@@ -239,7 +239,7 @@ class GltfRigAndVtk : public Scratch {
   }
 
   std::filesystem::path path;
-  GltfRig rig;
+  SkinnedRig rig;
   Affine at_bind;
   Box box;
 };

@@ -141,11 +141,7 @@ int bone_of(const TrackDefinition& track, std::size_t index, const Skeleton& ske
             const Motion& earlier) {
   const std::string& name = track.bone;
   const std::string key = path_in_tracks(index) + ".bone";
-  const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
-                                  [&](const Bone& bone) { return bone.name == name; });
-  if (found == skeleton.bones.end())
-    throw bad_value(key, "there is no bone '" + name + "'", "use a name from skeleton.bones");
-  const int bone = static_cast<int>(found - skeleton.bones.begin());
+  const int bone = bone_named(skeleton, name, key);
   for (const Track& one : earlier.tracks)
     if (one.bone == bone)
       throw bad_value(key, "bone '" + name + "' has two tracks", "put all its keys into one");

@@ -147,6 +147,15 @@ int least_along(const Vec3& unit) {
 
 }  // namespace
 
+int bone_named(const Skeleton& skeleton, const std::string& name, const std::string& key) {
+  const int bone = index_of(skeleton, name);
+  if (bone != no_bone) return bone;
+  std::vector<std::string_view> names;
+  names.reserve(skeleton.size());
+  for (const Bone& one : skeleton.bones) names.emplace_back(one.name);
+  throw bad_value(key, "there is no bone '" + name + "'", suggestion(name, names));
+}
+
 Skeleton make_skeleton(std::span<const BoneDefinition> bones) {
   if (bones.empty())
     throw bad_value("bones", "the skeleton has no bones",

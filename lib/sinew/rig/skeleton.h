@@ -53,6 +53,9 @@ struct Skeleton {
   std::size_t size() const { return bones.size(); }
 };
 
+/// The bone of a name that `key` gives. Throws bad_value where there is none.
+int bone_named(const Skeleton& skeleton, const std::string& name, const std::string& key);
+
 /// Builds the skeleton of these bones. Throws bad_value, with a key such as "bones[1].tail", for no
 /// bones, a name used twice, an unknown or later parent, a root without head, a bone without length
 /// or with two, connected to nothing, or with limits that exclude every rotation.

@@ -13,7 +13,9 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
+#include <sinew/rig/motion.h>
 #include <sinew/rig/pose.h>
 
 namespace sinew {
@@ -34,6 +36,13 @@ struct BoneWeights {
   std::span<const BoneWeight> of(std::size_t i) const {
     return {weights.data() + first[i], first[i + 1] - first[i]};
   }
+};
+
+/// A rig as its file has it, in its own directions and units.
+struct SkinnedRig {
+  Rig rig;
+  PolygonSoup mesh;     ///< the meshes that it moves, in the bind pose; empty for a rig alone
+  BoneWeights weights;  ///< of mesh.points
 };
 
 /// The weights of `vertices` (n x 3, m) at other points (m): the mean over the eight nearest

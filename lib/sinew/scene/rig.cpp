@@ -5,34 +5,11 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/rig.h>
-#include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/context.h>
 
 namespace sinew {
 namespace {
-
-bool is_bvh(const std::filesystem::path& path) {
-  return lower(path.extension().string()) == ".bvh";
-}
-
-bool is_gltf(const std::filesystem::path& path) {
-  const std::string type = lower(path.extension().string());
-  return type == ".gltf" || type == ".glb";
-}
-
-/// In the file's own directions and units: placed() rotates and scales it afterwards.
-Rig read_bvh_rig(const std::filesystem::path& path, const MotionOptions& motion) {
-  BvhOptions options;
-  options.name = path.stem().string();
-  options.up = std::string("z");
-  options.forward = std::string("x");
-  options.rate = motion.frame_rate.value_or(0);
-  options.positions =
-      motion.positions == Positions::add ? BvhPositions::add : BvhPositions::replace;
-  return rig_of(read_bvh(path), options);
-}
 
 std::string names_of(const std::vector<Clip>& clips) {
   std::vector<std::string_view> names;
@@ -87,19 +64,6 @@ Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& set
 
 }  // namespace
 
-bool holds_rig(const std::filesystem::path& path) {
-  return is_bvh(path) || (is_gltf(path) && has_skin(path));
-}
-
-bool holds_mesh(const std::filesystem::path& path) { return !is_bvh(path); }
-
-Rig read_rig(const std::filesystem::path& path, const MotionOptions& motion) {
-  if (is_bvh(path)) return read_bvh_rig(path, motion);
-  if (is_gltf(path)) return read_gltf_rig(path).rig;
-  throw bad_input(Place{path.string()}, "is no rig that can be read",
-                  std::string("give a file of YAML, ") + rig_formats);
-}
-
 Skeleton skeleton_of(const Settings& settings) {
   Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
   return placed(std::move(skeleton), settings.skeleton.scale, to_scene(settings.skeleton));
@@ -112,27 +76,28 @@ Motion motion_of(const Settings& settings, const Skeleton& skeleton) {
       settings);
 }
 
-SceneRig rig_of(const Settings& settings) {
+int bone_at(const Settings& settings, const std::string& entry, const Skeleton& skeleton,
+            const std::string& name) {
+  if (name.empty()) return no_bone;
+  return at_keys(settings, "", [&] { return bone_named(skeleton, name, entry + ".bone"); });
+}
+
+SceneRig rig_of(const Settings& settings, const SceneFiles& files) {
+  const bool own_bones = settings.skeleton.file.empty(), own_clip = settings.motion.file.empty();
+  const Rig& from = files.skeleton.rig;
   SceneRig scene;
-  const std::string &skeleton = settings.skeleton.file, &motion = settings.motion.file;
-  Rig rig;
-  if (skeleton.empty()) {
-    scene.skeleton = skeleton_of(settings);
-  } else {
-    rig = with_context(settings, "skeleton.file",
-                       [&] { return read_rig(skeleton, settings.motion); });
-    scene.skeleton = placed(rig.skeleton, settings.skeleton.scale, to_scene(settings.skeleton));
-  }
-  if (!motion.empty()) {
-    scene.motion = with_context(settings, "motion.file", [&] {
-      return clip_motion(read_rig(motion, settings.motion), scene.skeleton, settings);
-    });
-  } else if (settings.tracks.empty() && !rig.clips.empty()) {
-    scene.motion = with_context(settings, "skeleton.file",
-                                [&] { return clip_motion(rig, scene.skeleton, settings); });
-  } else {
+  scene.skeleton =
+      own_bones ? skeleton_of(settings)
+                : placed(from.skeleton, settings.skeleton.scale, to_scene(settings.skeleton));
+  const auto moved_by = [&](const char* key, const Rig& rig) {
+    return with_context(settings, key, [&] { return clip_motion(rig, scene.skeleton, settings); });
+  };
+  if (!own_clip)
+    scene.motion = moved_by("motion.file", files.motion);
+  else if (settings.tracks.empty() && !from.clips.empty())
+    scene.motion = moved_by("skeleton.file", from);
+  else
     scene.motion = motion_of(settings, scene.skeleton);
-  }
   return scene;
 }
 

@@ -7,10 +7,10 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/rig.h>
 #include <sinew/physics/time_step.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/context.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/world.h>
 
@@ -19,32 +19,20 @@ namespace sinew {
 namespace {
 
 /// The weights of the mesh in skeleton.file, in the scene's directions and lengths.
-BoneWeights weights_of_file(const Settings& settings, const Points& rest) {
+BoneWeights weights_of_file(const Settings& settings, const SkinnedRig& rig, const Points& rest) {
   const std::filesystem::path file = settings.skeleton.file;
   const std::string type = lower(file.extension().string());
   const Place place = settings.place("binding.method");
   if (type != ".gltf" && type != ".glb")
     throw bad_input(place, "there is no glTF file to take weights from",
                     "name a .gltf or .glb with a skinned mesh in skeleton.file, or choose inside");
-  GltfRig rig = with_context(settings, "skeleton.file", [&] { return read_gltf_rig(file); });
   if (rig.weights.weights.empty())
     throw bad_input(place, file.filename().string() + " holds no skinned mesh, so no weights",
                     "choose nearest or inside");
   const Mat3 turn = to_scene(settings.skeleton);
-  for (Vec3& point : rig.mesh.points) point = settings.skeleton.scale * (turn * point);
-  return carried_weights(rig.mesh.points, rig.weights, rest);
-}
-
-int bone_named(const Settings& settings, const std::string& path, const Skeleton& skeleton,
-               const std::string& name) {
-  if (name.empty()) return no_bone;
-  std::vector<std::string_view> names;
-  for (const Bone& bone : skeleton.bones) names.emplace_back(bone.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw bad_input(settings.place(path), "no bone is named '" + name + "'",
-                    suggestion(name, names));
-  return static_cast<int>(found - names.begin());
+  Points points = rig.mesh.points;
+  for (Vec3& point : points) point = settings.skeleton.scale * (turn * point);
+  return carried_weights(points, rig.weights, rest);
 }
 
 std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
@@ -74,7 +62,7 @@ BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleto
     throw bad_input(settings.place(path), "the entry names no particles",
                     "give ids, low and high of a box, or center and radius of a ball");
   BoundRegion region;
-  region.bone = bone_named(settings, path + ".bone", skeleton, given.bone);
+  region.bone = bone_at(settings, path, skeleton, given.bone);
   if (given.ids) region.ids = ids_of(settings, path + ".ids", *given.ids, particles);
   if (box) region.box = Box(*given.low, *given.high);
   if (ball) region.center = *given.center, region.radius = *given.radius;
@@ -83,8 +71,8 @@ BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleto
 
 }  // namespace
 
-Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Points& rest,
-                   double radius) {
+Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
+                   const Points& rest, double radius) {
   const BindingOptions& given = settings.binding;
   BindOptions options;
   options.radius = radius;
@@ -93,7 +81,8 @@ Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Poi
   if (given.core_radius) options.core_radius = *given.core_radius;
   for (std::size_t i = 0; i < settings.bound.size(); ++i)
     options.regions.push_back(region_of(settings, i, skeleton, rest.size()));
-  if (given.method == BindMethod::file) options.weights = weights_of_file(settings, rest);
+  if (given.method == BindMethod::file)
+    options.weights = weights_of_file(settings, files.skeleton, rest);
   return bind_to_bones(rest, skeleton, options);
 }
 
@@ -126,11 +115,12 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
 
 }  // namespace
 
-Body make_body(const Settings& settings, Skeleton skeleton, const Particles& particles) {
+Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
+               const Particles& particles) {
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = std::move(skeleton);
-  body.binding = bind_scene(settings, body.skeleton, body.rest, particles.radius);
+  body.binding = bind_scene(settings, files, body.skeleton, body.rest, particles.radius);
   body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
   body.lattice = lattice_axes(settings.body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
@@ -145,12 +135,12 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
   return choose_step(solver.time_step, solver.time_step_factor, limit, interval);
 }
 
-Setup set_up(const Settings& settings, const Particles& particles) {
+Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles) {
   Setup setup;
   setup.frames = frames_of(settings);
-  SceneRig rig = rig_of(settings);
-  setup.body = make_body(settings, std::move(rig.skeleton), particles);
-  SceneWorld around = world_of(settings, setup.body);
+  SceneRig rig = rig_of(settings, files);
+  setup.body = make_body(settings, files, std::move(rig.skeleton), particles);
+  SceneWorld around = world_of(settings, files.obstacles, setup.body);
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);
   setup.motion = std::move(rig.motion);
@@ -167,10 +157,11 @@ ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body) {
   Stopwatch watch;
   ReadyScene ready;
   ready.surface = read_mesh(settings);
+  const SceneFiles files = read_files(settings);
   ready.body =
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
   ready.seconds_filling = watch.lap();
-  ready.setup = set_up(settings, ready.body.particles);
+  ready.setup = set_up(settings, files, ready.body.particles);
   ready.body.bone = bones_of_particles(ready.setup.body);
   ready.body.weight = weights_of_particles(ready.setup.body);
   ready.seconds_binding = watch.lap();

@@ -13,6 +13,7 @@
 #include <sinew/physics/time_step.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/scene_files.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -22,11 +23,12 @@ namespace sinew {
 /// Binds particles of `radius` (m) at `rest` as section binding specifies. Throws bad input, with
 /// the scene's line: for a file without weights, an unknown bone, numbers of particles that do not
 /// exist, and an incomplete box or ball.
-Binding bind_scene(const Settings& settings, const Skeleton& skeleton, const Points& rest,
-                   double radius);
+Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
+                   const Points& rest, double radius);
 
 /// The particles on the bones, without a world. Errors name the scene's line.
-Body make_body(const Settings& settings, Skeleton skeleton, const Particles& particles);
+Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
+               const Particles& particles);
 
 struct Setup {
   Body body;
@@ -43,7 +45,7 @@ Stepping stepping_of(const SolverSettings& solver, double step);
 StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
 
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.
-Setup set_up(const Settings& settings, const Particles& particles);
+Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles);
 
 /// A scene filled, bound and ready to be stepped.
 struct ReadyScene {
@@ -53,8 +55,8 @@ struct ReadyScene {
   double seconds_filling = 0, seconds_binding = 0;
 };
 
-/// Reads the scene's mesh, fills it (or takes the `body` of an earlier fill), binds the particles
-/// and chooses the step. Errors name the scene's line.
+/// Reads the scene's files, fills its mesh (or takes the `body` of an earlier fill), binds the
+/// particles and chooses the step. Errors name the scene's line.
 ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body = {});
 
 /// The simulation of a scene, at its start.

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <utility>
 
 #include <sinew/mesh/surface_distance.h>
 #include <sinew/physics/world/shapes.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/context.h>
+#include <sinew/scene/rig.h>
 
 namespace sinew {
 namespace {
@@ -19,15 +20,6 @@ std::string entry(const char* list, std::size_t index) {
   path += list;
   path += '[' + std::to_string(index) + ']';
   return path;
-}
-
-int bone_named(const std::string& name, const std::string& path, const Settings& settings,
-               const Skeleton& skeleton) {
-  if (name.empty()) return no_bone;
-  for (std::size_t b = 0; b < skeleton.size(); ++b)
-    if (skeleton.bones[b].name == name) return static_cast<int>(b);
-  throw bad_input(settings.place(path + ".bone"), "there is no bone '" + name + "'",
-                  "use a name from skeleton.bones");
 }
 
 Region region_of(const RegionSettings& given) {
@@ -70,12 +62,7 @@ struct Placed {  // NOLINT(bugprone-exception-escape): moving a shape throws not
   Triangles surface;
 };
 
-Placed placed_mesh(const ObstacleSettings& given, const BodyOptions& body) {
-  BodyOptions file;
-  file.mesh = given.mesh;
-  file.unit = body.unit;
-  file.scale = body.scale;
-  const Surface surface = read_body_mesh(file);
+Placed placed_mesh(const Surface& surface) {
   Placed placed;
   placed.surface = surface.triangles;
   const Box box = bounds(placed.surface.points);
@@ -99,13 +86,13 @@ Mat3 rotation_about_axes(const Vec3& angles) {
   return turn;
 }
 
-/// `size`: of the body, m.
-Placed placed_shape(const ObstacleSettings& given, const BodyOptions& body, double size) {
+/// `mesh`: for that shape alone. `size`: of the body, m.
+Placed placed_shape(const ObstacleSettings& given, const Surface& mesh, double size) {
   const Vec3 zero = Vec3::Zero();
   Placed placed;
   switch (given.shape) {
     case ObstacleShape::mesh:
-      return placed_mesh(given, body);
+      return placed_mesh(mesh);
     case ObstacleShape::plane:
       placed = {PlaneShape{zero, given.normal}, given.point, {}};
       break;
@@ -155,17 +142,17 @@ ObstacleMotion motion_of(const ObstacleSettings& given, const Vec3& middle, int 
   return bone == no_bone ? still(frame) : attached_to_bone(bone, skeleton.bones[bone], frame);
 }
 
-void add_obstacles(const Settings& settings, const Body& body, World& world,
-                   std::vector<Triangles>& surfaces) {
+void add_obstacles(const Settings& settings, std::span<const Surface> meshes, const Body& body,
+                   World& world, std::vector<Triangles>& surfaces) {
   const Material& material = body.material;
   const double k = material.pair.contact_stiffness();
   const double size = 2 * bounds(body.rest).diagonal().norm();
   for (std::size_t i = 0; i < settings.world.obstacles.size(); ++i) {
     const ObstacleSettings& given = settings.world.obstacles[i];
     const std::string path = entry("obstacles", i);
-    const int bone = bone_named(given.bone, path, settings, body.skeleton);
+    const int bone = bone_at(settings, path, body.skeleton, given.bone);
     Placed placed = with_context(settings, (path + ".mesh").c_str(),
-                                 [&] { return placed_shape(given, settings.body, size); });
+                                 [&] { return placed_shape(given, meshes[i], size); });
     Obstacle obstacle;
     obstacle.name = given.name;
     obstacle.shape = std::move(placed.shape);
@@ -182,8 +169,8 @@ void add_pins(const Settings& settings, const Body& body, World& world) {
   std::vector<Pin> pins;
   for (std::size_t i = 0; i < settings.world.pins.size(); ++i) {
     const PinSettings& given = settings.world.pins[i];
-    pins.push_back({region_of(given.region),
-                    bone_named(given.bone, entry("pins", i), settings, body.skeleton)});
+    pins.push_back(
+        {region_of(given.region), bone_at(settings, entry("pins", i), body.skeleton, given.bone)});
   }
   world.pins = with_context(settings, "world.pins", [&] {
     return pinned(body.rest, pins, static_cast<int>(body.skeleton.size()));
@@ -192,7 +179,7 @@ void add_pins(const Settings& settings, const Body& body, World& world) {
 
 Muscle muscle_of(const MuscleSettings& given, const std::string& path, const Settings& settings,
                  const Body& body) {
-  const int bone = bone_named(given.bone, path, settings, body.skeleton);
+  const int bone = bone_at(settings, path, body.skeleton, given.bone);
   Muscle muscle;
   muscle.name = given.name;
   muscle.direction = given.direction ? *given.direction : body.skeleton.bones[bone].axis();
@@ -219,11 +206,11 @@ void add_muscles(const Settings& settings, const Body& body, World& world) {
 
 }  // namespace
 
-SceneWorld world_of(const Settings& settings, const Body& body) {
+SceneWorld world_of(const Settings& settings, std::span<const Surface> meshes, const Body& body) {
   if (settings.world.empty()) return {};
   SceneWorld made;
   World world;
-  add_obstacles(settings, body, world, made.obstacles);
+  add_obstacles(settings, meshes, body, world, made.obstacles);
   world.drag.rate = settings.world.drag;
   for (const FieldSettings& given : settings.world.fields)
     world.fields.push_back(

@@ -211,12 +211,12 @@ std::vector<GltfShape> skinned_shapes(const CheckedGltf& gltf, const GltfBindPos
   return shapes;
 }
 
-GltfRig rig_of(const CheckedGltf& gltf, const GltfRigOptions& options) {
+SkinnedRig rig_in(const CheckedGltf& gltf, const GltfRigOptions& options) {
   if (gltf.document.skins.empty())
     throw bad_input("it has no skin", "export it with its armature and skinning");
   check_size(gltf.document);
   const GltfBindPose bind = gltf_bind_pose(gltf);
-  GltfRig rig;
+  SkinnedRig rig;
   rig.rig.skeleton = skeleton_in(gltf.document, bind);
   rig.rig.clips = clips_of(gltf, bind, options.samples_per_second);
   GltfTriangles triangles = gltf_triangles(gltf, skinned_shapes(gltf, bind));
@@ -227,11 +227,11 @@ GltfRig rig_of(const CheckedGltf& gltf, const GltfRigOptions& options) {
 
 }  // namespace
 
-GltfRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options) {
+SkinnedRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options) {
   try {
     const CheckedGltf gltf = checked_gltf(path);
     try {
-      return rig_of(gltf, options);
+      return rig_in(gltf, options);
     } catch (const Error& error) {
       throw error.with_context({path.string()});
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads skeletons, motions and skinned meshes from glTF 2.0 files, .gltf and .glb.
 //
-//     const GltfRig fox = read_gltf_rig("fox.glb");
+//     const SkinnedRig fox = read_gltf_rig("fox.glb");
 //
 // Bones are the joints of all skins that move a mesh of the default scene (of all skins where none
 // does), each node once; their rest is the bind pose of the skins, placed and scaled in the scene
@@ -15,8 +15,6 @@
 
 #include <filesystem>
 
-#include <sinew/core/triangles.h>
-#include <sinew/rig/motion.h>
 #include <sinew/rig/skinning.h>
 
 namespace sinew {
@@ -25,20 +23,12 @@ struct GltfRigOptions {
   double samples_per_second = 60;  ///< between keys, of bones whose keys cannot be kept
 };
 
-struct GltfRig {
-  Rig rig;
-  /// The skinned meshes of the scene in the bind pose, m, with the triangles and placement of
-  /// read_gltf(); those without a skin are left out. Empty where the file holds a rig alone.
-  PolygonSoup mesh;
-  /// Of mesh.points, by the bones of the rig: up to eight sets of four in the file (JOINTS_0 to
-  /// JOINTS_7). A vertex whose weights are all zero has none.
-  BoneWeights weights;
-};
-
-/// Throws bad input, with the path, for all that read_gltf() refuses, files without a skin, skins
-/// bound with uneven scale (1 %) or inconsistently, skinned meshes without weights, and animations,
-/// weights and matrices that are damaged.
-GltfRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options = {});
+/// Lengths in m. The mesh has the triangles and placement of read_gltf(), without those that have
+/// no skin; its weights are those of up to eight sets of four (JOINTS_0 to JOINTS_7), none for a
+/// vertex whose weights are all zero. Throws bad input, with the path, for all that read_gltf()
+/// refuses, files without a skin, skins bound with uneven scale (1 %) or inconsistently, skinned
+/// meshes without weights, and animations, weights and matrices that are damaged.
+SkinnedRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options = {});
 
 /// Whether the file has a skin, and so a rig. Throws bad input for a damaged file.
 bool has_skin(const std::filesystem::path& path);

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/scene_files.h>
+
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/io/gltf/rig.h>
+#include <sinew/rig/bvh/bvh.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/context.h>
+
+namespace sinew {
+namespace {
+
+bool is_bvh(const std::filesystem::path& path) {
+  return lower(path.extension().string()) == ".bvh";
+}
+
+bool is_gltf(const std::filesystem::path& path) {
+  const std::string type = lower(path.extension().string());
+  return type == ".gltf" || type == ".glb";
+}
+
+/// In the file's own directions and units: placed() rotates and scales it afterwards.
+Rig read_bvh_rig(const std::filesystem::path& path, const MotionOptions& motion) {
+  BvhOptions options;
+  options.name = path.stem().string();
+  options.up = std::string("z");
+  options.forward = std::string("x");
+  options.rate = motion.frame_rate.value_or(0);
+  options.positions =
+      motion.positions == Positions::add ? BvhPositions::add : BvhPositions::replace;
+  return rig_of(read_bvh(path), options);
+}
+
+SkinnedRig read_if_named(const Settings& settings, const char* key, const std::string& path) {
+  if (path.empty()) return {};
+  return with_context(settings, key, [&] { return read_rig(path, settings.motion); });
+}
+
+/// Nothing for an obstacle of another shape.
+Surface read_obstacle(const Settings& settings, std::size_t index) {
+  const ObstacleSettings& obstacle = settings.world.obstacles[index];
+  if (obstacle.shape != ObstacleShape::mesh) return {};
+  BodyOptions file;
+  file.mesh = obstacle.mesh;
+  file.unit = settings.body.unit;
+  file.scale = settings.body.scale;
+  const std::string key = "world.obstacles[" + std::to_string(index) + "].mesh";
+  return with_context(settings, key.c_str(), [&] { return read_body_mesh(file); });
+}
+
+}  // namespace
+
+bool holds_rig(const std::filesystem::path& path) {
+  return is_bvh(path) || (is_gltf(path) && has_skin(path));
+}
+
+bool holds_mesh(const std::filesystem::path& path) { return !is_bvh(path); }
+
+SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& motion) {
+  if (is_bvh(path)) return {read_bvh_rig(path, motion), {}, {}};
+  if (is_gltf(path)) return read_gltf_rig(path);
+  throw bad_input(Place{path.string()}, "is no rig that can be read",
+                  std::string("give a file of YAML, ") + rig_formats);
+}
+
+SceneFiles read_files(const Settings& settings) {
+  SceneFiles files;
+  files.skeleton = read_if_named(settings, "skeleton.file", settings.skeleton.file);
+  files.motion = read_if_named(settings, "motion.file", settings.motion.file).rig;
+  for (std::size_t i = 0; i < settings.world.obstacles.size(); ++i)
+    files.obstacles.push_back(read_obstacle(settings, i));
+  return files;
+}
+
+}  // namespace sinew

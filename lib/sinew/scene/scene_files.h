@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The files that a scene names beside its mesh, read before the work begins.
+//
+//     const SceneFiles files = read_files(settings);
+//     const Setup setup = set_up(settings, files, particles);
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <sinew/mesh/surface.h>
+#include <sinew/rig/motion.h>
+#include <sinew/rig/skinning.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// File names of rigs and clips that are not YAML, as help texts list them.
+inline constexpr const char* rig_formats = "BVH, glTF, GLB";
+
+/// Whether a file that is not YAML has a rig, and whether it may have a mesh: glTF may have both.
+bool holds_rig(const std::filesystem::path& path);
+bool holds_mesh(const std::filesystem::path& path);
+
+/// The rig of such a file, in its own directions and units. Throws bad input, with the path.
+SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& motion);
+
+/// Empty where the scene names none.
+struct SceneFiles {
+  SkinnedRig skeleton;             ///< of skeleton.file
+  Rig motion;                      ///< of motion.file
+  std::vector<Surface> obstacles;  ///< of world.obstacles, one each; empty for other shapes
+};
+
+/// Throws bad input, with the scene's line, for files that cannot be read.
+SceneFiles read_files(const Settings& settings);
+
+}  // namespace sinew
