@@ -55,7 +55,7 @@ GIVEN_UP = {
     r"\btold_at\b": "with_context", r"\balbum\b": "figure set", r"\b(Plate|DrawnLook)\b": "figure, view preset",
     r"\b[Ff]ilm_|\bFilm": "playback",
     r"\bwide list|\bnarrow list": "outer or inner list", r"asked of CGAL|asks CGAL": "checked against CGAL",
-    r"whole or not at all": "atomically",
+    r"whole or not at all": "atomically", r"\b(Vec3|double|Corners|Floats) ways?\b": "path, displacement or direction",
 }
 
 

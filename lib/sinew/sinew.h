@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All of sinew, in the order of the data's way: scene, fill, bind, simulate, write, measure.
+// All of sinew, in the order of the data: scene, fill, bind, simulate, write, measure.
 //
 //     const sinew::Settings scene = sinew::read_scene("configs/box_bend.yaml");
 //     sinew::simulate(scene, {"out/box_bend"});

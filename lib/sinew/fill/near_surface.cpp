@@ -71,13 +71,13 @@ DilatedTriangle::DilatedTriangle(const Corners& corners, double distance)
       middle_((corners[0] + corners[1] + corners[2]) / 3),
       distance_(distance),
       squared_distance_(distance * distance) {
-  const Corners ways = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+  const Corners edges = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
   for (int i = 1; i < 3; ++i)
-    if (ways[i].squaredNorm() > ways[longest_].squaredNorm()) longest_ = i;
-  normal_ = unit_normal(ways[0], ways[1], ways[longest_]);
+    if (edges[i].squaredNorm() > edges[longest_].squaredNorm()) longest_ = i;
+  normal_ = unit_normal(edges[0], edges[1], edges[longest_]);
   double bound = 0;
   for (int i = 0; i < 3; ++i) {
-    sides_[i] = side(ways[i], normal_);
+    sides_[i] = side(edges[i], normal_);
     bound = std::max(bound, (corners[i] - middle_).squaredNorm());
   }
   bound_ = (std::sqrt(bound) + distance) * (1 + 1e-12);

@@ -54,12 +54,13 @@ std::vector<std::int32_t> in_written_order(std::span<const std::int32_t> values,
 
 Column displacement_column(const Points& now, const Points& rest) {
   assert(now.size() == rest.size());
-  std::vector<double> ways(3 * now.size());
+  std::vector<double> displacements(3 * now.size());
   parallel_for(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      for (int axis = 0; axis < 3; ++axis) ways[3 * i + axis] = now[i][axis] - rest[i][axis];
+      for (int axis = 0; axis < 3; ++axis)
+        displacements[3 * i + axis] = now[i][axis] - rest[i][axis];
   });
-  return {"displacement", 3, std::move(ways)};
+  return {"displacement", 3, std::move(displacements)};
 }
 
 std::vector<std::int32_t> copied(std::span<const std::int32_t> values, std::size_t count) {
@@ -203,9 +204,9 @@ Dataset bones_dataset(const Skeleton& skeleton, const Pose& pose, Moment moment)
     const auto head = static_cast<std::int32_t>(data.points.size());
     data.points.push_back(frame.origin);
     for (int line = 0; line < 4; ++line) {
-      const Vec3 way = line == 0 ? Vec3(length * pose[b].axis())
-                                 : Vec3(stub * length * frame.rotation.col(line - 1));
-      data.points.push_back(frame.origin + way);
+      const Vec3 along = line == 0 ? Vec3(length * pose[b].axis())
+                                   : Vec3(stub * length * frame.rotation.col(line - 1));
+      data.points.push_back(frame.origin + along);
       data.connectivity.insert(data.connectivity.end(), {head, head + 1 + line});
       axis.push_back(line);
       bone.push_back(static_cast<std::int32_t>(b));

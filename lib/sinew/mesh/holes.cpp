@@ -40,7 +40,7 @@ std::vector<HoleEdge> open_edges(const Triangles& surface) {
 }
 
 /// An open edge at a point, by its direction seen along the normal.
-struct Way {
+struct EdgeEnd {
   double angle;
   bool leaves;
   int edge;
@@ -118,29 +118,29 @@ class Walker {
       if (end - begin == 1)
         next[coming[begin]] = static_cast<int>(begin);
       else
-        join(ways({coming.data() + begin, end - begin}, static_cast<int>(begin)), next);
+        join(edge_ends({coming.data() + begin, end - begin}, static_cast<int>(begin)), next);
     }
     return next;
   }
 
   /// Clockwise around a point: the incoming edges and the outgoing ones from `first`
   /// on.
-  std::vector<Way> ways(std::span<const int> coming, int first) const {
+  std::vector<EdgeEnd> edge_ends(std::span<const int> coming, int first) const {
     const int point = edges_[first].from;
     const bool known = normals_[point].squaredNorm() > 0.5;
     const Vec3 normal = known ? normals_[point] : Vec3(Vec3::UnitZ());
     const Vec3 side = normal.unitOrthogonal(), up = normal.cross(side);
     const auto angle = [&](int to) {
-      const Vec3 way = points_[to] - points_[point];
-      return std::atan2(way.dot(up), way.dot(side));
+      const Vec3 along = points_[to] - points_[point];
+      return std::atan2(along.dot(up), along.dot(side));
     };
-    std::vector<Way> all;
+    std::vector<EdgeEnd> all;
     for (std::size_t i = 0; i < coming.size(); ++i) {
       const int out = first + static_cast<int>(i);
       all.push_back({angle(edges_[coming[i]].from), false, coming[i]});
       all.push_back({angle(edges_[out].to), true, out});
     }
-    std::sort(all.begin(), all.end(), [](const Way& a, const Way& b) {
+    std::sort(all.begin(), all.end(), [](const EdgeEnd& a, const EdgeEnd& b) {
       return std::tie(b.angle, a.leaves, a.edge) < std::tie(a.angle, b.leaves, b.edge);
     });
     return all;
@@ -148,23 +148,23 @@ class Walker {
 
   /// A hole is on the left of its edges, clockwise from the incoming to the outgoing one: they are
   /// matched as brackets, starting where as many are closed as opened.
-  static void join(std::vector<Way> clockwise, std::vector<int>& next) {
+  static void join(std::vector<EdgeEnd> clockwise, std::vector<int>& next) {
     int depth = 0, least = 0;
     auto start = clockwise.begin();
-    for (auto way = clockwise.begin(); way != clockwise.end(); ++way) {
-      depth += way->leaves ? -1 : 1;
+    for (auto at = clockwise.begin(); at != clockwise.end(); ++at) {
+      depth += at->leaves ? -1 : 1;
       if (depth >= least) continue;
       least = depth;
-      start = way + 1;
+      start = at + 1;
     }
     std::rotate(clockwise.begin(), start, clockwise.end());
     std::vector<int> open;
-    for (const Way& way : clockwise) {
-      if (!way.leaves) {
-        open.push_back(way.edge);
+    for (const EdgeEnd& end : clockwise) {
+      if (!end.leaves) {
+        open.push_back(end.edge);
         continue;
       }
-      next[open.back()] = way.edge;
+      next[open.back()] = end.edge;
       open.pop_back();
     }
   }

@@ -50,13 +50,13 @@ SurfaceDistance& SurfaceDistance::operator=(SurfaceDistance&&) noexcept = defaul
 
 NearestPlace SurfaceDistance::from(const Vec3& point) const {
   const NearestOnFaces found = tree_->nearest.to(point);
-  const Vec3 way = point - found.place;
-  const double distance = way.norm();
+  const Vec3 offset = point - found.place;
+  const double distance = offset.norm();
   if (distance < nearness * tree_->size)
     return {0, area_vector(tree_->surface, tree_->surface.faces[found.face]).normalized()};
   const int inside = tree_->winding.around(point).value_or(0);
-  if (inside > 0) return {-distance, -way / distance};
-  return {distance, way / distance};
+  if (inside > 0) return {-distance, -offset / distance};
+  return {distance, offset / distance};
 }
 
 namespace {

@@ -95,10 +95,10 @@ double overshoot_of(const Hold& hold, std::span<const FrameMetrics> frames) {
   if (hold.first == 0) return not_measured;  // there is no earlier angle
   const auto tip = [&](std::size_t i) { return frames[i].tip_angle; };
   const double end = tip(hold.last), before = tip(hold.first - 1);
-  const double way = end > before ? 1 : -1;
+  const double direction = end > before ? 1 : -1;
   Statistics beyond;
   for (std::size_t i = hold.first; i <= hold.last; ++i)
-    if (!std::isnan(tip(i) - before)) beyond.add(way * (tip(i) - end));
+    if (!std::isnan(tip(i) - before)) beyond.add(direction * (tip(i) - end));
   return beyond.count > 0 ? std::max(0.0, beyond.max()) : not_measured;
 }
 

@@ -16,10 +16,10 @@ Vec3 area_of(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t
 
 /// Distance of the origin from the segment a b.
 double distance(const Vec3& a, const Vec3& b) {
-  const Vec3 way = b - a;
-  const double square = way.squaredNorm();
-  const double at = square > 0 ? std::clamp(-a.dot(way) / square, 0.0, 1.0) : 0;
-  return (a + at * way).norm();
+  const Vec3 edge = b - a;
+  const double square = edge.squaredNorm();
+  const double at = square > 0 ? std::clamp(-a.dot(edge) / square, 0.0, 1.0) : 0;
+  return (a + at * edge).norm();
 }
 
 Vec3 middle_of(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }

@@ -57,9 +57,9 @@ class Moments {
 
   /// Displacements of the points from the first sample to that of a target.
   Floats target(std::size_t index) {
-    Floats ways = turned(cache_.sample(taken_[index + 1]));
-    for (std::size_t i = 0; i < ways.size(); ++i) ways[i] -= first_[i];
-    return ways;
+    Floats displacements = turned(cache_.sample(taken_[index + 1]));
+    for (std::size_t i = 0; i < displacements.size(); ++i) displacements[i] -= first_[i];
+    return displacements;
   }
 
   Floats times(double interval) const {

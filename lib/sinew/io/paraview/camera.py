@@ -69,9 +69,9 @@ def look_at(view, corners, back, aspect):
     half = math.tan(math.radians(15))
     distance = 0
     for corner in corners:
-        way = [c - m for c, m in zip(corner, center)]
-        wide = max(abs(dot(way, up)) / TALL, abs(dot(way, across)) / WIDE / aspect)
-        distance = max(distance, dot(way, back) + wide / half)
+        offset = [c - m for c, m in zip(corner, center)]
+        wide = max(abs(dot(offset, up)) / TALL, abs(dot(offset, across)) / WIDE / aspect)
+        distance = max(distance, dot(offset, back) + wide / half)
     low = half * distance * (0.95 - TALL)
     center = [m - low * part for m, part in zip(center, up)]
     view.CameraViewAngle = 30

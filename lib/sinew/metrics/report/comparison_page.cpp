@@ -131,19 +131,19 @@ constexpr double gap = 0.15;  // between the two, relative to the size of the fi
 
 /// Displacement of the second playback, which places it beside the first. The camera looks along x
 /// or y, whichever extent is smaller: it sees both where they are placed along the other.
-Vec3 way_aside(const Playback& first, const Playback& second) {
+Vec3 shift_aside(const Playback& first, const Playback& second) {
   const Box one = box_of(first), other = box_of(second);
   if (one.isEmpty() || other.isEmpty()) return Vec3::Zero();
   const Vec3 size = one.sizes().cwiseMax(other.sizes());
   const int axis = size.x() >= size.y() ? 0 : 1;
-  Vec3 way = Vec3::Zero();
-  way[axis] = one.max()[axis] - other.min()[axis] + gap * size[axis];
-  return way;
+  Vec3 shift = Vec3::Zero();
+  shift[axis] = one.max()[axis] - other.min()[axis] + gap * size[axis];
+  return shift;
 }
 
-void append_moved(std::vector<float>& all, const std::vector<float>& places, const Vec3& way) {
+void append_moved(std::vector<float>& all, const std::vector<float>& places, const Vec3& shift) {
   for (std::size_t i = 0; i < places.size(); ++i)
-    all.push_back(static_cast<float>(places[i] + way[static_cast<int>(i % 3)]));
+    all.push_back(static_cast<float>(places[i] + shift[static_cast<int>(i % 3)]));
 }
 
 /// Not-a-number for the playback that has no such values.
@@ -156,13 +156,13 @@ void append_values(std::vector<float>& all, std::vector<float> values, std::size
 }
 
 /// The positions and fields of a frame, those of the second appended.
-PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3& way) {
+PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3& shift) {
   const std::size_t before = frame.particles.size() / 3, count = other.particles.size() / 3;
   for (std::size_t f = 0; f < frame.values.size(); ++f)
     append_values(frame.values[f], other.values[f], before, count);
-  append_moved(frame.particles, other.particles, way);
-  append_moved(frame.surface, other.surface, way);
-  append_moved(frame.bones, other.bones, way);
+  append_moved(frame.particles, other.particles, shift);
+  append_moved(frame.surface, other.surface, shift);
+  append_moved(frame.bones, other.bones, shift);
   return frame;
 }
 
@@ -189,13 +189,13 @@ void join_shape(Playback& playback, const Playback& second,
 Playback side_by_side(const Playback& first, const Playback& second,
                       const std::array<std::string, 2>& prefixes) {
   Playback playback = first;
-  const Vec3 way = way_aside(first, second);
+  const Vec3 shift = shift_aside(first, second);
   playback.frames.clear();
   for (const PlaybackFrame& frame : first.frames) {
     const auto other =
         std::find_if(second.frames.begin(), second.frames.end(),
                      [&](const PlaybackFrame& one) { return one.frame == frame.frame; });
-    if (other != second.frames.end()) playback.frames.push_back(joined(frame, *other, way));
+    if (other != second.frames.end()) playback.frames.push_back(joined(frame, *other, shift));
   }
   join_shape(playback, second, prefixes);
   return playback;

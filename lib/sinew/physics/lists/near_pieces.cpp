@@ -194,8 +194,8 @@ void NearPieces::sort_out() {
 }
 
 Box NearPieces::box_of(std::size_t piece, double elapsed) const {
-  const Vec3 way = elapsed * common_;
-  return expanded(pieces_[piece].box, traveled_).translate(way);
+  const Vec3 displacement = elapsed * common_;
+  return expanded(pieces_[piece].box, traveled_).translate(displacement);
 }
 
 bool NearPieces::survey_due() const {
