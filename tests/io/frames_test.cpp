@@ -102,10 +102,10 @@ TEST(BonesDataset, HasTheBoneAndThreeAxesAQuarterOfItsLength) {
   ASSERT_EQ(data.cells(), 4 * run.skeleton.size());
   const auto& axis = integers(data.cell_columns, "axis");
   for (std::size_t cell = 0; cell < data.cells(); ++cell) {
-    const Vec3 way =
+    const Vec3 displacement =
         data.points[data.connectivity[2 * cell + 1]] - data.points[data.connectivity[2 * cell]];
     EXPECT_EQ(axis[cell], static_cast<int>(cell % 4));
-    EXPECT_NEAR(way.norm(), axis[cell] == 0 ? 0.24 : 0.06, rounding);
+    EXPECT_NEAR(displacement.norm(), axis[cell] == 0 ? 0.24 : 0.06, rounding);
   }
   EXPECT_EQ(integers(data.cell_columns, "parent"),
             (std::vector<std::int32_t>{-1, -1, -1, -1, 0, 0, 0, 0}));
