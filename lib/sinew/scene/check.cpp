@@ -203,18 +203,20 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
                          "'; move it into the body");
 }
 
-/// Distance from the bone, m, beyond which a particle's lever arm is too long.
-double longest_arm(const Body& body, int bone) {
-  Box box;
-  for (const Vec3& point : body.rest) box.extend(point);
-  return std::min(box.diagonal().norm() / 2,
-                  far_from_bone * std::sqrt(body.binding.cross_section[bone]));
+/// By bone: the distance from it, m, beyond which a particle's lever arm is too long.
+std::vector<double> longest_arms(const Body& body) {
+  const double half = bounds(body.rest).diagonal().norm() / 2;
+  std::vector<double> arms;
+  arms.reserve(body.skeleton.size());
+  for (const double section : body.binding.cross_section)
+    arms.push_back(std::min(half, far_from_bone * std::sqrt(section)));
+  return arms;
 }
 
 void warn_of_far_particles(const Body& body, Warnings& warnings) {
   const std::size_t bones = body.skeleton.size();
-  std::vector<double> limit, farthest(bones, 0.0);
-  for (std::size_t b = 0; b < bones; ++b) limit.push_back(longest_arm(body, static_cast<int>(b)));
+  const std::vector<double> limit = longest_arms(body);
+  std::vector<double> farthest(bones, 0.0);
   std::vector<std::size_t> count(bones, 0);
   for (std::size_t i = 0; i < body.rest.size(); ++i) {
     const int bone = body.binding.bone(i);

@@ -331,14 +331,15 @@ void ListStepper<Real>::sort() {
   Stopwatch watch;
   auto order = order_by_columns(layout_.now,
                                 column_edge * 2 * body_->material.pair.r / layout_.units().length);
-  const double unsorted = lists_.mean_of_outer();
+  VerletLists<Real> before = std::exchange(lists_, lists_.anew());
+  const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
   make_lists();
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {
     layout_.reorder(order);
-    make_lists();
+    lists_ = std::move(before);
   } else {
     ++sorts_;
     find_slots();

@@ -116,7 +116,10 @@ void sort_by_planes(const Listed& particles, const Vec3& across,
   std::vector<std::uint32_t> order(group.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sites[a] != sites[b] ? sites[a] < sites[b] : a < b;
+    const Site &one = sites[a], &other = sites[b];
+    for (int axis = 0; axis < 3; ++axis)  // comparing arrays would call memcmp
+      if (one[axis] != other[axis]) return one[axis] < other[axis];
+    return a < b;
   });
   std::vector<std::uint32_t> sorted(group.size());
   for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = group[order[k]];
@@ -133,15 +136,17 @@ std::vector<std::uint32_t> order_at_rest(const Body& body, std::span<const std::
     const int bone = body.binding.bone(static_cast<std::size_t>(id[place]));
     groups[bone == no_bone ? bones : static_cast<std::size_t>(bone)].push_back(place);
   }
+  parallel_for(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      if (groups[b].empty()) continue;
+      const Vec3 across =
+          b < bones ? body.skeleton.bones[b].axis() : longest_side(particles, groups[b]);
+      sort_by_planes(particles, across, groups[b]);
+    }
+  });
   std::vector<std::uint32_t> order;
   order.reserve(id.size());
-  for (std::size_t b = 0; b <= bones; ++b) {
-    if (groups[b].empty()) continue;
-    const Vec3 across =
-        b < bones ? body.skeleton.bones[b].axis() : longest_side(particles, groups[b]);
-    sort_by_planes(particles, across, groups[b]);
-    order.insert(order.end(), groups[b].begin(), groups[b].end());
-  }
+  for (const auto& group : groups) order.insert(order.end(), group.begin(), group.end());
   return order;
 }
 

@@ -58,6 +58,17 @@ VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Mate
 }
 
 template <class Real>
+VerletLists<Real> VerletLists<Real>::anew() const {
+  VerletLists lists;
+  lists.kernel_ = kernel_;
+  lists.contacts_ = contacts_;
+  lists.wanted_ = wanted_;
+  lists.step_ = step_;
+  lists.counts_ = counts_;
+  return lists;
+}
+
+template <class Real>
 double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
   std::size_t values = 0, blocks = 0;
   for (const OffsetLists& piece : lists)

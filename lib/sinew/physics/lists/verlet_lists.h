@@ -38,6 +38,8 @@ class VerletLists {
   const kernel::Lists* arrays() const { return arrays_.data(); }
   const kernel::PieceMotion<Real>* motions() const { return motions_.data(); }
 
+  /// Lists of the same kind, not yet made, that go on with its counts.
+  VerletLists anew() const;
   bool made() const { return !inner_.empty(); }
   /// Makes all lists.
   void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
