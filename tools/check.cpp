@@ -141,7 +141,7 @@ Exit check(const std::string& scene, const Common& common) {
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);
   const double speed = bone_speed(setup, settings.output.interval);
-  auto warnings = warnings_of(setup, speed);
+  auto warnings = warnings_of(setup, skin, speed);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);

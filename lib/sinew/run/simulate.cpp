@@ -234,12 +234,13 @@ std::optional<SimulationState> state_to_resume(const RunFolder& folder,
   return state;
 }
 
-void say_what_is_doubtful(const Settings& scene, const Setup& setup,
+void say_what_is_doubtful(const Settings& scene, const Setup& setup, const Triangles& surface,
                           const SimulateOptions& options) {
   say(options, "step " + three_digits(setup.steps.step) + " s, " +
                    three_digits(setup.steps.factor()) + " of the stability limit " +
                    three_digits(setup.steps.limit) + " s");
-  for (const std::string& warning : warnings_of(setup, bone_speed(setup, scene.output.interval)))
+  const double speed = bone_speed(setup, scene.output.interval);
+  for (const std::string& warning : warnings_of(setup, surface, speed))
     if (options.warning) options.warning(warning);
 }
 
@@ -264,7 +265,7 @@ RunResult simulate(const Settings& scene, const RunFolder& folder, const Simulat
   log.spend("filling", ready.seconds_filling);
   log.spend("binding", ready.seconds_binding);
   log.describe(scene, ready.setup);
-  say_what_is_doubtful(scene, ready.setup, options);
+  say_what_is_doubtful(scene, ready.setup, ready.surface.triangles, options);
   if (options.before_stepping) options.before_stepping();
   const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
   return {exit, false, log.record().dump()};

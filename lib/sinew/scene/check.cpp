@@ -242,6 +242,31 @@ void warn_of_unreached(const Binding& binding, Warnings& warnings) {
         "by straight distance; close the body's gaps, or give it a bone in each piece");
 }
 
+/// Whether an edge is longer than both bones that its ends are nearest to.
+bool spans_bones(const Skeleton& skeleton, const Vec3& from, const Vec3& to) {
+  const int a = nearest_bone(skeleton, from), b = nearest_bone(skeleton, to);
+  const double longer = std::max(skeleton.bones[a].length, skeleton.bones[b].length);
+  return a != b && (to - from).norm() > longer;
+}
+
+/// The surface follows the particles at its points alone.
+void warn_of_coarse_surface(const Setup& setup, const Triangles& surface, Warnings& warnings) {
+  if (setup.motion.tracks.empty()) return;
+  std::size_t count = 0;
+  for (const auto& face : surface.faces) {
+    const Vec3 &a = surface.points[face[0]], &b = surface.points[face[1]],
+               &c = surface.points[face[2]];
+    const Skeleton& skeleton = setup.body.skeleton;
+    count +=
+        spans_bones(skeleton, a, b) || spans_bones(skeleton, b, c) || spans_bones(skeleton, c, a);
+  }
+  if (count > 0)
+    warnings.push_back(std::to_string(count) +
+                       " faces of the mesh reach from bone to bone with edges longer than both: "
+                       "the surface, its volume too, cannot bend there as the particles do; "
+                       "subdivide the mesh");
+}
+
 /// A body that begins inside an obstacle is pushed out of it violently.
 void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
   if (!setup.body.world) return;
@@ -265,7 +290,8 @@ void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Setup& setup, double bone_speed) {
+std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surface,
+                                     double bone_speed) {
   Warnings warnings;
   if (setup.body.material.model == MaterialModel::paper)
     warn_of_material(setup.body.material.pair, warnings);
@@ -279,6 +305,7 @@ std::vector<std::string> warnings_of(const Setup& setup, double bone_speed) {
   warn_of_far_particles(setup.body, warnings);
   warn_of_unreached(setup.body.binding, warnings);
   warn_of_overlaps(setup, warnings);
+  warn_of_coarse_surface(setup, surface, warnings);
   return warnings;
 }
 

@@ -36,7 +36,9 @@ std::string bytes_text(std::uint64_t bytes);
 
 // What is doubtful in a scene that can be run all the same.
 
-/// One line each, with the number, the reason and the cure. `bone_speed` in radii per step.
-std::vector<std::string> warnings_of(const Setup& setup, double bone_speed);
+/// One line each, with the number, the reason and the cure. `surface`: of the body; `bone_speed` in
+/// radii per step.
+std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surface,
+                                     double bone_speed);
 
 }  // namespace sinew
