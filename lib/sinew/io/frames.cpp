@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 
 #include <sinew/core/parallel.h>
 
@@ -114,6 +115,15 @@ Column per_bone(std::string name, const Pose& pose, Of&& of) {
   return column(std::move(name), values);
 }
 
+/// The columns in parallel, because the first touch of their memory takes longest.
+std::vector<Column> made(const std::vector<std::function<Column()>>& makes) {
+  std::vector<Column> columns(makes.size());
+  parallel_for(makes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) columns[k] = makes[k]();
+  });
+  return columns;
+}
+
 }  // namespace
 
 Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
@@ -128,24 +138,25 @@ Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
   Dataset data = dataset_at(moment);
   data.points = written_positions(now);
   data.connectivity = vertex_cells(now.size());
-  data.point_columns = {
-      column("id", vertex_cells(now.size())),
-      column("bone", copied(frame.bone, now.size())),
-      column("weight", copied(frame.weight, now.size())),
-      column("radius", std::vector<double>(now.size(), now.radius)),
-      displacement_column(data.points, frame.rest),
-      written_column("velocity", now, [&](std::size_t i) { return now.velocity(i); }),
-      written_column("force", now, force),
-      forces("force_pair", frame.force_pair),
-      forces("force_damping", frame.force_damping),
-      forces("force_bone", frame.force_bone),
-      column("neighbors", in_written_order(frame.neighbors, now.id)),
+  std::vector<std::function<Column()>> makes = {
+      [&] { return column("id", vertex_cells(now.size())); },
+      [&] { return column("bone", copied(frame.bone, now.size())); },
+      [&] { return column("weight", copied(frame.weight, now.size())); },
+      [&] { return column("radius", std::vector<double>(now.size(), now.radius)); },
+      [&] { return displacement_column(data.points, frame.rest); },
+      [&] { return written_column("velocity", now, [&](auto i) { return now.velocity(i); }); },
+      [&] { return written_column("force", now, force); },
+      [&] { return forces("force_pair", frame.force_pair); },
+      [&] { return forces("force_damping", frame.force_damping); },
+      [&] { return forces("force_bone", frame.force_bone); },
+      [&] { return column("neighbors", in_written_order(frame.neighbors, now.id)); },
   };
   if (!frame.force_world.empty())
-    data.point_columns.push_back(forces("force_world", frame.force_world));
+    makes.emplace_back([&] { return forces("force_world", frame.force_world); });
   if (!frame.broken_bonds.empty())
-    data.point_columns.push_back(
-        column("broken_bonds", in_written_order(frame.broken_bonds, now.id)));
+    makes.emplace_back(
+        [&] { return column("broken_bonds", in_written_order(frame.broken_bonds, now.id)); });
+  data.point_columns = made(makes);
   data.field_columns = columns_of(frame.energies);
   return data;
 }
