@@ -15,7 +15,7 @@ struct Speed {
 };
 constexpr Speed speeds_with_lists[] = {{InstructionSet::avx512, 35e6, 75e6},
                                        {InstructionSet::avx2, 23e6, 50e6},
-                                       {InstructionSet::plain, 1e6, 1.6e6}};
+                                       {InstructionSet::plain, 0.8e6, 1.3e6}};
 // Whatever the instruction set: cells are sorted again, and pairs processed one by one.
 constexpr double speed_with_cells = 2e6;
 
