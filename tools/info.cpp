@@ -226,7 +226,7 @@ struct Options {
 };
 
 void add_scene(const Settings& settings, Results& results) {
-  SceneRig scene = rig_of(settings, read_files(settings));
+  SceneRig scene = rig_of(settings, read_rig_files(settings));
   results.add("mesh", settings.body.mesh);
   results.add("tracks", scene.motion.tracks.size());
   Clip clip = clip_of(std::move(scene.motion), "scene", settings.motion.frame_rate);

@@ -92,7 +92,7 @@ class Commands(SmallRun):
 
     def test_mistakes_of_bindings_name_their_line(self):
         bad = self.folder / "bad.yaml"
-        for binding, *parts in [("explicit: [{bone: uper, ids: [0]}]", "uper", "did you mean upper"),
+        for binding, *parts in [("explicit: [{bone: uper, ids: [0]}]", "uper", "did you mean 'upper'"),
                                 ("explicit: [{bone: upper, ids: [123456789]}]", "no particle 123456789"),
                                 ("explicit: [{bone: upper, ids: [0.5]}]", "no particle 0.5"),
                                 ("explicit: [{bone: upper, ids: []}]", "without values"),

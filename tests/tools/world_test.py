@@ -115,6 +115,14 @@ class World(unittest.TestCase):
             self.assertFalse((self.folder / name / "obstacles.pvd").exists())
         self.assertEqual(*hashes)
 
+    def test_a_run_is_measured_where_an_obstacles_mesh_is_gone(self):
+        mesh = self.folder / "rock.obj"
+        mesh.write_text((SOURCE / "data/meshes/box.obj").read_text())
+        own = "shape: mesh\n      mesh: "
+        sinew("simulate", self.scene(SCENE.replace(own + "{source}/data/meshes/box.obj", own + str(mesh))), "-o", self.out)
+        mesh.unlink()
+        sinew("measure", self.out)
+
     def test_check_finds_it_stable(self):
         done = sinew("check", self.scene())
         self.assertIn("rest: stable", done.stdout)

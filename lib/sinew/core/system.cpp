@@ -2,12 +2,23 @@
 #include <sinew/core/system.h>
 
 #include <unistd.h>
+#include <array>
+#include <ctime>
 #include <fstream>
 #include <string>
 
 namespace sinew {
 
 std::string version() { return SINEW_VERSION; }
+
+std::string time_text(const char* format, Zone zone) {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  zone == Zone::utc ? ::gmtime_r(&now, &parts) : ::localtime_r(&now, &parts);
+  std::array<char, 64> text{};
+  std::strftime(text.data(), text.size(), format, &parts);
+  return text.data();
+}
 
 double available_memory() {
   std::ifstream info("/proc/meminfo");

@@ -14,6 +14,11 @@ namespace sinew {
 /// "0.2.0"
 std::string version();
 
+enum class Zone { utc, local };
+
+/// The present time as strftime's `format` says.
+std::string time_text(const char* format, Zone zone);
+
 /// Memory that can be allocated without swapping, bytes: the kernel's estimate (free pages and
 /// reclaimable caches), else the free pages alone.
 double available_memory();

@@ -153,7 +153,10 @@ int bone_named(const Skeleton& skeleton, const std::string& name, const std::str
   std::vector<std::string_view> names;
   names.reserve(skeleton.size());
   for (const Bone& one : skeleton.bones) names.emplace_back(one.name);
-  throw bad_value(key, "there is no bone '" + name + "'", suggestion(name, names));
+  const std::string near = nearest(name, names);  // a list of all might be of thousands
+  throw bad_value(key, "there is no bone " + shown(name),
+                  near.empty() ? "use the name of a bone of the skeleton"
+                               : "did you mean " + shown(near) + '?');
 }
 
 Skeleton make_skeleton(std::span<const BoneDefinition> bones) {

@@ -171,7 +171,7 @@ RunFiles open_run(const RunFolder& folder) {
   run.folder = folder;
   run.scene_text = read_file(folder.scene());
   run.settings = read_scene(folder.scene());
-  run.skeleton = rig_of(run.settings, read_files(run.settings)).skeleton;
+  run.skeleton = rig_of(run.settings, read_rig_files(run.settings)).skeleton;
   run.body = read_body(folder.body());
   if (!run.body.bone)
     throw bad_input(Place{folder.body().string()}, "has no array 'bone'",

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/run_log.h>
 
-#include <array>
-#include <ctime>
-
 #include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
 #include <sinew/run/run_record.h>
 #include <sinew/settings/table.h>
 
@@ -50,15 +48,6 @@ Json lists_of(const ListCounts& counts) {
           {"pieces_pruned", counts.pruned}};
 }
 
-std::string local_time() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::localtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &parts);
-  return text.data();
-}
-
 /// Bytes; none where the file is missing.
 std::uint64_t size_of(const std::filesystem::path& file) {
   std::error_code missing;
@@ -89,7 +78,7 @@ RunLog::RunLog(const RunFolder& folder, const std::vector<std::string>& command,
 }
 
 void RunLog::log(const std::string& line) {
-  const std::string dated = local_time() + "  " + line + "\n";
+  const std::string dated = time_text("%Y-%m-%d %H:%M:%S", Zone::local) + "  " + line + "\n";
   log_.add(dated.data(), dated.size());
 }
 

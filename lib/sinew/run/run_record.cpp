@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -23,15 +22,6 @@ std::string host_name() {
   std::array<char, 256> name{};
   ::gethostname(name.data(), name.size() - 1);
   return name.data();
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
 }
 
 bool is_seconds(const Json& value) {
@@ -97,7 +87,7 @@ Json begin_record(const std::vector<std::string>& command) {
   record["command"] = command;
   record["host"] = host_name();
   record["cores"] = std::thread::hardware_concurrency();
-  record["started"] = utc_now();
+  record["started"] = time_text("%Y-%m-%dT%H:%M:%SZ", Zone::utc);
   return record;
 }
 

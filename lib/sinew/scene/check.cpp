@@ -242,8 +242,10 @@ void warn_of_unreached(const Binding& binding, Warnings& warnings) {
         "by straight distance; close the body's gaps, or give it a bone in each piece");
 }
 
-/// Whether an edge is longer than both bones that its ends are nearest to.
-bool spans_bones(const Skeleton& skeleton, const Vec3& from, const Vec3& to) {
+/// Whether an edge is longer than both bones that its ends are nearest to; no bone is shorter than
+/// `shortest`, m.
+bool spans_bones(const Skeleton& skeleton, double shortest, const Vec3& from, const Vec3& to) {
+  if ((to - from).norm() <= shortest) return false;  // nearly all, without a search
   const int a = nearest_bone(skeleton, from), b = nearest_bone(skeleton, to);
   const double longer = std::max(skeleton.bones[a].length, skeleton.bones[b].length);
   return a != b && (to - from).norm() > longer;
@@ -252,13 +254,16 @@ bool spans_bones(const Skeleton& skeleton, const Vec3& from, const Vec3& to) {
 /// The surface follows the particles at its points alone.
 void warn_of_coarse_surface(const Setup& setup, const Triangles& surface, Warnings& warnings) {
   if (setup.motion.tracks.empty()) return;
+  const Skeleton& skeleton = setup.body.skeleton;
+  double shortest = skeleton.bones.front().length;
+  for (const Bone& bone : skeleton.bones) shortest = std::min(shortest, bone.length);
   std::size_t count = 0;
   for (const auto& face : surface.faces) {
-    const Vec3 &a = surface.points[face[0]], &b = surface.points[face[1]],
-               &c = surface.points[face[2]];
-    const Skeleton& skeleton = setup.body.skeleton;
-    count +=
-        spans_bones(skeleton, a, b) || spans_bones(skeleton, b, c) || spans_bones(skeleton, c, a);
+    bool spans = false;
+    for (int k = 0; k < 3; ++k)
+      spans = spans || spans_bones(skeleton, shortest, surface.points[face[k]],
+                                   surface.points[face[(k + 1) % 3]]);
+    count += spans;
   }
   if (count > 0)
     warnings.push_back(std::to_string(count) +

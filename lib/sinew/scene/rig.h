@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rig of a scene: skeleton and motion, from the scene's own lists or from files of any format.
 //
-//     const SceneRig rig = rig_of(settings, read_files(settings));
+//     const SceneRig rig = rig_of(settings, read_rig_files(settings));
 #pragma once
 
 #include <string>

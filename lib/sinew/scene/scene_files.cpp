@@ -66,10 +66,15 @@ SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& moti
                   std::string("give a file of YAML, ") + rig_formats);
 }
 
-SceneFiles read_files(const Settings& settings) {
+SceneFiles read_rig_files(const Settings& settings) {
   SceneFiles files;
   files.skeleton = read_if_named(settings, "skeleton.file", settings.skeleton.file);
   files.motion = read_if_named(settings, "motion.file", settings.motion.file).rig;
+  return files;
+}
+
+SceneFiles read_files(const Settings& settings) {
+  SceneFiles files = read_rig_files(settings);
   for (std::size_t i = 0; i < settings.world.obstacles.size(); ++i)
     files.obstacles.push_back(read_obstacle(settings, i));
   return files;

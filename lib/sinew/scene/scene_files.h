@@ -34,5 +34,7 @@ struct SceneFiles {
 
 /// Throws bad input, with the scene's line, for files that cannot be read.
 SceneFiles read_files(const Settings& settings);
+/// The same without the obstacles.
+SceneFiles read_rig_files(const Settings& settings);
 
 }  // namespace sinew
