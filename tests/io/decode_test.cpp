@@ -9,6 +9,7 @@
 #include <sinew/core/base64.h>
 #include <sinew/core/parallel.h>
 #include <sinew/io/encode.h>
+#include "element_text.h"
 
 namespace sinew::decode_test {
 

@@ -5,6 +5,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/io/vtu.h>
+#include "element_text.h"
 #include "scratch.h"
 
 namespace sinew::encode_test {

@@ -82,6 +82,7 @@ TEST_F(SeriesFiles, AValueThatIsNotFiniteIsNeverWritten) {
     const Error error = error_of([&] { series.add(frame); });
     EXPECT_EQ(error.exit(), Exit::unstable);
     EXPECT_TRUE(contains(error.what(), "at 1 s: particles force ")) << error.what();
+    if (std::isfinite(bad)) continue;  // points so far away are Float64
     frame = run.particles({1, 1});
     frame.points.back().z() = bad;
     EXPECT_TRUE(contains(error_of([&] { series.add(frame); }).what(), "Points"));

@@ -124,9 +124,21 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbors[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  return particles_dataset({now, rest, bone, pair, damping, pull, neighbors, energies,
-                            std::vector<double>(n, 1), world, std::vector<std::int32_t>(n, 1)},
-                           moment);
+  const std::vector<std::int32_t> broken(n, 1);
+  const Binding binding = one_bone_each(bone);
+  return evaluated(particles_dataset(
+      {now, rest, binding, pair, damping, pull, neighbors, energies, world, broken},
+      positions_by_id(now), moment));
+}
+
+Binding one_bone_each(const std::vector<std::int32_t>& bones, double weight) {
+  Binding binding;
+  binding.first = {0};
+  for (const std::int32_t bone : bones) {
+    binding.influences.push_back({.bone = bone, .weight = weight});
+    binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+  }
+  return binding;
 }
 
 Dataset SyntheticRun::surface(Moment moment) const {

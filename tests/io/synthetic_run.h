@@ -5,10 +5,14 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/io/frames.h>
+#include <sinew/io/particle_frame.h>
 #include <sinew/io/single_files.h>
 #include <sinew/rig/motion.h>
 
 namespace sinew {
+
+/// Each particle on one bone, with that weight.
+Binding one_bone_each(const std::vector<std::int32_t>& bones, double weight = 1);
 
 class SyntheticRun {
  public:

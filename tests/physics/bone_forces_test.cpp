@@ -94,7 +94,7 @@ TEST(Reactions, BalanceForceMomentAndPowerOfTheBody) {
       power += forces.bone_power[i];
       scale += forces.bone[i].norm();
     }
-    const auto on = reactions(scene.particles, scene.body, scene.pose);
+    const auto on = reactions(scene.particles, forces.bone, scene.body, scene.pose);
     for (std::size_t b = 0; b < on.size(); ++b) {
       force += on[b].force;
       moment += on[b].moment + scene.pose[b].frame.origin.cross(on[b].force);
@@ -128,7 +128,7 @@ TEST(Reactions, BelongToTheBoneThatPulls) {
   Vec3 upper = Vec3::Zero(), shared = Vec3::Zero();
   for (std::size_t i = 0; i < alone.size(); ++i)
     (scene.body.binding.of(i).size() > 1 ? shared : upper) += forces.bone[i];
-  const auto on = reactions(alone, scene.body, scene.pose);
+  const auto on = reactions(alone, forces.bone, scene.body, scene.pose);
   EXPECT_LT((on[0].force + on[1].force + upper + shared).norm(), 1e-12);
   // Only the shared particles act on bone 0.
   Vec3 part = Vec3::Zero();

@@ -264,6 +264,19 @@ std::span<const std::string_view> requestable_arrays() {
   return names;
 }
 
+std::vector<std::string_view> frame_arrays(std::string_view text) {
+  std::vector<std::string_view> names, found;
+  for (const WrittenArray& row : table_of_particles())
+    if (row.place == point && row.name != "Points") names.push_back(row.name);
+  for (const std::string_view word : words_of(text)) {
+    const auto name = std::find(names.begin(), names.end(), word);
+    if (name == names.end())
+      throw bad_input("frames have no array " + shown(word), suggestion(word, names));
+    found.push_back(*name);
+  }
+  return found;
+}
+
 std::vector<std::string_view> requested_arrays(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text);
   const auto names = requestable_arrays();

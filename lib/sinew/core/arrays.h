@@ -43,6 +43,10 @@ std::string_view place_text(ArrayPlace place);
 /// The arrays of particles that are written only when somebody asks for them: F, J, stretch, ...
 std::span<const std::string_view> requestable_arrays();
 
+/// The arrays of particles in every frame that a text names; none for all of them. Throws bad input
+/// for any other name, with the nearest one.
+std::vector<std::string_view> frame_arrays(std::string_view words);
+
 /// Those that a text names, in the order of the table, each once: names with commas or spaces
 /// between them, or "all". Throws bad input for any other, with the nearest name.
 std::vector<std::string_view> requested_arrays(std::string_view words);

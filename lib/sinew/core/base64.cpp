@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include <sinew/core/parallel.h>
 
@@ -30,6 +31,42 @@ constexpr Pairs pairs = pairs_of_digits();
 void put_group(const unsigned char* from, char* to) {
   std::memcpy(to, pairs[static_cast<std::size_t>(from[0] << 4 | from[1] >> 4)].data(), 2);
   std::memcpy(to + 2, pairs[static_cast<std::size_t>((from[1] & 15) << 8 | from[2])].data(), 2);
+}
+
+/// One or two bytes; the padding is there.
+void put_last(std::string_view rest, char* to) {
+  const std::array<unsigned char, 3> last{static_cast<unsigned char>(rest[0]),
+                                          static_cast<unsigned char>(rest.size() > 1 ? rest[1] : 0),
+                                          0};
+  std::array<char, 4> group;
+  put_group(last.data(), group.data());
+  std::copy_n(group.begin(), rest.size() > 1 ? 3 : 2, to);
+}
+
+/// Up to three bytes from `at` on, in part k and those behind it.
+std::string bytes_across(std::span<const std::string> parts, std::size_t k, std::size_t at) {
+  std::string bytes;
+  for (; k < parts.size() && bytes.size() < 3; ++k, at = 0)
+    bytes += parts[k].substr(at, 3 - bytes.size());
+  return bytes;
+}
+
+/// The text of the groups of three bytes whose first one is in part k, which begins at `begin`.
+std::string text_of_part(std::span<const std::string> parts, std::size_t k, std::size_t begin) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(parts[k].data());
+  const std::size_t after = begin + parts[k].size(), first = (begin + 2) / 3;
+  const std::size_t end = (after + 2) / 3, whole = std::max(first, after / 3);
+  std::string text(4 * (end - first), '=');
+  for (std::size_t group = first; group < whole; ++group)
+    put_group(bytes + (3 * group - begin), &text[4 * (group - first)]);
+  if (whole == end) return text;
+  const std::string last = bytes_across(parts, k, 3 * whole - begin);
+  char* to = &text[4 * (whole - first)];
+  if (last.size() == 3)
+    put_group(reinterpret_cast<const unsigned char*>(last.data()), to);
+  else
+    put_last(last, to);
+  return text;
 }
 
 /// The bits of a digit at each of the four places of a group.
@@ -79,19 +116,21 @@ std::size_t bytes_in_base64(std::string_view text) {
   return text.size() / 4 * 3 - std::min(padding, text.size() / 4 * 3);
 }
 
+void put_base64(std::span<const std::string> parts,
+                const std::function<void(std::size_t place, std::string_view piece)>& put) {
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < parts.size(); begin += parts[k++].size())
+    put((begin + 2) / 3 * 4, text_of_part(parts, k, begin));
+}
+
 std::string base64(std::string_view bytes) {
-  const std::size_t whole = bytes.size() / 3, rest = bytes.size() % 3;
+  const std::size_t whole = bytes.size() / 3;
   std::string text(base64_size(bytes.size()), '=');
   const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
   parallel_for(whole, groups_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) put_group(from + 3 * i, &text[4 * i]);
   });
-  if (rest == 0) return text;
-  std::array<unsigned char, 3> last{};
-  std::copy_n(from + 3 * whole, rest, last.begin());
-  std::array<char, 4> group;
-  put_group(last.data(), group.data());
-  std::copy_n(group.begin(), rest + 1, &text[4 * whole]);
+  if (bytes.size() % 3 != 0) put_last(bytes.substr(3 * whole), &text[4 * whole]);
   return text;
 }
 

@@ -41,6 +41,30 @@ Column column(std::string name, const Points& vectors) {
   return {std::move(name), 3, std::move(values)};
 }
 
+namespace {
+
+template <class T>
+std::vector<T> values_of(const Computed<T>& computed) {
+  std::vector<T> values(computed.count);
+  computed.put(0, computed.count, values.data());
+  return values;
+}
+
+}  // namespace
+
+Dataset evaluated(Dataset data) {
+  std::vector<Column> columns;
+  for (const ComputedColumn& column : data.computed)
+    std::visit(
+        [&](const auto& computed) {
+          columns.push_back({column.name, column.components, values_of(computed)});
+        },
+        column.values);
+  data.computed.clear();
+  data.point_columns.insert(data.point_columns.begin(), columns.begin(), columns.end());
+  return data;
+}
+
 std::vector<std::int32_t> vertex_cells(std::size_t points) {
   std::vector<std::int32_t> cells(points);
   std::iota(cells.begin(), cells.end(), 0);

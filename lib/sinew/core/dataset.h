@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -27,6 +28,21 @@ Column column(std::string name, std::vector<std::int32_t> values);
 Column column(std::string name, std::vector<double> values);
 Column column(std::string name, const Points& vectors);
 
+/// Values that are found piece by piece while they are written, so that no array of millions is
+/// made of them. What they are found from must outlive them.
+template <class T>
+struct Computed {
+  std::size_t count = 0;  ///< of values
+  /// Writes values [begin, end) to `to`; called from several threads.
+  std::function<void(std::size_t begin, std::size_t end, T* to)> put;
+};
+
+struct ComputedColumn {
+  std::string name;
+  int components = 1;
+  std::variant<Computed<std::int32_t>, Computed<double>> values;
+};
+
 enum class CellKind { vertex = 1, line = 2, triangle = 3 };  ///< the value is its points per cell
 
 struct Dataset {
@@ -36,6 +52,7 @@ struct Dataset {
   CellKind kind = CellKind::vertex;
   std::vector<std::int32_t> connectivity;  ///< points of each cell, one cell after the other
   std::vector<std::int32_t> lines;         ///< ends of line cells, which follow those cells
+  std::vector<ComputedColumn> computed;    ///< of the points: written before point_columns
   std::vector<Column> point_columns;
   std::vector<Column> cell_columns;
   std::vector<Column> field_columns;  ///< one row each: values for the whole file
@@ -45,6 +62,9 @@ struct Dataset {
     return connectivity.size() / static_cast<std::size_t>(kind) + lines.size() / 2;
   }
 };
+
+/// The same with plain columns in place of computed ones.
+Dataset evaluated(Dataset data);
 
 /// One vertex cell per point: 0, 1, 2, ...
 std::vector<std::int32_t> vertex_cells(std::size_t points);

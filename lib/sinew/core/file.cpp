@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include <sinew/core/error.h>
@@ -50,18 +49,17 @@ void sync_folder_of(const fs::path& path) {
   sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."), ::fsync);
 }
 
-/// At the file position, or `place` bytes from the beginning.
+/// `place` bytes from the beginning.
 void write_all(int file, const fs::path& path, const void* bytes, std::size_t count,
-               std::optional<std::uint64_t> place = std::nullopt) {
+               std::uint64_t place) {
   const char* next = static_cast<const char*>(bytes);
   while (count > 0) {
-    const ssize_t written = place ? ::pwrite(file, next, count, static_cast<off_t>(*place))
-                                  : ::write(file, next, count);
+    const ssize_t written = ::pwrite(file, next, count, static_cast<off_t>(place));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) throw refused(path, errno);
     next += written;
     count -= static_cast<std::size_t>(written);
-    if (place) *place += static_cast<std::uint64_t>(written);
+    place += static_cast<std::uint64_t>(written);
   }
 }
 
@@ -85,7 +83,13 @@ NewFile::~NewFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void NewFile::write(const void* bytes, std::size_t count) { write_all(file_, path_, bytes, count); }
+void NewFile::write(const void* bytes, std::size_t count) { write_at(extend(count), bytes, count); }
+
+std::uint64_t NewFile::extend(std::uint64_t count) { return std::exchange(size_, size_ + count); }
+
+void NewFile::write_at(std::uint64_t place, const void* bytes, std::size_t count) const {
+  write_all(file_, path_, bytes, count, place);
+}
 
 void NewFile::finish(Durability durability) {
   if (durability == Durability::synced && ::fsync(file_) != 0) throw refused(path_, errno);

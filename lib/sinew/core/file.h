@@ -28,13 +28,18 @@ class NewFile {
 
   /// Where to write: with write(), or through this name.
   const std::filesystem::path& temporary() const { return temporary_; }
-  void write(const void* bytes, std::size_t count);  ///< throws not written
+  void write(const void* bytes, std::size_t count);  ///< at the end; throws not written
+  /// Makes the file longer by `count` bytes, which write_at() then fills; where they begin.
+  std::uint64_t extend(std::uint64_t count);
+  /// From several threads. Throws not written.
+  void write_at(std::uint64_t place, const void* bytes, std::size_t count) const;
   /// Moves it to its place. Throws not written.
   void finish(Durability durability = Durability::cached);
 
  private:
   std::filesystem::path path_, temporary_;
   int file_ = -1;
+  std::uint64_t size_ = 0;
 };
 
 /// A file that grows record by record and can be read at any moment. If the program dies or the

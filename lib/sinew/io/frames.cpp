@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <functional>
 
 #include <sinew/core/parallel.h>
 
@@ -12,7 +11,7 @@ namespace {
 
 /// Length of an axis relative to its bone: visible beside it, short enough not to overlap others.
 constexpr double stub = 0.25;
-constexpr std::size_t particles_per_piece = 4096;
+constexpr std::size_t points_per_piece = 4096;
 
 Dataset dataset_at(Moment moment) {
   Dataset data;
@@ -21,42 +20,10 @@ Dataset dataset_at(Moment moment) {
   return data;
 }
 
-/// value(i) of the particles in their order, rearranged into the written order.
-template <class Value>
-Column written_column(const char* name, const Particles& particles, const Value& value) {
-  assert(particles.id.size() == particles.size());
-  std::vector<double> written(3 * particles.size());
-  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 vector = value(i);
-      std::copy_n(vector.data(), 3, &written[3 * static_cast<std::size_t>(particles.id[i])]);
-    }
-  });
-  return {name, 3, std::move(written)};
-}
-
-Points written_positions(const Particles& particles) {
-  Points written(particles.size());
-  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) written[particles.id[i]] = particles.position(i);
-  });
-  return written;
-}
-
-std::vector<std::int32_t> in_written_order(std::span<const std::int32_t> values,
-                                           const std::vector<std::int32_t>& id) {
-  assert(values.size() == id.size());
-  std::vector<std::int32_t> written(id.size());
-  parallel_for(id.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) written[id[i]] = values[i];
-  });
-  return written;
-}
-
 Column displacement_column(const Points& now, const Points& rest) {
   assert(now.size() == rest.size());
   std::vector<double> displacements(3 * now.size());
-  parallel_for(now.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(now.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (int axis = 0; axis < 3; ++axis)
         displacements[3 * i + axis] = now[i][axis] - rest[i][axis];
@@ -70,30 +37,10 @@ std::vector<std::int32_t> copied(std::span<const std::int32_t> values, std::size
   return {values.begin(), values.end()};
 }
 
-std::vector<double> copied(std::span<const double> values, std::size_t count) {
-  assert(values.size() == count);
-  (void)count;
-  return {values.begin(), values.end()};
-}
-
 Points copied(std::span<const Vec3> values, std::size_t count) {
   assert(values.size() == count);
   (void)count;
   return {values.begin(), values.end()};
-}
-
-std::vector<Column> columns_of(const Energies& energies) {
-  const auto single = [](const char* name, double value) {
-    return column(name, std::vector<double>{value});
-  };
-  return {single("kinetic_energy", energies.kinetic),
-          single("pair_energy", energies.pair),
-          single("bone_energy", energies.bone),
-          single("gravity_energy", energies.gravity),
-          single("work_of_bones", energies.work_of_bones),
-          single("dissipation", energies.dissipation),
-          single("contact_energy", energies.contact),
-          single("work_of_world", energies.work_of_world)};
 }
 
 /// W X Y Z, with W >= 0: the unique one of a rotation's two quaternions.
@@ -115,51 +62,7 @@ Column per_bone(std::string name, const Pose& pose, Of&& of) {
   return column(std::move(name), values);
 }
 
-/// The columns in parallel, because the first touch of their memory takes longest.
-std::vector<Column> made(const std::vector<std::function<Column()>>& makes) {
-  std::vector<Column> columns(makes.size());
-  parallel_for(makes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) columns[k] = makes[k]();
-  });
-  return columns;
-}
-
 }  // namespace
-
-Dataset particles_dataset(const ParticleFrame& frame, Moment moment) {
-  const Particles& now = frame.now;
-  const auto forces = [&](const char* name, std::span<const Vec3> values) {
-    return written_column(name, now, [values](std::size_t i) { return values[i]; });
-  };
-  const auto force = [&](std::size_t i) -> Vec3 {
-    const Vec3 own = frame.force_pair[i] + frame.force_damping[i] + frame.force_bone[i];
-    return frame.force_world.empty() ? own : Vec3(own + frame.force_world[i]);
-  };
-  Dataset data = dataset_at(moment);
-  data.points = written_positions(now);
-  data.connectivity = vertex_cells(now.size());
-  std::vector<std::function<Column()>> makes = {
-      [&] { return column("id", vertex_cells(now.size())); },
-      [&] { return column("bone", copied(frame.bone, now.size())); },
-      [&] { return column("weight", copied(frame.weight, now.size())); },
-      [&] { return column("radius", std::vector<double>(now.size(), now.radius)); },
-      [&] { return displacement_column(data.points, frame.rest); },
-      [&] { return written_column("velocity", now, [&](auto i) { return now.velocity(i); }); },
-      [&] { return written_column("force", now, force); },
-      [&] { return forces("force_pair", frame.force_pair); },
-      [&] { return forces("force_damping", frame.force_damping); },
-      [&] { return forces("force_bone", frame.force_bone); },
-      [&] { return column("neighbors", in_written_order(frame.neighbors, now.id)); },
-  };
-  if (!frame.force_world.empty())
-    makes.emplace_back([&] { return forces("force_world", frame.force_world); });
-  if (!frame.broken_bonds.empty())
-    makes.emplace_back(
-        [&] { return column("broken_bonds", in_written_order(frame.broken_bonds, now.id)); });
-  data.point_columns = made(makes);
-  data.field_columns = columns_of(frame.energies);
-  return data;
-}
 
 Dataset surface_dataset(const Triangles& surface, const Points& rest,
                         std::span<const std::int32_t> bone, Moment moment) {

@@ -5,13 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <set>
 #include <string_view>
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
-#include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
 #include <sinew/io/xml.h>
 
@@ -86,36 +84,11 @@ namespace fs = std::filesystem;
 
 /// Often enough to follow a run, rarely enough to be negligible beside the frames.
 constexpr std::chrono::seconds pvd_pause{1};
-constexpr std::size_t values_per_sum = 1 << 15;
 
 std::string frame_name(const std::string& series, std::size_t number) {
   char digits[24];
   std::snprintf(digits, sizeof digits, "_%06zu", number);
   return series + '/' + series + digits + ".vtu";
-}
-
-bool all_finite(const double* values, std::size_t count, double most) {
-  return parallel_sum(count, values_per_sum, [&](std::size_t begin, std::size_t end) {
-           return std::count_if(values + begin, values + end,
-                                [most](double value) { return !(std::abs(value) <= most); });
-         }) == 0;
-}
-
-/// A number of the file's type is finite up to `most`.
-void refuse_not_finite(const Dataset& frame, const std::string& series, double most) {
-  const auto refuse = [&](const std::string& name) {
-    throw Error(Exit::unstable, "frame at " + number_text(frame.time) + " s: " + series + ' ' +
-                                    name +
-                                    " has a value that is not finite; make solver.time_step "
-                                    "shorter");
-  };
-  const double* first = frame.points.empty() ? nullptr : frame.points.front().data();
-  if (!all_finite(first, 3 * frame.points.size(), most)) refuse("Points");
-  for (const auto* columns : {&frame.point_columns, &frame.cell_columns, &frame.field_columns})
-    for (const Column& column : *columns)
-      if (const auto* real = std::get_if<std::vector<double>>(&column.values);
-          real != nullptr && !all_finite(real->data(), real->size(), most))
-        refuse(column.name);
 }
 
 /// Whether a series of this name writes a file of this name: "body_000016.vtu", or its beginnings.
@@ -150,6 +123,7 @@ void remove_older(const fs::path& folder, const std::string& series,
 
 Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
     : folder_(std::move(folder)), format_(std::move(format)) {
+  format_.finite = true;
   keep(kept);
   try {
     fs::create_directories(folder_ / format_.series);
@@ -181,9 +155,6 @@ Series::~Series() {
 }
 
 void Series::add(const Dataset& frame) {
-  refuse_not_finite(frame, format_.series,
-                    format_.double_precision ? std::numeric_limits<double>::max()
-                                             : std::numeric_limits<float>::max());
   const std::string file = frame_name(format_.series, rows_.size());
   write_vtu(folder_ / file, frame, format_);
   rows_.push_back({frame.time, file});

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <future>
 
 #include <sinew/core/arrays.h>
+#include <sinew/core/base64.h>
+#include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
@@ -33,19 +36,30 @@ struct Element {
   FileArray values;
 };
 
-FileArray reals(const double* values, std::size_t count, const WrittenArray* row, bool float64) {
-  return float64 || (row && row->numbers == ArrayNumbers::exact) ? float64_array(values, count)
-                                                                 : float32_array(values, count);
+bool as_float64(const WrittenArray* row, const VtuFormat& format) {
+  return format.double_precision || (row && row->numbers == ArrayNumbers::exact);
 }
 
-Element element_of(const Column& column, ArrayPlace place, const VtuFormat& format) {
+/// The values of a column in the file's number type.
+struct Stored {
+  bool float64 = false;
+
+  FileArray operator()(const std::vector<std::int32_t>& whole) const { return int32_array(whole); }
+  FileArray operator()(const Computed<std::int32_t>& whole) const { return int32_array(whole); }
+  FileArray operator()(const std::vector<double>& real) const {
+    return float64 ? float64_array(real.data(), real.size())
+                   : float32_array(real.data(), real.size());
+  }
+  FileArray operator()(const Computed<double>& real) const {
+    return float64 ? float64_array(real) : float32_array(real);
+  }
+};
+
+template <class AnyColumn>
+Element element_of(const AnyColumn& column, ArrayPlace place, const VtuFormat& format) {
   const WrittenArray* row = find_written(format.series, place, column.name);
-  Element element{column.name, column.components, row, {}};
-  if (const auto* whole = std::get_if<std::vector<std::int32_t>>(&column.values))
-    element.values = int32_array(*whole);
-  else if (const auto* real = std::get_if<std::vector<double>>(&column.values))
-    element.values = reals(real->data(), real->size(), row, format.double_precision);
-  return element;
+  return {column.name, column.components, row,
+          std::visit(Stored{as_float64(row, format)}, column.values)};
 }
 
 std::vector<Element> elements_of(const std::vector<Column>& columns, ArrayPlace place,
@@ -53,6 +67,15 @@ std::vector<Element> elements_of(const std::vector<Column>& columns, ArrayPlace 
   std::vector<Element> elements;
   elements.reserve(columns.size());
   for (const Column& column : columns) elements.push_back(element_of(column, place, format));
+  return elements;
+}
+
+std::vector<Element> point_elements(const Dataset& data, const VtuFormat& format) {
+  std::vector<Element> elements;
+  for (const ComputedColumn& column : data.computed)
+    elements.push_back(element_of(column, ArrayPlace::point, format));
+  for (Element& element : elements_of(data.point_columns, ArrayPlace::point, format))
+    elements.push_back(std::move(element));
   return elements;
 }
 
@@ -72,9 +95,10 @@ std::vector<Element> field_elements(const Dataset& data, const VtuFormat& format
 
 Element points_element(const Dataset& data, const VtuFormat& format) {
   const WrittenArray* row = find_written(format.series, ArrayPlace::point, "Points");
-  const bool float64 = format.double_precision || beyond_float32(data.points, format.radius);
+  const bool float64 = as_float64(row, format) || beyond_float32(data.points, format.radius);
   const double* first = data.points.empty() ? nullptr : data.points.front().data();
-  return {"Points", 3, row, reals(first, 3 * data.points.size(), row, float64)};
+  const std::size_t count = 3 * data.points.size();
+  return {"Points", 3, row, float64 ? float64_array(first, count) : float32_array(first, count)};
 }
 
 /// Cells of the dataset's kind, then its lines.
@@ -131,7 +155,8 @@ std::string attribute(const std::string& name, const std::string& value) {
 
 class VtuText {
  public:
-  VtuText(NewFile& file, Encoding encoding) : file_(file), encoding_(encoding) {}
+  VtuText(NewFile& file, const VtuFormat& format, double time)
+      : file_(file), format_(format), time_(time) {}
 
   void add(std::string_view text) {
     pending_ += text;
@@ -147,23 +172,33 @@ class VtuText {
 
   /// Raw data, in the order of its elements.
   void add_appended(const std::vector<const std::vector<Element>*>& groups) {
-    if (encoding_ != Encoding::raw) return;
+    if (format_.encoding != Encoding::raw) return;
     add("<AppendedData encoding=\"raw\">\n_");
     for (const auto* elements : groups)
       for (const Element& element : *elements) add_raw(element.values);
     add("\n</AppendedData>\n");
   }
 
+  /// Writes the rest. Throws not written, also for what was being written meanwhile.
+  void end() {
+    flush();
+    wait();
+  }
+
+ private:
   void flush() {
     file_.write(pending_.data(), pending_.size());
     pending_.clear();
   }
 
- private:
   void add_element(const Element& element, bool in_field) {
-    add("<DataArray" + attributes_of(element, in_field) + ">\n");
-    if (encoding_ != Encoding::raw) {
-      add(element_text(element.values, encoding_));
+    if (format_.encoding == Encoding::raw) {
+      add_opening(element, in_field, range_of(element.values, element.components));
+    } else {
+      EncodedArray text = encoded(element.values, element.components, format_.encoding);
+      add_opening(element, in_field, text.range);
+      add(text.counts);
+      add_parts(std::move(text));
       add("\n");
     }
     if (element.row) {
@@ -174,7 +209,30 @@ class VtuText {
     add("</DataArray>\n");
   }
 
-  std::string attributes_of(const Element& element, bool in_field) {
+  /// Large arrays are written by another thread while the next one is encoded.
+  void add_parts(EncodedArray text) {
+    flush();
+    const std::uint64_t size = text.text_size() - text.counts.size(), begin = file_.extend(size);
+    auto write = [this, begin, parts = std::move(text.parts)] {
+      put_base64(parts, [&](std::size_t place, std::string_view piece) {
+        file_.write_at(begin + place, piece.data(), piece.size());
+      });
+    };
+    if (size < bytes_per_write) return write();
+    wait();
+    writing_ = std::async(std::launch::async, std::move(write));
+  }
+
+  void wait() {
+    if (writing_.valid()) writing_.get();
+  }
+
+  void add_opening(const Element& element, bool in_field, const ValueRange& range) {
+    if (format_.finite && !range.finite) throw not_finite(element.name);
+    add("<DataArray" + attributes_of(element, in_field, range) + ">\n");
+  }
+
+  std::string attributes_of(const Element& element, bool in_field, const ValueRange& range) {
     const auto components = static_cast<std::size_t>(element.components);
     std::string text = attribute("type", std::string(element.values.type));
     text += attribute("Name", element.name);
@@ -184,11 +242,10 @@ class VtuText {
           attribute("ComponentName" + std::to_string(k), std::string(element.row->components[k]));
     if (in_field)
       text += attribute("NumberOfTuples", std::to_string(element.values.count / components));
-    if (const ValueRange range = range_of(element.values, element.components);
-        range.low <= range.high)
+    if (range.low <= range.high)
       text += attribute("RangeMin", number_text(range.low)) +
               attribute("RangeMax", number_text(range.high));
-    if (encoding_ != Encoding::raw) return text += attribute("format", "binary");
+    if (format_.encoding != Encoding::raw) return text += attribute("format", "binary");
     text += attribute("format", "appended") + attribute("offset", std::to_string(offset_));
     offset_ += sizeof(std::uint64_t) + element.values.bytes();
     return text;
@@ -206,10 +263,19 @@ class VtuText {
     }
   }
 
+  Error not_finite(const std::string& name) const {
+    return Error(Exit::unstable, "frame at " + number_text(time_) + " s: " + format_.series + ' ' +
+                                     name +
+                                     " has a value that is not finite; make solver.time_step "
+                                     "shorter");
+  }
+
   NewFile& file_;
-  Encoding encoding_;
+  const VtuFormat& format_;
+  double time_;  ///< s
   std::string pending_;
-  std::uint64_t offset_ = 0;  ///< of the next array in the appended data
+  std::uint64_t offset_ = 0;   ///< of the next array in the appended data
+  std::future<void> writing_;  ///< the last member: its thread uses the others
 };
 
 /// All parts up to the field data.
@@ -230,14 +296,14 @@ int vtk_type(CellKind kind) {
 
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
   const auto field = field_elements(data, format);
-  const auto of_points = elements_of(data.point_columns, ArrayPlace::point, format);
+  const auto of_points = point_elements(data, format);
   const auto of_cells = elements_of(data.cell_columns, ArrayPlace::cell, format);
   const std::vector<Element> points{points_element(data, format)};
   const auto cells = cell_elements(data);
   NewFile file(path);
   // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read
   // appended data, not even in base64: only data in the elements is safe.
-  VtuText text(file, format.encoding);
+  VtuText text(file, format, data.time);
   text.add(vtu_opening(format.encoding));
   text.add_group("FieldData", "", field);
   text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
@@ -249,7 +315,7 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   text.add("</Piece>\n</UnstructuredGrid>\n");
   text.add_appended({&field, &of_points, &of_cells, &points, &cells});
   text.add("</VTKFile>\n");
-  text.flush();
+  text.end();
   file.finish();
 }
 

@@ -43,17 +43,27 @@ void bone_forces(const Particles& particles, const Body& body, const Pose& pose,
   });
 }
 
-std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose) {
+std::vector<Reaction> reactions(const Particles& particles, const Points& pulls, const Body& body,
+                                const Pose& pose) {
   const std::size_t pieces = particles.size() / particles_per_sum + 1;
   std::vector<std::vector<Reaction>> parts(pieces, std::vector<Reaction>(pose.size()));
   parallel_for(particles.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
     auto& part = parts[begin / particles_per_sum];
-    for (std::size_t i = begin; i < end; ++i)
-      for_each_pull(particles, body, pose, i, [&](int b, const BonePull& pull) {
-        part[b].force -= pull.force();
-        part[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(pull.force());
-        part[b].power += pull.power;
-      });
+    const auto add = [&](int b, std::size_t i, const Vec3& force, double power) {
+      part[b].force -= force;
+      part[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(force);
+      part[b].power += power;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto bones = body.binding.of(particles.id[i]);
+      if (bones.size() == 1 && pose[bones[0].bone].stretch_rate == 0) {
+        const int b = bones[0].bone;
+        add(b, i, pulls[i], pulls[i].dot(pose[b].rigid_velocity_at(particles.position(i))));
+      } else {
+        for_each_pull(particles, body, pose, i,
+                      [&](int b, const BonePull& pull) { add(b, i, pull.force(), pull.power); });
+      }
+    }
   });
   std::vector<Reaction> on(pose.size());
   for (const auto& part : parts)  // in the order of the pieces, whichever thread computed them

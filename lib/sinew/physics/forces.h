@@ -63,7 +63,9 @@ struct Reaction {
 };
 
 /// Per bone: F = -sum f, M = -sum (x - head) x f; the power of a rigid bone is -(F.o' + M.omega).
-std::vector<Reaction> reactions(const Particles& particles, const Body& body, const Pose& pose);
+/// `pulls`: the force of all its bones on each particle (n x 3, N).
+std::vector<Reaction> reactions(const Particles& particles, const Points& pulls, const Body& body,
+                                const Pose& pose);
 
 /// Stored energies, J.
 double pair_energy(const Particles& particles, const PairForce& pair);

@@ -121,6 +121,25 @@ const Forces& Simulation::forces() {
   return forces_;
 }
 
+Particles Simulation::take_particles() {
+  particles();
+  Particles taken;
+  taken.radius = particles_.radius;
+  taken.mass = particles_.mass;
+  taken.id = particles_.id;
+  for (const auto axis :
+       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
+    taken.*axis = std::move(particles_.*axis);
+  forget_read();
+  return taken;
+}
+
+Forces Simulation::take_forces() {
+  evaluate();
+  evaluated_ = false;
+  return std::exchange(forces_, {});
+}
+
 Energies Simulation::energies() {
   evaluate();
   const Particles& now = particles();

@@ -49,6 +49,11 @@ class Simulation {
 
   /// At the present moment.
   const Forces& forces();
+  /// particles() and forces() without a copy, for a caller who keeps them; both are found anew when
+  /// they are asked for again.
+  Particles take_particles();
+  Forces take_forces();
+
   /// Kinetic energy and dissipation are evaluated at the moment of the positions, so that the
   /// balance closes to second order in the step.
   Energies energies();

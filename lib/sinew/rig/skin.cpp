@@ -213,7 +213,9 @@ Skin make_skin(const Points& vertices, const Points& points, double radius,
 
 Points follow(const Skin& skin, const Points& now) {
   Points near(skin.near.size());
-  for (std::size_t j = 0; j < near.size(); ++j) near[j] = now[skin.near[j]];
+  parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) near[j] = now[skin.near[j]];
+  });
   std::vector<Mat3> motions(near.size());
   parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j)

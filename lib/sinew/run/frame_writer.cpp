@@ -4,48 +4,60 @@
 #include <algorithm>
 
 #include <sinew/core/arrays.h>
-#include <sinew/core/parallel.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/run_files.h>
+#include <sinew/scene/frame_content.h>
 
 namespace sinew {
 namespace {
 
-constexpr std::size_t values_per_piece = 1 << 14;
+/// Frames of bodies up to this size are queued; of a larger one there is one at a time, because it
+/// takes as much memory as stepping does.
+constexpr std::size_t particles_to_queue = 1'000'000, frames_queued = 2;
 
 VtuFormat format_of(const OutputSettings& output, const char* series, double radius) {
-  return {output.encoding, output.double_precision, series, radius};
+  VtuFormat format;
+  format.encoding = output.encoding;
+  format.double_precision = output.double_precision;
+  format.series = series;
+  format.radius = radius;
+  return format;
 }
 
 /// The bone of the particle that moves each vertex most.
-std::vector<std::int32_t> bones_of_vertices(const Skin& skin,
-                                            const std::vector<std::int32_t>& particle_bone) {
+std::vector<std::int32_t> bones_of_vertices(const Skin& skin, const Binding& binding) {
   std::vector<std::int32_t> bones;
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     const auto begin = skin.weight.begin() + skin.first[i];
     const auto most = std::max_element(begin, skin.weight.begin() + skin.first[i + 1]);
-    bones.push_back(particle_bone[skin.near[skin.particle[most - skin.weight.begin()]]]);
+    bones.push_back(binding.bone(skin.near[skin.particle[most - skin.weight.begin()]]));
   }
   return bones;
 }
 
-/// Copies into memory that is already allocated.
-template <class T>
-void copy(const std::vector<T>& from, std::vector<T>& to) {
-  to.resize(from.size());
-  parallel_for(from.size(), values_per_piece, [&](std::size_t begin, std::size_t end) {
-    std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
-  });
+/// The rows of a plain column for these particles; all of them where no ids are given.
+Column rows_of(Column column, const std::vector<std::int32_t>& ids) {
+  const auto select = [&](auto& values) {
+    if constexpr (requires { values[0]; }) {
+      const auto width = static_cast<std::size_t>(column.components);
+      std::remove_reference_t<decltype(values)> some;
+      some.reserve(width * ids.size());
+      for (const std::int32_t id : ids) {
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(width) * id;
+        some.insert(some.end(), first, first + column.components);
+      }
+      values = std::move(some);
+    }
+  };
+  if (!ids.empty()) std::visit(select, column.values);
+  return column;
 }
 
-void copy(const Particles& from, Particles& to) {
-  to.radius = from.radius;
-  to.mass = from.mass;
-  for (const auto axis :
-       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
-    copy(from.*axis, to.*axis);
-  copy(from.id, to.id);
+std::vector<double> each(std::size_t nth, std::span<const double> times) {
+  std::vector<double> some;
+  for (std::size_t i = 0; i < times.size(); i += nth) some.push_back(times[i]);
+  return some;
 }
 
 BoneWeights weights_of_vertices(const Body& body, const Points& vertices) {
@@ -92,51 +104,52 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
                          std::vector<Triangles> obstacles, std::span<const double> kept)
     : folder_(folder),
       interval_(output.interval),
-      skeleton_(body.skeleton),
-      rest_(body.rest),
-      skin_(make_skin(surface.points, rest_, body.material.pair.r, body.skeleton, body.binding)),
+      body_(body),
+      selection_{written_particles(output, body.rest), frame_arrays(output.only)},
+      every_(static_cast<std::size_t>(output.every)),
+      taken_(kept.size()),
+      skin_(
+          make_skin(surface.points, body.rest, body.material.pair.r, body.skeleton, body.binding)),
       surface_(surface),
-      particle_bone_(bones_of_particles(body)),
-      surface_bone_(bones_of_vertices(skin_, particle_bone_)),
+      surface_bone_(bones_of_vertices(skin_, body.binding)),
       obstacles_(std::move(obstacles)),
-      particle_weight_(weights_of_particles(body)),
-      particles_(folder, format_of(output, "particles", body.material.pair.r), kept),
+      particles_(folder, format_of(output, "particles", body.material.pair.r), each(every_, kept)),
       skins_(folder, format_of(output, "surface", body.material.pair.r), kept),
       bones_(folder, format_of(output, "bones", body.material.pair.r), kept),
       frames_(folder, format_of(output, "frames", body.material.pair.r), kept),
       bone_table_(folder / "bones.csv", body.skeleton.size(), kept.size()),
       written_(static_cast<int>(kept.size())),
-      writer_(moved_.size()) {
+      writer_(body.rest.size() > particles_to_queue ? 1 : frames_queued) {
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
-  begin_skinned(folder, output, body, kept);
-  if (output.export_surface) begin_export(folder, kept.size());
-  begin_arrays(output, body);
+  begin_skinned(output, kept);
+  if (output.export_surface) begin_export(kept.size());
+  begin_arrays(output);
 }
 
-void FrameWriter::begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
-                                const Body& body, std::span<const double> kept) {
-  if (output.skin_lbs || output.skin_dqs) vertex_weights_ = weights_of_vertices(body, skin_.rest);
+void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const double> kept) {
+  if (output.skin_lbs || output.skin_dqs) vertex_weights_ = weights_of_vertices(body_, skin_.rest);
   const auto begin = [&](auto* method, const char* name) {
-    skinned_.push_back({method, std::make_unique<Series>(
-                                    folder, format_of(output, name, body.material.pair.r), kept)});
+    const VtuFormat format = format_of(output, name, body_.material.pair.r);
+    skinned_.push_back({method, std::make_unique<Series>(folder_, format, kept)});
   };
   if (output.skin_lbs) begin(linear_blend_skinned, "skin_lbs");
   if (output.skin_dqs) begin(dual_quaternion_skinned, "skin_dqs");
 }
 
-void FrameWriter::begin_export(const std::filesystem::path& folder, std::size_t kept) {
-  write_obj(folder / "surface.obj", surface_);
-  export_ = std::make_unique<PointCache>(folder / "surface.pc2", skin_.rest.size(), kept);
+void FrameWriter::begin_export(std::size_t kept) {
+  write_obj(folder_ / "surface.obj", surface_);
+  export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", skin_.rest.size(), kept);
 }
 
-void FrameWriter::begin_arrays(const OutputSettings& output, const Body& body) {
+void FrameWriter::begin_arrays(const OutputSettings& output) {
   arrays_ = requested_arrays(output.arrays);
   if (arrays_.empty()) return;
-  RestInput input = measured_body(body.material, body.skeleton);
-  input.positions = rest_;
+  RestInput input = measured_body(body_.material, body_.skeleton);
+  input.positions = body_.rest;
   input.surface = surface_;
-  input.bone.assign(particle_bone_.begin(), particle_bone_.end());
+  const auto bones = bones_of_particles(body_);
+  input.bone.assign(bones.begin(), bones.end());
   measured_ = rest_body(std::move(input));
 }
 
@@ -147,61 +160,59 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {
-    // The queue has space, so the previous frame of this slot is written: at most one job is
-    // pending, the last one.
-    Moved& frame = moved_[taken_ % moved_.size()];
-    take(simulation, time, frame);
-    ++taken_;
-    return [this, &frame] { write(frame); };
+    const auto frame = std::make_shared<const Moved>(take(simulation, time));
+    return [this, frame] { write(*frame); };
   });
 }
 
-void FrameWriter::take(Simulation& simulation, double time, Moved& frame) {
-  const Forces& forces = simulation.forces();
+FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
+  Moved frame;
   frame.moment = {time, static_cast<std::int32_t>(simulation.steps())};
-  copy(simulation.particles(), frame.particles);
-  copy(forces.pair, frame.force_pair);
-  copy(forces.damping, frame.force_damping);
-  copy(forces.bone, frame.force_bone);
-  copy(forces.world, frame.force_world);
-  copy(forces.neighbors, frame.neighbors);
-  const auto broken = simulation.broken_bonds();
-  frame.broken_bonds.assign(broken.begin(), broken.end());
-  frame.energies = simulation.energies();
+  frame.with_particles = taken_++ % every_ == 0;
   frame.pose = simulation.pose();
-  frame.reactions = reactions(simulation.particles(), simulation.body(), frame.pose);
-  if (!simulation.body().world) return;
-  frame.obstacles = world_at(*simulation.body().world, time, frame.pose).obstacles;
-  const auto on = simulation.reactions_of_obstacles();
-  frame.on_obstacles.assign(on.begin(), on.end());
+  frame.energies = simulation.energies();
+  if (body_.world) {
+    frame.obstacles = world_at(*body_.world, time, frame.pose).obstacles;
+    frame.on_obstacles = simulation.reactions_of_obstacles();
+  }
+  if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
+  frame.forces = simulation.take_forces();
+  frame.particles = simulation.take_particles();
+  frame.reactions = reactions(frame.particles, frame.forces.bone, body_, frame.pose);
+  if (!frame.with_particles) frame.forces = {};
+  return frame;
 }
 
 void FrameWriter::write(const Moved& frame) {
-  Dataset particles =
-      particles_dataset({frame.particles, rest_, particle_bone_, frame.force_pair,
-                         frame.force_damping, frame.force_bone, frame.neighbors, frame.energies,
-                         particle_weight_, frame.force_world, frame.broken_bonds},
-                        frame.moment);
-  add_arrays(frame, particles);
-  particles_.add(particles);
-  write_surfaces(frame, particles.points);
-  bones_.add(bones_dataset(skeleton_, frame.pose, frame.moment));
+  Points positions = positions_by_id(frame.particles);
+  write_surfaces(frame, positions);
+  if (frame.with_particles) write_particles(frame, std::move(positions));
+  bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
   const ReactionColumns reactions(frame.reactions);
-  frames_.add(frames_dataset(skeleton_, frame.pose, reactions, frame.moment));
-  bone_table_.add(frame.moment.time, skeleton_, reactions, powers_of(frame.reactions));
+  frames_.add(frames_dataset(body_.skeleton, frame.pose, reactions, frame.moment));
+  bone_table_.add(frame.moment.time, body_.skeleton, reactions, powers_of(frame.reactions));
   if (obstacle_series_)
     obstacle_series_->add(
         obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
   ++written_;
 }
 
-void FrameWriter::add_arrays(const Moved& frame, Dataset& particles) const {
-  if (!measured_) return;
-  FrameState state;
-  state.positions = particles.points;
-  for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
-  for (Column& array : particle_arrays(*measured_, state, arrays_))
-    particles.point_columns.push_back(std::move(array));
+void FrameWriter::write_particles(const Moved& frame, Points positions) {
+  std::vector<Column> requested;
+  if (measured_) {
+    FrameState state;
+    state.positions = positions;
+    for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
+    requested = particle_arrays(*measured_, state, arrays_);
+  }
+  const Forces& forces = frame.forces;
+  Dataset particles = particles_dataset(
+      {frame.particles, body_.rest, body_.binding, forces.pair, forces.damping, forces.bone,
+       forces.neighbors, frame.energies, forces.world, frame.broken_bonds},
+      std::move(positions), frame.moment, selection_);
+  for (Column& array : requested)
+    particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
+  particles_.add(particles);
 }
 
 void FrameWriter::write_surfaces(const Moved& frame, const Points& particles) {
@@ -209,7 +220,7 @@ void FrameWriter::write_surfaces(const Moved& frame, const Points& particles) {
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
   if (export_) export_->add(surface_.points);
   for (const Skinned& skinned : skinned_) {
-    const Triangles moved{skinned.method(skin_.rest, vertex_weights_, skeleton_, frame.pose),
+    const Triangles moved{skinned.method(skin_.rest, vertex_weights_, body_.skeleton, frame.pose),
                           surface_.faces};
     skinned.series->add(surface_dataset(moved, skin_.rest, surface_bone_, frame.moment));
   }

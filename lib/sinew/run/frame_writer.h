@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the present state of a simulation as one frame of each series. The state is copied and
-// written by a separate thread while the simulation continues. Also writes bones.csv and, where the
+// Writes the present state of a simulation as one frame of each series, by a separate thread while
+// the simulation continues. Also writes bones.csv and, where the
 // scene requests them, the surface by skinning alone and its export for animators.
 //
 //     FrameWriter writer(folder, output, body, surface, obstacles);
@@ -8,7 +8,6 @@
 //     writer.close();
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <functional>
@@ -22,6 +21,7 @@
 #include <sinew/core/triangles.h>
 #include <sinew/io/bone_table.h>
 #include <sinew/io/frames.h>
+#include <sinew/io/particle_frame.h>
 #include <sinew/io/point_cache.h>
 #include <sinew/io/series.h>
 #include <sinew/metrics/rest_body.h>
@@ -37,8 +37,8 @@ namespace sinew {
 class FrameWriter {
  public:
   /// `surface`: the body's skin at rest; `obstacles`: those of its world, each in its own frame;
-  /// `kept`: times (s) of frames already written. Throws not written, and bad input when one of
-  /// those is missing.
+  /// `kept`: times (s) of frames already written. The body must outlive the writer. Throws not
+  /// written, and bad input when one of those frames is missing.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
               const Triangles& surface, std::vector<Triangles> obstacles,
               std::span<const double> kept = {});
@@ -46,8 +46,8 @@ class FrameWriter {
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
               const ReadyScene& ready);
 
-  /// Copies the frame at `time` (s); waits while two earlier frames are not yet written. Throws not
-  /// written, also for an earlier frame: then nothing more is written.
+  /// Takes the frame at `time` (s) from the simulation; waits while too many earlier frames are not
+  /// yet written. Throws not written, also for an earlier frame: then nothing more is written.
   void add(Simulation& simulation, double time);
   /// Runs the job that make() returns once all earlier frames are written, unless that fails.
   void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
@@ -57,16 +57,17 @@ class FrameWriter {
   /// How long add() has waited for earlier frames to be written, s.
   double waited() const { return writer_.waited(); }
 
-  /// Frames that every series holds.
+  /// Frames that are written.
   int written() const { return written_; }
 
  private:
   /// The content of a frame, in the order of the particles.
   struct Moved {
     Moment moment;
+    bool with_particles = false;  ///< else without forces and counts
     Particles particles;
-    Points force_pair, force_damping, force_bone, force_world;
-    std::vector<std::int32_t> neighbors, broken_bonds;
+    Forces forces;
+    std::vector<std::int32_t> broken_bonds;
     Energies energies;
     Pose pose;
     std::vector<Reaction> reactions;
@@ -80,24 +81,24 @@ class FrameWriter {
     std::unique_ptr<Series> series;
   };
 
-  void begin_skinned(const std::filesystem::path& folder, const OutputSettings& output,
-                     const Body& body, std::span<const double> kept);
-  void begin_export(const std::filesystem::path& folder, std::size_t kept);
-  void begin_arrays(const OutputSettings& output, const Body& body);
-  void add_arrays(const Moved& frame, Dataset& particles) const;
-  void write_surfaces(const Moved& frame, const Points& particles);
-  static void take(Simulation& simulation, double time, Moved& frame);
+  void begin_skinned(const OutputSettings& output, std::span<const double> kept);
+  void begin_export(std::size_t kept);
+  void begin_arrays(const OutputSettings& output);
+  Moved take(Simulation& simulation, double time);
   void write(const Moved& frame);
+  void write_particles(const Moved& frame, Points positions);
+  void write_surfaces(const Moved& frame, const Points& particles);
 
   std::filesystem::path folder_;
   double interval_;  ///< s between frames
-  Skeleton skeleton_;
-  Points rest_;  ///< of the particles, in the written order
+  const Body& body_;
+  ParticleSelection selection_;  ///< what the frames of particles contain
+  std::size_t every_;            ///< of so many frames, one contains particles
+  std::size_t taken_;            ///< frames so far
   Skin skin_;
   Triangles surface_;  ///< its points as they are in the frame being written
-  std::vector<std::int32_t> particle_bone_, surface_bone_;
+  std::vector<std::int32_t> surface_bone_;
   std::vector<Triangles> obstacles_;
-  std::vector<double> particle_weight_;
   Series particles_, skins_, bones_, frames_;
   std::optional<Series> obstacle_series_;  ///< where the scene has some
   BoneTable bone_table_;
@@ -106,8 +107,6 @@ class FrameWriter {
   std::unique_ptr<PointCache> export_;
   std::vector<std::string_view> arrays_;  ///< additional ones that the scene requests
   std::optional<RestBody> measured_;      ///< which they are computed from, if any
-  std::array<Moved, 2> moved_;  ///< one being written, one waiting; their memory is reused
-  std::size_t taken_ = 0;
   std::atomic<int> written_ = 0;
   Background writer_;  ///< the last member: destroyed before the data it uses
 };

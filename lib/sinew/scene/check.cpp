@@ -13,6 +13,7 @@
 #include <sinew/physics/solid.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/scene/frame_content.h>
 #include <sinew/scene/stepper_choice.h>
 
 namespace sinew {
@@ -70,10 +71,10 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const auto faces = static_cast<double>(surface_faces);
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = setup.body.world ? 3 : 0;  // the force of the world
-  const double reals =
-      particles * (reals_per_particle + reals_of_world + requested_numbers(output)) +
-      surfaces * points * reals_per_point;
-  const double wholes = particles * wholes_per_particle +
+  const double written = particles * written_share(output, setup.body.rest);
+  const double reals = written * (reals_per_particle + reals_of_world + requested_numbers(output)) +
+                       surfaces * points * reals_per_point;
+  const double wholes = written * wholes_per_particle +
                         surfaces * (points * wholes_per_point + faces * wholes_per_face);
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
   const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;

@@ -11,6 +11,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
+#include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/world.h>
 
@@ -147,6 +148,8 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
   setup.steps = steps_of(settings, setup.body);
+  with_context(settings, "output.region",
+               [&] { written_particles(settings.output, setup.body.rest); });
   if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");

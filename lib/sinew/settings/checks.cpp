@@ -63,13 +63,22 @@ void check_material(const Settings& settings) {
                     "set body.packing to fcc, or remove it");
 }
 
-/// Reports an unknown name at the scene's line.
-void check_arrays(const Settings& settings) {
-  try {
-    requested_arrays(settings.output.arrays);
-  } catch (const Error& error) {
-    throw error.with_context(settings.place("output.arrays"));
-  }
+/// Reports errors at the scene's line.
+void check_output(const Settings& settings) {
+  const auto check = [&](const char* key, auto* names_of, const std::string& words) {
+    try {
+      names_of(words);
+    } catch (const Error& error) {
+      throw error.with_context(settings.place(key));
+    }
+  };
+  check("output.arrays", requested_arrays, settings.output.arrays);
+  check("output.only", frame_arrays, settings.output.only);
+  if (!settings.output.region) return;
+  const auto& [x0, y0, z0, x1, y1, z1] = *settings.output.region;
+  if (!(x0 < x1 && y0 < y1 && z0 < z1))
+    throw bad_input(settings.place("output.region"), "a box whose corners are not in order",
+                    "give x, y, z of its least corner, then of its greatest");
 }
 
 void check_axes(const Settings& settings) {
@@ -134,7 +143,7 @@ void check_together(const Settings& settings) {
   check_material(settings);
   check_axes(settings);
   check_clip(settings);
-  check_arrays(settings);
+  check_output(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

@@ -128,6 +128,9 @@ struct OutputSettings {
   bool skin_dqs = false;
   bool export_surface = false;
   std::string arrays;  ///< see requested_arrays()
+  std::string only;    ///< see frame_arrays()
+  int every = 1;
+  std::optional<std::array<double, 6>> region;  ///< x y z of the least corner, of the greatest
 };
 
 struct Settings {

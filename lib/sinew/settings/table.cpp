@@ -255,6 +255,17 @@ std::vector<Field<Settings>> make_output() {
                                 "additional arrays of particles, such as \"J, stress\", or all: F, "
                                 "J, stretch, strain, hencky_strain, strain_eq, stress, von_mises, "
                                 "D2min, turnover, inverted, pose_error")),
+      may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
+                               "the only arrays of particles beside those of output.arrays, such "
+                               "as \"displacement, velocity\"")),
+      field<S>("output", "every", SINEW_AT(S, output.every), "",
+               "writes the particles in every Nth frame only, from the first on; surface and bones "
+               "are in all frames",
+               Range{1, inf}),
+      field<S>("output", "region", SINEW_AT(S, output.region), "m",
+               "writes only the particles in a box at rest: x, y, z of its least corner, then of "
+               "its greatest; metrics are then of these",
+               any, "none"),
   };
 }
 

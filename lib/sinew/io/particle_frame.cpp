@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/particle_frame.h>
+
+#include <algorithm>
+#include <cassert>
+#include <memory>
+#include <utility>
+
+#include <sinew/core/parallel.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t particles_per_piece = 4096;
+
+bool in_order_of_id(const Particles& particles) {
+  return parallel_sum(particles.size(), particles_per_piece, [&](auto begin, auto end) {
+           double elsewhere = 0;
+           for (std::size_t i = begin; i < end; ++i)
+             elsewhere += std::cmp_not_equal(particles.id[i], i) ? 1 : 0;
+           return elsewhere;
+         }) == 0;
+}
+
+/// The particle of each row of the file.
+class Rows {
+ public:
+  Rows(const Particles& now, std::span<const std::int32_t> ids) : ids_(ids), all_(now.size()) {
+    if (in_order_of_id(now)) return;
+    place_.resize(all_);
+    for (std::size_t i = 0; i < all_; ++i)
+      place_[static_cast<std::size_t>(now.id[i])] = static_cast<std::uint32_t>(i);
+  }
+
+  std::size_t size() const { return ids_.empty() ? all_ : ids_.size(); }
+  std::size_t id(std::size_t row) const {
+    return ids_.empty() ? row : static_cast<std::size_t>(ids_[row]);
+  }
+  /// Its place in the order of the particles.
+  std::size_t place(std::size_t row) const { return place_.empty() ? id(row) : place_[id(row)]; }
+
+ private:
+  std::span<const std::int32_t> ids_;
+  std::size_t all_;
+  std::vector<std::uint32_t> place_;  ///< by id; empty where ids are in order
+};
+
+/// The columns of a frame, computed row by row.
+class ParticleColumns {
+ public:
+  ParticleColumns(std::shared_ptr<const Rows> rows, const ParticleSelection& selection)
+      : rows_(std::move(rows)), wanted_(selection.arrays) {}
+
+  /// value(id, place) of each row.
+  template <class T, class Value>
+  void add(const char* name, Value value) {
+    if (!wants(name)) return;
+    const auto put = [rows = rows_, value](std::size_t begin, std::size_t end, T* to) {
+      for (std::size_t row = begin; row < end; ++row)
+        *to++ = value(rows->id(row), rows->place(row));
+    };
+    columns_.push_back({name, 1, Computed<T>{rows_->size(), put}});
+  }
+
+  template <class Value>
+  void add_vectors(const char* name, Value value) {
+    if (!wants(name)) return;
+    const auto put = [rows = rows_, value](std::size_t begin, std::size_t end, double* to) {
+      for (std::size_t i = begin; i < end;) {
+        const std::size_t row = i / 3;
+        const Vec3 vector = value(rows->id(row), rows->place(row));
+        for (std::size_t axis = i % 3; axis < 3 && i < end; ++axis, ++i)
+          *to++ = vector[static_cast<Eigen::Index>(axis)];
+      }
+    };
+    columns_.push_back({name, 3, Computed<double>{3 * rows_->size(), put}});
+  }
+
+  std::vector<ComputedColumn> columns() { return std::move(columns_); }
+
+ private:
+  bool wants(std::string_view name) const {
+    return wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), name) != wanted_.end();
+  }
+
+  std::shared_ptr<const Rows> rows_;
+  const std::vector<std::string_view>& wanted_;
+  std::vector<ComputedColumn> columns_;
+};
+
+std::vector<Column> columns_of(const Energies& energies) {
+  const auto single = [](const char* name, double value) {
+    return column(name, std::vector<double>{value});
+  };
+  return {single("kinetic_energy", energies.kinetic),
+          single("pair_energy", energies.pair),
+          single("bone_energy", energies.bone),
+          single("gravity_energy", energies.gravity),
+          single("work_of_bones", energies.work_of_bones),
+          single("dissipation", energies.dissipation),
+          single("contact_energy", energies.contact),
+          single("work_of_world", energies.work_of_world)};
+}
+
+std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, ParticleColumns columns) {
+  const Particles& now = frame.now;
+  const auto add_forces = [&columns](const char* name, std::span<const Vec3> forces) {
+    if (!forces.empty())
+      columns.add_vectors(name, [forces](auto, auto place) { return forces[place]; });
+  };
+  const auto add_counts = [&columns](const char* name, std::span<const std::int32_t> counts) {
+    if (!counts.empty())
+      columns.add<std::int32_t>(name, [counts](auto, auto place) { return counts[place]; });
+  };
+  columns.add<std::int32_t>("id", [](auto id, auto) { return static_cast<std::int32_t>(id); });
+  columns.add<std::int32_t>("bone",
+                            [&binding = frame.binding](auto id, auto) { return binding.bone(id); });
+  columns.add<double>("weight",
+                      [&binding = frame.binding](auto id, auto) { return binding.weight(id); });
+  columns.add<double>("radius", [radius = now.radius](auto, auto) { return radius; });
+  columns.add_vectors("displacement", [&now, &rest = frame.rest](auto id, auto place) -> Vec3 {
+    return now.position(place) - rest[id];
+  });
+  columns.add_vectors("velocity", [&now](auto, auto place) { return now.velocity(place); });
+  columns.add_vectors(
+      "force",
+      [pair = frame.force_pair, damping = frame.force_damping, bone = frame.force_bone,
+       world = frame.force_world](auto, auto place) -> Vec3 {
+        const Vec3 own = pair[place] + damping[place] + bone[place];
+        return world.empty() ? own : Vec3(own + world[place]);
+      });
+  add_forces("force_pair", frame.force_pair);
+  add_forces("force_damping", frame.force_damping);
+  add_forces("force_bone", frame.force_bone);
+  add_counts("neighbors", frame.neighbors);
+  add_forces("force_world", frame.force_world);
+  add_counts("broken_bonds", frame.broken_bonds);
+  return columns.columns();
+}
+
+}  // namespace
+
+Points positions_by_id(const Particles& particles) {
+  Points positions(particles.size());
+  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      positions[static_cast<std::size_t>(particles.id[i])] = particles.position(i);
+  });
+  return positions;
+}
+
+Dataset particles_dataset(const ParticleFrame& frame, Points positions, Moment moment,
+                          const ParticleSelection& selection) {
+  assert(frame.now.id.size() == frame.now.size() && frame.rest.size() == frame.now.size());
+  const auto rows = std::make_shared<const Rows>(frame.now, selection.ids);
+  Dataset data;
+  data.time = moment.time;
+  data.cycle = moment.cycle;
+  if (selection.ids.empty()) data.points = std::move(positions);
+  for (const std::int32_t id : selection.ids)
+    data.points.push_back(positions[static_cast<std::size_t>(id)]);
+  data.connectivity = vertex_cells(rows->size());
+  data.computed = columns_of(frame, ParticleColumns(rows, selection));
+  data.field_columns = columns_of(frame.energies);
+  return data;
+}
+
+}  // namespace sinew

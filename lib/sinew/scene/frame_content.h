@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the frames of a scene contain, as section output specifies.
+//
+//     const std::vector<std::int32_t> ids = written_particles(settings.output, rest);
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <sinew/core/vector.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// The particles that frames contain, ascending: those that are in output.region at rest (n x 3,
+/// m), its border included. Empty: all of them. Throws bad input for a region without any.
+std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest);
+
+/// The share of all frames' numbers per particle that is written, by output.every and
+/// output.region.
+double written_share(const OutputSettings& output, const Points& rest);
+
+}  // namespace sinew
