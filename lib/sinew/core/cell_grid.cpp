@@ -13,11 +13,15 @@ namespace {
 
 // Rounding must not put particles just within the range two cells apart.
 constexpr double slack = 1 + 1e-9;
+constexpr std::size_t points_per_piece = 4096;
 
 std::array<std::vector<double>, 3> split(const Points& points) {
   std::array<std::vector<double>, 3> axes;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const Vec3& point : points) axes[axis].push_back(point[axis]);
+  for (auto& axis : axes) axis.resize(points.size());
+  parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis) axes[axis][i] = points[i][axis];
+  });
   return axes;
 }
 
@@ -73,7 +77,10 @@ void CellGrid::sort(std::span<const double> x, std::span<const double> y,
                     std::span<const double> z) {
   std::vector<std::uint32_t> cell(x.size());
   first_.assign(cells_[0] * cells_[1] * cells_[2] + 1, 0);
-  for (std::size_t i = 0; i < x.size(); ++i) ++first_[1 + (cell[i] = index_of(x[i], y[i], z[i]))];
+  parallel_for(x.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) cell[i] = index_of(x[i], y[i], z[i]);
+  });
+  for (const std::uint32_t c : cell) ++first_[c + 1];
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   order_.resize(x.size());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
@@ -98,8 +105,6 @@ int CellGrid::runs_around(const Vec3& p, std::array<Run, 9>& runs) const {
 }
 
 namespace {
-
-constexpr std::size_t points_per_piece = 4096;
 
 /// Adds the neighbors of point i, ascending.
 void add_row(const CellGrid& grid, const Points& points, std::size_t i, double range,

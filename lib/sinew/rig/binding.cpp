@@ -119,8 +119,8 @@ const BoundRegion* region_of(const std::vector<BoundRegion>& regions, std::size_
   return last == regions.rend() ? nullptr : &*last;
 }
 
-/// The influences on one particle, including feet and distances.
-std::vector<Influence> influences_on(const Choice& choice, std::size_t i) {
+/// Adds the influences on one particle, including feet and distances; how many.
+std::size_t add_influences(const Choice& choice, std::size_t i, std::vector<Influence>& held) {
   const Vec3& point = choice.rest[i];
   std::vector<BoneWeight> weights;
   if (const BoundRegion* region = region_of(choice.options.regions, i, point)) {
@@ -131,10 +131,8 @@ std::vector<Influence> influences_on(const Choice& choice, std::size_t i) {
         choice.options.core_radius)
       weights.clear();
   }
-  std::vector<Influence> held;
-  held.reserve(weights.size());
   for (const BoneWeight& one : weights) held.push_back(influence_of(choice, one, point));
-  return held;
+  return weights.size();
 }
 
 /// Joins the influences of consecutive pieces of particles; `first` counts them.
@@ -155,12 +153,9 @@ Binding bound(const Choice& choice, double particle_volume) {
   binding.first.assign(n + 1, 0);
   std::vector<std::vector<Influence>> pieces((n + particles_per_piece - 1) / particles_per_piece);
   parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto held = influences_on(choice, i);
-      auto& piece = pieces[begin / particles_per_piece];
-      piece.insert(piece.end(), held.begin(), held.end());
-      binding.first[i + 1] = static_cast<std::uint32_t>(held.size());
-    }
+    auto& piece = pieces[begin / particles_per_piece];
+    for (std::size_t i = begin; i < end; ++i)
+      binding.first[i + 1] = static_cast<std::uint32_t>(add_influences(choice, i, piece));
   });
   std::partial_sum(binding.first.begin(), binding.first.end(), binding.first.begin());
   binding.influences = joined(std::move(pieces), binding.first);

@@ -71,12 +71,10 @@ std::vector<double> parted(const JointZones& zones, const std::vector<int>& chil
   return parts;
 }
 
-/// Weights of the children of one bone; the rest of 1 is the parent's.
-std::vector<BoneWeight> children_weights(const JointZones& zones, int parent, const Vec3& point,
-                                         const Distance& distance) {
+/// Adds the weights of the children of one bone, which has several; the rest of 1 is the parent's.
+void add_children(const JointZones& zones, int parent, const Vec3& point, const Distance& distance,
+                  std::vector<BoneWeight>& weights) {
   const std::vector<int>& children = zones.children[parent];
-  if (children.size() == 1)
-    return {{children[0], share_of_child(zones, children[0], point, distance)}};
   std::vector<double> distances;
   distances.reserve(children.size());
   for (const int child : children) distances.push_back(distance(child));
@@ -85,27 +83,29 @@ std::vector<BoneWeight> children_weights(const JointZones& zones, int parent, co
   for (std::size_t i = 0; i < children.size(); ++i)
     if (near[i] > 0) of_all += near[i] * share_of_child(zones, children[i], point, distance);
   const std::vector<double> parts = parted(zones, children, distances, 1 - of_all);
-  std::vector<BoneWeight> weights;
   for (std::size_t i = 0; i < children.size(); ++i)
     weights.push_back({children[i], of_all * parts[i]});
-  return weights;
 }
 
-/// Adds the bones that meet at the joints below `parent`; `lead` keeps the remaining weight.
+/// Adds the bones that meet at the joints below `parent`; the first one keeps the remaining weight.
 void add_family(const JointZones& zones, int parent, const Vec3& point, const Distance& distance,
                 std::vector<BoneWeight>& held) {
-  if (zones.children[parent].empty()) return;
-  std::vector<BoneWeight> family = children_weights(zones, parent, point, distance);
+  const std::vector<int>& children = zones.children[parent];
+  if (children.empty()) return;
+  const std::size_t before = held.size();
+  if (children.size() == 1)
+    held.push_back({children[0], share_of_child(zones, children[0], point, distance)});
+  else
+    add_children(zones, parent, point, distance, held);
   double of_children = 0;
-  for (const BoneWeight& child : family) of_children += child.weight;
-  family.push_back({parent, std::max(0.0, 1 - of_children)});
+  for (std::size_t k = before; k < held.size(); ++k) of_children += held[k].weight;
+  held.push_back({parent, std::max(0.0, 1 - of_children)});
   const int lead = held.front().bone;
+  held.erase(std::remove_if(held.begin() + static_cast<std::ptrdiff_t>(before), held.end(),
+                            [lead](const BoneWeight& one) { return one.bone == lead; }),
+             held.end());
   double of_others = 0;
-  for (const BoneWeight& one : family) {
-    if (one.bone == lead) continue;
-    of_others += one.weight;
-    held.push_back(one);
-  }
+  for (std::size_t k = before; k < held.size(); ++k) of_others += held[k].weight;
   held.front().weight *= std::max(0.0, 1 - of_others);
 }
 
@@ -143,7 +143,9 @@ JointZones joint_zones(const Skeleton& skeleton, const std::vector<double>& sect
 
 std::vector<BoneWeight> shares_in_zones(const JointZones& zones, int lead, const Vec3& point,
                                         const Distance& distance) {
-  std::vector<BoneWeight> held{{lead, 1}};
+  std::vector<BoneWeight> held;
+  held.reserve(5);  // one allocation for chains of bones
+  held.push_back({lead, 1});
   if (zones.parent[lead] != no_bone && zones.above[lead].length > 0)
     add_family(zones, zones.parent[lead], point, distance, held);
   add_family(zones, lead, point, distance, held);

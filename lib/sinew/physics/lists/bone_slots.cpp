@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include <sinew/core/parallel.h>
 
 namespace sinew {
 namespace {
@@ -34,7 +37,8 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
   const double r = body.material.pair.r;
-  const bool aside = std::hypot(local.y(), local.z()) >= least_distance * r ||
+  const double across = local.y() * local.y() + local.z() * local.z();
+  const bool aside = across >= least_distance * least_distance * r * r ||
                      body.springs[influence.bone].form == BoneForce::anchor;
   const double distance =
       influence.rest_distance < least_distance * r ? 0 : influence.rest_distance;
@@ -45,74 +49,103 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
     lane[field * block] = static_cast<Real>(fields[field] / units.length);
 }
 
-/// Fills the slots of one block after the other.
+/// The bones that hold particles of a block, in the order of their first ones.
+void find_bones(const Body& body, std::span<const std::int32_t> ids, std::vector<int>& bones) {
+  bones.clear();
+  for (const std::int32_t id : ids)
+    for (const Influence& influence : body.binding.of(id))
+      if (std::find(bones.begin(), bones.end(), influence.bone) == bones.end())
+        bones.push_back(influence.bone);
+}
+
+/// Makes the slots block by block.
 template <class Real>
 class Filler {
  public:
   static constexpr std::size_t block = kernel::Traits<Real>::block;
 
-  Filler(const Body& body, const Units& units, BoneSlots<Real>& out)
-      : body_(body), units_(units), out_(out) {}
+  Filler(const Body& body, std::span<const std::int32_t> id, const Units& units,
+         BoneSlots<Real>& out)
+      : body_(body), id_(id), units_(units), out_(out) {}
 
-  void add(std::span<const std::int32_t> ids) {
-    const std::size_t begin = out_.slots.size();
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-      const auto influences = body_.binding.of(ids[lane]);
+  void fill() {
+    count();
+    out_.slots.resize(out_.first.back());
+    out_.held.resize(out_.first.back() * kernel::held_fields * block);
+    out_.shares.resize(first_share_.back() * kernel::share_fields * block);
+    on_all_blocks([&](std::size_t b, const std::vector<int>& bones) { fill(b, bones); });
+  }
+
+ private:
+  static constexpr std::size_t blocks_per_task = 512;
+
+  std::span<const std::int32_t> ids(std::size_t b) const {
+    return id_.subspan(b * block, std::min(block, id_.size() - b * block));
+  }
+
+  /// Calls visit(block, its bones).
+  template <class Visit>
+  void on_all_blocks(const Visit& visit) const {
+    parallel_for((id_.size() + block - 1) / block, blocks_per_task,
+                 [&](std::size_t begin, std::size_t end) {
+                   std::vector<int> bones;
+                   for (std::size_t b = begin; b < end; ++b) {
+                     find_bones(body_, ids(b), bones);
+                     visit(b, bones);
+                   }
+                 });
+  }
+
+  /// A bone that holds every lane alone needs no weights.
+  bool shares_are_one(std::size_t b, const std::vector<int>& bones) const {
+    const auto alone = [&](std::int32_t id) {
+      const auto influences = body_.binding.of(id);
+      return influences.size() == 1 && static_cast<Real>(influences[0].weight) == 1;
+    };
+    const auto all = ids(b);
+    return bones.size() == 1 && all.size() == block && std::all_of(all.begin(), all.end(), alone);
+  }
+
+  /// Where each block's slots and shares begin.
+  void count() {
+    out_.first.assign((id_.size() + block - 1) / block + 1, 0);
+    first_share_ = out_.first;
+    on_all_blocks([&](std::size_t b, const std::vector<int>& bones) {
+      out_.first[b + 1] = static_cast<std::uint32_t>(bones.size());
+      first_share_[b + 1] = shares_are_one(b, bones) ? 0 : out_.first[b + 1];
+    });
+    for (auto* first : {&out_.first, &first_share_})
+      std::partial_sum(first->begin(), first->end(), first->begin());
+  }
+
+  void fill(std::size_t b, const std::vector<int>& bones) {
+    const std::size_t begin = out_.first[b];
+    const bool weighted = first_share_[b] < first_share_[b + 1];
+    for (std::size_t k = 0; k < bones.size(); ++k)
+      out_.slots[begin + k] = {bones[k],
+                               weighted ? static_cast<std::int32_t>(first_share_[b] + k) : -1};
+    const auto all = ids(b);
+    for (std::size_t lane = 0; lane < all.size(); ++lane) {
+      const auto influences = body_.binding.of(all[lane]);
       for (const Influence& influence : influences) {
-        const std::size_t slot = slot_of(influence.bone, begin);
-        hold(body_, influence, body_.rest[ids[lane]], out_.center[influence.bone], units_,
-             &out_.held[slot * kernel::held_fields * block + lane]);
-        Real* shares = &out_.shares[static_cast<std::size_t>(out_.slots[slot].shares) *
-                                        kernel::share_fields * block +
-                                    lane];
+        const auto k = static_cast<std::size_t>(
+            std::find(bones.begin(), bones.end(), influence.bone) - bones.begin());
+        hold(body_, influence, body_.rest[all[lane]], out_.center[influence.bone], units_,
+             &out_.held[(begin + k) * kernel::held_fields * block + lane]);
+        if (!weighted) continue;
+        Real* shares = &out_.shares[(first_share_[b] + k) * kernel::share_fields * block + lane];
         shares[kernel::weight * block] = static_cast<Real>(influence.weight);
         shares[kernel::lead * block] = &influence == influences.data() ? Real(1) : Real(0);
       }
     }
-    if (out_.slots.size() == begin + 1) forget_shares_of_one();
-    out_.first.push_back(static_cast<std::uint32_t>(out_.slots.size()));
-  }
-
- private:
-  std::size_t slot_of(int bone, std::size_t begin) {
-    for (std::size_t slot = begin; slot < out_.slots.size(); ++slot)
-      if (out_.slots[slot].bone == bone) return slot;
-    const std::size_t shares = out_.shares.size() / (kernel::share_fields * block);
-    out_.slots.push_back({bone, static_cast<std::int32_t>(shares)});
-    out_.held.resize(out_.held.size() + kernel::held_fields * block);
-    out_.shares.resize(out_.shares.size() + kernel::share_fields * block);
-    return out_.slots.size() - 1;
-  }
-
-  /// A bone that holds every lane alone needs no weights.
-  void forget_shares_of_one() {
-    const std::size_t begin = out_.shares.size() - kernel::share_fields * block;
-    if (!std::all_of(out_.shares.begin() + static_cast<std::ptrdiff_t>(begin), out_.shares.end(),
-                     [](Real share) { return share == 1; }))
-      return;
-    out_.slots.back().shares = -1;
-    out_.shares.resize(begin);
   }
 
   const Body& body_;
+  std::span<const std::int32_t> id_;
   const Units& units_;
   BoneSlots<Real>& out_;
+  std::vector<std::uint32_t> first_share_;  ///< blocks + 1 long
 };
-
-/// Slots that the blocks will need: a vector that grows by doubling would be half empty.
-std::size_t count_slots(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
-  std::size_t count = 0;
-  std::vector<int> bones;
-  for (std::size_t begin = 0; begin < id.size(); begin += block) {
-    bones.clear();
-    for (const std::int32_t i : id.subspan(begin, std::min(block, id.size() - begin)))
-      for (const Influence& influence : body.binding.of(i))
-        if (std::find(bones.begin(), bones.end(), influence.bone) == bones.end())
-          bones.push_back(influence.bone);
-    count += bones.size();
-  }
-  return count;
-}
 
 template <class Real>
 void put(const Vec3& from, double scale, Real* to) {
@@ -161,17 +194,9 @@ template kernel::FrameNow<float> frame_now(const BonePose&, const Vec3&, const U
 
 template <class Real>
 BoneSlots<Real> bone_slots(const Body& body, std::span<const std::int32_t> id, const Units& units) {
-  constexpr std::size_t block = kernel::Traits<Real>::block;
   BoneSlots<Real> slots;
   slots.center = centers(body);
-  const std::size_t count = count_slots(body, id, block);
-  slots.slots.reserve(count);
-  slots.held.reserve(count * kernel::held_fields * block);
-  slots.first.reserve(id.size() / block + 2);
-  slots.first.push_back(0);
-  Filler<Real> filler(body, units, slots);
-  for (std::size_t begin = 0; begin < id.size(); begin += block)
-    filler.add(id.subspan(begin, std::min(block, id.size() - begin)));
+  Filler<Real>(body, id, units, slots).fill();
   return slots;
 }
 

@@ -334,7 +334,7 @@ void ListStepper<Real>::sort() {
   VerletLists<Real> before = std::exchange(lists_, lists_.anew());
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
-  make_lists();
+  lists_.make_some(layout_.now, bonds_, layout_.units());
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {
@@ -342,6 +342,7 @@ void ListStepper<Real>::sort() {
     lists_ = std::move(before);
   } else {
     ++sorts_;
+    if (!lists_.whole()) make_lists();
     find_slots();
     bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // of muscles
     strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());

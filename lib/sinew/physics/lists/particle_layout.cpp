@@ -12,6 +12,17 @@ namespace {
 
 constexpr std::size_t particles_per_conversion = 8192;
 
+Box box_around(const Particles& particles) {
+  std::vector<Box> boxes(particles.size() / particles_per_conversion + 1);
+  parallel_for(particles.size(), particles_per_conversion, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      boxes[begin / particles_per_conversion].extend(particles.position(i));
+  });
+  Box box;
+  for (const Box& one : boxes) box.extend(one);
+  return box;
+}
+
 }  // namespace
 
 template <class Real>
@@ -20,16 +31,18 @@ ParticleLayout<Real>::ParticleLayout(const Body& body, const Particles& particle
       next(now),
       pair_(body.material.pair),
       step_(step),
+      units_box_(box_around(particles)),
       id_((now.blocks() + 2) * block, 0),
       caller_(order_at_rest(body, particles.id)) {
-  for (std::size_t i = 0; i < particles.size(); ++i) units_box_.extend(particles.position(i));
   units_ = units_for<Real>(units_box_, pair_, step_);
-  for (std::size_t k = 0; k < size(); ++k) {
-    const std::uint32_t i = caller_[k];
-    id_[k + block] = particles.id[i];
-    now.set_position(k, particles.position(i), units_);
-    now.set_velocity(k, particles.velocity(i), units_);
-  }
+  parallel_split(size(), particles_per_conversion, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = caller_[k];
+      id_[k + block] = particles.id[i];
+      now.set_position(k, particles.position(i), units_);
+      now.set_velocity(k, particles.velocity(i), units_);
+    }
+  });
 }
 
 template <class Real>
@@ -45,11 +58,13 @@ void ParticleLayout<Real>::reorder(std::vector<std::uint32_t>& order) {
   std::swap(now, next);
   std::vector<std::int32_t> id(id_.size(), 0);
   std::vector<std::uint32_t> caller(caller_.size()), back(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    id[k + block] = id_[order[k] + block];
-    caller[k] = caller_[order[k]];
-    back[order[k]] = static_cast<std::uint32_t>(k);
-  }
+  parallel_split(order.size(), particles_per_conversion, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      id[k + block] = id_[order[k] + block];
+      caller[k] = caller_[order[k]];
+      back[order[k]] = static_cast<std::uint32_t>(k);
+    }
+  });
   id_ = std::move(id);
   caller_ = std::move(caller);
   order = std::move(back);

@@ -54,8 +54,8 @@ Columns columns_of(const std::array<Coord*, 3>& x, std::size_t count, double edg
   return columns;
 }
 
-constexpr double off_lattice = 1e-3;     // in spacings of planes
-constexpr double farthest_plane = 1e15;  // still a whole number
+constexpr double off_lattice = 1e-3;    // in spacings of planes
+constexpr double farthest_plane = 1e9;  // still a whole number of 32 bits
 
 /// Lattice planes of a group of particles, slowest axis first.
 struct Planes {
@@ -70,7 +70,7 @@ struct Planes {
   }
 };
 
-using Site = std::array<std::int64_t, 3>;
+using Site = std::array<std::int32_t, 3>;
 
 /// Particles of a body by their places in a list of ids.
 struct Listed {
@@ -87,15 +87,39 @@ std::vector<Site> sites_of(const Listed& particles, const std::vector<std::uint3
                            const Planes& planes) {
   const double spacing = half_plane_spacing(particles.body.material.pair.r);
   std::vector<Site> sites(group.size());
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const Vec3 from = particles.rest(group[k]) - particles.rest(group[0]);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = from.dot(planes.axes[axis]) / spacing, whole = std::round(at);
-      if (!(std::abs(at) < farthest_plane && std::abs(at - whole) < off_lattice)) return {};
-      sites[k][axis] = static_cast<std::int64_t>(whole);
+  const auto find_sites = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec3 from = particles.rest(group[k]) - particles.rest(group[0]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double at = from.dot(planes.axes[axis]) / spacing, whole = std::round(at);
+        if (!(std::abs(at) < farthest_plane && std::abs(at - whole) < off_lattice)) return 1.0;
+        sites[k][axis] = static_cast<std::int32_t>(whole);
+      }
     }
+    return 0.0;
+  };
+  const double off = parallel_sum(group.size(), particles_per_copy, find_sites);
+  return off > 0 ? std::vector<Site>() : sites;
+}
+
+/// Sorts `order` by one coordinate of the sites, keeping the order of equal ones.
+void sort_by(const std::vector<Site>& sites, int axis, std::vector<std::uint32_t>& order) {
+  const auto [low, high] = std::minmax_element(
+      sites.begin(), sites.end(), [&](const Site& a, const Site& b) { return a[axis] < b[axis]; });
+  const std::int64_t least = (*low)[axis], planes = (*high)[axis] - least + 1;
+  if (planes > 4 * static_cast<std::int64_t>(sites.size()) + 1024) {  // a particle far away
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return sites[a][axis] < sites[b][axis];
+    });
+    return;
   }
-  return sites;
+  std::vector<std::uint32_t> first(static_cast<std::size_t>(planes) + 1, 0);
+  for (const Site& site : sites) ++first[static_cast<std::size_t>(site[axis] - least) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> sorted(order.size());
+  for (const std::uint32_t k : order)
+    sorted[first[static_cast<std::size_t>(sites[k][axis] - least)]++] = k;
+  order = std::move(sorted);
 }
 
 /// The direction along which the particles `group` extend farthest.
@@ -115,12 +139,7 @@ void sort_by_planes(const Listed& particles, const Vec3& across,
   if (sites.empty()) return;
   std::vector<std::uint32_t> order(group.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Site &one = sites[a], &other = sites[b];
-    for (int axis = 0; axis < 3; ++axis)  // comparing arrays would call memcmp
-      if (one[axis] != other[axis]) return one[axis] < other[axis];
-    return a < b;
-  });
+  for (const int axis : {2, 1, 0}) sort_by(sites, axis, order);
   std::vector<std::uint32_t> sorted(group.size());
   for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = group[order[k]];
   group = std::move(sorted);

@@ -20,6 +20,7 @@ namespace {
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
 constexpr double outer_skin_of_contacts = 0.4, inner_skin_of_contacts = 0.1;
 constexpr std::size_t pieces_at_a_time = 4;
+constexpr std::size_t pieces_in_sample = 256;
 using kernel::blocks_per_piece;
 
 /// Of the kernel's velocity fields, as a share of their speed.
@@ -72,13 +73,29 @@ template <class Real>
 double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
   std::size_t values = 0, blocks = 0;
   for (const OffsetLists& piece : lists)
-    values += piece.value.size(), blocks += piece.first.size() - 1;
+    if (!piece.first.empty()) values += piece.value.size(), blocks += piece.first.size() - 1;
   return blocks == 0 ? 0 : static_cast<double>(values) / static_cast<double>(blocks);
 }
 
 template <class Real>
 void VerletLists<Real>::make(BlockState<Real>& state, const BondLists<Real>& bonds,
                              const Units& units) {
+  make_each(1, state, bonds, units);
+  ++counts_.rebuilds;
+}
+
+template <class Real>
+void VerletLists<Real>::make_some(BlockState<Real>& state, const BondLists<Real>& bonds,
+                                  const Units& units) {
+  const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
+  make_each(1 + pieces / pieces_in_sample, state, bonds, units);
+  if (whole_) ++counts_.rebuilds;
+}
+
+template <class Real>
+void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
+                                  const BondLists<Real>& bonds, const Units& units) {
+  whole_ = nth == 1;
   ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
              wanted_.outer / units.length};
   time_ = step_ / units.time;
@@ -94,10 +111,10 @@ void VerletLists<Real>::make(BlockState<Real>& state, const BondLists<Real>& bon
   boxed_.assign(pieces, -1);
   near_ = NearPieces(ranges_);
   survey(state);
-  std::vector<std::uint32_t> all(pieces);
-  std::iota(all.begin(), all.end(), 0U);
-  list(state, bonds, all);
-  ++counts_.rebuilds;
+  std::vector<std::uint32_t> some;
+  for (std::size_t piece = 0; piece < pieces; piece += nth)
+    some.push_back(static_cast<std::uint32_t>(piece));
+  list(state, bonds, some);
 }
 
 template <class Real>

@@ -41,8 +41,11 @@ class VerletLists {
   /// Lists of the same kind, not yet made, that go on with its counts.
   VerletLists anew() const;
   bool made() const { return !inner_.empty(); }
-  /// Makes all lists.
+  /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
   void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
+  void make_some(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
+  /// Whether they are the lists of all pieces.
+  bool whole() const { return whole_; }
   /// Makes those that are no longer valid after a step with these sums.
   void follow(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
               std::span<const kernel::Totals> totals);
@@ -56,6 +59,8 @@ class VerletLists {
 
  private:
   static double mean(const std::vector<OffsetLists>& lists);
+  void make_each(std::size_t nth, BlockState<Real>& state, const BondLists<Real>& bonds,
+                 const Units& units);
   void survey(BlockState<Real>& state);
   void move_fields();
   PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
@@ -81,6 +86,7 @@ class VerletLists {
   std::vector<double> speed_;  ///< by piece: of its velocity field, at most
   std::vector<OffsetLists> outer_, inner_;
   std::vector<kernel::Lists> arrays_;
+  bool whole_ = false;
   BlockBoxes boxes_;
   std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
   std::int64_t moment_ = 0;
