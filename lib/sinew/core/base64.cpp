@@ -44,7 +44,7 @@ void put_last(std::string_view rest, char* to) {
 }
 
 /// Up to three bytes from `at` on, in part k and those behind it.
-std::string bytes_across(std::span<const std::string> parts, std::size_t k, std::size_t at) {
+std::string bytes_across(const std::vector<std::string>& parts, std::size_t k, std::size_t at) {
   std::string bytes;
   for (; k < parts.size() && bytes.size() < 3; ++k, at = 0)
     bytes += parts[k].substr(at, 3 - bytes.size());
@@ -52,7 +52,7 @@ std::string bytes_across(std::span<const std::string> parts, std::size_t k, std:
 }
 
 /// The text of the groups of three bytes whose first one is in part k, which begins at `begin`.
-std::string text_of_part(std::span<const std::string> parts, std::size_t k, std::size_t begin) {
+std::string text_of_part(const std::vector<std::string>& parts, std::size_t k, std::size_t begin) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(parts[k].data());
   const std::size_t after = begin + parts[k].size(), first = (begin + 2) / 3;
   const std::size_t end = (after + 2) / 3, whole = std::max(first, after / 3);
@@ -116,11 +116,14 @@ std::size_t bytes_in_base64(std::string_view text) {
   return text.size() / 4 * 3 - std::min(padding, text.size() / 4 * 3);
 }
 
-void put_base64(std::span<const std::string> parts,
+void put_base64(std::vector<std::string> parts,
                 const std::function<void(std::size_t place, std::string_view piece)>& put) {
   std::size_t begin = 0;
-  for (std::size_t k = 0; k < parts.size(); begin += parts[k++].size())
+  for (std::size_t k = 0; k < parts.size(); ++k) {
     put((begin + 2) / 3 * 4, text_of_part(parts, k, begin));
+    begin += parts[k].size();
+    parts[k] = {};
+  }
 }
 
 std::string base64(std::string_view bytes) {

@@ -7,9 +7,9 @@
 
 #include <cstddef>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -24,8 +24,8 @@ std::size_t bytes_in_base64(std::string_view text);
 /// The same text for any number of threads.
 std::string base64(std::string_view bytes);
 
-/// The text of parts one after the other, in as many pieces.
-void put_base64(std::span<const std::string> parts,
+/// The text of parts one after the other, in as many pieces; frees each part when it is text.
+void put_base64(std::vector<std::string> parts,
                 const std::function<void(std::size_t place, std::string_view piece)>& put);
 
 /// Writes `count` bytes to `to`; whether `text` is exactly what base64() makes of them.

@@ -13,31 +13,37 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 4096;
 
-bool in_order_of_id(const Particles& particles) {
-  return parallel_sum(particles.size(), particles_per_piece, [&](auto begin, auto end) {
+bool in_order(const std::vector<std::int32_t>& ids) {
+  return parallel_sum(ids.size(), particles_per_piece, [&](auto begin, auto end) {
            double elsewhere = 0;
            for (std::size_t i = begin; i < end; ++i)
-             elsewhere += std::cmp_not_equal(particles.id[i], i) ? 1 : 0;
+             elsewhere += std::cmp_not_equal(ids[i], i) ? 1 : 0;
            return elsewhere;
          }) == 0;
 }
 
+/// A row of the file and its particle.
+struct Row {
+  std::size_t number, id;
+  std::size_t place;  ///< in the order of the particles
+};
+
 /// The particle of each row of the file.
 class Rows {
  public:
-  Rows(const Particles& now, std::span<const std::int32_t> ids) : ids_(ids), all_(now.size()) {
-    if (in_order_of_id(now)) return;
+  Rows(const std::vector<std::int32_t>& id_of_place, std::span<const std::int32_t> ids)
+      : ids_(ids), all_(id_of_place.size()) {
+    if (in_order(id_of_place)) return;
     place_.resize(all_);
     for (std::size_t i = 0; i < all_; ++i)
-      place_[static_cast<std::size_t>(now.id[i])] = static_cast<std::uint32_t>(i);
+      place_[static_cast<std::size_t>(id_of_place[i])] = static_cast<std::uint32_t>(i);
   }
 
   std::size_t size() const { return ids_.empty() ? all_ : ids_.size(); }
-  std::size_t id(std::size_t row) const {
-    return ids_.empty() ? row : static_cast<std::size_t>(ids_[row]);
+  Row operator[](std::size_t row) const {
+    const std::size_t id = ids_.empty() ? row : static_cast<std::size_t>(ids_[row]);
+    return {row, id, place_.empty() ? id : place_[id]};
   }
-  /// Its place in the order of the particles.
-  std::size_t place(std::size_t row) const { return place_.empty() ? id(row) : place_[id(row)]; }
 
  private:
   std::span<const std::int32_t> ids_;
@@ -51,13 +57,12 @@ class ParticleColumns {
   ParticleColumns(std::shared_ptr<const Rows> rows, const ParticleSelection& selection)
       : rows_(std::move(rows)), wanted_(selection.arrays) {}
 
-  /// value(id, place) of each row.
+  /// value(row) of each.
   template <class T, class Value>
   void add(const char* name, Value value) {
     if (!wants(name)) return;
     const auto put = [rows = rows_, value](std::size_t begin, std::size_t end, T* to) {
-      for (std::size_t row = begin; row < end; ++row)
-        *to++ = value(rows->id(row), rows->place(row));
+      for (std::size_t row = begin; row < end; ++row) *to++ = value((*rows)[row]);
     };
     columns_.push_back({name, 1, Computed<T>{rows_->size(), put}});
   }
@@ -68,7 +73,7 @@ class ParticleColumns {
     const auto put = [rows = rows_, value](std::size_t begin, std::size_t end, double* to) {
       for (std::size_t i = begin; i < end;) {
         const std::size_t row = i / 3;
-        const Vec3 vector = value(rows->id(row), rows->place(row));
+        const Vec3 vector = value((*rows)[row]);
         for (std::size_t axis = i % 3; axis < 3 && i < end; ++axis, ++i)
           *to++ = vector[static_cast<Eigen::Index>(axis)];
       }
@@ -102,33 +107,34 @@ std::vector<Column> columns_of(const Energies& energies) {
           single("work_of_world", energies.work_of_world)};
 }
 
-std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, ParticleColumns columns) {
-  const Particles& now = frame.now;
+/// `positions`: of the rows; where they are in memory must stay the same.
+std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points& positions,
+                                       ParticleColumns columns) {
   const auto add_forces = [&columns](const char* name, std::span<const Vec3> forces) {
     if (!forces.empty())
-      columns.add_vectors(name, [forces](auto, auto place) { return forces[place]; });
+      columns.add_vectors(name, [forces](const Row& row) { return forces[row.place]; });
   };
   const auto add_counts = [&columns](const char* name, std::span<const std::int32_t> counts) {
     if (!counts.empty())
-      columns.add<std::int32_t>(name, [counts](auto, auto place) { return counts[place]; });
+      columns.add<std::int32_t>(name, [counts](const Row& row) { return counts[row.place]; });
   };
-  columns.add<std::int32_t>("id", [](auto id, auto) { return static_cast<std::int32_t>(id); });
-  columns.add<std::int32_t>("bone",
-                            [&binding = frame.binding](auto id, auto) { return binding.bone(id); });
-  columns.add<double>("weight",
-                      [&binding = frame.binding](auto id, auto) { return binding.weight(id); });
-  columns.add<double>("radius", [radius = now.radius](auto, auto) { return radius; });
-  columns.add_vectors("displacement", [&now, &rest = frame.rest](auto id, auto place) -> Vec3 {
-    return now.position(place) - rest[id];
-  });
-  columns.add_vectors("velocity", [&now](auto, auto place) { return now.velocity(place); });
-  columns.add_vectors(
-      "force",
-      [pair = frame.force_pair, damping = frame.force_damping, bone = frame.force_bone,
-       world = frame.force_world](auto, auto place) -> Vec3 {
-        const Vec3 own = pair[place] + damping[place] + bone[place];
-        return world.empty() ? own : Vec3(own + world[place]);
-      });
+  const Binding& binding = frame.binding;
+  columns.add<std::int32_t>("id", [](const Row& row) { return static_cast<std::int32_t>(row.id); });
+  columns.add<std::int32_t>("bone", [&binding](const Row& row) { return binding.bone(row.id); });
+  columns.add<double>("weight", [&binding](const Row& row) { return binding.weight(row.id); });
+  columns.add<double>("radius", [radius = frame.now.radius](const Row&) { return radius; });
+  columns.add_vectors("displacement",
+                      [now = positions.data(), &rest = frame.rest](const Row& row) -> Vec3 {
+                        return now[row.number] - rest[row.id];
+                      });
+  columns.add_vectors("velocity",
+                      [&now = frame.now](const Row& row) { return now.velocity(row.place); });
+  columns.add_vectors("force",
+                      [pair = frame.force_pair, damping = frame.force_damping,
+                       bone = frame.force_bone, world = frame.force_world](const Row& row) -> Vec3 {
+                        const Vec3 own = pair[row.place] + damping[row.place] + bone[row.place];
+                        return world.empty() ? own : Vec3(own + world[row.place]);
+                      });
   add_forces("force_pair", frame.force_pair);
   add_forces("force_damping", frame.force_damping);
   add_forces("force_bone", frame.force_bone);
@@ -141,18 +147,23 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, ParticleColum
 }  // namespace
 
 Points positions_by_id(const Particles& particles) {
-  Points positions(particles.size());
+  Points positions;
+  find_positions_by_id(particles, positions);
+  return positions;
+}
+
+void find_positions_by_id(const Particles& particles, Points& positions) {
+  positions.resize(particles.size());
   parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       positions[static_cast<std::size_t>(particles.id[i])] = particles.position(i);
   });
-  return positions;
 }
 
 Dataset particles_dataset(const ParticleFrame& frame, Points positions, Moment moment,
                           const ParticleSelection& selection) {
-  assert(frame.now.id.size() == frame.now.size() && frame.rest.size() == frame.now.size());
-  const auto rows = std::make_shared<const Rows>(frame.now, selection.ids);
+  assert(frame.now.id.size() == positions.size() && frame.rest.size() == positions.size());
+  const auto rows = std::make_shared<const Rows>(frame.now.id, selection.ids);
   Dataset data;
   data.time = moment.time;
   data.cycle = moment.cycle;
@@ -160,7 +171,7 @@ Dataset particles_dataset(const ParticleFrame& frame, Points positions, Moment m
   for (const std::int32_t id : selection.ids)
     data.points.push_back(positions[static_cast<std::size_t>(id)]);
   data.connectivity = vertex_cells(rows->size());
-  data.computed = columns_of(frame, ParticleColumns(rows, selection));
+  data.computed = columns_of(frame, data.points, ParticleColumns(rows, selection));
   data.field_columns = columns_of(frame.energies);
   return data;
 }

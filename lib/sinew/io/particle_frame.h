@@ -20,9 +20,9 @@
 
 namespace sinew {
 
-/// The particles at one moment. Forces and counts are in the order of `now`.
+/// The particles at one moment beside their positions. Forces and counts are in the order of `now`.
 struct ParticleFrame {
-  const Particles& now;                     ///< in any order
+  const Particles& now;                     ///< in any order; their positions are not used
   const Points& rest;                       ///< m, by id
   const Binding& binding;                   ///< by id
   std::span<const Vec3> force_pair;         ///< N
@@ -42,6 +42,7 @@ struct ParticleSelection {
 
 /// Positions by id (n x 3, m), in parallel.
 Points positions_by_id(const Particles& particles);
+void find_positions_by_id(const Particles& particles, Points& positions);
 
 /// `positions`: of the frame's particles, by id. The array "force" is the sum of all forces. What
 /// the frame refers to and the ids of the selection must outlive the dataset.

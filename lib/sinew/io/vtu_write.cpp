@@ -213,8 +213,8 @@ class VtuText {
   void add_parts(EncodedArray text) {
     flush();
     const std::uint64_t size = text.text_size() - text.counts.size(), begin = file_.extend(size);
-    auto write = [this, begin, parts = std::move(text.parts)] {
-      put_base64(parts, [&](std::size_t place, std::string_view piece) {
+    auto write = [this, begin, parts = std::move(text.parts)]() mutable {
+      put_base64(std::move(parts), [&](std::size_t place, std::string_view piece) {
         file_.write_at(begin + place, piece.data(), piece.size());
       });
     };

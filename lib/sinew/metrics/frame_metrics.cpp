@@ -20,7 +20,7 @@ void check(const RestBody& rest, const FrameState& state) {
                       "measure the frames of one run only");
   };
   const std::size_t n = rest.particles();
-  require(state.positions.size() == n && state.velocities.size() == n,
+  require(state.positions.size() == n && (state.velocities.empty() || state.velocities.size() == n),
           "has " + std::to_string(state.positions.size()) + " particles and the body " +
               std::to_string(n));
   require(state.surface_points.size() == rest.surface.points.size(),
@@ -83,11 +83,12 @@ Vec3 vector_sum(std::size_t count, const Value& value) {
 void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   const std::size_t n = rest.particles();
   const Vec3 center = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
+  out.center_x = center.x(), out.center_y = center.y(), out.center_z = center.z();
+  if (state.velocities.empty()) return;
   const Vec3 linear = rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
   const Vec3 angular = rest.mass * vector_sum(n, [&](std::size_t i) -> Vec3 {
                          return state.positions[i].cross(state.velocities[i]);
                        });
-  out.center_x = center.x(), out.center_y = center.y(), out.center_z = center.z();
   out.momentum_x = linear.x(), out.momentum_y = linear.y(), out.momentum_z = linear.z();
   out.angular_momentum_x = angular.x();
   out.angular_momentum_y = angular.y();

@@ -140,6 +140,14 @@ Forces Simulation::take_forces() {
   return std::exchange(forces_, {});
 }
 
+void Simulation::reuse(Particles particles, Forces forces) {
+  if (!evaluated_) forces_ = std::move(forces);
+  if (read_) return;
+  for (const auto axis :
+       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
+    particles_.*axis = std::move(particles.*axis);
+}
+
 Energies Simulation::energies() {
   evaluate();
   const Particles& now = particles();

@@ -53,6 +53,8 @@ class Simulation {
   /// they are asked for again.
   Particles take_particles();
   Forces take_forces();
+  /// Memory of earlier ones, for those that are found next: spares the system from clearing new.
+  void reuse(Particles particles, Forces forces);
 
   /// Kinetic energy and dissipation are evaluated at the moment of the positions, so that the
   /// balance closes to second order in the step.

@@ -2,6 +2,7 @@
 #include <sinew/run/frame_writer.h>
 
 #include <algorithm>
+#include <utility>
 
 #include <sinew/core/arrays.h>
 #include <sinew/io/gltf/moving_surface.h>
@@ -11,10 +12,6 @@
 
 namespace sinew {
 namespace {
-
-/// Frames of bodies up to this size are queued; of a larger one there is one at a time, because it
-/// takes as much memory as stepping does.
-constexpr std::size_t particles_to_queue = 1'000'000, frames_queued = 2;
 
 VtuFormat format_of(const OutputSettings& output, const char* series, double radius) {
   VtuFormat format;
@@ -118,8 +115,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
       bones_(folder, format_of(output, "bones", body.material.pair.r), kept),
       frames_(folder, format_of(output, "frames", body.material.pair.r), kept),
       bone_table_(folder / "bones.csv", body.skeleton.size(), kept.size()),
-      written_(static_cast<int>(kept.size())),
-      writer_(body.rest.size() > particles_to_queue ? 1 : frames_queued) {
+      written_(static_cast<int>(kept.size())) {
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
   begin_skinned(output, kept);
@@ -159,14 +155,15 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
                   ready.setup.obstacles) {}
 
 void FrameWriter::add(Simulation& simulation, double time) {
-  writer_.hand([&] {
-    const auto frame = std::make_shared<const Moved>(take(simulation, time));
+  writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does
+    const auto frame = std::make_shared<Moved>(take(simulation, time));
     return [this, frame] { write(*frame); };
   });
 }
 
 FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
-  Moved frame;
+  Moved frame = std::exchange(spare_, {});
+  simulation.reuse(std::move(frame.particles), std::move(frame.forces));
   frame.moment = {time, static_cast<std::int32_t>(simulation.steps())};
   frame.with_particles = taken_++ % every_ == 0;
   frame.pose = simulation.pose();
@@ -179,14 +176,14 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
   frame.reactions = reactions(frame.particles, frame.forces.bone, body_, frame.pose);
-  if (!frame.with_particles) frame.forces = {};
+  find_positions_by_id(frame.particles, frame.positions);
+  for (const auto axis : {&Particles::x, &Particles::y, &Particles::z}) frame.particles.*axis = {};
   return frame;
 }
 
-void FrameWriter::write(const Moved& frame) {
-  Points positions = positions_by_id(frame.particles);
-  write_surfaces(frame, positions);
-  if (frame.with_particles) write_particles(frame, std::move(positions));
+void FrameWriter::write(Moved& frame) {
+  write_surfaces(frame);
+  if (frame.with_particles) write_particles(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
   const ReactionColumns reactions(frame.reactions);
   frames_.add(frames_dataset(body_.skeleton, frame.pose, reactions, frame.moment));
@@ -195,13 +192,14 @@ void FrameWriter::write(const Moved& frame) {
     obstacle_series_->add(
         obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
   ++written_;
+  spare_ = std::move(frame);
 }
 
-void FrameWriter::write_particles(const Moved& frame, Points positions) {
+void FrameWriter::write_particles(Moved& frame) {
   std::vector<Column> requested;
   if (measured_) {
     FrameState state;
-    state.positions = positions;
+    state.positions = frame.positions;
     for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
     requested = particle_arrays(*measured_, state, arrays_);
   }
@@ -209,14 +207,15 @@ void FrameWriter::write_particles(const Moved& frame, Points positions) {
   Dataset particles = particles_dataset(
       {frame.particles, body_.rest, body_.binding, forces.pair, forces.damping, forces.bone,
        forces.neighbors, frame.energies, forces.world, frame.broken_bonds},
-      std::move(positions), frame.moment, selection_);
+      std::move(frame.positions), frame.moment, selection_);
   for (Column& array : requested)
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
   particles_.add(particles);
+  frame.positions = std::move(particles.points);
 }
 
-void FrameWriter::write_surfaces(const Moved& frame, const Points& particles) {
-  surface_.points = follow(skin_, particles);
+void FrameWriter::write_surfaces(const Moved& frame) {
+  surface_.points = follow(skin_, frame.positions);
   skins_.add(surface_dataset(surface_, skin_.rest, surface_bone_, frame.moment));
   if (export_) export_->add(surface_.points);
   for (const Skinned& skinned : skinned_) {
@@ -228,6 +227,7 @@ void FrameWriter::write_surfaces(const Moved& frame, const Points& particles) {
 
 void FrameWriter::close() {
   writer_.finish();
+  spare_ = {};
   for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
   if (obstacle_series_) obstacle_series_->close();
   for (const Skinned& skinned : skinned_) skinned.series->close();

@@ -46,8 +46,8 @@ class FrameWriter {
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
               const ReadyScene& ready);
 
-  /// Takes the frame at `time` (s) from the simulation; waits while too many earlier frames are not
-  /// yet written. Throws not written, also for an earlier frame: then nothing more is written.
+  /// Takes the frame at `time` (s) from the simulation; waits until the frame before is written.
+  /// Throws not written, also for an earlier frame: then nothing more is written.
   void add(Simulation& simulation, double time);
   /// Runs the job that make() returns once all earlier frames are written, unless that fails.
   void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
@@ -65,7 +65,8 @@ class FrameWriter {
   struct Moved {
     Moment moment;
     bool with_particles = false;  ///< else without forces and counts
-    Particles particles;
+    Points positions;             ///< by id
+    Particles particles;          ///< without positions
     Forces forces;
     std::vector<std::int32_t> broken_bonds;
     Energies energies;
@@ -85,9 +86,9 @@ class FrameWriter {
   void begin_export(std::size_t kept);
   void begin_arrays(const OutputSettings& output);
   Moved take(Simulation& simulation, double time);
-  void write(const Moved& frame);
-  void write_particles(const Moved& frame, Points positions);
-  void write_surfaces(const Moved& frame, const Points& particles);
+  void write(Moved& frame);
+  void write_particles(Moved& frame);
+  void write_surfaces(const Moved& frame);
 
   std::filesystem::path folder_;
   double interval_;  ///< s between frames
@@ -108,7 +109,9 @@ class FrameWriter {
   std::vector<std::string_view> arrays_;  ///< additional ones that the scene requests
   std::optional<RestBody> measured_;      ///< which they are computed from, if any
   std::atomic<int> written_ = 0;
-  Background writer_;  ///< the last member: destroyed before the data it uses
+  bool one_by_one_;       ///< there is never more than one frame
+  Moved spare_;           ///< the last frame, then, whose memory is reused
+  Background writer_{1};  ///< the last member: destroyed before the data it uses
 };
 
 }  // namespace sinew

@@ -132,7 +132,8 @@ struct Course {
 /// Requested arrays, in addition to the run's own series.
 class ValueSeries {
  public:
-  ValueSeries(const RunFiles& run, const std::vector<std::string_view>& arrays) : arrays_(arrays) {
+  ValueSeries(const RunFiles& run, const std::vector<std::string_view>& arrays)
+      : ids_(run.ids), arrays_(arrays) {
     if (arrays_.empty()) return;
     const OutputSettings& output = run.settings.output;
     series_.emplace(run.folder.path, VtuFormat{output.encoding, output.double_precision, "values",
@@ -146,7 +147,8 @@ class ValueSeries {
     data.points = state.positions;
     data.connectivity = vertex_cells(data.points.size());
     data.point_columns = particle_arrays(rest, state, arrays_);
-    data.point_columns.push_back(column("id", vertex_cells(data.points.size())));
+    data.point_columns.push_back(
+        column("id", ids_.empty() ? vertex_cells(data.points.size()) : ids_));
     series_->add(data);
   }
 
@@ -155,6 +157,7 @@ class ValueSeries {
   }
 
  private:
+  const std::vector<std::int32_t>& ids_;
   std::vector<std::string_view> arrays_;
   std::optional<Series> series_;
 };

@@ -90,13 +90,15 @@ LawCurve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& sk
 }  // namespace
 
 std::vector<LawCurve> law_curves(const RunFiles& run) {
-  const Material material = material_of(run);
+  const Material& material = run.material;
   std::vector<LawCurve> curves{pair_curve(material)};
   if (!law_of(material).has_bonds) curves.push_back(energy_curve(material.pair));
   if (run.skeleton.size() == 0) return curves;
   const double r = run.body.particles.radius;
-  const Binding binding = bind_to_bones(positions_of(run.body.particles), run.skeleton,
-                                        volume_per_particle(r), run.settings.binding.joint_zone);
+  const Points rest =
+      positions_of(run.ids.empty() ? run.body.particles : read_body(run.folder.body()).particles);
+  const Binding binding =
+      bind_to_bones(rest, run.skeleton, volume_per_particle(r), run.settings.binding.joint_zone);
   const std::vector<BoneSprings> springs = bone_springs(run.settings.binding, material, binding);
   curves.push_back(bone_curve(springs, run.skeleton, r));
   if (springs.front().form == BoneForce::paper && springs.front().twist_form == TwistForm::servo)

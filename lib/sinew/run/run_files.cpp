@@ -11,6 +11,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/laws.h>
+#include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
 
@@ -83,20 +84,27 @@ Energies energies_of(const Dataset& data) {
           field(data, "contact_energy"), field(data, "work_of_world")};
 }
 
+/// From the displacements, where they are written: these are exact for small ones.
+Points positions_in(const RunFiles& run, const Dataset& data) {
+  if (!find(data.point_columns, "displacement")) return data.points;
+  Points positions = vectors(data.point_columns, "displacement");
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += run.body.particles.position(i);
+  return positions;
+}
+
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
   const Dataset data = read_vtu(file, {"displacement", "velocity", "broken_bonds"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
-    frame.positions = vectors(data.point_columns, "displacement");
+    frame.positions = positions_in(run, data);
     frame.displacement.resize(frame.positions.size());
-    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-      frame.displacement[i] = frame.positions[i].norm();
-      frame.positions[i] += run.body.particles.position(i);
-    }
-    frame.velocities = vectors(data.point_columns, "velocity");
+    for (std::size_t i = 0; i < frame.positions.size(); ++i)
+      frame.displacement[i] = (frame.positions[i] - run.body.particles.position(i)).norm();
+    if (find(data.point_columns, "velocity"))
+      frame.velocities = vectors(data.point_columns, "velocity");
     frame.energies = energies_of(data);
-    if (find(data.point_columns, "broken_bonds"))
+    if (find(data.point_columns, "broken_bonds") && run.ids.empty())  // of bonds that are all there
       frame.broken_bonds = integers(data.point_columns, "broken_bonds");
   });
 }
@@ -161,6 +169,35 @@ void trim_rows(RunFiles& run) {
   }
 }
 
+/// Of each so many rows the first: the moments at which particles are written.
+std::vector<PvdRow> thinned(const std::vector<PvdRow>& rows, int every) {
+  std::vector<PvdRow> some;
+  for (std::size_t i = 0; i < rows.size(); i += static_cast<std::size_t>(every))
+    some.push_back(rows[i]);
+  return some;
+}
+
+template <class T>
+void keep(const std::vector<std::int32_t>& ids, std::vector<T>& values) {
+  for (std::size_t k = 0; k < ids.size(); ++k) values[k] = values[static_cast<std::size_t>(ids[k])];
+  values.resize(ids.size());
+}
+
+/// Keeps the particles that the frames contain, numbered anew.
+void keep_written(RunFiles& run) {
+  Particles& all = run.body.particles;
+  run.ids = written_particles(run.settings.output, positions_of(all));
+  if (run.ids.empty()) return;
+  for (const auto axis :
+       {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
+    keep(run.ids, all.*axis);
+  all.id.resize(run.ids.size());  // they are 0, 1, 2, ...
+  keep(run.ids, run.body.neighbors);
+  keep(run.ids, run.body.component);
+  if (run.body.bone) keep(run.ids, *run.body.bone);
+  if (run.body.weight) keep(run.ids, *run.body.weight);
+}
+
 }  // namespace
 
 RunFiles open_run(const RunFolder& folder) {
@@ -176,12 +213,17 @@ RunFiles open_run(const RunFolder& folder) {
   if (!run.body.bone)
     throw bad_input(Place{folder.body().string()}, "has no array 'bone'",
                     "run the scene again with --force");
+  const Particles& particles = run.body.particles;
+  run.material = make_material(run.settings.material,
+                               shape_of(positions_of(particles), particles.radius, particles.mass));
+  keep_written(run);
+  const int every = run.settings.output.every;
   run.particle_rows = rows_of(folder, "particles");
-  run.surface_rows = rows_of(folder, "surface");
-  run.frame_rows = rows_of(folder, "frames");
+  run.surface_rows = thinned(rows_of(folder, "surface"), every);
+  run.frame_rows = thinned(rows_of(folder, "frames"), every);
   trim_rows(run);
-  run.lbs_rows = rows_if_there(folder, "skin_lbs");
-  run.dqs_rows = rows_if_there(folder, "skin_dqs");
+  run.lbs_rows = thinned(rows_if_there(folder, "skin_lbs"), every);
+  run.dqs_rows = thinned(rows_if_there(folder, "skin_dqs"), every);
   read_rest_surface(run);
   return run;
 }
@@ -212,12 +254,6 @@ void FramesInOrder::begin() {
                                [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
-Material material_of(const RunFiles& run) {
-  return make_material(run.settings.material,
-                       shape_of(positions_of(run.body.particles), run.body.particles.radius,
-                                run.body.particles.mass));
-}
-
 PairLaw pair_law(const Material& material) {
   const ForceLaw& law = law_of(material);
   const bool changes = material.bond.breaking_strain > 0 || material.bond.yield_strain > 0;
@@ -244,7 +280,7 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton) {
 }
 
 RestInput measured_body(const RunFiles& run) {
-  RestInput input = measured_body(material_of(run), run.skeleton);
+  RestInput input = measured_body(run.material, run.skeleton);
   input.positions = positions_of(run.body.particles);
   input.surface = run.surface;
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());

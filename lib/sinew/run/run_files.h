@@ -28,8 +28,10 @@ struct RunFiles {
   std::string scene_text;
   Settings settings;
   Skeleton skeleton;
-  BodyFile body;                           ///< at rest, with the bone of each particle
-  Triangles surface;                       ///< at rest
+  Material material;              ///< of the whole body
+  BodyFile body;                  ///< the particles in the frames at rest, with their bones
+  std::vector<std::int32_t> ids;  ///< of these particles in the body; empty: all of them
+  Triangles surface;              ///< at rest
   std::vector<std::int32_t> surface_bone;  ///< that moves each point most, -1 for none
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< equally many of each
   std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the skinned surfaces; none if not written
@@ -40,17 +42,18 @@ struct RunFiles {
 };
 
 /// Opens a run. Throws bad input, naming the file, for a folder that is not a run, and for series
-/// of different times. Frames that some of the series lack (of a run in progress or interrupted)
-/// are left out.
+/// of different times. Frames that some of the series lack (of a run in progress or interrupted, or
+/// by output.every) are left out, and so are particles that frames do not contain (output.region).
 RunFiles open_run(const RunFolder& folder);
 
 /// All data of one frame, in the written order.
 struct RunFrame {
-  double time = 0;                               ///< s
-  Points positions, velocities, surface_points;  ///< m, m/s, m
-  std::vector<double> displacement;              ///< its size per particle, m
-  std::vector<RigidFrame> bones;                 ///< heads and axes
-  std::vector<double> bone_lengths;              ///< head to tail, m: bones may stretch
+  double time = 0;                   ///< s
+  Points positions, surface_points;  ///< m
+  Points velocities;                 ///< m/s; empty: not written
+  std::vector<double> displacement;  ///< its size per particle, m
+  std::vector<RigidFrame> bones;     ///< heads and axes
+  std::vector<double> bone_lengths;  ///< head to tail, m: bones may stretch
   Energies energies;
   std::vector<std::int32_t> broken_bonds;  ///< of each particle; empty: it has no bonds
 };
@@ -77,9 +80,6 @@ class FramesInOrder {
 };
 
 // The input of metrics: the body and the forces in it.
-
-/// The constants of the run's particles.
-Material material_of(const RunFiles& run);
 
 /// The material's forces between particles as functions of position; empty where bonds break or
 /// creep and the forces depend on history.

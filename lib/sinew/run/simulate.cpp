@@ -95,7 +95,7 @@ class Run {
       if (!state) write_beginning(ready);
       log_.spend("writing", watch.lap());
       begin(std::move(ready), state);
-      log_.spend("binding", watch.lap());
+      log_.spend("listing", watch.lap());
       const Exit exit = write_frames();
       log_.end(exit == Exit::done ? "finished" : "stopped", *simulation_);
       return exit;

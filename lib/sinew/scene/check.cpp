@@ -32,13 +32,12 @@ constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
 constexpr double checkpoints_per_particle = 3 * 52, bonds_per_particle = 3 * (12 * 8 + 4);
 constexpr double exported_per_point = 24;        // bytes in surface.pc2 and surface.glb
 constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
-// Peak memory of runs of 1e5 to 1e7 particles, in bytes. Most of it is the frames being written
-// (two copies, and one as doubles) with the rest shape and its binding; lists take about 280 in
-// double and 160 in single precision.
-constexpr double memory_with_lists_double = 1250, memory_with_lists_single = 1130;
+// Peak memory of runs of 3e5 to 1e7 particles, in bytes: the body at rest with its binding, a frame
+// being written (about 150), and lists and states, 100 to 200.
+constexpr double memory_with_lists_double = 510, memory_with_lists_single = 400;
 constexpr double memory_with_cells = 1500;
 constexpr double memory_of_strain = 170, memory_of_changing_bonds = 120;  // in double precision
-constexpr double memory_per_point = 600, memory_beside = 30e6;
+constexpr double memory_per_point = 600, memory_beside = 60e6;
 
 double memory_per_particle(const StepperChoice& choice, const Body& body) {
   if (choice.search == NeighborSearch::cells) return memory_with_cells;

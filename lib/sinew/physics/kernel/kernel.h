@@ -189,9 +189,10 @@ struct Totals {
   bool broke;          ///< a bond
 };
 
-/// Forces of a probe, by particle.
+/// Forces of a probe, by particle from `first` on.
 template <class Real>
 struct Probed {
+  std::ptrdiff_t first;
   Real* pair[3];
   Real* damping[3];
   Real* bone[3];

@@ -186,14 +186,15 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L
   const Triple<L> velocity = load<L>(step.before.v, i);
   Forces<L> forces = forces_on<L, pairs, pass, true>(step, law, block, lane, here, velocity);
   surround_if_touched<L>(step, block, i, velocity, forces);
-  store<L>(step.probed.pair, i, forces.pairs.force);
-  store<L>(step.probed.damping, i, forces.damping);
-  store<L>(step.probed.bone, i, forces.bones.spring + forces.bones.damping);
-  if (step.probed.muscle[0] != nullptr) store<L>(step.probed.muscle, i, forces.muscle);
+  const std::ptrdiff_t to = i - step.probed.first;
+  store<L>(step.probed.pair, to, forces.pairs.force);
+  store<L>(step.probed.damping, to, forces.damping);
+  store<L>(step.probed.bone, to, forces.bones.spring + forces.bones.damping);
+  if (step.probed.muscle[0] != nullptr) store<L>(step.probed.muscle, to, forces.muscle);
   typename L::Real count[L::width];
   L::store(count, forces.pairs.count);
   for (int k = 0; k < L::width; ++k)
-    step.probed.neighbors[i + k] = static_cast<std::int32_t>(count[k]);
+    step.probed.neighbors[to + k] = static_cast<std::int32_t>(count[k]);
   add_to<L>(sums.pair_energy + lane, forces.pairs.energy);
   add_to<L>(sums.bone_energy + lane, forces.bones.energy);
   account<L>(step, forces, velocity, lane, sums);

@@ -8,6 +8,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/physics/laws.h>
+#include <sinew/physics/lists/force_probe.h>
 #include <sinew/physics/lists/particle_order.h>
 
 namespace sinew {
@@ -219,41 +220,14 @@ Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const
 
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
-  const std::size_t n = layout_.caller().size(), slots = layout_.now.blocks() * block;
-  const bool muscles = has_muscles(*body_);
   Points of_world;
-  auto now = begin(pose, surroundings_.any() ? &of_world : nullptr);
-  std::array<std::vector<Real>, 12> probed;
-  Real* axes[12] = {};
-  for (std::size_t axis = 0; axis < (muscles ? 12U : 9U); ++axis) {
-    probed[axis].resize(slots);
-    axes[axis] = probed[axis].data();
-  }
-  std::vector<std::int32_t> neighbors(slots);
-  std::copy(axes, axes + 3, now.probed.pair);
-  std::copy(axes + 3, axes + 6, now.probed.damping);
-  std::copy(axes + 6, axes + 9, now.probed.bone);
-  std::copy(axes + 9, axes + 12, now.probed.muscle);
-  now.probed.neighbors = neighbors.data();
-  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
-  on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
+  const auto now = begin(pose, surroundings_.any() ? &of_world : nullptr);
   const double newtons =
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
-  for (Points* of_particles : {&forces.pair, &forces.damping, &forces.bone})
-    of_particles->resize(n);
-  forces.world.assign(body_->world ? n : 0, Vec3::Zero());
-  forces.neighbors.resize(n);
-  parallel_split(n, particles_per_thread, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = layout_.caller()[k];
-      forces.pair[i] = newtons * Vec3(probed[0][k], probed[1][k], probed[2][k]);
-      forces.damping[i] = newtons * Vec3(probed[3][k], probed[4][k], probed[5][k]);
-      forces.bone[i] = newtons * Vec3(probed[6][k], probed[7][k], probed[8][k]);
-      if (muscles) forces.world[i] = newtons * Vec3(probed[9][k], probed[10][k], probed[11][k]);
-      if (!of_world.empty()) forces.world[i] += of_world[k];
-      forces.neighbors[i] = neighbors[k];
-    }
-  });
+  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const ForceProbe<Real> probe(work, now, layout_, newtons, has_muscles(*body_), of_world);
+  resize(forces, layout_.size(), body_->world != nullptr);
+  on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
   balance.contact_energy = surroundings_.sums().contact_energy;
