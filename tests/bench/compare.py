@@ -27,6 +27,7 @@ LAMMPS_STATES = ("rest", "flowed")  # nothing holds the others there: they would
 WITH_CELLS = 300_000  # particles; cells take as long per particle beyond
 WITH_ALL_PAIRS = 3_000
 
+SCENES = ("box_bend", "arm_bend", "creature_walk")
 LAWS = 30_000  # particles of bodies that are not the paper's
 LAW_ROUNDS, QUICK_LAW_ROUNDS = 4, 1
 
@@ -44,6 +45,16 @@ def measure_laws(runs, rounds):
     for number in range(rounds):
         print(f"laws, {LAWS:,} particles: round {number + 1} of {rounds}", file=sys.stderr, flush=True)
         runs.laws(LAWS, ["single", "double"] + ["cells"] * (number == 0 and rounds > 1))
+        if number == 0:
+            runs.prepare_bonded(LAWS)
+        runs.lammps_bonded(LAWS)
+    runs.discard("rest", LAWS)
+
+
+def measure_scenes(runs, sinew):
+    for name in SCENES:
+        print(f"{name}, whole", file=sys.stderr, flush=True)
+        runs.scene(sinew, SOURCE / "configs" / f"{name}.yaml")
 
 
 def measure(runs, plan):
@@ -90,6 +101,8 @@ def main():
     with tempfile.TemporaryDirectory(dir=options.out) as scratch:
         runs = Runs(options.programs.resolve(), Path(scratch))
         measure_laws(runs, QUICK_LAW_ROUNDS if options.quick else LAW_ROUNDS)
+        if not options.quick:
+            measure_scenes(runs, options.programs.parent / "bin/sinew")
         measure(runs, QUICK if options.quick else FULL)
     results = runs.results()
     table, plot = speed_tables.markdown(results), speed_plot.svg(results)

@@ -7,5 +7,5 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 tools/install_packages.sh build bench
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=ON >/dev/null
-cmake --build build --target step_bench make_state
+cmake --build build --target step_bench make_state sinew sinew-simulate
 exec /usr/bin/python3 tests/bench/compare.py build/bench build/bench/speed "$@"

@@ -32,6 +32,26 @@ thermo 0
 run 10
 run {steps}
 """
+# The same bonds as harmonic springs, and the repulsion of those that are not bonded.
+BONDED_SCRIPT = """
+units lj
+atom_style bond
+boundary s s s
+read_data {state}.data
+pair_style table linear 1000
+pair_coeff 1 1 eq1.table EQ1 {d0}
+bond_style harmonic
+bond_coeff 1 {half_stiffness} {d0}
+special_bonds lj 0 1 1
+neighbor {skin} bin
+comm_modify cutoff {far}
+neigh_modify delay 0 every 10 check yes
+timestep {step}
+fix motion all nve
+thermo 0
+run 10
+run {steps}
+"""
 TO_RESTART = """
 units lj
 atom_style atomic
@@ -114,6 +134,29 @@ class Runs:
         self.figures[f"{state}/{count}/lammps/1"].append(1e-6 * atoms * steps / seconds)
         self.lists[f"{state}/{count}"] = {name: float(re.findall(pattern, text)[-1])
                                           for name, pattern in COUNTS.items()} | {"steps": steps}
+
+    def prepare_bonded(self, count):
+        """A body of bonds at rest, for LAMMPS."""
+        self.bonded = json.loads(output_of([self.programs / "make_state", "rest", count, self.scratch, "bonded"]))
+
+    def lammps_bonded(self, count):
+        world = self.bonded
+        text = self.run_lammps(BONDED_SCRIPT, f"rest_{count}", d0=world["d0"], step=world["step"], steps=STEPS[count],
+                               half_stiffness=world["stiffness"] / 2, skin=0.4 * world["d0"], far=3 * world["d0"])
+        seconds, steps, atoms = map(float, LOOP.findall(text)[-1])
+        self.figures[f"bonded, rest/{count}/lammps/1"].append(1e-6 * atoms * steps / seconds)
+
+    def scene(self, sinew, scene):
+        """A shipped scene from its beginning to its end, stepping alone."""
+        for precision in ("single", "double"):
+            for threads in (1, 2):
+                out = self.scratch / "run"
+                output_of([sinew, "simulate", scene, "-o", out, "--force", "--threads", threads, "--set",
+                           f"solver.precision={precision}", "--set", "output.only=id", "--set", "output.every=1000"])
+                run = json.loads((out / "run.json").read_text(encoding="utf-8"))
+                name = f"{scene.stem}, whole/{run['particles']}/{precision}"
+                self.figures[f"{name}/{threads}"].append(1e-6 * run["particle_steps_per_second"])
+                self.hashes[name].add(run["state_hash"])
 
     def limits(self):
         for row in self.benchmarks("^(peak|triad)"):

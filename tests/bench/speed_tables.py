@@ -66,22 +66,31 @@ def largest_with_all_states(results):
     return max(counts_of(results), key=lambda count: (len(states_of(results, count)), count))
 
 
-def law_table(results, figures):
-    """Of what is not the paper's: speeds, and ratios to the paper's law at rest in the same round."""
+def shares_of(figures, name, count, kind, rest_count):
+    """Of the paper's law at rest: median of the rounds."""
+    mine, rest = figures.of(name, count, kind), figures.of("paper, rest", rest_count, kind)
+    if len(mine) != len(rest):
+        return f"{median(mine) / median(rest):.2f}"
+    return f"{median(a / b for a, b in zip(mine, rest)):.2f}"
+
+
+def law_table(results, figures, whole):
+    """Speeds of what is not the paper's at rest, beside it: other laws, or shipped scenes as a whole."""
     keys = [key.split("/") for key in results["figures"] if ", " in key]
-    count = int(keys[0][1])
-    names = list(dict.fromkeys(name for name, *_ in keys))
-
-    def share(name, kind):
-        rest = figures.of("paper, rest", count, kind)
-        ratios = [a / b for a, b in zip(figures.of(name, count, kind), rest)]
-        return f"{median(ratios):.2f}"
-
-    rows = [[name, figures.cell(name, count, "single", (1, 2)), share(name, "single"),
-             figures.cell(name, count, "double", (1, 2)), share(name, "double"), figures.cell(name, count, "cells")]
-            for name in names]
-    return table(["body, state", "single, 1 / 2 threads", "to the paper's at rest", "double, 1 / 2 threads",
-                  "to the paper's at rest", "the paper's cells"], rows)
+    rest_count = next(count for name, count, *_ in keys if name == "paper, rest")
+    names = list(dict.fromkeys((name, count) for name, count, *_ in keys if name.endswith(", whole") == whole))
+    rows = [[name.removesuffix(", whole") + f" ({int(count):,})" * whole]
+            + [cell for kind in ("single", "double")
+               for cell in (figures.cell(name, count, kind, (1, 2)), shares_of(figures, name, count, kind, rest_count))]
+            for name, count in names]
+    head = ["scene (particles)" if whole else "body, state"]
+    for kind in ("single", "double"):
+        head += [f"{kind}, 1 / 2 threads", "to the paper's at rest"]
+    if not whole:
+        head += ["the paper's cells", "LAMMPS, harmonic bonds alone"]
+        for row_of, (name, count) in zip(rows, names):
+            row_of += [figures.cell(name, count, "cells"), figures.cell(name, count, "lammps")]
+    return table(head, rows) if rows else ""
 
 
 def limits(results):
@@ -130,8 +139,10 @@ def markdown(results):
              "medians, and ranges of the ratios within rounds:\n",
              table(head("particles"), by_count),
              f"The states, {results['particles'][count]:,} particles:\n", table(head("state"), by_state),
-             "What is not the paper's law, 30,000 particles:\n", law_table(results, figures),
+             "What is not the paper's law, 30,000 particles:\n", law_table(results, figures, False),
              f"The limits, at {FLOP} floating-point operations and {BYTES['single']} bytes (double: {BYTES['double']}) "
              "per particle-step (memory: for bodies beyond the caches):\n",
              limit_table(results, figures), "\n".join(remarks(results, figures)) + "\n"]
+    if scenes := law_table(results, figures, True):
+        parts[6:6] = ["Shipped scenes as a whole, stepping alone:\n", scenes]
     return "\n".join(parts)

@@ -16,6 +16,8 @@ RESULTS = {
         "rest/300000/single/1": [100, 90], "rest/300000/double/1": [60, 50], "flowed/300000/single/1": [45, 40],
         "paper, rest/30000/single/1": [100, 50], "paper, rest/30000/double/1": [40, 20],
         "bonded, bending/30000/single/1": [80, 45], "bonded, bending/30000/double/1": [30, 15],
+        "bonded, bending/30000/lammps/1": [6, 4],
+        "box_bend, whole/33437/single/1": [40], "box_bend, whole/33437/double/1": [12],
         "bonded, bending/30000/single/2": [90], "bonded, bending/30000/double/2": [40],
     },
     "limits": {"peak/single GFLOP/s": [84, 80], "peak/double GFLOP/s": [42], "triad/threads:1 traffic": [36, 30]},
@@ -39,7 +41,10 @@ class Tables(unittest.TestCase):
         self.assertIn("The states, 300,415 particles:", self.lines)
 
     def test_laws_are_compared_with_the_paper_at_rest(self):
-        self.assertIn("| 62.5 / 90 | 0.85 | 22.5 / 40 | 0.75 | – |", self.line("| bonded, bending"))
+        self.assertIn("| 62.5 / 90 | 0.85 | 22.5 / 40 | 0.75 | – | 5 |", self.line("| bonded, bending"))
+
+    def test_scenes_are_compared_with_the_paper_at_rest(self):
+        self.assertIn("| – | 0.53 | – | 0.40 |", self.line("| box_bend (33,437)"))
 
     def test_the_tighter_limit_is_named(self):
         self.assertIn("| 84 GFLOP/s | 200 | 48 % |", self.line("| single, arithmetic (the tighter)"))

@@ -61,6 +61,7 @@ int main(int count, char** words) {
   const Particles particles = displaced_box(material);
   const std::string folder = words[1];
   test::write_lammps_data(folder + "/box.data", particles);
-  test::write_lammps_table(folder + "/eq1.table", material.pair, material.pair.r, rows);
+  test::write_lammps_table(folder + "/eq1.table", material.pair, material.pair.r, material.pair.b,
+                           rows);
   write_forces(folder, particles, material);
 }

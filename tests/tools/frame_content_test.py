@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What frames hold: output.only, output.every and output.region, and what is measured of them.
+
+usage: frame_content_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import csv
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import meshio
+import numpy
+
+from small_run import SCENE, SOURCE, sinew
+
+REGION = [-1, -1, 0.2, 1, 1, 1]
+DURATION = ["--set", "solver.duration=0.3"]
+
+
+def frames(folder, series):
+    return sorted((folder / series).glob("*.vtu"))
+
+
+def metrics(folder):
+    with (folder / "metrics.csv").open() as file:
+        return {float(row["time"]): row for row in csv.DictReader(file)}
+
+
+class FrameContent(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.runs = Path(cls.temporary.name)
+        cls.scene = cls.runs / "small.yaml"
+        cls.scene.write_text(SCENE.format(mesh=SOURCE / "data/meshes/box.obj"))
+        cls.whole = cls.simulated("whole")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    @classmethod
+    def simulated(cls, name, **output):
+        words = [word for key, value in output.items() for word in ("--set", f"output.{key}={value}")]
+        sinew("simulate", cls.scene, "-o", cls.runs / name, *DURATION, *words, check=0)
+        return cls.runs / name
+
+    def test_only_the_arrays_that_are_named_are_there(self):
+        run = self.simulated("only", only="velocity, neighbors", arrays="J")
+        for part, whole in zip(frames(run, "particles"), frames(self.whole, "particles"), strict=True):
+            some, all_of_them = meshio.read(part), meshio.read(whole)
+            self.assertEqual(set(some.point_data), {"velocity", "neighbors", "J"})
+            numpy.testing.assert_array_equal(some.points, all_of_them.points)
+            numpy.testing.assert_array_equal(some.point_data["velocity"], all_of_them.point_data["velocity"])
+
+    def test_particles_come_with_each_nth_frame_and_the_rest_with_all(self):
+        run = self.simulated("every", every=4)
+        for part, whole in zip(frames(run, "particles"), frames(self.whole, "particles")[::4], strict=True):
+            self.assertEqual(part.read_bytes(), whole.read_bytes())
+        for series in ["surface", "bones", "frames"]:
+            for part, whole in zip(frames(run, series), frames(self.whole, series), strict=True):
+                self.assertEqual(part.read_bytes(), whole.read_bytes())
+        self.assertEqual((run / "bones.csv").read_text(), (self.whole / "bones.csv").read_text())
+        for folder in [run, self.whole]:
+            sinew("measure", folder, check=0)
+        measured, of_whole = metrics(run), metrics(self.whole)
+        self.assertEqual(list(measured), list(of_whole)[::4])
+        for time, row in measured.items():
+            self.assertEqual(row, of_whole[time])
+
+    def test_a_run_that_was_stopped_goes_on_with_the_same_frames(self):
+        run = self.simulated("stopped", every=4)
+        whole = {path.name: path.read_bytes() for path in frames(run, "particles")}
+        shutil.rmtree(run)
+        done = sinew("simulate", self.scene, "-o", run, *DURATION, "--set", "output.every=4", "--set",
+                     "solver.wall_time=0.01")
+        self.assertEqual(done.returncode, 130, done.stderr)
+        sinew("simulate", self.scene, "-o", run, *DURATION, "--set", "output.every=4", "--resume", check=0)
+        self.assertEqual({path.name: path.read_bytes() for path in frames(run, "particles")}, whole)
+
+    def test_a_region_holds_the_particles_that_were_in_it_at_rest(self):
+        text = ", ".join(str(value) for value in REGION)
+        run = self.simulated("region", region=f"[{text}]", only="id, velocity")
+        rest = meshio.read(run / "body.vtu").points
+        inside = numpy.flatnonzero((rest >= REGION[:3]).all(axis=1) & (rest <= REGION[3:]).all(axis=1))
+        self.assertTrue(0 < len(inside) < len(rest))
+        for part, whole in zip(frames(run, "particles"), frames(self.whole, "particles"), strict=True):
+            some = meshio.read(part)
+            numpy.testing.assert_array_equal(some.point_data["id"], inside)
+            numpy.testing.assert_array_equal(some.points, meshio.read(whole).points[inside])
+        sinew("measure", run, "--arrays", "J", check=0)
+        last = meshio.read(frames(run, "values")[-1])
+        numpy.testing.assert_array_equal(last.point_data["id"], inside)
+        moved = numpy.linalg.norm(last.points - rest[inside], axis=1).max()
+        measured = metrics(run)
+        self.assertAlmostEqual(float(measured[max(measured)]["displacement_max"]), moved, 6)
+        self.assertEqual([row["volume_error"] for row in measured.values()],
+                         [row["volume_error"] for row in self.measured_whole().values()])
+
+    def measured_whole(self):
+        sinew("measure", self.whole, check=0)
+        return metrics(self.whole)
+
+    def test_what_cannot_be_written_is_refused_at_its_line(self):
+        for words, parts in {"output.only=velocty": ["did you mean velocity?"],
+                             "output.every=0": ["output.every"],
+                             "output.region=[0, 0, 0, 1, 1]": ["6"],
+                             "output.region=[0, 0, 1, 1, 1, 0]": ["corners", "least"],
+                             "output.region=[5, 5, 5, 6, 6, 6]": ["no particle", "meters"]}.items():
+            with self.subTest(words=words):
+                done = sinew("simulate", self.scene, "-o", self.runs / "bad", "--set", words)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                for part in [words.split("=")[0], *parts]:
+                    self.assertIn(part, done.stderr)
+                self.assertFalse((self.runs / "bad/particles").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["frame_content_test", "-v", *sys.argv[3:]])
