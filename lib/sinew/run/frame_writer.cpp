@@ -182,8 +182,8 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
 }
 
 void FrameWriter::write(Moved& frame) {
-  write_surfaces(frame);
   if (frame.with_particles) write_particles(frame);
+  write_surfaces(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
   const ReactionColumns reactions(frame.reactions);
   frames_.add(frames_dataset(body_.skeleton, frame.pose, reactions, frame.moment));
@@ -204,14 +204,15 @@ void FrameWriter::write_particles(Moved& frame) {
     requested = particle_arrays(*measured_, state, arrays_);
   }
   const Forces& forces = frame.forces;
+  const bool all = selection_.ids.empty();
   Dataset particles = particles_dataset(
       {frame.particles, body_.rest, body_.binding, forces.pair, forces.damping, forces.bone,
        forces.neighbors, frame.energies, forces.world, frame.broken_bonds},
-      std::move(frame.positions), frame.moment, selection_);
+      all ? std::move(frame.positions) : frame.positions, frame.moment, selection_);
   for (Column& array : requested)
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
   particles_.add(particles);
-  frame.positions = std::move(particles.points);
+  if (all) frame.positions = std::move(particles.points);
 }
 
 void FrameWriter::write_surfaces(const Moved& frame) {
