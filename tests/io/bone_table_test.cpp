@@ -2,6 +2,7 @@
 #include <sinew/io/bone_table.h>
 
 #include <gtest/gtest.h>
+#include <regex>
 
 #include "scratch.h"
 
@@ -14,18 +15,25 @@ TEST_F(BoneTableFile, HasARowPerBoneAndFrame) {
   skeleton.bones.resize(2);
   skeleton.bones[0].name = "lower";
   skeleton.bones[1].name = "upper, \"left\"";
-  const Points force = {{1, 2, 3}, {0, 0, 0.5}}, moment = {{4, 5, 6}, {0, -1, 0}};
-  const std::vector<double> power = {7, -0.25};
+  const std::vector<BoneRow> sums = {{Vec3(1, 2, 3), Vec3(4, 5, 6), 7},
+                                     {Vec3(0, 0, 0.5), Vec3(0, -1, 0), -0.25}};
+  const std::vector<BoneRow> pins = {{Vec3(1, 0, 0), Vec3(0, 2, 0), 3},
+                                     {Vec3(0, 4, 0), Vec3(0, 0, 5), 6}};
   const auto path = folder / "bones.csv";
   BoneTable table(path);
-  table.add(0, skeleton, {force, moment}, power);
-  table.add(0.5, skeleton, {force, moment}, power);
+  table.add(0, skeleton, sums, {sums, pins, {}});
+  table.add(0.5, skeleton, sums, {sums, pins, {}});
   table.close();
-  const std::string rows[] = {"lower,1,2,3,4,5,6,7\n",
-                              "\"upper, \"\"left\"\"\",0,0,0.5,0,-1,0,-0.25\n"};
+  const std::string part = "force_x,~force_y,~force_z,~moment_x,~moment_y,~moment_z,~power";
+  std::string columns = "time,bone";
+  for (const char* name : {"", "spring_", "pin_", "obstacle_"})
+    columns += std::string(",") + name + std::regex_replace(part, std::regex("~"), name);
+  const std::string lower = "1,2,3,4,5,6,7", upper = "0,0,0.5,0,-1,0,-0.25";
+  const std::string rows[] = {
+      "lower," + lower + ',' + lower + ",1,0,0,0,2,0,3,0,0,0,0,0,0,0\n",
+      "\"upper, \"\"left\"\"\"," + upper + ',' + upper + ",0,4,0,0,0,5,6,0,0,0,0,0,0,0\n"};
   EXPECT_EQ(read_file(path),
-            "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n0," + rows[0] +
-                "0," + rows[1] + "0.5," + rows[0] + "0.5," + rows[1]);
+            columns + "\n0," + rows[0] + "0," + rows[1] + "0.5," + rows[0] + "0.5," + rows[1]);
 }
 
 TEST_F(BoneTableFile, GoesOnAfterTheFramesThatAreKept) {
@@ -33,11 +41,11 @@ TEST_F(BoneTableFile, GoesOnAfterTheFramesThatAreKept) {
   skeleton.bones.resize(2);
   skeleton.bones[0].name = "lower";
   skeleton.bones[1].name = "name of\ntwo lines, \"quoted\"";
-  const Points some = {{1, 2, 3}, {0, 0, 0.5}};
-  const std::vector<double> power = {7, -0.25};
+  const std::vector<BoneRow> some = {{Vec3(1, 2, 3), Vec3(1, 2, 3), 7},
+                                     {Vec3(0, 0, 0.5), Vec3(0, 0, 0.5), -0.25}};
   const auto write = [&](const char* name, std::size_t kept, std::initializer_list<double> times) {
     BoneTable table(folder / name, 2, kept);
-    for (const double time : times) table.add(time, skeleton, {some, some}, power);
+    for (const double time : times) table.add(time, skeleton, some, {some, {}, {}});
   };
   write("whole.csv", 0, {0, 0.5, 1});
   write("bones.csv", 0, {0, 0.25});  // and is dropped, not closed

@@ -108,12 +108,33 @@ TEST(BoneForce, AwayFromTheAxisTwistHasItsClosedForm) {
   Pull pull(beside);
   keep_only(pull, &BoneSprings::twist);
   const Vec3 foot(0.1, 0.2, 0.4), rho0 = beside - foot;
-  for (const double angle : {-170.0, -20.0, 1.0, 90.0, 179.0}) {
+  // Linear up to 120 degrees; then a cubic that is half as large at 150 and zero at 180.
+  for (const auto& [angle, slope] : {std::pair(-150.0, -60.0),
+                                     {-120.0, -120.0},
+                                     {-20.0, -20.0},
+                                     {1.0, 1.0},
+                                     {90.0, 90.0},
+                                     {135.0, 120 * (1 - 0.15625)},
+                                     {165.0, 120 * 0.15625},
+                                     {180.0, 0.0}}) {
     const Vec3 rho = 1.3 * (test::turned(Vec3::UnitZ(), angle) * rho0);
     const Vec3 around = Vec3::UnitZ().cross(rho.normalized());
-    const Vec3 expected = -5 * radians(angle) * rho0.squaredNorm() / rho.norm() * around;
+    const Vec3 expected = -5 * radians(slope) * rho0.squaredNorm() / rho.norm() * around;
     EXPECT_LT((pull.at(foot + rho).spring - expected).norm(), 1e-13) << angle;
   }
+}
+
+TEST(BoneForce, TwistHasNoJumpAtHalfATurnAndIsAGradientUpToThere) {
+  Pull pull(beside);
+  keep_only(pull, &BoneSprings::twist);
+  const Vec3 foot(0.1, 0.2, 0.4), rho0 = beside - foot;
+  const auto at = [&](double angle) -> Vec3 {
+    return foot + 0.8 * (test::turned(Vec3::UnitZ(), angle) * rho0);
+  };
+  for (const double angle : {115.0, 119.9, 120.1, 140.0, 170.0, 179.0, 180.0, 181.0, 200.0})
+    expect_gradient(pull, at(angle));
+  EXPECT_LT((pull.at(at(179.9999)).spring - pull.at(at(180.0001)).spring).norm(), 1e-9);
+  EXPECT_NEAR(pull.at(at(179.9999)).energy, pull.at(at(180.0001)).energy, 1e-12);
 }
 
 TEST(BoneForce, RadialAndAxialHaveTheirClosedForms) {

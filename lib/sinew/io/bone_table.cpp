@@ -15,12 +15,21 @@ std::string cell(const std::string& text) {
   return quoted + '"';
 }
 
-void add_numbers(const Vec3& vector, std::string& row) {
-  for (const double value : vector) row += ',' + number_text(value);
+void add_numbers(const BoneRow& on, std::string& row) {
+  for (const Vec3& vector : {on.force, on.moment})
+    for (const double value : vector) row += ',' + number_text(value);
+  row += ',' + number_text(on.power);
 }
 
-constexpr std::string_view columns_line =
-    "time,bone,force_x,force_y,force_z,moment_x,moment_y,moment_z,power\n";
+std::string columns_line() {
+  std::string line = "time,bone";
+  for (const char* part : {"", "spring_", "pin_", "obstacle_"})
+    for (const char* value :
+         {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "power"})
+      line += std::string(",") + part + value;
+  return line + '\n';
+}
+
 constexpr std::uint64_t largest_table = std::uint64_t{4} << 30;  // bytes
 
 /// Bytes of the first `rows` rows including the header. Names in quotes may hold line ends.
@@ -42,18 +51,20 @@ std::uint64_t size_of_rows(const std::filesystem::path& path, std::size_t rows) 
 
 BoneTable::BoneTable(const std::filesystem::path& path, std::size_t bones, std::size_t kept)
     : file_(path, kept > 0 ? size_of_rows(path, bones * kept) : 0) {
-  if (kept == 0) file_.add(columns_line.data(), columns_line.size());
+  const std::string columns = columns_line();
+  if (kept == 0) file_.add(columns.data(), columns.size());
 }
 
-void BoneTable::add(double time, const Skeleton& skeleton, const Reactions& reactions,
-                    std::span<const double> power) {
+void BoneTable::add(double time, const Skeleton& skeleton, std::span<const BoneRow> sums,
+                    const std::array<std::span<const BoneRow>, 3>& parts) {
   std::string rows;
   for (std::size_t b = 0; b < skeleton.size(); ++b) {
     rows += number_text(time) + ',';
     rows += cell(skeleton.bones[b].name);
-    add_numbers(reactions.force[b], rows);
-    add_numbers(reactions.moment[b], rows);
-    rows += ',' + number_text(power[b]) + '\n';
+    add_numbers(sums[b], rows);
+    for (const auto& part : parts)
+      add_numbers(part.empty() ? BoneRow{Vec3::Zero(), Vec3::Zero(), 0} : part[b], rows);
+    rows += '\n';
   }
   file_.add(rows.data(), rows.size());
 }

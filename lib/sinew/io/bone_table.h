@@ -2,10 +2,11 @@
 // bones.csv: the force and moment of the body on each bone over time, one row per bone and frame.
 //
 //     BoneTable table("out/bend/bones.csv");
-//     table.add(time, skeleton, reactions, power);
+//     table.add(time, skeleton, sums, {springs, pins, obstacles});
 //     table.close();
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -15,8 +16,15 @@
 
 namespace sinew {
 
+/// What is told of a bone at one moment.
+struct BoneRow {
+  Vec3 force, moment;  ///< of the body on it, N and N m about the head
+  double power;        ///< of it on the body, W
+};
+
 /// Columns: time (s), bone (its name), force_x, force_y, force_z (N), moment_x, moment_y, moment_z
-/// (N m, about the head), power (W, of the bone on the body). Grows frame by frame.
+/// (N m, about the head), power (W, of the bone on the body); the same of its parts, which are
+/// called spring_force_x and so on: through its springs, pins and obstacles. Grows frame by frame.
 class BoneTable {
  public:
   /// Continues after the first `kept` frames of an existing table of as many `bones`. Throws not
@@ -24,9 +32,9 @@ class BoneTable {
   explicit BoneTable(const std::filesystem::path& path, std::size_t bones = 0,
                      std::size_t kept = 0);
 
-  /// One frame; `power` in W. Throws not written.
-  void add(double time, const Skeleton& skeleton, const Reactions& reactions,
-           std::span<const double> power);
+  /// One frame; per bone the sums and the parts (empty: zeros). Throws not written.
+  void add(double time, const Skeleton& skeleton, std::span<const BoneRow> sums,
+           const std::array<std::span<const BoneRow>, 3>& parts);
   void close();  ///< throws not written
 
  private:

@@ -40,20 +40,21 @@ Spring radial(double k, const Vec3& offset, double rest_distance, double radius)
   return {-k * stretch / distance * offset, k * stretch * stretch / 2};
 }
 
-/// U = k rho0^2 alpha^2 s^2 / 2, alpha the angle about `axis` from `wanted` to `actual` (both
-/// across the axis), s = min(1, 2 |rho| / rho0): the taper keeps the force finite on the axis.
+/// U = k rho0^2 s^2 G(alpha), alpha the angle about `axis` from `wanted` to `actual` (both across
+/// the axis), s = min(1, 2 |rho| / rho0): the taper keeps the force finite on the axis.
 Spring twist_servo(double k, const Vec3& axis, const Vec3& wanted, const Vec3& actual,
                    double radius) {
   const double rho0 = wanted.norm(), rho = actual.norm();
   if (rho0 < on_axis * radius || rho == 0) return {Vec3::Zero(), 0};
   const double alpha = std::atan2(axis.dot(wanted.cross(actual)), wanted.dot(actual));
+  const TwistEnergy G = twist_energy(alpha);
   const double taper = std::min(1.0, 2 * rho / rho0);
   const double taper_slope = taper < 1 ? 2 / rho0 : 0;
   const Vec3 outward = actual / rho;
   const Vec3 around = axis.cross(outward);
-  const double scale = k * rho0 * rho0 * alpha * taper;
-  return {-scale * (taper / rho * around + alpha * taper_slope * outward),
-          k * rho0 * rho0 * alpha * alpha * taper * taper / 2};
+  const double scale = k * rho0 * rho0 * taper;
+  return {-scale * (G.slope * taper / rho * around + 2 * G.value * taper_slope * outward),
+          scale * taper * G.value};
 }
 
 Vec3 across(const Vec3& axis, const Vec3& offset) { return offset - axis.dot(offset) * axis; }
@@ -88,6 +89,14 @@ BoneSprings springs_of(const BindingOptions& settings, const Material& material,
 }
 
 }  // namespace
+
+TwistEnergy twist_energy(double alpha) {
+  const double angle = std::abs(alpha), linear = radians(120), fading = radians(60);
+  if (angle <= linear) return {alpha * alpha / 2, alpha};
+  const double t = std::min(1.0, (angle - linear) / fading);
+  return {linear * linear / 2 + linear * fading * (t - t * t * t + t * t * t * t / 2),
+          std::copysign(linear * (1 - t * t * (3 - 2 * t)), alpha)};
+}
 
 double BoneSprings::stiffest() const {
   return form == BoneForce::anchor ? radial : std::max({radial, twist, axial});

@@ -37,6 +37,15 @@ std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Mate
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton);
 
+/// How the twist spring's energy rises with the angle (rad) from where the bone has turned a
+/// particle to where it is: G = alpha^2 / 2 up to 120 degrees; beyond, its slope falls smoothly to
+/// zero at half a turn, where the direction of the shorter way changes.
+struct TwistEnergy {
+  double value;  ///< G
+  double slope;  ///< dG / dalpha
+};
+TwistEnergy twist_energy(double alpha);
+
 /// The force of one bone on one particle.
 struct BonePull {
   Vec3 spring = Vec3::Zero();   ///< N

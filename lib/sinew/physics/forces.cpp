@@ -67,12 +67,15 @@ std::vector<Reaction> reactions(const Particles& particles, const Points& pulls,
   });
   std::vector<Reaction> on(pose.size());
   for (const auto& part : parts)  // in the order of the pieces, whichever thread computed them
-    for (std::size_t b = 0; b < on.size(); ++b) {
-      on[b].force += part[b].force;
-      on[b].moment += part[b].moment;
-      on[b].power += part[b].power;
-    }
+    for (std::size_t b = 0; b < on.size(); ++b) on[b] += part[b];
   return on;
+}
+
+std::vector<Reaction> BoneReactions::sums() const {
+  std::vector<Reaction> all = springs;
+  for (const auto* part : {&pins, &obstacles})
+    for (std::size_t b = 0; b < part->size(); ++b) all[b] += (*part)[b];
+  return all;
 }
 
 double bone_energy(const Particles& particles, const Body& body, const Pose& pose) {

@@ -60,6 +60,22 @@ struct Reaction {
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N m
   double power = 0;            ///< from the bone into the body, W
+
+  Reaction& operator+=(const Reaction& other) {
+    force += other.force;
+    moment += other.moment;
+    power += other.power;
+    return *this;
+  }
+};
+
+/// What the body puts on each bone by all that holds it there.
+struct BoneReactions {
+  std::vector<Reaction> springs;
+  std::vector<Reaction> pins;       ///< that are on the bone; the inertia of pinned particles apart
+  std::vector<Reaction> obstacles;  ///< that ride on it
+
+  std::vector<Reaction> sums() const;
 };
 
 /// Per bone: F = -sum f, M = -sum (x - head) x f; the power of a rigid bone is -(F.o' + M.omega).

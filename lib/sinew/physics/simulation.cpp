@@ -9,6 +9,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/solid.h>
+#include <sinew/physics/world/world.h>
 
 namespace sinew {
 namespace {
@@ -189,6 +190,17 @@ std::vector<std::int32_t> Simulation::broken_bonds() const {
 std::vector<Reaction> Simulation::reactions_of_obstacles() {
   evaluate();
   return std::visit([](const auto& stepper) { return stepper.reactions_of_obstacles(); }, stepper_);
+}
+
+BoneReactions Simulation::reactions_of_bones() {
+  evaluate();
+  BoneReactions on;
+  on.springs = reactions(particles(), forces_.bone, *body_, pose());
+  on.pins = std::visit([](const auto& stepper) { return stepper.reactions_of_pins(); }, stepper_);
+  if (body_->world)
+    on.obstacles =
+        reactions_through_obstacles(*body_->world, reactions_of_obstacles(), time(), pose());
+  return on;
 }
 
 SimulationState Simulation::save() const {

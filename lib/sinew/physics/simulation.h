@@ -66,6 +66,8 @@ class Simulation {
 
   /// The force of the body on each obstacle of its world at the present moment, about its frame.
   std::vector<Reaction> reactions_of_obstacles();
+  /// The force of the body on each bone at the present moment, about its head.
+  BoneReactions reactions_of_bones();
 
   /// The state from which a simulation continues with the same bits, on any number of threads.
   SimulationState save() const;

@@ -74,11 +74,11 @@ Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<O
   return obstacles_dataset(frames, moment);
 }
 
-std::vector<double> powers_of(const std::vector<Reaction>& reactions) {
-  std::vector<double> powers;
-  powers.reserve(reactions.size());
-  for (const Reaction& on : reactions) powers.push_back(on.power);
-  return powers;
+std::vector<BoneRow> rows_of(const std::vector<Reaction>& reactions) {
+  std::vector<BoneRow> rows;
+  rows.reserve(reactions.size());
+  for (const Reaction& on : reactions) rows.push_back({on.force, on.moment, on.power});
+  return rows;
 }
 
 /// Force and moment on each bone, in separate lists.
@@ -173,9 +173,9 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
     frame.on_obstacles = simulation.reactions_of_obstacles();
   }
   if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
+  frame.reactions = simulation.reactions_of_bones();
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
-  frame.reactions = reactions(frame.particles, frame.forces.bone, body_, frame.pose);
   find_positions_by_id(frame.particles, frame.positions);
   for (const auto axis : {&Particles::x, &Particles::y, &Particles::z}) frame.particles.*axis = {};
   return frame;
@@ -185,9 +185,12 @@ void FrameWriter::write(Moved& frame) {
   if (frame.with_particles) write_particles(frame);
   write_surfaces(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
-  const ReactionColumns reactions(frame.reactions);
+  const std::vector<Reaction> sums = frame.reactions.sums();
+  const ReactionColumns reactions(sums);
   frames_.add(frames_dataset(body_.skeleton, frame.pose, reactions, frame.moment));
-  bone_table_.add(frame.moment.time, body_.skeleton, reactions, powers_of(frame.reactions));
+  const auto springs = rows_of(frame.reactions.springs), pins = rows_of(frame.reactions.pins),
+             obstacles = rows_of(frame.reactions.obstacles);
+  bone_table_.add(frame.moment.time, body_.skeleton, rows_of(sums), {springs, pins, obstacles});
   if (obstacle_series_)
     obstacle_series_->add(
         obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));

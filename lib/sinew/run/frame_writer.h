@@ -71,7 +71,7 @@ class FrameWriter {
     std::vector<std::int32_t> broken_bonds;
     Energies energies;
     Pose pose;
-    std::vector<Reaction> reactions;
+    BoneReactions reactions;
     std::vector<ObstaclePose> obstacles;
     std::vector<Reaction> on_obstacles;
   };

@@ -157,6 +157,7 @@ void add_obstacles(const Settings& settings, std::span<const Surface> meshes, co
     obstacle.name = given.name;
     obstacle.shape = std::move(placed.shape);
     obstacle.motion = motion_of(given, placed.middle, bone, body.skeleton);
+    if (given.keys.empty()) obstacle.bone = bone;
     obstacle.stiffness = given.stiffness * k;
     obstacle.damping = given.damping * std::sqrt(obstacle.stiffness * material.mass);
     obstacle.friction = given.friction;

@@ -2,6 +2,8 @@
 // Forces of the bones on a vector of particles; ../bone_force.h gives them for one particle.
 #pragma once
 
+#include <numbers>
+
 #include <sinew/physics/kernel/parts.h>
 
 namespace sinew::kernel {
@@ -53,18 +55,36 @@ SINEW_INLINE Pull<L> radial_pull(typename L::V k, const Triple<L>& at, const Hel
 }
 
 /// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, in lanes that close to it: `share`
-/// is s, and `inward` the force along rho, by rho^2, that the slope of s adds.
+/// is s, and `inward` the force along rho, by rho^2, that the slope of s adds; `twice`: 2 k rho0^2
+/// G.
 template <class L>
-SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V drive_alpha,
+SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V twice,
                         typename L::V& share, typename L::V& inward) {
   const auto tight = L::less(L::all(4) * rho2, rho02);
   if (!L::any(tight)) return;
   const typename L::V s2 = L::all(4) * rho2 / rho02;
   share = L::pick(tight, L::root(s2), L::all(1));
-  inward = L::keep(tight, drive_alpha * s2 / rho2);
+  inward = L::keep(tight, twice * s2 / rho2);
 }
 
-/// Rotates the particle with the bone: U = k rho0^2 alpha^2 s^2 / 2.
+/// Of TwistEnergy, G' and 2 G, in lanes beyond 120 degrees.
+template <class L>
+SINEW_INLINE void fade_twist(typename L::V alpha, typename L::V& slope, typename L::V& twice) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  constexpr Real linear = static_cast<Real>(2 * std::numbers::pi / 3), fading = linear / 2;
+  const V angle = L::size(alpha);
+  const auto beyond = L::less(L::all(linear), angle);
+  if (!L::any(beyond)) return;
+  const V t = L::smaller((angle - L::all(linear)) * L::all(1 / fading), L::all(1)), t2 = t * t;
+  const V falling = L::all(linear) * (L::all(1) - t2 * (L::all(3) - t - t));
+  const V signed_slope = L::pick(L::less(L::all(0), alpha), falling, L::all(0) - falling);
+  const V rise = t - t2 * t + t2 * t2 * L::all(static_cast<Real>(0.5));
+  slope = L::pick(beyond, signed_slope, slope);
+  twice = L::pick(beyond, L::all(linear * linear) + L::all(2 * linear * fading) * rise, twice);
+}
+
+/// Rotates the particle with the bone: U = k rho0^2 s^2 G(alpha).
 template <class L, bool energy>
 SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held<L>& held) {
   using V = typename L::V;
@@ -72,16 +92,18 @@ SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held
   const V rho02 = L::fused(held.across_1, held.across_1, held.across_2 * held.across_2);
   const V alpha = arctangent<L>(L::less_fused(held.across_2, at.y, held.across_1 * at.z),
                                 L::fused(held.across_1, at.y, held.across_2 * at.z));
-  const V drive = k * rho02 * alpha;
+  V slope = alpha, twice = alpha * alpha;
+  fade_twist<L>(alpha, slope, twice);
+  const V scale = k * rho02, drive = scale * slope;
   V inward = L::all(0), share = L::all(1);
-  taper<L>(rho2, rho02, drive * alpha, share, inward);
+  taper<L>(rho2, rho02, scale * twice, share, inward);
   const auto turns = L::less(L::all(0), rho2 * rho02);
   const V per_rho2 = L::all(1) / rho2;
   const V around = L::keep(turns, share * share * drive * per_rho2), in = L::keep(turns, inward);
   Pull<L> pull{{L::all(0), L::less_fused(in, at.y, around * at.z),
                 L::less_fused(in, at.z, (L::all(0) - around) * at.y)},
                L::all(0)};
-  if constexpr (energy) pull.energy = L::keep(turns, drive * alpha * (share * share));
+  if constexpr (energy) pull.energy = L::keep(turns, scale * twice * (share * share));
   return pull;
 }
 

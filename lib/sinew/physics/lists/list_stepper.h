@@ -33,6 +33,7 @@ class ListStepper {
   std::vector<std::int32_t> broken_bonds() const;
   /// As evaluated last.
   std::vector<Reaction> reactions_of_obstacles() const { return surroundings_.reactions(); }
+  std::vector<Reaction> reactions_of_pins() const { return surroundings_.reactions_of_pins(); }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);

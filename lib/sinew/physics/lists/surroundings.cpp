@@ -31,6 +31,8 @@ Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Steppin
       mass_(mass),
       any_(surrounds(*body_)),
       everywhere_(any_ && fills_space(*body_->world)),
+      pins_on_bones_(any_ && std::any_of(body_->world->pins.begin(), body_->world->pins.end(),
+                                         [](const Pinned& pin) { return pin.bone != no_bone; })),
       until_middle_(stepping.step / 2) {}
 
 template <class Real>
@@ -117,6 +119,7 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
   if (!any_) return;
   now_ = world_at(*body_->world, time, pose);
   state_ = &state;
+  pose_ = &pose;
   units_ = units;
   forces_ = forces;
   if (forces_ != nullptr) forces_->assign(state.size(), Vec3::Zero());
@@ -124,6 +127,8 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};
       pieces_[piece].reactions.assign(body_->world->obstacles.size(), {});
+      const bool pins = pins_on_bones_ && first_[piece] < first_[piece + 1];
+      pieces_[piece].of_pins.assign(pins ? body_->skeleton.size() : 0, {});
       find_touched(piece, lists.box_of(piece, units_));
     }
   });
@@ -173,6 +178,8 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   sums.contact_energy += world.contact_energy;
   if (pin) {
     sums.power -= unheld.dot(middle);
+    const Pinned& held_by = body_->world->pins[pin_[k]];
+    add_reaction(held_by, {position, velocity}, unheld, *pose_, piece.of_pins);
     sums.held_kinetic += mass_ / 2 * middle.squaredNorm();
   }
   if (forces_ != nullptr) (*forces_)[k] = pin ? Vec3(-others) : world.force();
@@ -198,6 +205,14 @@ std::vector<Reaction> Surroundings<Real>::reactions() const {
       all[k].force += piece.reactions[k].force;
       all[k].moment += piece.reactions[k].moment;
     }
+  return all;
+}
+
+template <class Real>
+std::vector<Reaction> Surroundings<Real>::reactions_of_pins() const {
+  std::vector<Reaction> all(pins_on_bones_ ? body_->skeleton.size() : 0);
+  for (const Piece& piece : pieces_)
+    for (std::size_t b = 0; b < piece.of_pins.size(); ++b) all[b] += piece.of_pins[b];
   return all;
 }
 

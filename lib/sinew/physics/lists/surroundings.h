@@ -52,14 +52,16 @@ class Surroundings {
 
   /// Of the last step or probe, added in the order of the pieces.
   WorldSums sums() const;
-  std::vector<Reaction> reactions() const;
+  std::vector<Reaction> reactions() const;          ///< of obstacles
+  std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
   bool is_held(std::size_t k) const { return !pin_.empty() && pin_[k] != no_pin; }
 
  private:
   static constexpr std::uint32_t no_pin = UINT32_MAX;
   struct Piece {
     WorldSums sums;
-    std::vector<Reaction> reactions;
+    std::vector<Reaction> reactions;  ///< of obstacles
+    std::vector<Reaction> of_pins;    ///< on bones
   };
 
   static void act(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3],
@@ -73,6 +75,7 @@ class Surroundings {
   Stepping stepping_;
   double mass_;
   bool any_, everywhere_;
+  bool pins_on_bones_;
   std::vector<std::uint32_t> pin_;     ///< by particle in the kernel's order; empty without pins
   std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
   std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces
@@ -83,6 +86,7 @@ class Surroundings {
   // Of the moment:
   WorldNow now_;
   BlockState<Real>* state_ = nullptr;
+  const Pose* pose_ = nullptr;
   Units units_;
   double until_middle_ = 0;  ///< of the step, s
   Points* forces_ = nullptr;

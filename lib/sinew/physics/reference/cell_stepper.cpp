@@ -61,7 +61,14 @@ void CellStepper::find_world_forces(const Pose& pose) {
                           stepping_.step, reactions_);
     forces_.world[i] += around_[i].force();
   }
-  for (const std::size_t i : held_) forces_.world[i] -= forces_.total(i) + weight;
+  of_pins_.assign(held_.empty() ? 0 : pose.size(), {});
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const std::size_t i = held_[k];
+    const Vec3 unheld = forces_.total(i) + weight;
+    add_reaction(world.pins[k], {particles_.position(i), particles_.velocity(i)}, unheld, pose,
+                 of_pins_);
+    forces_.world[i] -= unheld;
+  }
 }
 
 void CellStepper::find_forces(const Pose& pose) {

@@ -31,6 +31,8 @@ class CellStepper {
   std::vector<std::int32_t> broken_bonds() const;
   /// As evaluated last; none without a world.
   std::vector<Reaction> reactions_of_obstacles() const { return reactions_; }
+  /// On each bone; none without pins.
+  std::vector<Reaction> reactions_of_pins() const { return of_pins_; }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);
@@ -63,6 +65,7 @@ class CellStepper {
   std::vector<ParticleWorld> around_;
   Points muscle_;
   std::vector<Reaction> reactions_;  ///< of obstacles
+  std::vector<Reaction> of_pins_;    ///< on bones
   std::vector<std::size_t> held_;    ///< index of the particle of each pin of the world
   std::vector<bool> is_held_;        ///< empty without pins
   bool kicked_ = false;              ///< velocities are half a step ahead (velocity Verlet)

@@ -49,6 +49,7 @@ struct Obstacle {
   double damping = 0;     ///< c, kg/s
   double friction = 0;    ///< mu
   double stick = 0;       ///< s, kg/s; 0: friction stops what slides in a step
+  int bone = no_bone;     ///< on which it rides, by its motion
 
   ObstaclePose at(double time, const Pose& pose) const;
 };

@@ -63,4 +63,14 @@ PinPose pin_pose(const Pinned& pin, const Vec3& rest, const Skeleton& skeleton, 
   return {position, pose[bone].velocity_at(position)};
 }
 
+void add_reaction(const Pinned& pin, const PinPose& at, const Vec3& unheld, const Pose& pose,
+                  std::vector<Reaction>& of_bones) {
+  if (pin.bone == no_bone) return;
+  const auto bone = static_cast<std::size_t>(pin.bone);
+  Reaction& on = of_bones[bone];
+  on.force += unheld;
+  on.moment += (at.position - pose[bone].frame.origin).cross(unheld);
+  on.power -= unheld.dot(at.velocity);
+}
+
 }  // namespace sinew

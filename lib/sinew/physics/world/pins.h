@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <sinew/physics/forces.h>
 #include <sinew/physics/world/region.h>
 #include <sinew/rig/pose.h>
 
@@ -38,5 +39,10 @@ std::vector<Pinned> pinned(const Points& rest, const std::vector<Pin>& pins, int
 
 /// Where `pin` holds its particle, which was at `rest` (m), with the bones at `pose`.
 PinPose pin_pose(const Pinned& pin, const Vec3& rest, const Skeleton& skeleton, const Pose& pose);
+
+/// Adds the reaction of a pin's particle at `at` to its bone, if it is on one: the pin answers the
+/// force `unheld` (N) of all else. The inertia of the particle is not part of it.
+void add_reaction(const Pinned& pin, const PinPose& at, const Vec3& unheld, const Pose& pose,
+                  std::vector<Reaction>& of_bones);
 
 }  // namespace sinew

@@ -99,6 +99,22 @@ double largest_few(std::vector<double> values) {
 
 bool has_muscles(const Body& body) { return body.world && !body.world->muscles.active.empty(); }
 
+std::vector<Reaction> reactions_through_obstacles(const World& world,
+                                                  const std::vector<Reaction>& on, double time,
+                                                  const Pose& pose) {
+  std::vector<Reaction> all;
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    if (world.obstacles[k].bone == no_bone) continue;
+    const ObstaclePose now = world.obstacles[k].at(time, pose);
+    const auto bone = static_cast<std::size_t>(world.obstacles[k].bone);
+    const Vec3 arm = now.frame.origin - pose[bone].frame.origin;
+    const double power = -on[k].force.dot(now.velocity) - on[k].moment.dot(now.angular_velocity);
+    all.resize(pose.size());
+    all[bone] += {on[k].force, on[k].moment + arm.cross(on[k].force), power};
+  }
+  return all;
+}
+
 WorldNow world_at(const World& world, double time, const Pose& pose) {
   WorldNow now;
   for (const Obstacle& obstacle : world.obstacles) now.obstacles.push_back(obstacle.at(time, pose));

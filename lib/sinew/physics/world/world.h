@@ -39,6 +39,12 @@ struct WorldNow {
 
 WorldNow world_at(const World& world, double time, const Pose& pose);
 
+/// The force of the body on each bone through the obstacles that ride on it, about its head; `on`:
+/// on each obstacle, about its frame. None where no obstacle rides on a bone.
+std::vector<Reaction> reactions_through_obstacles(const World& world,
+                                                  const std::vector<Reaction>& on, double time,
+                                                  const Pose& pose);
+
 /// What the world does to one particle, but for muscles; N, W and J.
 struct ParticleWorld {
   Vec3 contact = Vec3::Zero(), drag = Vec3::Zero(), field = Vec3::Zero();
