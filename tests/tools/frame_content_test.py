@@ -104,6 +104,33 @@ class FrameContent(unittest.TestCase):
         sinew("measure", self.whole, check=0)
         return metrics(self.whole)
 
+    def test_what_a_particle_has_no_value_of_is_not_a_number(self):
+        for words, name, some in [(["binding.core_radius=0.05"], "pose_error", True),
+                                  (["body.lattice_rotation=[20, 30, 40]", "body.radius=0.035"], "J", None)]:
+            run = self.runs / "partial"
+            sets = [part for word in [*words, f"output.arrays={name}"] for part in ("--set", word)]
+            sinew("simulate", self.scene, "-o", run, "--force", *DURATION, *sets, check=0)
+            for path in frames(run, "particles"):
+                frame = meshio.read(path)
+                undefined = numpy.isnan(frame.point_data[name])
+                self.assertFalse(undefined.all())
+                if some:
+                    numpy.testing.assert_array_equal(undefined, frame.point_data["bone"] < 0)
+                    self.assertTrue(undefined.any())
+                self.assertTrue(numpy.isfinite(frame.point_data["force"]).all())
+            sinew("measure", run, check=0)
+
+    def test_what_no_particle_has_a_value_of_is_refused_before_the_first_step(self):
+        for words, name in [(["material.model=bonded", "material.breaking_strain=0.3"], "stress"),
+                            (["material.preset=clay"], "von_mises")]:
+            run = self.runs / "undefined"
+            sets = [part for word in [*words, f"output.arrays={name}"] for part in ("--set", word)]
+            done = sinew("simulate", self.scene, "-o", run, "--force", *DURATION, *sets)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            for part in ["output.arrays", name, "break or creep"]:
+                self.assertIn(part, done.stderr)
+            self.assertEqual(frames(run, "particles"), [])
+
     def test_what_cannot_be_written_is_refused_at_its_line(self):
         for words, parts in {"output.only=velocty": ["did you mean velocity?"],
                              "output.every=0": ["output.every"],

@@ -83,7 +83,7 @@ std::vector<WrittenArray> table_of_particles() {
 
 /// Additional arrays of particles, by output.arrays or sinew measure --arrays.
 std::vector<WrittenArray> table_of_requested(const char* series) {
-  return {
+  std::vector<WrittenArray> rows = {
       {series, point, "F", "1", full_tensor, real, plain,
        "deformation gradient over the neighbors at rest, on request"},
       {series, point, "J", "1", one, real, plain, "local volume ratio det F, on request"},
@@ -106,6 +106,8 @@ std::vector<WrittenArray> table_of_requested(const char* series) {
       {series, point, "pose_error", "m", one, real, plain,
        "distance from the rigid pose of its bone, on request"},
   };
+  for (WrittenArray& row : rows) row.partial = true;
+  return rows;
 }
 
 std::vector<WrittenArray> table_of_requested_in_particles() {

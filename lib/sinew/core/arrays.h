@@ -30,6 +30,7 @@ struct WrittenArray {
   ArrayNumbers numbers;
   ArrayRole role;
   std::string_view help;  ///< one line
+  bool partial = false;   ///< not-a-number where a particle has no such value
 };
 
 std::span<const WrittenArray> written_arrays();

@@ -23,7 +23,8 @@ struct VtuFormat {
   bool double_precision = false;  ///< Float64 for every real number
   std::string series;             ///< which rows of the table apply
   double radius = 0;              ///< of the particles, m; beyond 1e4 radii Float32 is too coarse
-  bool finite = false;            ///< refuses values that are not finite, or become so in Float32
+  bool finite = false;  ///< refuses values that are not finite, or become so in Float32; of partial
+                        ///< arrays infinite ones alone
 };
 
 /// Writes `path` atomically. Throws not written, naming the file, and Error (unstable) naming the

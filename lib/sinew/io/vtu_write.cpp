@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <future>
 
 #include <sinew/core/arrays.h>
@@ -228,7 +229,9 @@ class VtuText {
   }
 
   void add_opening(const Element& element, bool in_field, const ValueRange& range) {
-    if (format_.finite && !range.finite) throw not_finite(element.name);
+    const bool partial = element.row != nullptr && element.row->partial;
+    const bool infinite = range.low <= range.high && !std::isfinite(range.high - range.low);
+    if (format_.finite && (partial ? infinite : !range.finite)) throw not_finite(element.name);
     add("<DataArray" + attributes_of(element, in_field, range) + ">\n");
   }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 
@@ -303,6 +304,30 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
     }
   }
   return columns;
+}
+
+namespace {
+
+const char* why_undefined(std::string_view name) {
+  if (name == "stress" || name == "von_mises")
+    return "the forces of bonds that break or creep are not known from positions alone";
+  if (name == "pose_error") return "no particle has a bone";
+  return "all neighbors of each particle lie in a plane";
+}
+
+}  // namespace
+
+void refuse_undefined(const RestBody& rest, std::span<const std::string_view> names) {
+  FrameState at_rest;
+  at_rest.positions = rest.shape.points;
+  for (const MeasuredBone& bone : rest.bones) at_rest.bones.push_back(bone.rest);
+  for (const Column& array : particle_arrays(rest, at_rest, names)) {
+    const auto* values = std::get_if<std::vector<double>>(&array.values);
+    if (values != nullptr &&
+        std::all_of(values->begin(), values->end(), [](double value) { return std::isnan(value); }))
+      throw bad_input("no particle has a value of " + array.name + ": " + why_undefined(array.name),
+                      "leave it out of the arrays");
+  }
 }
 
 }  // namespace sinew

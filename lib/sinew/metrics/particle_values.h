@@ -71,4 +71,7 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
                                     std::span<const std::string_view> names);
 
+/// Throws bad input for an array that no particle of the body has a value of, with the reason.
+void refuse_undefined(const RestBody& rest, std::span<const std::string_view> names);
+
 }  // namespace sinew

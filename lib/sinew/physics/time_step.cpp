@@ -103,8 +103,12 @@ StepChoice choose_step(std::optional<double> step, double factor, double limit, 
   // The tolerance keeps a step that divides the interval exactly.
   const double steps = std::ceil(interval / wanted * (1 - 1e-12));
   if (!(steps < 1e9))
-    throw bad_input("a frame would take " + three_digits(steps) + " steps",
-                    "make solver.time_step longer or output.interval shorter");
+    throw bad_input(
+        "a frame would take " + three_digits(steps) + " steps",
+        step ? "make solver.time_step longer or output.interval shorter"
+             : "make output.interval shorter, or the material denser or softer: the stability "
+               "limit is " +
+                   three_digits(limit) + " s");
   StepChoice choice;
   choice.limit = limit;
   choice.per_frame = std::max(1, static_cast<int>(steps));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <sinew/core/arrays.h>
+#include <sinew/core/error.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/run_files.h>
@@ -147,6 +148,11 @@ void FrameWriter::begin_arrays(const OutputSettings& output) {
   const auto bones = bones_of_particles(body_);
   input.bone.assign(bones.begin(), bones.end());
   measured_ = rest_body(std::move(input));
+  try {
+    refuse_undefined(*measured_, arrays_);
+  } catch (const Error& error) {
+    throw error.with_context({"output.arrays"});
+  }
 }
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,

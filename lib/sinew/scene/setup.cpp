@@ -107,6 +107,13 @@ BodyShape shape_of(const Settings& settings, const Points& rest, const Particles
 
 StepChoice steps_of(const Settings& settings, const Body& body) {
   const double limit = step_limit(settings.solver.integrator, body, load_of(body));
+  if (!(limit > 0) && settings.solver.integrator != Integrator::explicit_euler)
+    throw bad_input(settings.place("material.density"),
+                    "no time step is short enough for particles of " +
+                        three_digits(body.material.mass) + " kg on springs of " +
+                        three_digits(body.material.stiffness()) + " N/m",
+                    "give the material a density and a modulus of real ones, as 1000 kg/m^3 and "
+                    "1e4 Pa");
   try {
     return choose_step(settings.solver, limit, settings.output.interval);
   } catch (const Error& error) {
