@@ -101,6 +101,10 @@ Exit measure_folder(const Options& options, const Common& common) {
   write_tables(run.folder, measured);
   record_stage(run.folder, "measuring", watch.lap());
   print_results(measured, common.json);
+  if (const std::string reasons = reasons_for_distrust(
+          measured.frames, measured.summary, run.body.particles.radius, run.body.particles.size());
+      !reasons.empty())
+    say(common, "warning: this run is not to be trusted: at its worst, " + reasons);
   const Exit exit = told(measured.checks);
   write_file(run.folder.path / "report.html", report_html(report_input(run, std::move(measured))));
   return exit;

@@ -190,6 +190,23 @@ TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
   EXPECT_EQ(items[4].value, "0.10 r");
 }
 
+TEST(Verdict, GivesReasonsForDistrust) {
+  std::vector<FrameMetrics> frames = some_frames(3);
+  for (FrameMetrics& frame : frames)
+    frame.volume_error = frame.pose_error_far_rms = frame.inverted = 0;
+  const auto reasons = [&] { return reasons_for_distrust(frames, summarize(frames, r), r, 1000); };
+  EXPECT_EQ(reasons(), "");
+  frames[1].inverted = 10;  // a hundredth
+  EXPECT_EQ(reasons(), "");
+  frames[1].inverted = 11;
+  EXPECT_EQ(reasons(), "11 particles are inverted");
+  frames[2].volume_error = 0.5;
+  frames[0].pose_error_far_rms = 7 * r;
+  EXPECT_EQ(reasons(),
+            "11 particles are inverted, the volume is off by 50.00 %, the body is 7.00 r "
+            "from the pose of its bones");
+}
+
 TEST(Verdict, CountsBondsWhereThereAreSome) {
   std::vector<FrameMetrics> frames(1);
   frames[0].broken_neighbors = 1;

@@ -40,8 +40,11 @@ class Commands(SmallRun):
         self.simulate()
         rows = list(csv.DictReader((self.out / "bones.csv").open()))
         self.assertEqual([row["bone"] for row in rows], 13 * ["lower", "upper"])
-        self.assertEqual(list(rows[0]), ["time", "bone"] + [f"{what}_{axis}" for what in ("force", "moment")
-                                                            for axis in "xyz"] + ["power"])
+        values = [f"{what}_{axis}" for what in ("force", "moment") for axis in "xyz"] + ["power"]
+        self.assertEqual(list(rows[0]), ["time", "bone"] + [part + value for part in ("", "spring_", "pin_", "obstacle_")
+                                                            for value in values])
+        for row in rows:  # nothing is pinned here
+            self.assertEqual([row[value] for value in values], [row["spring_" + value] for value in values])
         self.assertEqual(float(rows[0]["power"]), 0)
         self.assertGreater(max(float(row["power"]) for row in rows if row["bone"] == "upper"), 0)
         self.assertEqual({float(row["power"]) for row in rows if row["bone"] == "lower"}, {0})  # it rests

@@ -81,4 +81,10 @@ struct VerdictItem {
 std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const Summary& summary,
                                    double radius);
 
+/// Why a run of so many particles is not to be trusted, in one line: over a hundredth of them
+/// inverted at a time, a volume or a distance from the rigid pose that the verdict calls poor. ""
+/// where there is no reason.
+std::string reasons_for_distrust(std::span<const FrameMetrics> frames, const Summary& summary,
+                                 double radius, std::size_t particles);
+
 }  // namespace sinew
