@@ -59,4 +59,18 @@ TEST(Base64, OfNoMeaningHoldsNoBytes) {
   EXPECT_EQ(bytes_in_base64("AAAAA"), 3u);
 }
 
+TEST(Base64, OfPartsIsThatOfTheirBytesHoweverTheyAreCut) {
+  const std::string bytes = noise(61), text = base64(bytes);
+  for (std::size_t part = 1; part <= bytes.size(); ++part) {
+    std::vector<std::string> parts{""};
+    for (std::size_t at = 0; at < bytes.size(); at += part) parts.push_back(bytes.substr(at, part));
+    std::string joined;
+    put_base64(parts, [&](std::size_t place, std::string_view piece) {
+      EXPECT_EQ(place, joined.size());
+      joined += piece;
+    });
+    EXPECT_EQ(joined, text) << part;
+  }
+}
+
 }  // namespace sinew::base64_test

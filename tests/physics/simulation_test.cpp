@@ -290,4 +290,29 @@ TEST(Forces, AreThoseOfThePresentMomentAndSumToTheAcceleration) {
   }
 }
 
+TEST(Simulation, GoesOnAsBeforeWhereItsResultsAreTakenAndTheirMemoryIsGivenBack) {
+  for (const Precision precision : {Precision::binary64, Precision::binary32}) {
+    Settings settings = bend_scene();
+    settings.solver.precision = precision;
+    Simulation kept = test::make_simulation(settings, bar());
+    Simulation taken = test::make_simulation(settings, bar());
+    Particles particles;
+    Forces forces;
+    for (int round = 0; round < 3; ++round) {
+      for (int step = 0; step < 20; ++step) kept.step(), taken.step();
+      taken.reuse(std::move(particles), std::move(forces));
+      const double energy = taken.energies().kinetic;
+      forces = taken.take_forces();
+      particles = taken.take_particles();
+      EXPECT_EQ(energy, kept.energies().kinetic);
+      EXPECT_EQ(forces.pair, kept.forces().pair);
+      EXPECT_EQ(forces.bone, kept.forces().bone);
+      EXPECT_EQ(particles.id, kept.particles().id);
+      EXPECT_EQ(state_hash(particles), state_hash(kept.particles()));
+      EXPECT_EQ(taken.forces().damping, kept.forces().damping);  // found anew
+      EXPECT_EQ(state_hash(taken.particles()), state_hash(kept.particles()));
+    }
+  }
+}
+
 }  // namespace sinew::simulation_test
