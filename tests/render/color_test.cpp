@@ -43,10 +43,12 @@ TEST(ColorMap, oklab_of_white_and_black) {
   EXPECT_NEAR(oklab({0, 0, 0}).norm(), 0, 1e-6);
 }
 
-TEST(ColorMap, outside_and_not_a_number_take_the_ends) {
+TEST(ColorMap, outside_takes_the_ends_and_not_a_number_is_gray) {
   EXPECT_EQ(mapped_color(-3), mapped_color(0));
   EXPECT_EQ(mapped_color(7), mapped_color(1));
-  EXPECT_EQ(mapped_color(std::numeric_limits<double>::quiet_NaN()), mapped_color(0));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(mapped_color(nan), palette::no_value);
+  EXPECT_EQ(mapped_color(ColorScale{"J", "", 0, 1}.position(nan)), palette::no_value);
 }
 
 TEST(ColorScale, places_values_between_low_and_high) {

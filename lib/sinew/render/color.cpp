@@ -118,12 +118,14 @@ std::span<const NamedColorMap> color_maps() { return names; }
 
 Color mapped_color(double position, ColorMap map) {
   const ColorTable& table = table_of(map);
-  if (!(position > 0)) return table.front();
+  if (std::isnan(position)) return palette::no_value;
+  if (position < 0) return table.front();
   return table[static_cast<int>(std::lround(std::min(position, 1.0) * (steps - 1)))];
 }
 
 double ColorScale::position(double value) const {
-  if (!(high > low) || !(value > low)) return 0;
+  if (std::isnan(value)) return value;
+  if (!(high > low) || value < low) return 0;
   return std::min(1.0, (value - low) / (high - low));
 }
 

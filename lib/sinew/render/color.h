@@ -17,6 +17,7 @@ using Color = std::array<std::uint8_t, 3>;  ///< sRGB red, green, blue
 
 namespace palette {
 inline constexpr Color paper{255, 255, 255};
+inline constexpr Color no_value{158, 158, 158};
 inline constexpr Color ink{38, 42, 48};
 inline constexpr Color faint_ink{112, 118, 126};
 }  // namespace palette
@@ -37,7 +38,7 @@ struct NamedColorMap {
 };
 std::span<const NamedColorMap> color_maps();
 
-/// The map at 0 (low) .. 1 (high); the nearer end outside of that, the low end for NaN.
+/// The map at 0 (low) .. 1 (high); the nearer end outside of that, gray for NaN.
 Color mapped_color(double position, ColorMap map = ColorMap::indigo);
 
 /// Lightness and the two opponent channels of a color in Oklab (B. Ottosson, 2020), in which

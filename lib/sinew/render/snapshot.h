@@ -42,7 +42,7 @@ struct ColorScale {
   double low = 0, high = 1;
   ColorMap map = ColorMap::indigo;
 
-  /// Position of `value` between low and high: 0 .. 1, clamped.
+  /// Position of `value` between low and high: 0 .. 1, clamped; not-a-number of not-a-number.
   double position(double value) const;
   Color color(double value) const { return mapped_color(position(value), map); }
 };

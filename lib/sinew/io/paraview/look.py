@@ -61,6 +61,7 @@ def color_table(options, limits):
     colors = GetColorTransferFunction(options.array)
     colors.AutomaticRescaleRangeMode = "Never"
     colors.ColorSpace = "Lab"
+    colors.NanColor = [0.62, 0.62, 0.62]  # gray, which is no color of the scale: no value here
     spread_colors(colors, *limits)
     if options.colormap:
         if not colors.ApplyPreset(options.colormap, True):
