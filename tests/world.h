@@ -143,7 +143,7 @@ inline Settings unbound(Settings settings) {
 /// The material of the scene's particles.
 inline Material material_of(const Settings& settings) {
   const double r = *settings.body.radius;
-  return make_material(settings.material, r, settings.material.density * volume_per_particle(r));
+  return make_material(settings.material, {r, settings.material.density * volume_per_particle(r)});
 }
 
 /// A simulation that starts with `particles` and takes steps of `step` (s).

@@ -6,10 +6,12 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/physics/rest_stability.h>
 #include <sinew/physics/time_step.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/bone_stiffness.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/stepper_choice.h>
@@ -71,6 +73,15 @@ void add_sizes(const Filling& filling, const Surface& surface, Results& results)
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
 }
 
+/// How the body rings by itself.
+void add_modes(const Body& body, Results& results) {
+  results.add("damping_constant", body.material.damping, "kg/s");
+  const ElasticModes modes = elastic_modes(body);
+  if (modes.empty()) return;
+  results.add("lowest_frequency", modes.frequency() / (2 * pi), "Hz");
+  results.add("damping_ratio", modes.damping_ratio(body.material.damping));
+}
+
 void add_material(const Material& material, Results& results) {
   const PairForce& pair = material.pair;
   const double k = pair.contact_stiffness();
@@ -83,27 +94,22 @@ void add_material(const Material& material, Results& results) {
   results.add("tension_stiffness", pair.tension_stiffness(), "N/m");
   results.add("lambda", pair.lambda());
   results.add("rest", rests_stably(material) ? "stable" : "unstable");
-  results.add("damping_constant", material.damping, "kg/s");
   const double density = material.mass / volume_per_particle(pair.r);
   results.add("wave_speed_100", std::sqrt(material.constants().C11 / density), "m/s");
   results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
 }
 
-/// Across the thinnest part of the body around a bone.
+/// Of the bone along which the body is softest against what was asked for.
 void add_planes(const Body& body, Results& results) {
-  double least = 0;
-  std::string name;
-  for (std::size_t b = 0; b < body.skeleton.size(); ++b) {
-    const double planes =
-        std::sqrt(body.binding.cross_section[b]) / half_plane_spacing(body.material.pair.r);
-    if (!(planes > 0) || (!name.empty() && planes >= least)) continue;
-    least = planes;
-    name = body.skeleton.bones[b].name;
-  }
-  if (name.empty()) return;
-  results.add("thinnest_bone", name);
-  results.add("planes_across", least);
-  results.add("lack_of_bending_stiffness", 100 * lack_of_bending_stiffness(least), "%");
+  const auto bones = stiffness_along_bones(body);
+  if (bones.empty()) return;
+  const BoneStiffness& softest = *std::min_element(
+      bones.begin(), bones.end(),
+      [](const auto& a, const auto& b) { return a.bending_modulus() < b.bending_modulus(); });
+  results.add("softest_bone", softest.bone);
+  results.add("young_modulus_along_it", softest.young_modulus, "Pa");
+  results.add("planes_across", softest.planes);
+  results.add("lack_of_bending_stiffness", 100 * softest.lack, "%");
 }
 
 void add_steps(const Settings& settings, const Setup& setup, double speed, Results& results) {
@@ -136,7 +142,7 @@ Exit check(const std::string& scene, const Common& common) {
   const Surface surface = read_mesh(settings);
   const SceneFiles files = read_files(settings);
   const Filling filling = fill_body(settings, surface);
-  const Setup setup = set_up(settings, files, filling.particles);
+  const Setup setup = set_up(settings, files, filling.particles, filling.share);
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);
@@ -152,6 +158,7 @@ Exit check(const std::string& scene, const Common& common) {
   Results results;
   add_sizes(filling, surface, results);
   add_material(setup.body.material, results);
+  add_modes(setup.body, results);
   add_planes(setup.body, results);
   add_steps(settings, setup, speed, results);
   add_stepper(choice, results);

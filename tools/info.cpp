@@ -49,7 +49,7 @@ double largest_speed(const Skeleton& skeleton, const Clip& clip) {
 double usual_step(double radius) {
   const MaterialOptions settings;
   const Material material =
-      make_material(settings, radius, settings.density * volume_per_particle(radius));
+      make_material(settings, {radius, settings.density * volume_per_particle(radius)});
   const SolverSettings solver;
   return solver.time_step_factor * step_limit(solver.integrator, material, {});
 }

@@ -88,7 +88,7 @@ class Beam {
   bool is_at(std::size_t i, double z) const { return std::abs(rest_[i].z() - z) < 1e-9; }
 
   void assemble() {
-    const Bonds bonds = make_bonds(rest_, r);
+    const NeighborLists bonds = neighbors_within(rest_, rest_neighbor_range(r));
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](int row, int column, const Mat3& block) {
       if (row < 0 || column < 0) return;
@@ -96,7 +96,7 @@ class Beam {
         for (int b = 0; b < 3; ++b) entries.emplace_back(3 * row + a, 3 * column + b, block(a, b));
     };
     for (std::size_t i = 0; i < rest_.size(); ++i)
-      for (const std::uint32_t j : bonds.neighbors.of(i)) {
+      for (const std::uint32_t j : bonds.of(i)) {
         const Vec3 e = (rest_[i] - rest_[j]).normalized();
         const Mat3 block = stiffness * e * e.transpose();
         add(free_[i], free_[i], block);

@@ -68,6 +68,7 @@ Model bonded_pair(double damping) {
   model.name = "bonded pair";
   model.settings = test::unbound(test::box_scene(9));
   model.settings.material.model = MaterialModel::bonded;
+  model.settings.material.isotropic = false;  // no factors: two particles are no solid
   model.settings.material.damping = damping;
   model.rest = {{-r, 0, 0}, {r, 0, 0}};
   const Material material = test::material_of(model.settings);

@@ -49,7 +49,7 @@ class SlenderBeam {
   static Material bonded() {
     MaterialOptions settings;
     settings.model = MaterialModel::bonded;
-    return make_material(settings, r, 1);
+    return make_material(settings, {r, 1});
   }
   bool at_end(std::size_t i) const { return rest_[i].z() > base_ + length_ - 1e-9; }
 
@@ -79,14 +79,15 @@ class SlenderBeam {
         for (int b = 0; b < 3; ++b) entries.emplace_back(3 * row + a, 3 * column + b, block(a, b));
     };
     for (std::size_t i = 0; i < rest_.size(); ++i)
-      for_each_bond(
-          solid_.bonds(), now_, i, [&](std::uint32_t j, const Vec3& offset, double d, double rest) {
-            const Vec3 e = offset / d;
-            const Mat3 slope = material_.bond.stiffness *
-                               ((1 - rest / d) * Mat3::Identity() + rest / d * e * e.transpose());
-            add(free_[i], free_[i], slope);
-            add(free_[i], free_[j], -slope);
-          });
+      for (const Bonds* bonds : {&solid_.bonds().nearest, &solid_.bonds().second})
+        for_each_bond(*bonds, now_, i, [&](const BondNow& bond) {
+          const Vec3 e = bond.offset / bond.distance;
+          const double left = bond.spring.length / bond.distance;
+          const Mat3 slope =
+              bond.spring.stiffness * ((1 - left) * Mat3::Identity() + left * e * e.transpose());
+          add(free_[i], free_[i], slope);
+          add(free_[i], free_[bond.neighbor], -slope);
+        });
     Eigen::SparseMatrix<double> matrix(3 * freedoms_, 3 * freedoms_);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;

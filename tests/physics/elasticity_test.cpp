@@ -13,11 +13,12 @@ namespace sinew::elasticity_test {
 
 constexpr double r = 0.01;
 
-Material material_of(MaterialModel model, double poisson_ratio = 0.45) {
+Material material_of(MaterialModel model, double poisson_ratio = 0.45, bool isotropic = false) {
   MaterialOptions settings;
   settings.model = model;
+  settings.isotropic = isotropic;
   settings.poisson_ratio = poisson_ratio;
-  return make_material(settings, r, 1000 * volume_per_particle(r));
+  return make_material(settings, {r, 1000 * volume_per_particle(r)});
 }
 
 TEST(FccConstants, AreThoseOfCentralBonds) {
@@ -42,12 +43,23 @@ TEST(FccConstants, AlongDirections) {
 TEST(VolumeStiffness, GivesThePoissonRatioAskedFor) {
   EXPECT_NEAR(volume_stiffness_for(0.45), 4.233, 1e-3);
   for (const double nu : {0.27, 0.3, 0.4, 0.45})
-    EXPECT_NEAR(fcc_constants(volume_stiffness_for(nu)).hill_poisson_ratio(), nu, 5e-4);
+    EXPECT_NEAR(fcc_constants({0, volume_stiffness_for(nu)}).hill_poisson_ratio(), nu, 5e-4);
   EXPECT_NEAR(volume_stiffness_for(0.26), 0, 1e-3);
   // Along a cube axis, for stiffnesses of 0, 1, 2, 3 and 4.233 k / d0.
   const double along[] = {.333, .414, .442, .457, .467}, K[] = {0, 1, 2, 3, 4.233};
   for (int n = 0; n < 5; ++n)
-    EXPECT_NEAR(fcc_constants(K[n]).poisson_ratio({1, 0, 0}), along[n], 1e-3);
+    EXPECT_NEAR(fcc_constants({0, K[n]}).poisson_ratio({1, 0, 0}), along[n], 1e-3);
+}
+
+TEST(VolumeStiffness, OfIsotropicBondsGivesThePoissonRatioAskedFor) {
+  for (const double nu : {0.25, 0.3, 0.4, 0.45, 0.49}) {
+    const CubicConstants C = material_of(MaterialModel::bonded_volume, nu, true).constants();
+    EXPECT_NEAR(C.hill_poisson_ratio(), nu, 1e-12);
+    for (const Vec3& along : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(3, -1, 7)}) {
+      EXPECT_NEAR(C.young_modulus(along), 10e3, 1e-8);
+      EXPECT_NEAR(C.poisson_ratio(along), nu, 1e-12);
+    }
+  }
 }
 
 TEST(Material, HasTheModulusAskedFor) {
@@ -58,7 +70,7 @@ TEST(Material, HasTheModulusAskedFor) {
   }
   MaterialOptions settings;
   settings.modulus_direction = Vec3(1, 1, 0);
-  BodyShape shape{r, 1, 1, 0.1, test::turned(Vec3::UnitZ(), 45)};
+  const PackedBody shape{r, 1, test::turned(Vec3::UnitZ(), 45), Packing::fcc};
   const Material along = make_material(settings, shape);  // the cube axis lies along the direction
   EXPECT_NEAR(along.constants().young_modulus({1, 0, 0}), 10e3, 1e-6);
 }
@@ -98,10 +110,61 @@ CubicConstants measured_constants(const Material& material) {
   return {C11, modulus(material, unit(0, 0) + unit(1, 1)) / 2 - C11, modulus(material, unit(0, 1))};
 }
 
-class Moduli : public testing::TestWithParam<MaterialModel> {};
+/// Mean stress of the inside of the packing under F, Pa, by the forces on its particles: the sum of
+/// x f over bodies, of which faces, edges and corners cancel as in energy_density().
+Mat3 stress(const Material& material, const Mat3& F) {
+  Mat3 sum = Mat3::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto size = [&](int axis) { return corner >> axis & 1 ? 11 : 7; };
+    const int planes = size(0) + size(1) + size(2);
+    const Points rest = test::fcc_box(size(0), size(1), size(2), r);
+    const Particles moved = particles_at(test::affine(rest, F), r, material.mass);
+    Forces forces;
+    Solid(material, rest).forces(moved, forces);
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      sum -=
+          (planes == 33 || planes == 25 ? 1 : -1) * moved.position(i) * forces.pair[i].transpose();
+  }
+  return sum / (32 * volume_per_particle(r));
+}
+
+/// The column of the stiffness for a strain, in Voigt's order, Pa.
+Eigen::Matrix<double, 6, 1> stiffness(const Material& material, const Mat3& strain) {
+  const double e = 1e-5;
+  const Mat3 slope = (stress(material, Mat3::Identity() + e * strain) -
+                      stress(material, Mat3::Identity() - e * strain)) /
+                     (2 * e);
+  Eigen::Matrix<double, 6, 1> column;
+  column << slope(0, 0), slope(1, 1), slope(2, 2), slope(1, 2), slope(2, 0), slope(0, 1);
+  return column;
+}
+
+TEST(IsotropicBonds, AreStiffAlikeInEveryDirection) {
+  for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume}) {
+    const Material material = material_of(model, 0.4, true);
+    const double nu = model == MaterialModel::bonded ? 0.25 : 0.4;
+    const double shear = 10e3 / (2 * (1 + nu)), lame = 2 * shear * nu / (1 - 2 * nu);
+    Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Zero(), found;
+    expected.topLeftCorner<3, 3>().setConstant(lame);
+    for (int k = 0; k < 6; ++k) expected(k, k) += k < 3 ? 2 * shear : shear;
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      found.col(k) = stiffness(material, unit(k, k));
+      found.col(3 + k) = stiffness(material, (unit(i, j) + unit(j, i)) / 2);
+    }
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * 10e3) << found;
+  }
+}
+
+struct Solidity {
+  MaterialModel model;
+  bool isotropic;
+};
+
+class Moduli : public testing::TestWithParam<Solidity> {};
 
 TEST_P(Moduli, OfTheFilledLatticeAreItsClosedForms) {
-  const Material material = material_of(GetParam());
+  const Material material = material_of(GetParam().model, 0.45, GetParam().isotropic);
   const CubicConstants C = material.constants();
   for (int axis = 0; axis < 3; ++axis) {
     const int next = (axis + 1) % 3;
@@ -114,7 +177,7 @@ TEST_P(Moduli, OfTheFilledLatticeAreItsClosedForms) {
 }
 
 TEST_P(Moduli, LetWavesTravelAsTheyShould) {
-  const Material material = material_of(GetParam(), 0.3);
+  const Material material = material_of(GetParam().model, 0.3, GetParam().isotropic);
   const double wave_number = 2 * std::numbers::pi / (20 * 2 * r);
   const Points rest = test::fcc_ball(9, r);
   const auto speed = [&](int along, int shift) {
@@ -123,7 +186,7 @@ TEST_P(Moduli, LetWavesTravelAsTheyShould) {
       moved[i][shift] += 1e-5 * r * std::cos(wave_number * rest[i][along]);
     Forces forces;
     const Particles particles = particles_at(moved, r, material.mass);
-    if (GetParam() == MaterialModel::paper)
+    if (GetParam().model == MaterialModel::paper)
       pair_forces(particles, material, forces);
     else
       Solid(material, rest).forces(particles, forces);
@@ -142,30 +205,24 @@ TEST(BondedVolume, HasThePoissonRatioAskedForByMeasure) {
     MaterialOptions settings;
     settings.model = MaterialModel::bonded_volume;
     settings.poisson_ratio = nu;
-    const CubicConstants C = measured_constants(make_material(settings, r, 1));
+    settings.isotropic = false;
+    const CubicConstants C = measured_constants(make_material(settings, {r, 1}));
     EXPECT_NEAR(C.hill_poisson_ratio(), nu, 0.005);
   }
 }
 
-std::string name_of(const testing::TestParamInfo<MaterialModel>& info) {
+std::string name_of(const testing::TestParamInfo<Solidity>& info) {
   static const char* names[] = {"Paper", "Bonded", "BondedVolume"};
-  return names[static_cast<int>(info.param)];
+  return std::string(info.param.isotropic ? "Isotropic" : "") +
+         names[static_cast<int>(info.param.model)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Moduli,
-                         testing::Values(MaterialModel::paper, MaterialModel::bonded,
-                                         MaterialModel::bonded_volume),
+                         testing::Values(Solidity{MaterialModel::paper, false},
+                                         Solidity{MaterialModel::bonded, false},
+                                         Solidity{MaterialModel::bonded_volume, false},
+                                         Solidity{MaterialModel::bonded, true},
+                                         Solidity{MaterialModel::bonded_volume, true}),
                          name_of);
-
-TEST(DampingRatio, IsWhatItWasAskedToBe) {
-  MaterialOptions settings;
-  settings.damping_ratio = 0.15;
-  const BodyShape shape = shape_of(test::fcc_box(7, 7, 51, r), r, 1000 * volume_per_particle(r));
-  EXPECT_NEAR(shape.length, 51 * half_plane_spacing(r), 0.02 * shape.length);
-  EXPECT_NEAR(shape.gyration, 7 * half_plane_spacing(r) / std::sqrt(12.0), 0.03 * shape.gyration);
-  const Material material = make_material(settings, shape);
-  EXPECT_NEAR(damping_ratio(material, shape), 0.15, 1e-12);
-  EXPECT_GT(material.damping, 0);
-}
 
 }  // namespace sinew::elasticity_test

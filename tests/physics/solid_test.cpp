@@ -15,13 +15,13 @@ Material material_of(MaterialModel model, double breaking_strain = 0) {
   MaterialOptions settings;
   settings.model = model;
   if (breaking_strain > 0) settings.breaking_strain = breaking_strain;
-  return make_material(settings, r, 1000 * volume_per_particle(r));
+  return make_material(settings, {r, 1000 * volume_per_particle(r)});
 }
 
 Material without_cohesion() {
   MaterialOptions settings;
   settings.cohesion = Cohesion::initial_neighbors;
-  return make_material(settings, r, 1000 * volume_per_particle(r));
+  return make_material(settings, {r, 1000 * volume_per_particle(r)});
 }
 
 const std::vector<Material>& materials() {
@@ -64,8 +64,8 @@ TEST(Solid, OfAFeatherPushesAsOneOfSteel) {
   for (const Material& material : materials()) {
     Material soft = material;
     const double share = 1e-9;
-    for (double* stiffness :
-         {&soft.pair.k1, &soft.pair.k2, &soft.bond.stiffness, &soft.volume_stiffness})
+    for (double* stiffness : {&soft.pair.k1, &soft.pair.k2, &soft.bond.stiffness, &soft.bond.second,
+                              &soft.volume_stiffness})
       *stiffness *= share;
     Solid solid(material, rest), feather(soft, rest);
     const Points stiff_forces = pair_forces_of(solid, material, at);
@@ -206,16 +206,16 @@ TEST(Bonds, BreakBeyondTheirStrainAndReportTheEnergy) {
     EXPECT_NEAR(before - solid.energy(particles), lost, 1e-12 * before);
     int broken = 0;
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      broken += solid.bonds().broken[i];
+      broken += solid.bonds().nearest.broken[i];
       int lacking = 0;
       for (std::size_t j = 0; j < rest.size(); ++j) {
         const auto other = static_cast<std::uint32_t>(j);
         const bool were_neighbors = i != j && (rest[i] - rest[j]).norm() < 2.2 * r;
-        lacking += were_neighbors && !solid.bonds().bonded(i, other);
-        EXPECT_EQ(solid.bonds().bonded(i, other),
-                  solid.bonds().bonded(j, static_cast<std::uint32_t>(i)));
+        lacking += were_neighbors && !solid.bonds().nearest.bonded(i, other);
+        EXPECT_EQ(solid.bonds().nearest.bonded(i, other),
+                  solid.bonds().nearest.bonded(j, static_cast<std::uint32_t>(i)));
       }
-      EXPECT_EQ(lacking, solid.bonds().broken[i]);
+      EXPECT_EQ(lacking, solid.bonds().nearest.broken[i]);
     }
     EXPECT_GT(broken, 0);
     EXPECT_EQ(solid.evolve(particles, 1e-3), 0);  // nothing more breaks where nothing moved
@@ -227,7 +227,7 @@ TEST(Bonds, CreepAfterWhatExceedsTheYieldStrain) {
   settings.model = MaterialModel::bonded;
   settings.yield_strain = 0.02;
   settings.creep_rate = 3;
-  const Material material = make_material(settings, r, 1000 * volume_per_particle(r));
+  const Material material = make_material(settings, {r, 1000 * volume_per_particle(r)});
   Solid solid(material, {Vec3(0, 0, 0), Vec3(2 * r, 0, 0)});
   const double stretched = 2.4 * r;
   const Particles particles =
@@ -238,10 +238,10 @@ TEST(Bonds, CreepAfterWhatExceedsTheYieldStrain) {
   // dl/dt = rate (d - l - yield l): an exponential towards d / (1 + yield), in steps.
   const double end = stretched / 1.02, start = 2 * r;
   const double expected = end + (start - end) * std::exp(-3 * 1.02 * 1.0);
-  EXPECT_NEAR(solid.bonds().rest_length[0], expected, 1e-3 * r);
-  EXPECT_EQ(solid.bonds().rest_length[0], solid.bonds().rest_length[1]);
+  EXPECT_NEAR(solid.bonds().nearest.rest_length[0], expected, 1e-3 * r);
+  EXPECT_EQ(solid.bonds().nearest.rest_length[0], solid.bonds().nearest.rest_length[1]);
   EXPECT_NEAR(before - solid.energy(particles), lost, 1e-12 * before);
-  EXPECT_EQ(solid.bonds().broken[0], 0);
+  EXPECT_EQ(solid.bonds().nearest.broken[0], 0);
 }
 
 }  // namespace sinew::solid_test

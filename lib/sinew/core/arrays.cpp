@@ -39,6 +39,8 @@ std::vector<WrittenArray> table_of_body() {
       {"body", point, "neighbors", "1", one, whole, plain, "number of touching particles at rest"},
       {"body", point, "component", "1", one, whole, plain,
        "connected component it belongs to, from 0"},
+      {"body", point, "share", "1", one, exact, plain,
+       "volume of the body around it over that of a particle inside, if the material needs it"},
       {"body", point, "bone", "1", one, whole, plain, "bone it is bound to, -1 for none"},
       {"body", point, "weight", "1", one, exact, plain, "weight of that bone, 0 for none"},
   };

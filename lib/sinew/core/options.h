@@ -5,7 +5,7 @@
 //
 //     MaterialOptions options;
 //     options.young_modulus = 5e3;
-//     const Material material = make_material(options, radius, mass);
+//     const Material material = make_material(options, {radius, mass});
 #pragma once
 
 #include <array>
@@ -61,6 +61,7 @@ struct MaterialOptions {
   double young_modulus = 10e3;
   std::optional<Vec3> modulus_direction;
   double poisson_ratio = 0.45;
+  std::optional<bool> isotropic;  ///< by default in FCC
   std::optional<double> k1;
   std::optional<double> k2;
   double lambda = 1;
@@ -73,6 +74,12 @@ struct MaterialOptions {
   std::optional<double> yield_strain;
   double creep_rate = 1;
 };
+
+/// Whether bonds make the material isotropic in that packing.
+constexpr bool is_isotropic(const MaterialOptions& material, Packing packing) {
+  return material.model != MaterialModel::paper &&
+         material.isotropic.value_or(packing == Packing::fcc);
+}
 
 // Materials by name: the values of material.preset, each with its source.
 

@@ -66,9 +66,7 @@ struct SimulationState {
   std::vector<std::uint32_t> order;  ///< each particle's place in the caller's order
   WholeNumbers whole_numbers;        ///< of single precision
   double mean_when_sorted = 0;       ///< length of lists above which sorting is tried again
-  // Of the reference:
-  std::vector<double> rest_length;   ///< of bonds, m; 0 once broken
-  std::vector<std::int32_t> broken;  ///< bonds, by particle in the caller's order
+  std::vector<double> rest_length;   ///< of the reference's bonds, m; 0 once broken
   // Of lists, where bonds change:
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel

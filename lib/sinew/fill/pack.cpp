@@ -11,6 +11,7 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/fill/filled_sites.h>
+#include <sinew/fill/shares.h>
 #include <sinew/fill/verify.h>
 
 namespace sinew {
@@ -139,6 +140,9 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   report_sites(filled, space, report);
   report_neighbors(touching, filled.lattice, report);
   report_mass(filling.particles, options, report);
+  if (options.shares && options.packing == Packing::fcc)
+    filling.share = volume_shares(surface, options, space, filled, touching,
+                                  report.volume_of_mesh ? report.volume : 0);
   filling.neighbors = std::move(touching.neighbors);
   report.seconds_particles = watch.lap();
 

@@ -28,6 +28,7 @@ struct PackOptions {
   Keep keep = Keep::center;
   double clearance = 0;             ///< minimal distance from the surface, m
   std::optional<double> thickness;  ///< fill a layer along the surface instead of its inside, m
+  bool shares = false;              ///< find Filling::share; FCC alone
   bool verify = false;              ///< check every site against CGAL
 };
 
@@ -35,6 +36,8 @@ struct Filling {
   Particles particles;                  ///< at rest, by lattice rows; mass = density volume / count
   std::vector<std::int32_t> component;  ///< the body that each particle is in, from 0
   std::vector<std::int32_t> neighbors;  ///< number of touching particles; 12 inside the body
+  /// Volume of the body around each particle over that of one inside; empty: not asked for.
+  std::vector<double> share;
   FillReport report;
 };
 

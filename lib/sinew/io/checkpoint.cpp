@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
-constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 1;
+constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 2;
 constexpr std::size_t name_size = 8;
 // Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
@@ -60,7 +60,6 @@ void walk(State& checkpoint, Transfer&& transfer) {
       },
       state.moving);
   transfer("bonds", state.rest_length);
-  transfer("broken", state.broken);
   transfer("lanes", state.bonded_lanes);
   transfer("creep", state.creep);
 }

@@ -93,6 +93,12 @@ void check_weights(const std::vector<double>& weights) {
                          " of a bone is not between 0 and 1");
 }
 
+void check_shares(const std::vector<double>& shares) {
+  for (const double share : shares)
+    if (!(share >= 0) || !std::isfinite(share))
+      throw no_body_file("the share " + std::to_string(share) + " of a particle is none");
+}
+
 BodyFile body_of(const Dataset& data) {
   check(data);
   BodyFile body;
@@ -100,6 +106,8 @@ BodyFile body_of(const Dataset& data) {
                                 shared(data.point_columns, "mass"));
   body.neighbors = integers(data.point_columns, "neighbors");
   body.component = integers(data.point_columns, "component");
+  if (find(data.point_columns, "share")) body.share = numbers(data.point_columns, "share");
+  if (body.share) check_shares(*body.share);
   if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
   if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
   if (body.weight) check_weights(*body.weight);
@@ -122,6 +130,7 @@ Dataset body_dataset(BodyFile body) {
   data.point_columns.push_back(column("mass", std::vector<double>(count, mass)));
   data.point_columns.push_back(column("neighbors", std::move(body.neighbors)));
   data.point_columns.push_back(column("component", std::move(body.component)));
+  if (body.share) data.point_columns.push_back(column("share", std::move(*body.share)));
   if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
   if (body.weight) data.point_columns.push_back(column("weight", std::move(*body.weight)));
   data.meta = std::move(body.meta);

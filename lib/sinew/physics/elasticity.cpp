@@ -55,16 +55,23 @@ double CubicConstants::poisson_ratio(const Vec3& direction) const {
   return (along - (S.S11 + 2 * S.S12)) / (2 * along);
 }
 
-double volume_stiffness_for(double poisson_ratio) {
-  const double bulk = 2 * hill_shear * (1 + poisson_ratio) / (3 * (1 - 2 * poisson_ratio));
-  return std::max(0.0, bulk - bulk_of_bonds);
+double volume_stiffness_for(double poisson_ratio, double second) {
+  const CubicConstants bonds = fcc_constants({second, 0});
+  const double shear = second > 0 ? bonds.hill_shear_modulus() : hill_shear;
+  const double bulk = 2 * shear * (1 + poisson_ratio) / (3 * (1 - 2 * poisson_ratio));
+  return std::max(0.0, bulk - bonds.bulk_modulus());
 }
 
-double lack_of_bending_stiffness(double planes) { return std::min(1.0, 2.5 / planes); }
+double lack_of_bending_stiffness(double planes, bool isotropic) {
+  return std::min(1.0, (isotropic ? 1.0 : 2.5) / planes);
+}
 
-double highest_frequency_factor(double volume_stiffness) {
-  const double root = std::numbers::sqrt2;
-  return volume_stiffness > root ? 4 + root * volume_stiffness + 2 * root / volume_stiffness : 8;
+double highest_frequency_factor(const PackingStiffness& of) {
+  // Lengthwise waves along a cube axis: 4 (1 - c) + s (1 - c^2) for a phase of cosine c from plane
+  // to plane. Bonds alone are fastest where c = -1; those of second neighbors along a diagonal.
+  const double s = std::numbers::sqrt2 * of.volume + 4 * of.second;
+  const double bonds = 8 + 4 * of.second;
+  return s > 2 ? std::max(bonds, 4 + s + 4 / s) : bonds;
 }
 
 }  // namespace sinew

@@ -27,26 +27,38 @@ struct CubicConstants {
   double poisson_ratio(const Vec3& direction) const;
 };
 
-/// For central bonds alone, and with a stiffness K_v against changes of volume.
-constexpr CubicConstants fcc_constants(double volume_stiffness = 0) {
+/// What a packing resists with: bonds of stiffness k to the twelve nearest neighbors, and, in units
+/// of that, bonds to the six second ones, and a stiffness K_v against changes of volume.
+struct PackingStiffness {
+  double second = 0;  ///< of a bond, over k
+  double volume = 0;  ///< K_v, in k / d0
+};
+
+constexpr CubicConstants fcc_constants(const PackingStiffness& of = {}) {
   constexpr double shear = 1 / std::numbers::sqrt2;
-  return {2 * shear + volume_stiffness, shear + volume_stiffness, shear};
+  return {2 * shear + 4 * shear * of.second + of.volume, shear + of.volume, shear};
 }
+
+/// With a quarter of the stiffness, second neighbors make the FCC packing isotropic: C11 - C12 = 2
+/// C44, E = 2.5 k / (sqrt(2) d0), Poisson's ratio 1/4.
+inline constexpr double isotropic_second = 0.25, isotropic_poisson = 0.25;
 
 /// Hill means of central bonds; HCP's differ by less than 1 %.
 inline constexpr double hill_young = 1.3505, hill_shear = 0.5354, hill_poisson = 0.261,
                         bulk_of_bonds = 2 * std::numbers::sqrt2 / 3;
 
-/// The stiffness against changes of volume that gives a Poisson's ratio (Hill): 0 at 0.261, that of
-/// the bonds alone; lower ratios cannot be reached.
-double volume_stiffness_for(double poisson_ratio);
+/// The stiffness against changes of volume that gives a Poisson's ratio (Hill): 0 at 0.261, or at
+/// 1/4 with second neighbors, that of the bonds alone; lower ratios cannot be reached.
+double volume_stiffness_for(double poisson_ratio, double second = 0);
 
 /// The share of its bending stiffness (E I of the filled shape) that a body lacks because it is
 /// only `planes` half-planes of particles across: springs end at the outermost particles, not at
-/// the surface. Measured on square FCC beams of 5 to 17 planes, to 0.03; at most 1.
-double lack_of_bending_stiffness(double planes);
+/// the surface. Measured on square FCC bars of 5 to 17 planes: to 0.03 along [100]; of isotropic
+/// bonds, whose surfaces make up for most of it, the most of any direction. At most 1.
+double lack_of_bending_stiffness(double planes, bool isotropic = false);
 
-/// Factor of the highest lattice frequency: w^2 = this k / m (8 for bonds alone).
-double highest_frequency_factor(double volume_stiffness);
+/// Factor of the highest lattice frequency: w^2 = this k / m (8 for twelve bonds alone, 9 for
+/// isotropic ones).
+double highest_frequency_factor(const PackingStiffness& of);
 
 }  // namespace sinew

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <sinew/core/particles.h>
+#include <sinew/physics/bond_factors.h>
 #include <sinew/physics/bone_force.h>
 #include <sinew/physics/material.h>
 #include <sinew/rig/binding.h>
@@ -44,8 +45,11 @@ struct Body {
   Skeleton skeleton;
   Binding binding;  ///< by particle id
   Material material;
-  std::vector<BoneSprings> springs;         ///< per bone
-  Mat3 lattice = Mat3::Identity();          ///< columns: the packing's axes
+  std::vector<BoneSprings> springs;  ///< per bone
+  Mat3 lattice = Mat3::Identity();   ///< columns: the packing's axes
+  /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
+  std::vector<double> share = {};
+  BondFactors factors = {};                 ///< on the stiffness of bonds near the surface
   std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
 };
 

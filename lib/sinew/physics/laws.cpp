@@ -18,16 +18,18 @@ double repulsion_energy(const Material& material, double d) {
   return d < 2 * pair.r ? pair.potential(d) - pair.potential(2 * pair.r) : 0;
 }
 
-double eq_1_bond(const Material& material, double d, double) { return material.pair.force(d); }
-double eq_1_bond_energy(const Material& material, double d, double) {
+double eq_1_bond(const Material& material, const BondSpring&, double d) {
+  return material.pair.force(d);
+}
+double eq_1_bond_energy(const Material& material, const BondSpring&, double d) {
   return material.pair.potential(d);
 }
 
-double spring(const Material& material, double d, double length) {
-  return -material.bond.stiffness * (d - length);
+double spring(const Material&, const BondSpring& spring, double d) {
+  return -spring.stiffness * (d - spring.length);
 }
-double spring_energy(const Material& material, double d, double length) {
-  return material.bond.stiffness / 2 * (d - length) * (d - length);
+double spring_energy(const Material&, const BondSpring& spring, double d) {
+  return spring.stiffness / 2 * (d - spring.length) * (d - spring.length);
 }
 
 constexpr std::string_view bonded_remark =

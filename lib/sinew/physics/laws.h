@@ -25,9 +25,9 @@ struct ForceLaw {
   /// Between two particles at distance d that were no neighbors at rest, or have parted.
   double (*force)(const Material&, double d);
   double (*energy)(const Material&, double d);
-  /// The same between neighbors at rest, `length` apart there.
-  double (*bond_force)(const Material&, double d, double length);
-  double (*bond_energy)(const Material&, double d, double length);
+  /// The same between neighbors at rest.
+  double (*bond_force)(const Material&, const BondSpring&, double d);
+  double (*bond_energy)(const Material&, const BondSpring&, double d);
 
   std::string_view remark;  ///< for the curve of its force; "" for none
 };

@@ -13,6 +13,12 @@
 
 namespace sinew {
 
+/// Of a bond.
+struct BondSpring {
+  double length;     ///< at rest, m
+  double stiffness;  ///< N/m
+};
+
 struct PairForce {
   double r = 0;   ///< particle radius, m
   double k1 = 0;  ///< Pa

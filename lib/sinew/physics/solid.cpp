@@ -34,9 +34,37 @@ double next_length(const BondStrength& strength, double length, double d, double
   return length + (d > length ? crept : -crept);
 }
 
-double energy(const BondStrength& strength, const PairForce& contact, double length, double d) {
-  if (length > 0) return strength.stiffness / 2 * (d - length) * (d - length);
-  return d < 2 * contact.r ? contact.potential(d) - contact.potential(2 * contact.r) : 0;
+double energy(const PairForce* contact, double stiffness, double length, double d) {
+  if (length > 0) return stiffness / 2 * (d - length) * (d - length);
+  if (contact == nullptr || d >= 2 * contact->r) return 0;
+  return contact->potential(d) - contact->potential(2 * contact->r);
+}
+
+/// The pairs of `near` at rest distances in [from, to), as bonds of that stiffness (N/m).
+Bonds bonds_between(const Points& rest, const NeighborLists& near, double from, double to,
+                    double stiffness) {
+  Bonds bonds;
+  bonds.broken.assign(rest.size(), 0);
+  bonds.neighbors.first.push_back(0);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    for (const std::uint32_t j : near.of(i)) {
+      const double length = (rest[i] - rest[j]).norm();
+      if (length < from || length >= to) continue;
+      bonds.neighbors.neighbor.push_back(j);
+      bonds.rest_length.push_back(length);
+      bonds.stiffness.push_back(stiffness);
+    }
+    bonds.neighbors.first.push_back(static_cast<std::uint32_t>(bonds.neighbors.neighbor.size()));
+  }
+  return bonds;
+}
+
+void apply(const BondFactors& factors, std::span<const std::int32_t> id, Bonds& bonds) {
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    const BondFactors::Row row = factors.of(static_cast<std::uint32_t>(id[i]));
+    for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e)
+      bonds.stiffness[e] *= row.at(static_cast<std::uint32_t>(id[bonds.neighbors.neighbor[e]]));
+  }
 }
 
 }  // namespace
@@ -46,33 +74,33 @@ bool Bonds::bonded(std::size_t i, std::uint32_t j) const {
   return entry != none && whole(entry);
 }
 
-Bonds make_bonds(const Points& rest, double r) {
-  Bonds bonds;
-  bonds.neighbors = neighbors_within(rest, rest_neighbor_range(r));
-  bonds.rest_length.resize(bonds.neighbors.neighbor.size());
-  bonds.broken.assign(rest.size(), 0);
-  for_each_particle(rest.size(), [&](std::size_t i) {
-    for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e)
-      bonds.rest_length[e] = (rest[i] - rest[bonds.neighbors.neighbor[e]]).norm();
-  });
+SolidBonds make_bonds(const Points& rest, const Material& material,
+                      std::span<const std::int32_t> id, const BondFactors& factors) {
+  const double r = material.pair.r, between = rest_neighbor_range(r);
+  const double far = material.bond.second > 0 ? second_neighbor_range * r : between;
+  const NeighborLists near = neighbors_within(rest, far);
+  SolidBonds bonds = {bonds_between(rest, near, 0, between, material.bond.stiffness),
+                      bonds_between(rest, near, between, far, material.bond.second)};
+  apply(factors, id, bonds.nearest);
+  apply(factors, id, bonds.second);
   return bonds;
 }
 
-double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
+double evolve(Bonds& bonds, const BondStrength& strength, const PairForce* contact,
               const Particles& particles, double time) {
   if (strength.breaking_strain <= 0 && strength.yield_strain <= 0) return 0;
   // Both directions of a bond see the same distance to the last bit, and change alike.
-  return sum_over_particles(particles.size(), [&](std::size_t i) {
+  return sum_over_particles(bonds.broken.size(), [&](std::size_t i) {
     double released = 0;
     for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
       if (!bonds.whole(e)) continue;
       const double d =
           (particles.position(i) - particles.position(bonds.neighbors.neighbor[e])).norm();
-      const double before = bonds.rest_length[e];
+      const double before = bonds.rest_length[e], k = bonds.stiffness[e];
       const double after = next_length(strength, before, d, time);
       bonds.rest_length[e] = after;
       bonds.broken[i] += after == 0;
-      released += (energy(strength, contact, before, d) - energy(strength, contact, after, d)) / 2;
+      released += (energy(contact, k, before, d) - energy(contact, k, after, d)) / 2;
     }
     return released;
   });
@@ -108,11 +136,12 @@ double volume_weight(const Mat3& A, double radius) {
 
 bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
-Solid::Solid(const Material& material, Points rest)
+Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t> id,
+             const BondFactors& factors)
     : material_(material),
       law_(&law_of(material)),
       rest_(std::move(rest)),
-      bonds_(make_bonds(rest_, material.pair.r)) {
+      bonds_(make_bonds(rest_, material, id, factors)) {
   if (material_.volume_stiffness <= 0) return;
   const std::size_t n = rest_.size();
   inverse_.assign(n, Mat3::Zero());
@@ -120,20 +149,19 @@ Solid::Solid(const Material& material, Points rest)
   volume_.assign(n, 0);
   thrust_.assign(n, Mat3::Zero());
   for_each_particle(n, [&](std::size_t i) {
-    const Mat3 A = spread_at_rest(rest_, bonds_.neighbors, i);
+    const Mat3 A = spread_at_rest(rest_, bonds_.nearest.neighbors, i);
     weight_[i] = volume_weight(A, material_.pair.r);
     if (weight_[i] > 0) inverse_[i] = A.inverse();
   });
 }
 
-/// Calls visit(j, offset, d, rest length) for what still holds particle i: bonds that are whole; in
-/// the paper's model neighbors at rest within the range of attraction.
+/// Calls visit(BondNow) for what still holds particle i: bonds to nearest neighbors that are whole;
+/// in the paper's model neighbors at rest within the range of attraction.
 template <class Visit>
 void Solid::for_each_held(const Particles& particles, std::size_t i, const Visit& visit) const {
-  for_each_bond(bonds_, particles, i,
-                [&](std::uint32_t j, const Vec3& offset, double d, double length) {
-                  if (law_->has_bonds || d < material_.pair.b) visit(j, offset, d, length);
-                });
+  for_each_bond(bonds_.nearest, particles, i, [&](const BondNow& bond) {
+    if (law_->has_bonds || bond.distance < material_.pair.b) visit(bond);
+  });
 }
 
 /// Calls visit(j, offset, d) for all others that it touches.
@@ -142,7 +170,7 @@ void Solid::for_each_touched(const Particles& particles, const CellGrid& cells, 
                              const Visit& visit) const {
   for_each_neighbor(particles, cells, 2 * material_.pair.r, i,
                     [&](std::uint32_t j, const Vec3& offset, double d) {
-                      if (!bonds_.bonded(i, j)) visit(j, offset, d);
+                      if (!bonds_.nearest.bonded(i, j)) visit(j, offset, d);
                     });
 }
 
@@ -154,9 +182,9 @@ void Solid::find_volumes(const Particles& particles) {
   for_each_particle(rest_.size(), [&](std::size_t i) {
     thrust_[i].setZero();
     volume_[i] = 0;
-    if (weight_[i] == 0 || bonds_.broken[i] > 0) return;
+    if (weight_[i] == 0 || broken(i) > 0) return;
     Mat3 moved = Mat3::Zero();
-    for (const std::uint32_t j : bonds_.neighbors.of(i))
+    for (const std::uint32_t j : bonds_.nearest.neighbors.of(i))
       moved += (particles.position(j) - particles.position(i)) * (rest_[j] - rest_[i]).transpose();
     const Mat3 F = moved * inverse_[i];
     volume_[i] = F.determinant() - 1;
@@ -168,7 +196,7 @@ void Solid::find_volumes(const Particles& particles) {
 /// Of its own volume and those of its neighbors.
 Vec3 Solid::volume_force(std::size_t i) const {
   Vec3 force = Vec3::Zero();
-  for (const std::uint32_t j : bonds_.neighbors.of(i))
+  for (const std::uint32_t j : bonds_.nearest.neighbors.of(i))
     force += (thrust_[i] + thrust_[j]) * (rest_[j] - rest_[i]);
   return force;
 }
@@ -178,17 +206,29 @@ double Solid::volume_energy(std::size_t i) const {
          volume_[i] * volume_[i];
 }
 
+void Solid::add_springs_of_second(const Particles& particles, Forces& forces) const {
+  if (bonds_.second.size() == 0) return;
+  for_each_particle(particles.size(), [&](std::size_t i) {
+    for_each_bond(bonds_.second, particles, i, [&](const BondNow& bond) {
+      forces.pair[i] += law_->bond_force(material_, bond.spring, bond.distance) *
+                        direction_from(particles, bond.offset, bond.distance, i, bond.neighbor);
+    });
+  });
+}
+
 void Solid::forces(const Particles& particles, Forces& forces) {
   const CellGrid cells = cells_of(particles, 2 * material_.pair.r);
   const auto for_each_partner = [&](std::size_t i, auto&& visit) {
-    for_each_held(particles, i, [&](std::uint32_t j, const Vec3& offset, double d, double length) {
-      visit(j, offset, d, law_->bond_force(material_, d, length));
+    for_each_held(particles, i, [&](const BondNow& bond) {
+      visit(bond.neighbor, bond.offset, bond.distance,
+            law_->bond_force(material_, bond.spring, bond.distance));
     });
     for_each_touched(particles, cells, i, [&](std::uint32_t j, const Vec3& offset, double d) {
       visit(j, offset, d, law_->force(material_, d));
     });
   };
   pair_pass(particles, material_, for_each_partner, forces);
+  add_springs_of_second(particles, forces);
   if (material_.volume_stiffness <= 0) return;
   find_volumes(particles);
   for_each_particle(particles.size(), [&](std::size_t i) { forces.pair[i] += volume_force(i); });
@@ -199,9 +239,12 @@ double Solid::energy(const Particles& particles) {
   find_volumes(particles);
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double sum = 0;
-    for_each_held(particles, i, [&](std::uint32_t, const Vec3&, double d, double length) {
-      sum += law_->bond_energy(material_, d, length) / 2;  // half for each of the two
-    });
+    const auto add = [&](const BondNow& bond) {
+      sum +=
+          law_->bond_energy(material_, bond.spring, bond.distance) / 2;  // half for each of the two
+    };
+    for_each_held(particles, i, add);
+    for_each_bond(bonds_.second, particles, i, add);
     for_each_touched(particles, cells, i, [&](std::uint32_t, const Vec3&, double d) {
       sum += law_->energy(material_, d) / 2;
     });
@@ -210,25 +253,44 @@ double Solid::energy(const Particles& particles) {
   });
 }
 
-void Solid::restore(const std::vector<double>& rest_length,
-                    const std::vector<std::int32_t>& broken) {
-  if (rest_length.size() != bonds_.rest_length.size() || broken.size() != bonds_.broken.size())
+std::vector<double> Solid::rest_lengths() const {
+  std::vector<double> lengths = bonds_.nearest.rest_length;
+  const std::vector<double>& second = bonds_.second.rest_length;
+  lengths.insert(lengths.end(), second.begin(), second.end());
+  return lengths;
+}
+
+void Solid::restore(const std::vector<double>& rest_length) {
+  const std::size_t entries = bonds_.nearest.rest_length.size() + bonds_.second.rest_length.size();
+  if (rest_length.size() != entries)
     throw not_a_state("it has " + std::to_string(rest_length.size() / 2) + " bonds, not " +
-                      std::to_string(bonds_.size()));
+                      std::to_string(entries / 2));
   if (!std::all_of(rest_length.begin(), rest_length.end(),
                    [](double length) { return length >= 0 && std::isfinite(length); }))
     throw not_a_state("a bond has no length");
-  bonds_.rest_length = rest_length;
-  bonds_.broken = broken;
+  auto from = rest_length.begin();
+  for (Bonds* bonds : {&bonds_.nearest, &bonds_.second}) {
+    const auto end = from + static_cast<std::ptrdiff_t>(bonds->rest_length.size());
+    std::copy(from, end, bonds->rest_length.begin());
+    from = end;
+    for (std::size_t i = 0; i < bonds->broken.size(); ++i) {
+      bonds->broken[i] = 0;
+      for (std::uint32_t e = bonds->neighbors.first[i]; e < bonds->neighbors.first[i + 1]; ++e)
+        bonds->broken[i] += !bonds->whole(e);
+    }
+  }
 }
 
 double Solid::evolve(const Particles& particles, double step) {
   if (!law_->has_bonds) return 0;
-  const std::vector<std::int32_t> before = bonds_.broken;
-  double released = sinew::evolve(bonds_, material_.bond, material_.pair, particles, step);
+  std::vector<bool> severed(rest_.size());
+  for (std::size_t i = 0; i < severed.size(); ++i) severed[i] = broken(i) > 0;
+  double released =
+      sinew::evolve(bonds_.nearest, material_.bond, &material_.pair, particles, step) +
+      sinew::evolve(bonds_.second, material_.bond, nullptr, particles, step);
   if (material_.volume_stiffness <= 0) return released;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (before[i] == 0 && bonds_.broken[i] > 0) released += volume_energy(i);
+  for (std::size_t i = 0; i < severed.size(); ++i)
+    if (!severed[i] && broken(i) > 0) released += volume_energy(i);
   return released;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pair forces of solids, which keep their shape; the paper's body flows.
 //
-// bonded: neighbors at rest are bonds, f = -k (d - l) e; all other pairs repel by eq. 1.
+// bonded: neighbors at rest are bonds, f = -k (d - l) e; all other pairs repel by eq. 1. Second
+// neighbors have bonds as well, a quarter as stiff, with which a body is isotropic, and repel by
+// eq. 1 too; bond_factors.h keeps surfaces from being softer.
 // bonded_volume: in addition, each particle keeps its volume, U_i = (K_v / 2) V0 w_i (J_i - 1)^2
 // with J_i of the least-squares deformation gradient F_i over its neighbors at rest, F_i = sum dx
 // dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weight w_i =
@@ -19,6 +21,7 @@
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
+#include <sinew/physics/bond_factors.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/laws.h>
 #include <sinew/physics/material.h>
@@ -31,6 +34,7 @@ namespace sinew {
 struct Bonds {
   NeighborLists neighbors;           ///< in both directions, in the order of the particles
   std::vector<double> rest_length;   ///< by entry of neighbors, m; 0 once broken
+  std::vector<double> stiffness;     ///< by entry, N/m
   std::vector<std::int32_t> broken;  ///< by particle
 
   std::size_t size() const { return neighbors.neighbor.size() / 2; }
@@ -39,24 +43,39 @@ struct Bonds {
   bool bonded(std::size_t i, std::uint32_t j) const;
 };
 
-/// Between all particles of radius `r` (m) that are neighbors at `rest` (m).
-Bonds make_bonds(const Points& rest, double r);
+/// The nearest and the second neighbors of each particle at rest, by place. A pair of second
+/// neighbors also repels in contact, and is not damped before: only its spring is a bond.
+struct SolidBonds {
+  Bonds nearest, second;
+};
 
-/// Calls visit(j, offset, d, rest length) for the unbroken bonds of particle i: x_i - x_j, its
-/// length.
+/// Between all particles at `rest` (m, in the order of the particles) that are neighbors there.
+/// `id` and `factors` of the particles; none: the material's stiffness throughout.
+SolidBonds make_bonds(const Points& rest, const Material& material,
+                      std::span<const std::int32_t> id = {}, const BondFactors& factors = {});
+
+/// A bond seen from one of its particles.
+struct BondNow {
+  std::uint32_t neighbor;
+  Vec3 offset;  ///< from it, m
+  double distance;
+  BondSpring spring;
+};
+
+/// Calls visit(BondNow) for the unbroken bonds of particle i.
 template <class Visit>
 void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i, Visit&& visit) {
   for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
     if (!bonds.whole(e)) continue;
     const std::uint32_t j = bonds.neighbors.neighbor[e];
     const Vec3 offset = particles.position(i) - particles.position(j);
-    visit(j, offset, offset.norm(), bonds.rest_length[e]);
+    visit(BondNow{j, offset, offset.norm(), {bonds.rest_length[e], bonds.stiffness[e]}});
   }
 }
 
-/// Lets bonds creep and break over a time (s). A pair whose bond broke repels in contact like any
-/// other. Returns the energy lost, J.
-double evolve(Bonds& bonds, const BondStrength& strength, const PairForce& contact,
+/// Lets bonds creep and break over a time (s). `contact`: of a pair once its bond broke; none where
+/// it repels anyhow. Returns the energy lost, J.
+double evolve(Bonds& bonds, const BondStrength& strength, const PairForce* contact,
               const Particles& particles, double time);
 
 /// Whether a material's forces depend on the neighbors at rest.
@@ -67,8 +86,9 @@ double volume_weight(const Mat3& A, double radius);
 
 class Solid {
  public:
-  /// `rest` in the order of the particles, m.
-  Solid(const Material& material, Points rest);
+  /// `rest` in the order of the particles, m; `id` and `factors` as in make_bonds().
+  Solid(const Material& material, Points rest, std::span<const std::int32_t> id = {},
+        const BondFactors& factors = {});
 
   /// Pair forces, and eq. 2 between partners: particles that are bonded (in the paper's model,
   /// neighbors at rest closer than b) or touch. Bodies that do not touch must not drag each other.
@@ -80,9 +100,14 @@ class Solid {
   /// energy lost, J.
   double evolve(const Particles& particles, double step);
 
-  const Bonds& bonds() const { return bonds_; }
-  /// Restores saved bonds. Throws bad input where they are not this solid's.
-  void restore(const std::vector<double>& rest_length, const std::vector<std::int32_t>& broken);
+  const SolidBonds& bonds() const { return bonds_; }
+  std::int32_t broken(std::size_t i) const {
+    return bonds_.nearest.broken[i] + bonds_.second.broken[i];
+  }
+  /// Rest lengths of all bonds, the second neighbors' last, and back again, with what is broken.
+  /// Throws bad input where they are not this solid's.
+  std::vector<double> rest_lengths() const;
+  void restore(const std::vector<double>& rest_length);
 
  private:
   template <class Visit>
@@ -90,6 +115,7 @@ class Solid {
   template <class Visit>
   void for_each_touched(const Particles& particles, const CellGrid& cells, std::size_t i,
                         const Visit& visit) const;
+  void add_springs_of_second(const Particles& particles, Forces& forces) const;
   void find_volumes(const Particles& particles);
   Vec3 volume_force(std::size_t i) const;
   double volume_energy(std::size_t i) const;
@@ -97,7 +123,7 @@ class Solid {
   Material material_;
   const ForceLaw* law_;
   Points rest_;
-  Bonds bonds_;
+  SolidBonds bonds_;
   std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept
   std::vector<double> weight_;  ///< w_i
   std::vector<double> volume_;  ///< J_i - 1 at the positions of the last call of forces()

@@ -29,15 +29,17 @@ struct Mode {
 
 /// Highest frequency of the packing, w^2 in k / m.
 double lattice_factor(const Material& material) {
-  return highest_frequency_factor(material.volume_stiffness / (2 * material.pair.k1));
+  return highest_frequency_factor(material.packing());
 }
 
 /// Inside the packing (exact), and at its surface, where fewer neighbors make the damping of eq. 2
-/// stronger and the springs softer (the extremes found by power iteration on boxes and balls).
-std::array<Mode, 2> worst_modes(const Material& material) {
+/// stronger and the springs softer (the extremes found by power iteration on boxes and balls); but
+/// `stiffest`, of BondFactors, where bonds make up for those that are missing.
+std::array<Mode, 2> worst_modes(const Material& material, double stiffest) {
   const double w2 = lattice_factor(material);
-  if (is_central(material)) return {Mode{2.0 / 3, w2}, Mode{0.87, w2 * 5 / 8}};
-  return {Mode{4.0 / 3, w2}, Mode{1.52, w2 * 5 / 8}};
+  const double surface = material.bond.second > 0 ? std::max(w2, 2 * stiffest) : w2 * 5 / 8;
+  if (is_central(material)) return {Mode{2.0 / 3, w2}, Mode{0.87, surface}};
+  return {Mode{4.0 / 3, w2}, Mode{1.52, surface}};
 }
 
 double largest_damping(const std::vector<BoneSprings>& springs) {
@@ -53,9 +55,9 @@ double stiffest_spring(const std::vector<BoneSprings>& springs) {
 }
 
 double semi_implicit_limit(const Material& material, const std::vector<BoneSprings>& springs,
-                           const WorldLoad& world) {
+                           const WorldLoad& world, double stiffest) {
   double limit = std::numeric_limits<double>::infinity();
-  for (const Mode& mode : worst_modes(material)) {
+  for (const Mode& mode : worst_modes(material, stiffest)) {
     const double k = mode.w2 * material.stiffness() + stiffest_spring(springs) + world.stiffness;
     const double w2 = k / material.mass;
     const double g =
@@ -66,11 +68,13 @@ double semi_implicit_limit(const Material& material, const std::vector<BoneSprin
 }
 
 double explicit_limit(const Material& material, const std::vector<BoneSprings>& springs,
-                      const WorldLoad& world) {
+                      const WorldLoad& world, double stiffest) {
   const double C = material.damping;
   const double share = is_central(material) ? 1.5 : 1, k = material.stiffness();
-  double limit = C / (share * lattice_factor(material) * k + share * world.stiffness);
-  for (const Mode& mode : worst_modes(material))
+  double w2 = 0;
+  for (const Mode& mode : worst_modes(material, stiffest)) w2 = std::max(w2, mode.w2);
+  double limit = C / (share * w2 * k + share * world.stiffness);
+  for (const Mode& mode : worst_modes(material, stiffest))
     if (C > 0)
       limit = std::min(
           limit, 2 * material.mass /
@@ -89,9 +93,11 @@ double highest_frequency_squared(const Material& material,
 }
 
 double step_limit(Integrator integrator, const Material& material,
-                  const std::vector<BoneSprings>& springs, const WorldLoad& world) {
-  return integrator == Integrator::explicit_euler ? explicit_limit(material, springs, world)
-                                                  : semi_implicit_limit(material, springs, world);
+                  const std::vector<BoneSprings>& springs, const WorldLoad& world,
+                  double stiffest) {
+  return integrator == Integrator::explicit_euler
+             ? explicit_limit(material, springs, world, stiffest)
+             : semi_implicit_limit(material, springs, world, stiffest);
 }
 
 StepChoice choose_step(std::optional<double> step, double factor, double limit, double interval) {
@@ -119,13 +125,13 @@ StepChoice choose_step(std::optional<double> step, double factor, double limit, 
 namespace {
 
 constexpr std::size_t neighbors_inside = 12;
-constexpr int rounds = 3, iterations = 120;      // the step is improved after each round
-constexpr double margin = 0.99;                  // the iteration converges from below
-constexpr double small = 1e-6;                   // of displacements, in radii
-constexpr std::size_t most_particles = 100'000;  // beyond, starting would take many seconds
+constexpr int rounds = 3, iterations = 120;  // the step is improved after each round
+constexpr double margin = 0.99;              // the iteration converges from below
+constexpr double smallness = 1e-6;           // of displacements, in radii
+constexpr std::size_t most_tried = 100'000;  // beyond, starting would take many seconds
 
 /// Of all particles, a column each.
-using Vector = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+using Motions = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// The forces about rest, linearized for small motions.
 class NearRest {
@@ -135,21 +141,22 @@ class NearRest {
         world_(world),
         particles_(particles_at(body.rest, body.material.pair.r, body.material.mass)),
         at_rest_(rest_pose(body.skeleton)) {
-    if (remembers_neighbors(body.material)) solid_.emplace(body.material, body.rest);
-    bias_ = forces(Vector::Zero(3, particles_.size()), 0);
+    if (remembers_neighbors(body.material))
+      solid_.emplace(body.material, body.rest, particles_.id, body.factors);
+    bias_ = forces(Motions::Zero(3, particles_.size()), 0);
   }
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(particles_.size()); }
 
   /// (dt^2 / 4 K + dt / 2 D) u / m
-  Vector driven(const Vector& u, double dt) {
+  Motions driven(const Motions& u, double dt) {
     const double mass = body_.material.mass;
     return (bias_ - forces(u, dt)) / mass +
            (dt * dt / 4 * world_.stiffness / mass + dt / 2 * world_.damping) * u;
   }
 
  private:
-  Vector forces(const Vector& u, double dt) {
+  Motions forces(const Motions& u, double dt) {
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       particles_.set_position(i, body_.rest[i] + dt * dt / 4 * u.col(i));
       particles_.set_velocity(i, dt / 2 * u.col(i));
@@ -159,7 +166,7 @@ class NearRest {
     else
       pair_forces(particles_, body_.material, forces_);
     bone_forces(particles_, body_, at_rest_, forces_);
-    Vector all(3, particles_.size());
+    Motions all(3, particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) all.col(i) = forces_.total(i);
     return all;
   }
@@ -170,12 +177,12 @@ class NearRest {
   Pose at_rest_;
   std::optional<Solid> solid_;
   Forces forces_;
-  Vector bias_;
+  Motions bias_;
 };
 
-Vector random_motion(Eigen::Index particles) {
+Motions random_motion(Eigen::Index particles) {
   std::mt19937 random(1);
-  Vector u(3, particles);
+  Motions u(3, particles);
   for (double& value : u.reshaped()) value = static_cast<double>(random()) / 4294967296.0 - 0.5;
   return u;
 }
@@ -194,17 +201,18 @@ bool is_thin(const Points& rest, double radius) {
 
 double power_step_limit(const Body& body, const WorldLoad& world) {
   NearRest near(body, world);
-  Vector u = random_motion(near.size());
-  double step = step_limit(Integrator::symplectic_euler, body.material, body.springs, world);
-  const auto scaled = [&](const Vector& to) -> Vector {
-    return small * body.material.pair.r / (step * step / 4) / to.cwiseAbs().maxCoeff() * to;
+  Motions u = random_motion(near.size());
+  double step = step_limit(Integrator::symplectic_euler, body.material, body.springs, world,
+                           body.factors.stiffest);
+  const auto scaled = [&](const Motions& to) -> Motions {
+    return smallness * body.material.pair.r / (step * step / 4) / to.cwiseAbs().maxCoeff() * to;
   };
   const auto share = [&](double dt) {
     return near.driven(u, dt).cwiseProduct(u).sum() / u.squaredNorm();
   };
   for (int round = 0; round < rounds; ++round) {
     for (int n = 0; n < iterations; ++n) {
-      const Vector next = near.driven(u, step);
+      const Motions next = near.driven(u, step);
       if (!(next.cwiseAbs().maxCoeff() > 0)) return step;  // nothing holds the particles
       u = scaled(next);
     }
@@ -217,11 +225,12 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
 }
 
 double step_limit(Integrator integrator, const Body& body, const WorldLoad& world) {
-  const double limit = step_limit(integrator, body.material, body.springs, world);
+  const double limit =
+      step_limit(integrator, body.material, body.springs, world, body.factors.stiffest);
   const PairForce& pair = body.material.pair;
   const bool linear =
       body.material.model != MaterialModel::paper || std::abs(pair.lambda() - 1) < 1e-3;
-  if (integrator == Integrator::explicit_euler || !linear || body.rest.size() > most_particles ||
+  if (integrator == Integrator::explicit_euler || !linear || body.rest.size() > most_tried ||
       !is_thin(body.rest, pair.r))
     return limit;
   return power_step_limit(body, world);

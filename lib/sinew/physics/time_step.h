@@ -30,9 +30,11 @@ double highest_frequency_squared(const Material& material, const std::vector<Bon
 /// The largest stable step, s. Symplectic Euler and velocity Verlet, which damps with the half-step
 /// velocity: (sqrt(g^2 + 4 w^2) - g) / w^2, the least over the modes inside the packing (damped at
 /// g = (4/3) C/m, central (2/3) C/m) and those at its surface. Explicit Euler: the least over
-/// lattice, damping and bones; 0 when no step is stable.
+/// lattice, damping and bones; 0 when no step is stable. `stiffest`: of the body's BondFactors; by
+/// default that of rough surfaces.
 double step_limit(Integrator integrator, const Material& material,
-                  const std::vector<BoneSprings>& springs, const WorldLoad& world = {});
+                  const std::vector<BoneSprings>& springs, const WorldLoad& world = {},
+                  double stiffest = stiffest_of_rough_surfaces);
 
 struct StepChoice {
   double limit = 0;   ///< of the integrator chosen, s

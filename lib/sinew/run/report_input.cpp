@@ -50,7 +50,7 @@ LawCurve pair_curve(const Material& material) {
                                 [&](double d) { return pair.force(d * pair.r); }));
   if (!law.has_bonds) return curve;
   curve.lines.push_back(sampled("bond", 1.5, 1.15 * pair.b / pair.r, [&](double d) {
-    return law.bond_force(material, d * pair.r, 2 * pair.r);
+    return law.bond_force(material, {2 * pair.r, material.bond.stiffness}, d * pair.r);
   }));
   return curve;
 }
@@ -137,6 +137,20 @@ FactGroup fill_facts(const std::string& body_meta) {
   return group;
 }
 
+/// What a body that bends along each bone shows, from run.json.
+FactGroup stiffness_facts(const nlohmann::ordered_json& record) {
+  FactGroup group{"Young's modulus in bending, along bones", {}};
+  for (const auto& bone : record.value("stiffness_along_bones", nlohmann::ordered_json::array())) {
+    const double along = bone.value("young_modulus", 0.0);
+    const double lack = bone.value("lack_of_bending_stiffness", 0.0);
+    group.facts.push_back({bone.value("bone", ""),
+                           with_unit(along * (1 - lack), "Pa") + ": " + with_unit(along, "Pa") +
+                               " less up to " + three_digits(100 * lack) + " % for " +
+                               three_digits(bone.value("planes_across", 0.0)) + " planes across"});
+  }
+  return group;
+}
+
 std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body_meta) {
   const auto record = read_record(folder);
   const auto number = [&](const char* key, const char* unit) {
@@ -169,6 +183,7 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
             {"damping constant C", constant("damping", "kg/s")},
             {"particle radius", number("radius", "m")},
             {"particle mass", number("particle_mass", "kg")}}},
+          stiffness_facts(record),
           fill_facts(body_meta)};
 }
 

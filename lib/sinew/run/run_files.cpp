@@ -213,9 +213,7 @@ RunFiles open_run(const RunFolder& folder) {
   if (!run.body.bone)
     throw bad_input(Place{folder.body().string()}, "has no array 'bone'",
                     "run the scene again with --force");
-  const Particles& particles = run.body.particles;
-  run.material = make_material(run.settings.material,
-                               shape_of(positions_of(particles), particles.radius, particles.mass));
+  run.material = material_of(run.settings, run.body.particles);
   keep_written(run);
   const int every = run.settings.output.every;
   run.particle_rows = rows_of(folder, "particles");
@@ -262,7 +260,7 @@ PairLaw pair_law(const Material& material) {
   measured.force = [&law, material](double d) { return law.force(material, d); };
   if (law.has_memory)
     measured.bond = [&law, material](double d, double rest) {
-      return law.bond_force(material, d, rest);
+      return law.bond_force(material, {rest, material.bond.stiffness}, d);
     };
   if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
   return measured;

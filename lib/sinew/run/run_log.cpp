@@ -6,6 +6,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/run/run_record.h>
+#include <sinew/scene/bone_stiffness.h>
 #include <sinew/settings/table.h>
 
 namespace sinew {
@@ -89,6 +90,11 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["particle_mass"] = setup.body.material.mass;
   record_["material"] = material_of(setup.body.material);
   record_["bones"] = bones_of(setup.body.skeleton);
+  for (const BoneStiffness& bone : stiffness_along_bones(setup.body))
+    record_["stiffness_along_bones"].push_back({{"bone", bone.bone},
+                                                {"young_modulus", bone.young_modulus},
+                                                {"planes_across", bone.planes},
+                                                {"lack_of_bending_stiffness", bone.lack}});
   record_["duration"] = settings.solver.duration;
   record_["frame_interval"] = settings.output.interval;
   record_["time_step"] = steps.step;

@@ -66,6 +66,11 @@ Surface read_mesh(const Settings& settings) {
   return with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
 }
 
+/// Whether the forces depend on how much of the body is around each particle.
+bool needs_shares(const Settings& settings) {
+  return is_isotropic(settings.material, settings.body.packing);
+}
+
 Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
   const BodyOptions& body = settings.body;
   PackOptions options;
@@ -78,6 +83,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.keep = body.keep;
   options.clearance = body.clearance;
   options.thickness = body.thickness;
+  options.shares = needs_shares(settings);
   options.verify = verify;
   return with_context(settings, body.radius ? "body.radius" : "body.count",
                       [&] { return pack(surface, options); });
@@ -107,6 +113,7 @@ BodyFile body_file(Filling filling, const std::string& origin) {
   body.particles = std::move(filling.particles);
   body.neighbors = std::move(filling.neighbors);
   body.component = std::move(filling.component);
+  if (!filling.share.empty()) body.share = std::move(filling.share);
   body.meta = meta.dump();
   return body;
 }
@@ -118,6 +125,7 @@ std::string origin_of(const Settings& settings) {
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');
+  if (needs_shares(settings)) hash.add("shares\n");
   return hash_text(hash.value());
 }
 

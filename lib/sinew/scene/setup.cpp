@@ -7,6 +7,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/physics/time_step.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
@@ -99,10 +100,11 @@ int frames_of(const Settings& settings) {
   return static_cast<int>(frames);
 }
 
-BodyShape shape_of(const Settings& settings, const Points& rest, const Particles& particles) {
-  BodyShape shape = sinew::shape_of(rest, particles.radius, particles.mass);
-  shape.lattice = lattice_axes(settings.body);
-  return shape;
+/// Of a scene that asks for a damping ratio: what gives it to the body.
+void set_damping_ratio(const MaterialOptions& settings, Body& body) {
+  if (!settings.damping_ratio) return;
+  const ElasticModes modes = elastic_modes(body);
+  if (!modes.empty()) body.material.damping = modes.damping_for(*settings.damping_ratio);
 }
 
 StepChoice steps_of(const Settings& settings, const Body& body) {
@@ -123,14 +125,22 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
 
 }  // namespace
 
+Material material_of(const Settings& settings, const Particles& particles) {
+  return make_material(settings.material, {particles.radius, particles.mass,
+                                           lattice_axes(settings.body), settings.body.packing});
+}
+
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
-               const Particles& particles) {
+               const Particles& particles, std::vector<double> share) {
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = std::move(skeleton);
   body.binding = bind_scene(settings, files, body.skeleton, body.rest, particles.radius);
-  body.material = make_material(settings.material, shape_of(settings, body.rest, particles));
+  body.material = material_of(settings, particles);
   body.lattice = lattice_axes(settings.body);
+  body.share = std::move(share);
+  body.factors = bond_factors(body.rest, body.material, body.share);
+  set_damping_ratio(settings.material, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   return body;
 }
@@ -143,11 +153,12 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
   return choose_step(solver.time_step, solver.time_step_factor, limit, interval);
 }
 
-Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles) {
+Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
+             std::vector<double> share) {
   Setup setup;
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings, files);
-  setup.body = make_body(settings, files, std::move(rig.skeleton), particles);
+  setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(share));
   SceneWorld around = world_of(settings, files.obstacles, setup.body);
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);
@@ -171,7 +182,8 @@ ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body) {
   ready.body =
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
   ready.seconds_filling = watch.lap();
-  ready.setup = set_up(settings, files, ready.body.particles);
+  ready.setup = set_up(settings, files, ready.body.particles,
+                       ready.body.share.value_or(std::vector<double>()));
   ready.body.bone = bones_of_particles(ready.setup.body);
   ready.body.weight = weights_of_particles(ready.setup.body);
   ready.seconds_binding = watch.lap();

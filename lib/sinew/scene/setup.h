@@ -26,9 +26,12 @@ namespace sinew {
 Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
                    const Points& rest, double radius);
 
-/// The particles on the bones, without a world. Errors name the scene's line.
+/// Of a scene's particles; a damping ratio apart.
+Material material_of(const Settings& settings, const Particles& particles);
+
+/// The particles on the bones, without a world. `share` as in Body. Errors name the scene's line.
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
-               const Particles& particles);
+               const Particles& particles, std::vector<double> share = {});
 
 struct Setup {
   Body body;
@@ -44,8 +47,10 @@ struct Setup {
 Stepping stepping_of(const SolverSettings& solver, double step);
 StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
 
-/// Binds the particles to the bones and chooses the step. Errors name the scene's line.
-Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles);
+/// Binds the particles to the bones and chooses the step. `share` as in Body. Errors name the
+/// scene's line.
+Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
+             std::vector<double> share = {});
 
 /// A scene filled, bound and ready to be stepped.
 struct ReadyScene {

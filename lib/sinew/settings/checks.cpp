@@ -36,6 +36,27 @@ Place place_of(const Settings& settings, const char* first, const char* second) 
   return settings.place(is_given(settings, first) ? first : second);
 }
 
+void check_isotropy(const Settings& settings) {
+  const MaterialOptions& material = settings.material;
+  if (material.isotropic.value_or(false)) {
+    if (material.model == MaterialModel::paper)
+      throw bad_input(settings.place("material.isotropic"),
+                      "the paper's model has no bonds that could make it isotropic",
+                      "set material.model to bonded or bonded_volume, or remove it");
+    if (settings.body.packing != Packing::fcc)
+      throw bad_input(settings.place("material.isotropic"),
+                      "only the fcc packing can be made isotropic",
+                      "set body.packing to fcc, or material.isotropic to false");
+  }
+  if (material.model == MaterialModel::bonded_volume &&
+      !is_isotropic(material, settings.body.packing) &&
+      (material.poisson_ratio < 0.26 || material.poisson_ratio > 0.45))
+    throw bad_input(settings.place("material.poisson_ratio"),
+                    "twelve bonds a particle reach Poisson's ratios from 0.26 to 0.45, not " +
+                        number_text(material.poisson_ratio),
+                    "give one between, or set material.isotropic to true");
+}
+
 void check_material(const Settings& settings) {
   const MaterialOptions& material = settings.material;
   if (!(material.a < material.b))
@@ -49,6 +70,7 @@ void check_material(const Settings& settings) {
       throw bad_input(settings.place(key),
                       std::string(key) + " is of bonds, and the paper's model has none",
                       "set material.model to bonded or bonded_volume, or remove it");
+  check_isotropy(settings);
   if (material.cohesion != Cohesion::all && has_bonds)
     throw bad_input(settings.place("material.cohesion"),
                     "bonded models attract only through their bonds",

@@ -80,10 +80,15 @@ std::vector<Field<Settings>> make_material() {
       field<S>("material", "modulus_direction", SINEW_AT(S, material.modulus_direction), "",
                "direction in the scene along which young_modulus holds, for fcc packing", any,
                "none"),
-      field<S>("material", "poisson_ratio", SINEW_AT(S, material.poisson_ratio), "",
-               "Poisson's ratio of bonded_volume, averaged over directions (Hill); the other "
-               "models have 0.261",
-               {0.26, 0.45}),
+      field<S>(
+          "material", "poisson_ratio", SINEW_AT(S, material.poisson_ratio), "",
+          "Poisson's ratio of bonded_volume; bonded has 0.25, the paper's model 0.261 averaged "
+          "over directions (Hill)",
+          {0.25, 0.49}),
+      field<S>("material", "isotropic", SINEW_AT(S, material.isotropic), "",
+               "bonded models hold second neighbors as well, a quarter as stiff, and surfaces in "
+               "proportion: young_modulus holds in every direction; fcc only",
+               any, "auto"),
       field<S>("material", "k1", SINEW_AT(S, material.k1), "Pa",
                "the paper's repulsion constant, instead of young_modulus", positive),
       field<S>("material", "k2", SINEW_AT(S, material.k2), "Pa",

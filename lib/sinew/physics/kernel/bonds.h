@@ -40,16 +40,16 @@ struct Bond {
   std::ptrdiff_t difference;
   typename L::M mask;
   typename L::V length;  ///< with what it has crept
+  typename L::V stiffness;
 };
 
-/// Calls visit(bond, entry) for the bonds of a vector.
+/// Calls visit(bond, entry) for the entries [begin, end) of a block's bonds, as a vector has them.
 template <class L, class Visit>
-SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::size_t block, int lane,
-                                Visit&& visit) {
+SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::uint32_t begin,
+                                std::uint32_t end, int lane, Visit&& visit) {
   constexpr int size = Traits<typename L::Real>::block;
   constexpr std::uint32_t own = (std::uint64_t{1} << L::width) - 1;
-  const std::uint32_t end = bonds.first[block + 1];
-  for (std::uint32_t e = bonds.first[block]; e != end; ++e) {
+  for (std::uint32_t e = begin; e != end; ++e) {
     const BondEntry& entry = bonds.entries[e];
     const std::uint32_t lanes = (entry.lanes >> lane) & own;
     if (size != L::width && lanes == 0) continue;
@@ -57,16 +57,37 @@ SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::size_
     typename L::V length = L::all(kind.length);
     if (bonds.creep != nullptr)
       length = length + L::load(bonds.creep + static_cast<std::size_t>(e) * size + lane);
-    visit(Bond<L>{&kind, entry.difference, L::mask(lanes), length}, e);
+    const typename L::V stiffness =
+        entry.own < 0 ? L::all(kind.stiffness)
+                      : L::load(bonds.own + static_cast<std::size_t>(entry.own) * size + lane);
+    visit(Bond<L>{&kind, entry.difference, L::mask(lanes), length, stiffness}, e);
   }
 }
 
+/// Nearest neighbors are 2r apart at rest, second ones sqrt(2) times that.
+enum Shell { nearest, second };
+
+/// The squared distance as if the shell were the nearest one.
+template <class L, Shell shell>
+SINEW_INLINE typename L::V nearer(typename L::V squared) {
+  return shell == nearest ? squared : squared * L::all(static_cast<typename L::Real>(0.5));
+}
+
+/// 1 / d, for the distances that the shell's bonds usually have.
+template <class L, Shell shell, bool careful>
+SINEW_INLINE typename L::V inverse_length(const SolidLaw<L>& law, typename L::V squared) {
+  if constexpr (shell == nearest) return law.inverse.template of<careful>(squared);
+  constexpr double root_of_half = 0.70710678118654752;
+  return law.inverse.template of<careful>(nearer<L, shell>(squared)) *
+         L::all(static_cast<typename L::Real>(root_of_half));
+}
+
 /// f / d of a spring.
-template <class L, bool careful>
+template <class L, Shell shell, bool careful>
 SINEW_INLINE typename L::V spring(const SolidLaw<L>& law, const Bond<L>& bond,
                                   typename L::V squared, typename L::V& d) {
-  const typename L::V k = L::all(bond.kind->stiffness);
-  const typename L::V inverse = law.inverse.template of<careful>(squared);
+  const typename L::V k = bond.stiffness;
+  const typename L::V inverse = inverse_length<L, shell, careful>(law, squared);
   d = squared * inverse;
   return L::fused(k * bond.length, inverse, L::all(0) - k);
 }
@@ -74,8 +95,7 @@ SINEW_INLINE typename L::V spring(const SolidLaw<L>& law, const Bond<L>& bond,
 template <class L>
 SINEW_INLINE typename L::V spring_energy(const Bond<L>& bond, typename L::V d) {
   const typename L::V longer = d - bond.length;
-  return L::all(bond.kind->stiffness) * (longer * longer) *
-         L::all(static_cast<typename L::Real>(0.5));
+  return bond.stiffness * (longer * longer) * L::all(static_cast<typename L::Real>(0.5));
 }
 
 /// How far a bond is beyond its yield or breaking strain, where it is.
@@ -96,14 +116,14 @@ SINEW_INLINE typename L::V repulsion_energy(const Law<typename L::Real>& law, ty
   return L::all(law.k1) * (overlap * overlap) * (L::all(4) * r + d) / (L::all(3) * r);
 }
 
-/// Adds a vector's bonds.
+/// Adds a vector's bonds to nearest neighbors.
 template <class L, PairLaw pairs, Pass pass, bool energy, bool careful>
 SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                             std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
                             Adder<L, pass, energy>& sums, Met<L>& met) {
   using V = typename L::V;
   for_each_bond<L>(
-      step.bonds, block,
+      step.bonds, step.bonds.first[block], step.bonds.second[block],
       lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
         const std::ptrdiff_t j = i + bond.difference;
         Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
@@ -117,10 +137,9 @@ SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L
           if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
           sums.add(step, i, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
         } else {
-          pull = spring<L, careful>(law, bond, squared, d);
+          pull = spring<L, nearest, careful>(law, bond, squared, d);
           if constexpr (careful)
-            part<L>(step, i, j, squared, L::all(bond.kind->stiffness) * bond.length, pull, d,
-                    apart.x);
+            part<L>(step, i, j, squared, bond.stiffness * bond.length, pull, d, apart.x);
           if constexpr (pairs == changing_springs)
             met.strained =
                 L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
@@ -128,6 +147,31 @@ SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L
         }
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(counted, squared, law.touching2);
+          met.least = L::smaller(met_at, met.least), met.most = L::larger(met_at, met.most);
+        }
+      });
+}
+
+/// Adds its bonds to second neighbors, which count for nothing but their springs.
+template <class L, PairLaw pairs, Pass pass, bool energy, bool careful>
+SINEW_INLINE void add_second(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                             std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
+                             Adder<L, pass, energy>& sums, Met<L>& met) {
+  using V = typename L::V;
+  for_each_bond<L>(
+      step.bonds, step.bonds.second[block], step.bonds.first[block + 1],
+      lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
+        const std::ptrdiff_t j = i + bond.difference;
+        Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
+        const V squared = squared_distance<L>(apart);
+        V d, pull = spring<L, second, careful>(law, bond, squared, d);
+        if constexpr (careful)
+          part<L>(step, i, j, squared, bond.stiffness * bond.length, pull, d, apart.x);
+        if constexpr (pairs == changing_springs)
+          met.strained = L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
+        sums.push(bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
+        if constexpr (sizeof(typename L::Real) == 8) {
+          const V met_at = L::pick(bond.mask, nearer<L, second>(squared), law.touching2);
           met.least = L::smaller(met_at, met.least), met.most = L::larger(met_at, met.most);
         }
       });
@@ -168,6 +212,8 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
   Adder<L, pass, energy> sums;
   Met<L> now{law.touching2, law.touching2};
   add_bonds<L, pairs, pass, energy, careful>(step, law, block, lane, i, here, sums, now);
+  if constexpr (pass != counts && pairs != among_neighbors)
+    add_second<L, pairs, pass, energy, careful>(step, law, block, lane, i, here, sums, now);
   add_contacts<L, pass, energy, careful>(step, law, block, lane, i, here, sums, now);
   met = now;
   return sums.sums();
@@ -226,7 +272,7 @@ Real forget_volume(const Volumes<Real>& volumes, std::ptrdiff_t i) {
 /// Lets the bonds of a vector creep and break: both directions of a bond see the same distance to
 /// the last bit, and change alike. Adds the energy that is lost, per time, to `lost`. A pair whose
 /// bond broke repels like any other.
-template <class L>
+template <class L, Shell shell>
 [[gnu::noinline]] void change_bonds(const Step<typename L::Real>& step, std::size_t block, int lane,
                                     typename L::Real* lost, bool& broke) {
   using V = typename L::V;
@@ -235,12 +281,13 @@ template <class L>
   const SolidLaw<L> law(step);
   const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
-  for_each_bond<L>(step.bonds, block, lane, [&](const Bond<L>& bond, std::uint32_t e) {
+  const bool repels = shell == second;  // once it is broken as before
+  const auto change = [&](const Bond<L>& bond, std::uint32_t e) {
     const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
     // As in the sums, so that a bond that counts as strained there is so here.
     const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
     const V d = L::pick(L::less(L::all(0), squared),
-                        squared * law.inverse.template of<true>(squared), L::all(0));
+                        squared * inverse_length<L, shell, true>(law, squared), L::all(0));
     V freed = L::all(0);
     if (step.bonds.yield > 0) {
       const V longer = d - bond.length;
@@ -269,12 +316,15 @@ template <class L>
           if (step.volumes.stiffness != nullptr)
             lost[n] += forget_volume(step.volumes, i + n) / step.drift;
         }
-        freed =
-            L::pick(breaks, spring_energy<L>(bond, d) - repulsion_energy<L>(step.law, d), freed);
+        const V kept = repels ? L::all(0) : repulsion_energy<L>(step.law, d);
+        freed = L::pick(breaks, spring_energy<L>(bond, d) - kept, freed);
       }
     }
     add_to<L>(lost, L::keep(bond.mask, freed) * L::all(Real(0.5) / step.drift));
-  });
+  };
+  const std::uint32_t *first = step.bonds.first + block, *between = step.bonds.second + block;
+  for_each_bond<L>(step.bonds, shell == nearest ? *first : *between,
+                   shell == nearest ? *between : first[1], lane, change);
 }
 
 }  // namespace sinew::kernel

@@ -67,6 +67,7 @@ struct BondEntry {
   std::int32_t difference;
   std::uint32_t kind;
   std::uint32_t lanes;  ///< bit by lane, at rest and, 16 bits lower, now: what breaks is cleared
+  std::int32_t own;     ///< row of Bonds::own, or -1: all lanes have the stiffness of the kind
 };
 inline constexpr int rest_lanes = 16;
 
@@ -80,9 +81,11 @@ struct BondKind {
 
 template <class Real>
 struct Bonds {
-  const std::uint32_t* first;  ///< entries of block k: [first[k], first[k + 1])
+  const std::uint32_t* first;   ///< entries of block k: [first[k], first[k + 1])
+  const std::uint32_t* second;  ///< from there on, bonds between second neighbors
   BondEntry* entries;
   const BondKind<Real>* kinds;
+  const Real* own;       ///< rows x block: stiffness by lane, where it differs
   Real* creep;           ///< entries x block, added to the length; null: none creeps
   std::int32_t* broken;  ///< by particle
   Real yield;            ///< strain beyond which a bond creeps

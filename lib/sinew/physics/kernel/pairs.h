@@ -194,10 +194,7 @@ struct Adder {
                         typename L::M near, V pull, const Triple<L>& apart, Energy&& energy_of) {
     if constexpr (pass != forces_pairwise || energy) count = L::add_where(near, count, L::all(1));
     if constexpr (pass == counts) return;
-    pull = L::keep(near, pull);
-    fx = L::fused(pull, apart.x, fx);
-    fy = L::fused(pull, apart.y, fy);
-    fz = L::fused(pull, apart.z, fz);
+    push(near, pull, apart, energy_of);
     if constexpr (pass == forces_to_the_mean) {
       su = L::add_where(near, su, L::load(step.before.v[0] + j));
       sv = L::add_where(near, sv, L::load(step.before.v[1] + j));
@@ -205,6 +202,15 @@ struct Adder {
     } else if constexpr (pass == forces_pairwise) {
       add_pairwise(step, i, j, near, apart);
     }
+  }
+
+  /// Of a force alone.
+  template <class Energy>
+  SINEW_INLINE void push(typename L::M near, V pull, const Triple<L>& apart, Energy&& energy_of) {
+    pull = L::keep(near, pull);
+    fx = L::fused(pull, apart.x, fx);
+    fy = L::fused(pull, apart.y, fy);
+    fz = L::fused(pull, apart.z, fz);
     if constexpr (energy)
       stored = L::add_where(near, stored, L::all(typename L::Real(0.5)) * energy_of());
   }

@@ -173,8 +173,10 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   check_speed<L>(step, kicked, forces.bones.carried, sums);
   track_fastest<L>(step, block, lane, here, drifting, sums);
   if constexpr (pairs == changing_springs)
-    if (forces.strained) [[unlikely]]
-      change_bonds<L>(step, block, lane, sums.lost + lane, sums.broke);
+    if (forces.strained) [[unlikely]] {
+      change_bonds<L, nearest>(step, block, lane, sums.lost + lane, sums.broke);
+      change_bonds<L, second>(step, block, lane, sums.lost + lane, sums.broke);
+    }
 }
 
 template <class L, PairLaw pairs, Pass pass>

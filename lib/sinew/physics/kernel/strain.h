@@ -32,12 +32,12 @@ SINEW_INLINE Triple<L> row_of(const Matrix<L>& a, int row) {
   return {a.at[3 * row], a.at[3 * row + 1], a.at[3 * row + 2]};
 }
 
-/// Calls visit(entry, mask) for the neighbors at rest of a vector, broken bonds included.
+/// Calls visit(entry, mask) for the nearest neighbors at rest of a vector, broken bonds included.
 template <class L, class Visit>
 SINEW_INLINE void for_each_at_rest(const Bonds<typename L::Real>& bonds, std::size_t block,
                                    int lane, Visit&& visit) {
   constexpr std::uint32_t own = (std::uint64_t{1} << L::width) - 1;
-  for (std::uint32_t e = bonds.first[block]; e != bonds.first[block + 1]; ++e) {
+  for (std::uint32_t e = bonds.first[block]; e != bonds.second[block]; ++e) {
     const std::uint32_t lanes = (bonds.entries[e].lanes >> (lane + rest_lanes)) & own;
     if (lanes != 0) visit(bonds.entries[e], L::mask(lanes));
   }

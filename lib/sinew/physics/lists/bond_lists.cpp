@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -52,54 +53,94 @@ class Kinds {
 struct RestNeighbors {
   Points rest;  ///< in the kernel's order
   NeighborLists near;
-  bool kinds;  ///< whether they differ
+  bool kinds;            ///< whether they differ
+  double nearest_range;  ///< m
+  std::span<const std::int32_t> id;
+  const BondFactors& factors;
 
-  RestNeighbors(const Body& body, std::span<const std::int32_t> id)
-      : kinds(law_of(body.material).has_bonds || has_muscles(body)) {
+  RestNeighbors(const Body& body, std::span<const std::int32_t> ids)
+      : kinds(law_of(body.material).has_bonds || has_muscles(body)),
+        nearest_range(rest_neighbor_range(body.material.pair.r)),
+        id(ids),
+        factors(body.factors) {
     rest.reserve(id.size());
     for (const std::int32_t i : id) rest.push_back(body.rest[static_cast<std::size_t>(i)]);
-    near = neighbors_within(rest, rest_neighbor_range(body.material.pair.r));
+    const bool second = body.material.bond.second > 0;
+    near = neighbors_within(rest,
+                            second ? second_neighbor_range * body.material.pair.r : nearest_range);
+  }
+
+  bool is_nearest(const Vec3& X) const { return X.norm() < nearest_range; }
+  double factor(const BondFactors::Row& row, std::uint32_t j) const {
+    return row.empty() ? 1 : row.at(static_cast<std::uint32_t>(id[j]));
   }
 };
 
 /// The entries of some blocks, with kinds of their own.
 struct Piece {
-  std::vector<std::uint32_t> count;  ///< entries by block
+  std::vector<std::uint32_t> nearest, count;  ///< entries by block: of nearest neighbors, and all
   std::vector<kernel::BondEntry> entries;
   std::vector<Vec3> kinds;
+  std::vector<double> factor;  ///< rows of a block's lanes
+};
+
+/// A bond of one particle.
+struct Found {
+  kernel::BondEntry entry;
+  double factor;
 };
 
 bool ascending(const kernel::BondEntry& a, const kernel::BondEntry& b) {
   return a.difference != b.difference ? a.difference < b.difference : a.kind < b.kind;
 }
 
+/// Appends entries with the lanes of all that are equal.
+void merge(std::vector<Found>& found, std::size_t block_size, Piece& piece) {
+  std::sort(found.begin(), found.end(),
+            [](const Found& a, const Found& b) { return ascending(a.entry, b.entry); });
+  const std::size_t before = piece.entries.size();
+  for (const Found& one : found) {
+    if (piece.entries.size() > before && !ascending(piece.entries.back(), one.entry))
+      piece.entries.back().lanes |= one.entry.lanes;
+    else
+      piece.entries.push_back(one.entry);
+    if (one.factor == 1) continue;
+    std::int32_t& own = piece.entries.back().own;
+    if (own < 0) {
+      own = static_cast<std::int32_t>(piece.factor.size() / block_size);
+      piece.factor.resize(piece.factor.size() + block_size, 1);
+    }
+    const auto lane = static_cast<std::size_t>(std::countr_zero(one.entry.lanes));
+    piece.factor[static_cast<std::size_t>(own) * block_size + lane] = one.factor;
+  }
+}
+
 Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, std::size_t begin,
                  std::size_t end) {
   Piece piece;
   Kinds kinds(unit);
-  std::vector<kernel::BondEntry> found;
+  std::vector<Found> nearest, second;
   for (std::size_t block = begin; block < end; ++block) {
-    found.clear();
+    nearest.clear(), second.clear();
     for (std::size_t lane = 0; lane < block_size; ++lane) {
       const std::size_t k = block * block_size + lane;
       if (k >= of.rest.size()) break;
+      const BondFactors::Row row = of.factors.of(static_cast<std::uint32_t>(of.id[k]));
       for (const std::uint32_t j : of.near.of(k)) {
         const auto difference =
             static_cast<std::int32_t>(static_cast<std::int64_t>(j) - static_cast<std::int64_t>(k));
-        const std::uint32_t kind =
-            of.kinds ? kinds.of(of.rest[j] - of.rest[k]) : kinds.of(Vec3::Zero());
+        const Vec3 X = of.rest[j] - of.rest[k];
+        const std::uint32_t kind = kinds.of(of.kinds ? X : Vec3::Zero());
         const std::uint32_t own = std::uint32_t{1} << lane;
-        found.push_back({difference, kind, own | own << kernel::rest_lanes});
+        (of.is_nearest(X) ? nearest : second)
+            .push_back(
+                {{difference, kind, own | own << kernel::rest_lanes, -1}, of.factor(row, j)});
       }
     }
-    std::sort(found.begin(), found.end(), ascending);
     const std::size_t before = piece.entries.size();
-    for (const kernel::BondEntry& one : found) {
-      if (piece.entries.size() > before && !ascending(piece.entries.back(), one))
-        piece.entries.back().lanes |= one.lanes;
-      else
-        piece.entries.push_back(one);
-    }
+    merge(nearest, block_size, piece);
+    piece.nearest.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
+    merge(second, block_size, piece);
     piece.count.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
   }
   piece.kinds = std::move(kinds.met);
@@ -117,11 +158,17 @@ void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds)
   for (const Piece& piece : pieces) {
     std::vector<std::uint32_t> number;
     for (const Vec3& rest : piece.kinds) number.push_back(kinds.of(rest));
+    const auto rows = static_cast<std::int32_t>(bonds.factor.size() / kernel::Traits<Real>::block);
     for (kernel::BondEntry entry : piece.entries) {
       entry.kind = number[entry.kind];
+      if (entry.own >= 0) entry.own += rows;
       bonds.entries.push_back(entry);
     }
-    for (const std::uint32_t count : piece.count) bonds.first.push_back(bonds.first.back() + count);
+    bonds.factor.insert(bonds.factor.end(), piece.factor.begin(), piece.factor.end());
+    for (std::size_t k = 0; k < piece.count.size(); ++k) {
+      bonds.second.push_back(bonds.first.back() + piece.nearest[k]);
+      bonds.first.push_back(bonds.first.back() + piece.count[k]);
+    }
   }
   bonds.rest = std::move(kinds.met);
 }
@@ -140,7 +187,11 @@ void for_each_whole(const BondLists<Real>& bonds, Visit&& visit) {
 
 template <class Real>
 void BondLists<Real>::set_units(const Body& body, double mass, const Units& units) {
-  const double spring = body.material.bond.stiffness * units.time * units.time / mass;
+  const auto stiffness_of = [&](const Vec3& to) {
+    const BondStrength& strength = body.material.bond;
+    const bool nearest = to.norm() < rest_neighbor_range(body.material.pair.r);
+    return (nearest ? strength.stiffness : strength.second) * units.time * units.time / mass;
+  };
   const double longer =
       kinds.empty() ? 1 : rest[0].norm() / units.length / static_cast<double>(kinds[0].length);
   if (!kinds.empty() && kinds[0].length > 0)
@@ -151,9 +202,16 @@ void BondLists<Real>::set_units(const Body& body, double mass, const Units& unit
     for (int axis = 0; axis < 3; ++axis)
       kind.rest[axis] = static_cast<Real>(to[axis] / units.length);
     kind.length = static_cast<Real>(to.norm() / units.length);
-    kind.stiffness = static_cast<Real>(spring);
+    kind.stiffness = static_cast<Real>(stiffness_of(to));
     kinds.push_back(kind);
   }
+  constexpr std::size_t size = kernel::Traits<Real>::block;
+  own.resize(factor.size());
+  for (const kernel::BondEntry& entry : entries)
+    for (std::size_t lane = 0; lane < size && entry.own >= 0; ++lane) {
+      const std::size_t at = static_cast<std::size_t>(entry.own) * size + lane;
+      own[at] = static_cast<Real>(factor[at] * stiffness_of(rest[entry.kind]));
+    }
 }
 
 template <class Real>
@@ -161,8 +219,10 @@ kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double ste
   const BondStrength& strength = material.bond;
   const auto real = [](double value) { return static_cast<Real>(value); };
   return {first.data(),
+          second.data(),
           entries.data(),
           kinds.data(),
+          own.data(),
           creep.empty() ? nullptr : creep.data(),
           broken.empty() ? nullptr : broken.data(),
           real(strength.yield_strain),
@@ -172,7 +232,7 @@ kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double ste
 
 template <class Real>
 std::uint32_t BondLists<Real>::bonded_lanes(std::size_t block, std::int32_t difference) const {
-  const auto end = entries.begin() + first[block + 1];
+  const auto end = entries.begin() + second[block];
   std::uint32_t lanes = 0;
   for (auto at = std::lower_bound(entries.begin() + first[block], end, difference,
                                   [](const kernel::BondEntry&entry, std::int32_t wanted) {

@@ -20,9 +20,12 @@ namespace sinew {
 template <class Real>
 struct BondLists {
   std::vector<std::uint32_t> first;        ///< blocks + 1 long; empty: the material knows no bonds
-  std::vector<kernel::BondEntry> entries;  ///< of a block: ascending differences, then kinds
+  std::vector<std::uint32_t> second;       ///< by block: where those of second neighbors begin
+  std::vector<kernel::BondEntry> entries;  ///< of a block, each: ascending differences, then kinds
   std::vector<Vec3> rest;                  ///< by kind, m
   std::vector<kernel::BondKind<Real>> kinds;
+  std::vector<double> factor;        ///< rows x block, on the kind's stiffness
+  std::vector<Real> own;             ///< the stiffness with it
   std::vector<Real> creep;           ///< entries x block; empty: none creeps
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
 
@@ -30,7 +33,7 @@ struct BondLists {
   void set_units(const Body& body, double mass, const Units& units);
   /// For steps of `step` (s).
   kernel::Bonds<Real> arrays(const Material& material, double step);
-  /// Lanes of a block that are bonded at a difference.
+  /// Lanes of a block that are bonded to nearest neighbors at a difference.
   std::uint32_t bonded_lanes(std::size_t block, std::int32_t difference) const;
 
   /// What changes: of each entry the lanes that are whole, and what those have crept by.

@@ -51,7 +51,7 @@ class StrainMaker {
   void make_shapes(std::size_t k) {
     std::array<Mat3, block> spread;
     spread.fill(Mat3::Zero());
-    for (std::uint32_t e = bonds_.first[k]; e < bonds_.first[k + 1]; ++e) {
+    for (std::uint32_t e = bonds_.first[k]; e < bonds_.second[k]; ++e) {
       const Vec3& X = bonds_.rest[bonds_.entries[e].kind];
       for (std::size_t lane = 0; lane < block; ++lane)
         if ((bonds_.entries[e].lanes >> (lane + kernel::rest_lanes) & 1) != 0)
@@ -97,7 +97,7 @@ class StrainMaker {
     out_.near_fibers.assign(blocks, 0);
     for (std::size_t k = 0; k < blocks; ++k) {
       bool near = some(k);
-      for (std::uint32_t e = bonds_.first[k]; e < bonds_.first[k + 1] && !near; ++e) {
+      for (std::uint32_t e = bonds_.first[k]; e < bonds_.second[k] && !near; ++e) {
         const auto begin = static_cast<std::int64_t>(k * block) + bonds_.entries[e].difference;
         const auto size = static_cast<std::int64_t>(block);
         for (const std::int64_t at : {begin, begin + size - 1})

@@ -16,7 +16,7 @@ std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
   Points rest;
   rest.reserve(particles.size());
   for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
-  return Solid(body.material, std::move(rest));
+  return Solid(body.material, std::move(rest), particles.id, body.factors);
 }
 
 }  // namespace
@@ -88,7 +88,9 @@ double CellStepper::stored_in_pairs() {
 
 std::vector<std::int32_t> CellStepper::broken_bonds() const {
   if (!solid_ || body_->material.model == MaterialModel::paper) return {};
-  return solid_->bonds().broken;
+  std::vector<std::int32_t> broken(particles_.size());
+  for (std::size_t i = 0; i < broken.size(); ++i) broken[i] = solid_->broken(i);
+  return broken;
 }
 
 void CellStepper::save(SimulationState& state) const {
@@ -96,8 +98,7 @@ void CellStepper::save(SimulationState& state) const {
   state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
   state.kicked = kicked_;
   if (!solid_) return;
-  state.rest_length = solid_->bonds().rest_length;
-  state.broken = solid_->bonds().broken;
+  state.rest_length = solid_->rest_lengths();
 }
 
 void CellStepper::restore(const SimulationState& state) {
@@ -105,7 +106,7 @@ void CellStepper::restore(const SimulationState& state) {
   if (moving == nullptr) throw not_a_state("it is in single precision");
   check_moving(*moving, particles_.size());
   if (solid_)
-    solid_->restore(state.rest_length, state.broken);
+    solid_->restore(state.rest_length);
   else if (!state.rest_length.empty())
     throw not_a_state("it has bonds");
   Particles& now = particles_;

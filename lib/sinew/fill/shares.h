@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How much of the body each particle stands for, over the volume of a particle inside: weights with
+// which sums over particles are integrals over the body, exact for linear functions. They begin as
+// the part that is nearer to a particle than to any other one; where that reaches far out, its
+// neighbors behind lend it some of theirs.
+//
+//     filling.share = volume_shares(surface, options, filled, touching);
+#pragma once
+
+#include <vector>
+
+#include <sinew/fill/filled_sites.h>
+#include <sinew/fill/pack.h>
+
+namespace sinew {
+
+/// Of the sites of `filled` (FCC), in their order; 1 inside. Sampled at
+/// 64 points a particle by a finer lattice at an angle to its own, to some percent each; where the
+/// particles fill the mesh's `volume` (m^3; else 0), their sum is that. The same for any number of
+/// threads.
+std::vector<double> volume_shares(const Surface& surface, const PackOptions& options,
+                                  const BodySpace& space, const FilledSites& filled,
+                                  const Touching& touching, double volume);
+
+}  // namespace sinew
