@@ -11,7 +11,6 @@
 #include <sinew/physics/time_step.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/bone_stiffness.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/stepper_choice.h>
@@ -148,6 +147,7 @@ Exit check(const std::string& scene, const Common& common) {
   const StepperChoice choice = stepper_choice(settings.solver);
   const double speed = bone_speed(setup, settings.output.interval);
   auto warnings = warnings_of(setup, skin, speed);
+  warn_of_stiffness(setup.body, warnings);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);

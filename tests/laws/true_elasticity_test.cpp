@@ -20,9 +20,11 @@ double farthest_from_rest(const Simulation& simulation) {
   return most;
 }
 
-Simulation box(MaterialModel model, const std::vector<KeyDefinition>& keys, double joint_zone = 0) {
+Simulation box(MaterialModel model, const std::vector<KeyDefinition>& keys, double joint_zone = 0,
+               std::optional<bool> isotropic = {}) {
   Settings settings = test::box_scene(25);
   settings.material.model = model;
+  settings.material.isotropic = isotropic;
   settings.binding.joint_zone = joint_zone;
   settings.tracks = {test::track("upper", keys)};
   return test::make_simulation(settings, test::fcc_box(7, 7, 25, r));
@@ -59,8 +61,8 @@ TEST(Paper, FlowsInTheSameBend) {
 }
 
 TEST(BondedVolume, KeepsTheVolumeOfABentBoxCloserThanBonded) {
-  const auto lost_volume = [](MaterialModel model) {
-    Simulation simulation = box(model, {test::bend_key(0, 0), test::bend_key(1, 90)});
+  const auto lost_volume = [](MaterialModel model, bool isotropic) {
+    Simulation simulation = box(model, {test::bend_key(0, 0), test::bend_key(1, 90)}, 0, isotropic);
     step_until(simulation, 2);
     const RestShape shape = rest_shape(simulation.body().rest, rest_neighbor_range(r));
     double volume = 0, whole = 0;
@@ -72,10 +74,12 @@ TEST(BondedVolume, KeepsTheVolumeOfABentBoxCloserThanBonded) {
     }
     return std::abs(1 - volume / whole);
   };
-  const double bonded = lost_volume(MaterialModel::bonded);
-  const double kept = lost_volume(MaterialModel::bonded_volume);
-  EXPECT_LT(kept, 0.02);
-  EXPECT_LT(kept, bonded / 2.5);
+  for (const bool isotropic : {false, true}) {
+    const double bonded = lost_volume(MaterialModel::bonded, isotropic);
+    const double kept = lost_volume(MaterialModel::bonded_volume, isotropic);
+    EXPECT_LT(kept, isotropic ? 0.0205 : 0.02);
+    EXPECT_LT(kept, bonded / (isotropic ? 2.3 : 2.5));  // isotropic ones keep more by themselves
+  }
 }
 
 TEST(Bonded, BalanceOfEnergyClosesOverABend) {

@@ -111,12 +111,16 @@ class Chance {
       if (!drawn.material.yield_strain) drawn.material.preset = MaterialPresetName::none;
     }
     if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
+    drawn.material.isotropic.reset();
     drawn.material.a = 2;
     if (drawn.material.damping_ratio) drawn.material.damping = MaterialOptions().damping;
     if (drawn.material.model != MaterialModel::paper) drawn.material.cohesion = Cohesion::all;
     if (drawn.material.model == MaterialModel::paper)
       drawn.material.breaking_strain = drawn.material.yield_strain = std::nullopt;
     if (drawn.body.packing != Packing::fcc) drawn.material.modulus_direction.reset();
+    if (drawn.material.model == MaterialModel::paper || drawn.body.packing != Packing::fcc)
+      drawn.material.isotropic.reset();
+    if (!is_isotropic(drawn.material, drawn.body.packing)) drawn.material.poisson_ratio = 0.45;
     drawn.material.preset = MaterialPresetName::none;
     drawn.skeleton.file.clear();
     drawn.motion.file.clear();

@@ -248,8 +248,9 @@ class Commands(SmallRun):
 
     def test_check_warns_with_number_and_cure(self):
         done = sinew("check", self.scene, "--set", "material.b=2.83", "--json", check=0)
-        self.assertEqual(json.loads(done.stdout)["warnings"], 2)
+        self.assertEqual(json.loads(done.stdout)["warnings"], 3)
         self.assertIn("times the volume", done.stderr)  # the scene's particles are coarse
+        self.assertIn("% softer", done.stderr)  # and thin
         self.assertIn("2.83", done.stderr)
         self.assertIn("material.b", done.stderr)
         text = self.scene.read_text()

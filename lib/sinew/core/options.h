@@ -88,7 +88,8 @@ struct MaterialPreset {
   double density;        ///< kg/m^3
   double young_modulus;  ///< Pa
   double poisson_ratio;  ///< in the range of bonded_volume
-  double damping_ratio;  ///< of the first bending mode: our choice, such bodies swing once or twice
+  double
+      damping_ratio;  ///< of the lowest elastic mode: our choice, such bodies swing once or twice
   std::optional<double> yield_strain;  ///< of a material that flows
   std::string_view what, source;
 };

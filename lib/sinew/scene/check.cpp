@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/bone_stiffness.h>
 #include <sinew/scene/check.h>
 
 #include <algorithm>
@@ -122,6 +121,21 @@ std::string bytes_text(std::uint64_t bytes) {
   return text;
 }
 
+std::vector<BoneStiffness> stiffness_along_bones(const Body& body) {
+  const Material& material = body.material;
+  std::vector<BoneStiffness> all;
+  for (std::size_t b = 0; b < body.skeleton.size(); ++b) {
+    const Bone& bone = body.skeleton.bones[b];
+    const double planes =
+        std::sqrt(body.binding.cross_section[b]) / half_plane_spacing(material.pair.r);
+    if (!(planes > 0)) continue;
+    const Vec3 along = body.lattice.transpose() * bone.rest.rotation.col(0);
+    all.push_back({bone.name, material.constants().young_modulus(along), planes,
+                   lack_of_bending_stiffness(planes, material.bond.second > 0)});
+  }
+  return all;
+}
+
 namespace {
 
 using Warnings = std::vector<std::string>;
@@ -146,32 +160,6 @@ void warn_of_material(const PairForce& pair, Warnings& warnings) {
     warnings.push_back("a is " + three_digits(pair.a / pair.r) +
                        " radii: between 2 and a neighbors do not pull and a free body swells; set "
                        "material.a to 2");
-}
-
-/// A body that shows another modulus than the one asked for.
-void warn_of_stiffness(const Body& body, Warnings& warnings) {
-  const double asked = body.material.young_modulus();
-  const auto bones = stiffness_along_bones(body);
-  const auto miss = [&](const BoneStiffness& bone) {
-    return std::abs(bone.bending_modulus() / asked - 1);
-  };
-  const auto count = std::count_if(bones.begin(), bones.end(), [&](const BoneStiffness& bone) {
-    return miss(bone) > largest_miss;
-  });
-  if (count == 0) return;
-  const BoneStiffness& worst = *std::max_element(
-      bones.begin(), bones.end(), [&](const auto& a, const auto& b) { return miss(a) < miss(b); });
-  const bool softer = worst.bending_modulus() < asked;
-  const bool isotropic = body.material.bond.second > 0;
-  warnings.push_back(
-      "bends along " + std::to_string(count) + " of " + std::to_string(bones.size()) +
-      (bones.size() == 1 ? " bone" : " bones") +
-      " are over 10 % softer or stiffer than the modulus of " + three_digits(asked) +
-      " Pa; most along '" + worst.bone + "': " + three_digits(worst.bending_modulus()) + " Pa, " +
-      std::to_string(std::lround(100 * miss(worst))) + (softer ? " % softer" : " % stiffer") +
-      ", of " + three_digits(worst.planes) + " planes across; make body.radius smaller" +
-      (isotropic ? ""
-                 : ", or use material.model bonded with fcc packing, which makes up for most"));
 }
 
 void warn_of_step(const StepChoice& steps, Warnings& warnings) {
@@ -328,7 +316,6 @@ std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surfac
   Warnings warnings;
   if (setup.body.material.model == MaterialModel::paper)
     warn_of_material(setup.body.material.pair, warnings);
-  warn_of_stiffness(setup.body, warnings);
   warn_of_step(setup.steps, warnings);
   warn_of_speed(bone_speed, warnings);
   for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
@@ -341,6 +328,31 @@ std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surfac
   warn_of_overlaps(setup, warnings);
   warn_of_coarse_surface(setup, surface, warnings);
   return warnings;
+}
+
+void warn_of_stiffness(const Body& body, std::vector<std::string>& warnings) {
+  const double asked = body.material.young_modulus();
+  const auto bones = stiffness_along_bones(body);
+  const auto miss = [&](const BoneStiffness& bone) {
+    return std::abs(bone.bending_modulus() / asked - 1);
+  };
+  const auto count = std::count_if(bones.begin(), bones.end(), [&](const BoneStiffness& bone) {
+    return miss(bone) > largest_miss;
+  });
+  if (count == 0) return;
+  const BoneStiffness& worst = *std::max_element(
+      bones.begin(), bones.end(), [&](const auto& a, const auto& b) { return miss(a) < miss(b); });
+  const bool softer = worst.bending_modulus() < asked;
+  const bool isotropic = body.material.bond.second > 0;
+  warnings.push_back(
+      "bends along " + std::to_string(count) + " of " + std::to_string(bones.size()) +
+      (bones.size() == 1 ? " bone" : " bones") +
+      " are over 10 % softer or stiffer than the modulus of " + three_digits(asked) +
+      " Pa; most along '" + worst.bone + "': " + three_digits(worst.bending_modulus()) + " Pa, " +
+      std::to_string(std::lround(100 * miss(worst))) + (softer ? " % softer" : " % stiffer") +
+      ", of " + three_digits(worst.planes) + " planes across; make body.radius smaller" +
+      (isotropic ? ""
+                 : ", or use material.model bonded with fcc packing, which makes up for most"));
 }
 
 }  // namespace sinew

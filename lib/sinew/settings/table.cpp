@@ -111,7 +111,7 @@ std::vector<Field<Settings>> make_damping_and_strength() {
       field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
                "damping constant C on the relative velocity of neighbors", not_negative),
       field<S>("material", "damping_ratio", SINEW_AT(S, material.damping_ratio), "",
-               "damping ratio of the body's first bending mode, instead of damping", not_negative,
+               "damping ratio of the body's lowest elastic mode, instead of damping", not_negative,
                "none"),
       choice<S>(
           "material", "damping_form", SINEW_AT(S, material.damping_form),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/physics/modes/coarse_body.h>
+#include <sinew/physics/modes/elastic_modes.h>
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,6 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/union_find.h>
 #include <sinew/physics/bond_factors.h>
-#include <sinew/physics/modes/coarse_body.h>
 #include <sinew/physics/modes/free_body.h>
 #include <sinew/physics/modes/nearly_solved.h>
 

@@ -30,4 +30,9 @@ struct ElasticModes {
 /// Of the body's largest connected part.
 ElasticModes elastic_modes(const Body& body);
 
+/// The same body of fewer particles, `times` as large, in FCC packing along its axes, without
+/// bones and world: each site stands for the particles that are nearest to it. Its material has the
+/// same moduli and density; each particle has the same mass.
+Body coarse_body(const Body& body, int times);
+
 }  // namespace sinew

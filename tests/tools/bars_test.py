@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bars that are pulled, bent and twisted through the product's own commands show the modulus asked for.
+
+usage: bars_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import sys
+import unittest
+
+from bars import Bar
+
+
+class Stiffness(unittest.TestCase):
+    def expect(self, bar, **shares):
+        for kind, (low, high) in shares.items():
+            with self.subTest(kind=kind, planes=bar.planes):
+                found = bar.stiffness(kind)
+                self.assertGreater(found, low)
+                self.assertLess(found, high)
+
+    def test_isotropic_bonds_show_the_modulus_asked_for(self):
+        """Within 6 % pulled and 12 % bent and twisted from 9 planes on."""
+        self.expect(Bar(9), pull=(0.94, 1.06), bend=(0.88, 1.12), twist=(0.88, 1.12))
+        self.expect(Bar(9, "110"), pull=(0.94, 1.06), bend=(0.88, 1.12), twist=(0.88, 1.12))
+
+    def test_thin_bars_lack_little(self):
+        self.expect(Bar(5), pull=(0.94, 1.06), bend=(0.8, 1.12), twist=(0.88, 1.12))
+
+    def test_a_mesh_that_ends_between_two_planes(self):
+        self.expect(Bar(9.5), pull=(0.94, 1.06), bend=(0.88, 1.12), twist=(0.88, 1.12))
+
+    def test_twelve_bonds_are_stiff_by_direction(self):
+        """[100] is the soft direction of a cubic crystal, and its surfaces lack half a plane each."""
+        self.expect(Bar(9, material={"isotropic": "false"}), pull=(0.56, 0.63))
+
+    def test_a_volume_that_is_kept_changes_no_modulus(self):
+        for ratio in (0.3, 0.45):
+            bar = Bar(9, material={"model": "bonded_volume", "poisson_ratio": ratio}, poisson_ratio=ratio)
+            self.expect(bar, pull=(0.9, 1.06))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
