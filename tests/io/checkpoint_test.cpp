@@ -118,8 +118,8 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 2;
-  expect_refused(resealed(other), {"version 2, not 1"});
+  other[12] = 3;
+  expect_refused(resealed(other), {"version 3, not 2"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});

@@ -174,6 +174,7 @@ BodyFile SyntheticRun::body() const {
   body.neighbors.assign(count(), 12);
   body.component.assign(count(), 0);
   body.bone = bone;
+  body.share.emplace(count(), 1.0);
   body.weight.emplace(count(), 1.0);
   body.meta = "{\"packing\": \"fcc\"}";
   return body;
