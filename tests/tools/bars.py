@@ -78,7 +78,7 @@ class Bar:
         self.material = {"model": "bonded", "young_modulus": YOUNG_MODULUS, **(material or {})}
         self.shear_modulus = YOUNG_MODULUS / (2 * (1 + poisson_ratio))
 
-    def run(self, kind, folder):
+    def run(self, kind, folder, *words):
         speed = math.sqrt(YOUNG_MODULUS / 1000)
         lowest = 22.4 * WIDTH / math.sqrt(12) * speed / self.length**2  # rad/s: of a clamped bar
         grip = 2.3 * self.radius
@@ -89,7 +89,7 @@ class Bar:
             mesh=mesh, radius=self.radius, rotation=self.rotation, grip=grip, upper=self.length - grip,
             material="{" + ", ".join(f"{key}: {value}" for key, value in self.material.items()) + "}",
             length=self.length, foot=foot, hand=hand, drag=2 * lowest, ramp=2 / lowest, duration=22 / lowest))
-        sinew("simulate", scene, "-o", folder / "run", "--quiet", check=0)
+        sinew("simulate", scene, "-o", folder / "run", "--quiet", *words, check=0)
         return folder / "run"
 
     def stiffness(self, kind):

@@ -5,9 +5,14 @@
 usage: bars_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
-from bars import Bar
+import meshio
+import numpy
+
+from bars import YOUNG_MODULUS, Bar
 
 
 class Stiffness(unittest.TestCase):
@@ -37,6 +42,19 @@ class Stiffness(unittest.TestCase):
         for ratio in (0.3, 0.45):
             bar = Bar(9, material={"model": "bonded_volume", "poisson_ratio": ratio}, poisson_ratio=ratio)
             self.expect(bar, pull=(0.9, 1.06))
+
+    def test_stress_is_that_of_the_pull_up_to_the_surface(self):
+        """E times the strain in every particle, those of faces and edges included."""
+        bar = Bar(9)
+        with tempfile.TemporaryDirectory() as temporary:
+            run = bar.run("pull", Path(temporary), "--set", "output.arrays=stress")
+            rest = meshio.read(run / "body.vtu").points
+            end = meshio.read(sorted((run / "particles").glob("*.vtu"))[-1])
+        middle = abs(rest[:, 2] - bar.length / 2) < bar.length / 8
+        along = end.point_data["stress"][middle][:, 2]
+        pulled = numpy.polyfit(rest[middle][:, 2], end.point_data["displacement"][middle][:, 2], 1)[0] * YOUNG_MODULUS
+        self.assertLess(abs(along.mean() / pulled - 1), 0.03)
+        self.assertLess(abs(along / pulled - 1).max(), 0.25)
 
 
 if __name__ == "__main__":

@@ -116,11 +116,15 @@ Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
 
 Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
   Mat3 sum = Mat3::Zero();
-  for (const auto j : rest.shape.neighbors.of(i)) {
+  const auto add = [&](std::uint32_t j, const auto& force) {
     const Vec3 apart = now[i] - now[j];
     const double d = apart.norm(), before = (rest.shape.points[i] - rest.shape.points[j]).norm();
-    if (d > 0) sum += virial(rest.law.bond(d, before), apart, d);
-  }
+    const double factor = rest.law.factor ? rest.law.factor(static_cast<std::uint32_t>(i), j) : 1;
+    if (d > 0) sum += virial(factor * force(d, before), apart, d);
+  };
+  for (const auto j : rest.shape.neighbors.of(i)) add(j, rest.law.bond);
+  if (rest.second.size() > 0)
+    for (const auto j : rest.second.of(i)) add(j, rest.law.second);
   return sum;
 }
 
@@ -165,7 +169,8 @@ Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Neig
     const double d = std::sqrt(other.squared);
     sum += virial(rest.law.force(d), other.apart, d);
   }
-  return sum / (2 * volume_per_particle(rest.radius)) + volume_stress(rest, now, i);
+  const double share = rest.share.empty() ? 1 : rest.share[i];
+  return (sum / (2 * volume_per_particle(rest.radius)) + volume_stress(rest, now, i)) / share;
 }
 
 ParticleValues particle_values(const RestBody& rest, const FrameState& state) {

@@ -129,6 +129,20 @@ bool all_finite(const Points& points) {
   return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
+/// The pairs within a range that are no neighbors.
+NeighborLists second_neighbors(const RestShape& shape, double range) {
+  const NeighborLists all = neighbors_within(shape.points, range);
+  NeighborLists second;
+  second.first.push_back(0);
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    const auto nearest = shape.neighbors.of(i);
+    for (const std::uint32_t j : all.of(i))
+      if (!std::binary_search(nearest.begin(), nearest.end(), j)) second.neighbor.push_back(j);
+    second.first.push_back(static_cast<std::uint32_t>(second.neighbor.size()));
+  }
+  return second;
+}
+
 RestBody rest_body(RestInput input) {
   check(input);
   RestBody body;
@@ -141,6 +155,8 @@ RestBody rest_body(RestInput input) {
                                 [&](const Vec3& place) { return near_joint(zones, place); });
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
   body.shape = rest_shape(std::move(input.positions), rest_neighbor_range(input.radius));
+  if (input.law.second) body.second = second_neighbors(body.shape, input.law.second_range);
+  body.share = std::move(input.share);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);

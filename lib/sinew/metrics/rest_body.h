@@ -24,6 +24,11 @@ struct PairLaw {
   std::function<double(double)> force;
   /// The same between neighbors at rest, from distance and rest distance; empty: as `force`.
   std::function<double(double, double)> bond;
+  /// The same between second neighbors at rest, which also act as others do; empty: no more.
+  std::function<double(double, double)> second;
+  double second_range = 0;  ///< m; pairs at rest that are closer, and no neighbors, are second ones
+  /// Of two particles: on the force of their bond; empty: 1.
+  std::function<double(std::uint32_t, std::uint32_t)> factor;
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
 };
 
@@ -39,6 +44,7 @@ struct RestInput {
   PairLaw law;
   double mass = not_measured;  ///< of a particle, kg
   std::vector<double> weight;  ///< n; the weight of that bone in each particle; or empty
+  std::vector<double> share;   ///< n; of the body around each over that inside; empty: 1 each
 };
 
 /// A particle that follows a bone: its attachment at rest, and whether a joint is near.
@@ -51,7 +57,8 @@ struct Bound {
 };
 
 struct RestBody {
-  RestShape shape;  ///< neighbors: pairs closer than 2.2 r
+  RestShape shape;       ///< neighbors: pairs closer than 2.2 r
+  NeighborLists second;  ///< neighbors of law.second; empty: there are none
   Triangles surface;
   double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
   double area = 0;    ///< of the surface, m^2
@@ -59,6 +66,7 @@ struct RestBody {
   std::vector<Bound> bound;
   std::vector<int> bone_of;       ///< n; -1 for none
   std::vector<double> weight;     ///< n, or empty
+  std::vector<double> share;      ///< n, or empty: 1 each
   std::vector<double> stiffened;  ///< n; w of each particle's volume, empty where the law has none
   Slices slices;
   std::vector<Section> sections;

@@ -142,7 +142,7 @@ void FrameWriter::begin_export(std::size_t kept) {
 void FrameWriter::begin_arrays(const OutputSettings& output) {
   arrays_ = requested_arrays(output.arrays);
   if (arrays_.empty()) return;
-  RestInput input = measured_body(body_.material, body_.skeleton);
+  RestInput input = measured_body(body_.material, body_.skeleton, body_.factors, body_.share);
   input.positions = body_.rest;
   input.surface = surface_;
   const auto bones = bones_of_particles(body_);

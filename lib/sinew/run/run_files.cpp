@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <sinew/core/dataset.h>
@@ -13,6 +14,7 @@
 #include <sinew/physics/laws.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
 #include <sinew/settings/read_scene.h>
 
 namespace sinew {
@@ -196,6 +198,7 @@ void keep_written(RunFiles& run) {
   keep(run.ids, run.body.component);
   if (run.body.bone) keep(run.ids, *run.body.bone);
   if (run.body.weight) keep(run.ids, *run.body.weight);
+  if (run.body.share) keep(run.ids, *run.body.share);
 }
 
 }  // namespace
@@ -252,7 +255,7 @@ void FramesInOrder::begin() {
                                [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
-PairLaw pair_law(const Material& material) {
+PairLaw pair_law(const Material& material, const BondFactors& factors) {
   const ForceLaw& law = law_of(material);
   const bool changes = material.bond.breaking_strain > 0 || material.bond.yield_strain > 0;
   if (law.has_bonds && changes) return {};
@@ -262,24 +265,37 @@ PairLaw pair_law(const Material& material) {
     measured.bond = [&law, material](double d, double rest) {
       return law.bond_force(material, {rest, material.bond.stiffness}, d);
     };
+  if (material.bond.second > 0) {
+    measured.second_range = second_neighbor_range * material.pair.r;
+    measured.second = [&law, material](double d, double rest) {
+      return law.bond_force(material, {rest, material.bond.second}, d);
+    };
+    measured.factor = [kept = std::make_shared<const BondFactors>(factors)](
+                          std::uint32_t i, std::uint32_t j) { return kept->of(i).at(j); };
+  }
   if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
   return measured;
 }
 
-RestInput measured_body(const Material& material, const Skeleton& skeleton) {
+RestInput measured_body(const Material& material, const Skeleton& skeleton,
+                        const BondFactors& factors, std::vector<double> share) {
   RestInput input;
   for (const Bone& bone : skeleton.bones)
     input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
   input.radius = material.pair.r;
   input.interaction_range = material.pair.b;
   input.mass = material.mass;
-  input.law = pair_law(material);
+  input.law = pair_law(material, factors);
+  input.share = std::move(share);
   return input;
 }
 
 RestInput measured_body(const RunFiles& run) {
-  RestInput input = measured_body(run.material, run.skeleton);
-  input.positions = positions_of(run.body.particles);
+  Points rest = positions_of(run.body.particles);
+  std::vector<double> share = run.body.share.value_or(std::vector<double>());
+  const BondFactors factors = bond_factors(rest, run.material, share);
+  RestInput input = measured_body(run.material, run.skeleton, factors, std::move(share));
+  input.positions = std::move(rest);
   input.surface = run.surface;
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
   if (run.body.weight) input.weight = *run.body.weight;

@@ -16,6 +16,7 @@
 #include <sinew/io/single_files.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/rest_body.h>
+#include <sinew/physics/bond_factors.h>
 #include <sinew/physics/material.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/run_folder.h>
@@ -83,11 +84,12 @@ class FramesInOrder {
 
 /// The material's forces between particles as functions of position; empty where bonds break or
 /// creep and the forces depend on history.
-PairLaw pair_law(const Material& material);
+PairLaw pair_law(const Material& material, const BondFactors& factors = {});
 
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
 /// positions, surface and the bones of particles.
-RestInput measured_body(const Material& material, const Skeleton& skeleton);
+RestInput measured_body(const Material& material, const Skeleton& skeleton,
+                        const BondFactors& factors = {}, std::vector<double> share = {});
 
 /// The same from a run's files, with its body at rest.
 RestInput measured_body(const RunFiles& run);
