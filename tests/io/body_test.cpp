@@ -42,18 +42,21 @@ TEST_F(Body, IsRefusedWhenAnArrayIsMissingOrWrong) {
     EXPECT_TRUE(contains(error.what(), "body.vtu: ")) << error.what();
     return std::string(error.what());
   };
-  const auto& numbers_in = [](Dataset& data, int k) -> std::vector<double>& {
-    return std::get<1>(data.point_columns[k].values);
+  const auto numbers_in = [](Dataset& data, std::string_view name) -> std::vector<double>& {
+    for (Column& column : data.point_columns)
+      if (column.name == name) return std::get<1>(column.values);
+    throw std::out_of_range(std::string(name));
   };
-  EXPECT_TRUE(contains(
-      message([](Dataset& d) { d.point_columns.erase(d.point_columns.end() - 3); }), "component"));
+  const auto without_component = [](Dataset& d) {
+    std::erase_if(d.point_columns, [](const Column& one) { return one.name == "component"; });
+  };
+  EXPECT_TRUE(contains(message(without_component), "component"));
   EXPECT_TRUE(
       contains(message([](Dataset& d) { std::get<0>(d.point_columns[0].values)[3] = 4; }), "ids"));
-  EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, 1)[3] = 1; }), "radius"));
-  EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, 2)[0] = 0; }), "mass"));
-  EXPECT_TRUE(contains(
-      message([&](Dataset& d) { numbers_in(d, int(d.point_columns.size()) - 1)[2] = NAN; }),
-      "weight"));
+  EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, "radius")[3] = 1; }), "radius"));
+  EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, "mass")[0] = 0; }), "mass"));
+  for (const std::string name : {"share", "weight"})
+    EXPECT_TRUE(contains(message([&](Dataset& d) { numbers_in(d, name)[2] = NAN; }), name)) << name;
   EXPECT_TRUE(contains(message([](Dataset& d) { d.points[2].x() = NAN; }), "finite"));
   EXPECT_TRUE(contains(message([](Dataset& d) { d = {}; }), "no particles"));
 }

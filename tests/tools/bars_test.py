@@ -54,7 +54,7 @@ class Stiffness(unittest.TestCase):
         along = end.point_data["stress"][middle][:, 2]
         pulled = numpy.polyfit(rest[middle][:, 2], end.point_data["displacement"][middle][:, 2], 1)[0] * YOUNG_MODULUS
         self.assertLess(abs(along.mean() / pulled - 1), 0.03)
-        self.assertLess(abs(along / pulled - 1).max(), 0.25)
+        self.assertLess(abs(along / pulled - 1).max(), 0.3)
 
 
 if __name__ == "__main__":
