@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
 
 #include <gtest/gtest.h>

@@ -51,6 +51,16 @@ int broken_bonds(const Simulation& simulation) {
   return std::accumulate(broken.begin(), broken.end(), 0);
 }
 
+/// The bonds of both are whole and broken alike, and have crept alike.
+void expect_same_bonds(const Both& both, const Points& rest) {
+  const NeighborLists nearest = neighbors_within(rest, rest_neighbor_range(r));
+  const NeighborLists second;
+  const auto lists = both.lists.rest_of_bonds(nearest, second);
+  const auto cells = both.cells.rest_of_bonds(nearest, second);
+  for (std::size_t e = 0; e < nearest.neighbor.size(); ++e)
+    EXPECT_NEAR(lists[e], cells[e], 1e-9 * r);
+}
+
 TEST(SteppersOfSolids, TakeTheSameSteps) {
   for (const auto& [name, settings] : solids())
     for (const Integrator integrator : integrators) {
@@ -88,6 +98,7 @@ TEST(SteppersOfSolids, BreakTheSameBonds) {
     both.step_until(200);
     EXPECT_GT(broken_bonds(both.cells), 20);
     EXPECT_EQ(both.lists.broken_bonds(), both.cells.broken_bonds());
+    expect_same_bonds(both, rest);
     expect_same_energies(both.lists.energies(), both.cells.energies(), 1e-9);
   }
 }
@@ -105,6 +116,7 @@ TEST(SteppersOfSolids, TakeTheSameStepsInAnyOrderAndPacking) {
               test::step_of(settings, body));
     both.step_until(50);
     expect_same(both, 1e-11);
+    expect_same_bonds(both, rest);
   }
 }
 

@@ -51,6 +51,23 @@ solver: {{duration: {duration}}}
 output: {{interval: {duration}}}
 """
 
+CONTRACTED = """
+body:
+  mesh: {mesh}
+  radius: {radius}
+  lattice_rotation: {rotation}
+material: {material}
+skeleton: {{bones: [{{name: axis, head: [0, 0, 0], tail: [0, 0, {length}]}}]}}
+binding: {{stiffness: 0, twist_stiffness: 0, axial_stiffness: 0}}
+world:
+  drag: {drag}
+  muscles:
+    - {{name: whole, direction: [0, 0, 1], strength: {strength}, low: [-1, -1, -1], high: [1, 1, 9],
+       keys: [{{time: 0, activation: 0}}, {{time: {ramp}, activation: 1}}]}}
+solver: {{duration: {duration}}}
+output: {{interval: {duration}}}
+"""
+
 
 def write_box(path, width, length):
     half = width / 2
@@ -79,16 +96,26 @@ class Bar:
         self.shear_modulus = YOUNG_MODULUS / (2 * (1 + poisson_ratio))
 
     def run(self, kind, folder, *words):
+        """Pulled, bent or twisted until it rests; options of sinew simulate follow."""
         speed = math.sqrt(YOUNG_MODULUS / 1000)
         lowest = 22.4 * WIDTH / math.sqrt(12) * speed / self.length**2  # rad/s: of a clamped bar
         grip = 2.3 * self.radius
         foot, hand = motions(kind, self.length)
+        return self.settled(SCENE, lowest, folder, words, grip=grip, upper=self.length - grip, foot=foot, hand=hand)
+
+    def contract(self, strength, folder, *words):
+        """The free bar, whose muscle pulls along it with this stress (Pa)."""
+        lowest = math.pi * math.sqrt(YOUNG_MODULUS / 1000) / self.length
+        return self.settled(CONTRACTED, lowest / 2, folder, words, strength=strength)
+
+    def settled(self, template, lowest, folder, words, **values):
+        """`lowest`: angular frequency of the slowest motion, rad/s."""
         mesh, scene = folder / "bar.obj", folder / "bar.yaml"
         write_box(mesh, WIDTH, self.length)
-        scene.write_text(SCENE.format(
-            mesh=mesh, radius=self.radius, rotation=self.rotation, grip=grip, upper=self.length - grip,
+        scene.write_text(template.format(
+            mesh=mesh, radius=self.radius, rotation=self.rotation, length=self.length,
             material="{" + ", ".join(f"{key}: {value}" for key, value in self.material.items()) + "}",
-            length=self.length, foot=foot, hand=hand, drag=2 * lowest, ramp=2 / lowest, duration=22 / lowest))
+            drag=2 * lowest, ramp=2 / lowest, duration=22 / lowest, **values))
         sinew("simulate", scene, "-o", folder / "run", "--quiet", *words, check=0)
         return folder / "run"
 

@@ -4,6 +4,7 @@
 
 usage: bars_test.py BIN SOURCE      folder of the programs, folder of the project
 """
+import csv
 import sys
 import tempfile
 import unittest
@@ -43,18 +44,66 @@ class Stiffness(unittest.TestCase):
             bar = Bar(9, material={"model": "bonded_volume", "poisson_ratio": ratio}, poisson_ratio=ratio)
             self.expect(bar, pull=(0.9, 1.06))
 
-    def test_stress_is_that_of_the_pull_up_to_the_surface(self):
-        """E times the strain in every particle, those of faces and edges included."""
-        bar = Bar(9)
+
+class Middle:
+    """What happened in the middle of a bar."""
+
+    def __init__(self, bar, run):
+        rest = meshio.read(run / "body.vtu").points
+        self.end = meshio.read(sorted((run / "particles").glob("*.vtu"))[-1]).point_data
+        self.inside = abs(rest[:, 2] - bar.length / 2) < bar.length / 8
+        along = numpy.polyfit(rest[self.inside][:, 2], self.end["displacement"][self.inside][:, 2], 1)
+        self.strain = along[0]
+
+    def of(self, name):
+        return self.end[name][self.inside]
+
+
+class Stress(unittest.TestCase):
+    def pulled(self, material, *words):
+        bar = Bar(9, material=material)
         with tempfile.TemporaryDirectory() as temporary:
-            run = bar.run("pull", Path(temporary), "--set", "output.arrays=stress")
-            rest = meshio.read(run / "body.vtu").points
-            end = meshio.read(sorted((run / "particles").glob("*.vtu"))[-1])
-        middle = abs(rest[:, 2] - bar.length / 2) < bar.length / 8
-        along = end.point_data["stress"][middle][:, 2]
-        pulled = numpy.polyfit(rest[middle][:, 2], end.point_data["displacement"][middle][:, 2], 1)[0] * YOUNG_MODULUS
-        self.assertLess(abs(along.mean() / pulled - 1), 0.03)
-        self.assertLess(abs(along / pulled - 1).max(), 0.3)
+            run = bar.run("pull", Path(temporary), *words)
+            middle = Middle(bar, run)
+            middle.bonds = None
+            if (run / "bonds").exists():
+                middle.bonds = meshio.read(sorted((run / "bonds").glob("*.vtu"))[-1])
+            with (run / "bones.csv").open() as file:
+                rows = [row for row in csv.DictReader(file) if row["bone"] == "hand"]
+            middle.pull = -float(rows[-1]["pin_force_z"])
+        middle.half_way = bar.length / 2
+        return middle
+
+    def test_is_that_of_the_pull_up_to_the_surface(self):
+        """E times the strain in every particle, those of faces and edges included."""
+        middle = self.pulled({}, "--set", "output.arrays=stress")
+        along = middle.of("stress")[:, 2] / (middle.strain * YOUNG_MODULUS)
+        self.assertLess(abs(along.mean() - 1), 0.03)
+        self.assertLess(abs(along - 1).max(), 0.3)
+
+    def test_of_bonds_that_may_break_or_yield_is_written_unasked(self):
+        for material in ({"breaking_strain": 0.5}, {"yield_strain": 0.5}):
+            middle = self.pulled(material)
+            self.assertLess(abs(middle.of("von_mises").mean() / (middle.strain * YOUNG_MODULUS) - 1), 0.03)
+
+    def test_forces_of_the_bonds_through_a_section_are_the_pull(self):
+        for material in ({}, {"model": "paper"}, {"yield_strain": 0.0005, "creep_rate": 50}):
+            middle = self.pulled(material, "--set", "output.bonds=true")
+            ends = middle.bonds.points[middle.bonds.cells_dict["line"]][:, :, 2]
+            across = (ends[:, 0] - middle.half_way) * (ends[:, 1] - middle.half_way) < 0
+            share = abs(ends[:, 1] - ends[:, 0]) / middle.bonds.cell_data["length"][0]
+            force = (middle.bonds.cell_data["force"][0] * share)[across].sum()
+            self.assertLess(abs(force / middle.pull - 1), 1e-4)
+
+    def test_of_a_free_muscle_is_none_and_it_shortens_by_its_stress_over_the_modulus(self):
+        strength = YOUNG_MODULUS / 500
+        for axis in ("100", "random"):
+            bar = Bar(9, axis=axis)
+            with tempfile.TemporaryDirectory() as temporary:
+                run = bar.contract(strength, Path(temporary), "--set", "output.arrays=stress")
+                middle = Middle(bar, run)
+            self.assertLess(abs(-middle.strain * YOUNG_MODULUS / strength - 1), 0.05)
+            self.assertLess(abs(middle.of("stress")[:, 2].mean()) / strength, 0.02)
 
 
 if __name__ == "__main__":

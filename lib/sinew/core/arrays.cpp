@@ -98,8 +98,9 @@ std::vector<WrittenArray> table_of_requested(const char* series) {
       {series, point, "strain_eq", "1", one, real, plain,
        "equivalent strain sqrt(2/3 dev H : dev H), H the Hencky strain, on request"},
       {series, point, "stress", "Pa", tensor, real, plain,
-       "virial stress -(1/2V0) sum f r, tension positive, on request"},
-      {series, point, "von_mises", "Pa", one, real, plain, "von Mises stress, on request"},
+       "virial stress -(1/2V) sum f r with volumes and muscles, tension positive, on request"},
+      {series, point, "von_mises", "Pa", one, real, plain,
+       "von Mises stress, on request and where positions alone do not give it"},
       {series, point, "D2min", "m^2", one, real, plain,
        "non-affine motion of the neighbors, which F does not explain, on request"},
       {series, point, "turnover", "1", one, real, plain,
@@ -155,6 +156,21 @@ std::vector<WrittenArray> table_of_bones() {
       {"bones", cell, "bone", "1", one, whole, plain, "number of the bone, from 0"},
       {"bones", cell, "parent", "1", one, whole, plain, "parent of the bone, -1 for none"},
   };
+}
+
+std::vector<WrittenArray> table_of_bonds() {
+  std::vector<WrittenArray> rows = {
+      {"bonds", point, "Points", "m", xyz, real, plain, "position of the particle"},
+      {"bonds", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
+      {"bonds", cell, "strain", "1", one, real, scalars,
+       "length over its rest length, which may have crept, minus 1; none once broken"},
+      {"bonds", cell, "length", "m", one, real, plain, "distance of the two particles"},
+      {"bonds", cell, "force", "N", one, real, plain, "tension positive; 0 once broken"},
+      {"bonds", cell, "broken", "1", one, whole, plain,
+       "1 once it is broken; in the paper's model while it is longer than b"},
+  };
+  rows[2].partial = true;
+  return rows;
 }
 
 std::vector<WrittenArray> table_of_frames() {
@@ -222,7 +238,7 @@ std::vector<WrittenArray> make_table() {
   for (auto rows :
        {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles,
         table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs, table_of_bones,
-        table_of_frames, table_of_obstacles, table_of_defects, table_of_blowup})
+        table_of_bonds, table_of_frames, table_of_obstacles, table_of_defects, table_of_blowup})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

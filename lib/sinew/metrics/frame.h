@@ -33,6 +33,11 @@ struct FrameState {
   Energies energies;
   std::vector<double> bone_lengths;             ///< head to tail, m; empty: as at rest
   std::vector<std::int32_t> broken_bonds = {};  ///< of each particle; empty: it has no bonds
+  /// Rest lengths of the bonds as they are now, m, 0 once broken: by entry of
+  /// RestBody::shape.neighbors, then of second. Empty: as at rest, or not known.
+  std::vector<double> bond_rest = {};
+  std::vector<Mat3> muscle_stress = {};  ///< of each particle, Pa; empty: none, or not known
+  std::vector<double> von_mises = {};    ///< of each, Pa, as the run has written it; or empty
 };
 
 /// The metrics of one frame; table.cpp gives unit, meaning and formula of each.

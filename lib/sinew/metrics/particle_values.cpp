@@ -8,7 +8,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
-#include <sinew/core/particles.h>
+#include <sinew/metrics/pair_forces.h>
 
 namespace sinew {
 
@@ -102,76 +102,22 @@ void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& no
   out.turnover[i] = all_before > 0 ? (out.lost[i] + out.gained[i]) / all_before : not_measured;
 }
 
-/// -f (x) r of one pair, N m.
-Mat3 virial(double force, const Vec3& apart, double d) {
-  return -force / d * apart * apart.transpose();
-}
-
-/// Of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2: the stress, over V0.
-Mat3 volume_stress(const RestBody& rest, const Points& now, std::size_t i) {
-  if (rest.stiffened.empty() || rest.stiffened[i] == 0) return Mat3::Zero();
-  const double J = deformation_gradient(rest.shape, now, i).determinant();
-  return rest.law.volume_stiffness * rest.stiffened[i] * (J - 1) * J * Mat3::Identity();
-}
-
-Mat3 bonds_virial(const RestBody& rest, const Points& now, std::size_t i) {
-  Mat3 sum = Mat3::Zero();
-  const auto add = [&](std::uint32_t j, const auto& force) {
-    const Vec3 apart = now[i] - now[j];
-    const double d = apart.norm(), before = (rest.shape.points[i] - rest.shape.points[j]).norm();
-    const double factor = rest.law.factor ? rest.law.factor(static_cast<std::uint32_t>(i), j) : 1;
-    if (d > 0) sum += virial(factor * force(d, before), apart, d);
-  };
-  for (const auto j : rest.shape.neighbors.of(i)) add(j, rest.law.bond);
-  if (rest.second.size() > 0)
-    for (const auto j : rest.second.of(i)) add(j, rest.law.second);
-  return sum;
-}
-
-void add_surroundings(ParticleValues& out, const RestBody& rest, const Points& now) {
+void add_surroundings(ParticleValues& out, const RestBody& rest, const FrameState& state) {
+  const Points& now = state.positions;
   const double range = std::max(rest_neighbor_range(rest.radius), rest.interaction_range);
+  const bool finds_stress = !out.von_mises.empty() && state.von_mises.empty();
   const CellGrid grid(now, range);
   parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
       find_neighbors(now, grid, range, i, neighbors);
       count_neighbors(out, rest, now, neighbors, i);
-      if (rest.law.force) out.von_mises[i] = von_mises(virial_stress(rest, now, neighbors, i));
+      if (finds_stress) out.von_mises[i] = von_mises(virial_stress(rest, state, neighbors, i));
     }
   });
 }
 
 }  // namespace
-
-double von_mises(const Mat3& stress) {
-  const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
-  return std::sqrt(1.5 * deviator.squaredNorm());
-}
-
-void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                    std::vector<Neighbor>& found) {
-  found.clear();
-  grid.for_each_near(now[i], [&](std::uint32_t j) {
-    const Vec3 apart = now[i] - now[j];
-    const double squared = apart.squaredNorm();
-    if (j != i && squared < range * range) found.push_back({j, apart, squared});
-  });
-}
-
-Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Neighbor> neighbors,
-                   std::size_t i) {
-  const double range = rest.interaction_range;
-  const auto bonded = rest.shape.neighbors.of(i);
-  Mat3 sum = rest.law.bond ? bonds_virial(rest, now, i) : Mat3(Mat3::Zero());
-  for (const Neighbor& other : neighbors) {
-    if (other.squared >= range * range || other.squared == 0) continue;
-    if (rest.law.bond && std::binary_search(bonded.begin(), bonded.end(), other.index)) continue;
-    const double d = std::sqrt(other.squared);
-    sum += virial(rest.law.force(d), other.apart, d);
-  }
-  const double share = rest.share.empty() ? 1 : rest.share[i];
-  return (sum / (2 * volume_per_particle(rest.radius)) + volume_stress(rest, now, i)) / share;
-}
 
 ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
   ParticleValues out;
@@ -179,11 +125,12 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
   for (auto* values : {&out.displacement, &out.speed, &out.J, &out.strain, &out.stretch, &out.D2min,
                        &out.neighbors, &out.lost, &out.gained, &out.turnover, &out.pose_error})
     values->resize(n);
-  if (rest.law.force) out.von_mises.resize(n);
+  out.von_mises = state.von_mises;
+  if (knows_forces(rest, state)) out.von_mises.resize(n);
   add_motion(out, rest, state);
   add_deformation(out, rest.shape, state.positions);
   add_pose(out, rest, state);
-  add_surroundings(out, rest, state.positions);
+  add_surroundings(out, rest, state);
   out.weight = rest.weight;
   return out;
 }
@@ -248,16 +195,9 @@ Values<6> hencky(const Mat3& F) {
   return symmetric(directions * logs.asDiagonal() * directions.transpose());
 }
 
-Column stresses(std::string_view name, const RestBody& rest, const Points& now) {
-  Values<6> none;
-  none.fill(not_measured);
-  if (!rest.law.force) return filled<6>(name, now.size(), [&](std::size_t) { return none; });
-  const CellGrid grid(now, rest.interaction_range);
-  return filled<6>(name, now.size(), [&](std::size_t i) {
-    std::vector<Neighbor> neighbors;
-    find_neighbors(now, grid, rest.interaction_range, i, neighbors);
-    return symmetric(virial_stress(rest, now, neighbors, i));
-  });
+Column stress_column(std::string_view name, const RestBody& rest, const FrameState& state) {
+  const std::vector<Mat3> found = stresses(rest, state);
+  return filled<6>(name, found.size(), [&](std::size_t i) { return symmetric(found[i]); });
 }
 
 Column inverted(std::string_view name, const std::vector<double>& J) {
@@ -302,7 +242,7 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
     else if (name == "hencky_strain")
       columns.push_back(of_gradient<6>(name, rest, now, hencky));
     else if (name == "stress")
-      columns.push_back(stresses(name, rest, now));
+      columns.push_back(stress_column(name, rest, state));
     else {
       if (values.J.empty()) values = particle_values(rest, state);
       columns.push_back(scalar(name, values));
@@ -315,17 +255,23 @@ namespace {
 
 const char* why_undefined(std::string_view name) {
   if (name == "stress" || name == "von_mises")
-    return "the forces of bonds that break or creep are not known from positions alone";
+    return "forces of muscles and of bonds that break or creep do not follow from positions alone; "
+           "write it with the run, by output.arrays";
   if (name == "pose_error") return "no particle has a bone";
   return "all neighbors of each particle lie in a plane";
 }
 
 }  // namespace
 
-void refuse_undefined(const RestBody& rest, std::span<const std::string_view> names) {
-  FrameState at_rest;
-  at_rest.positions = rest.shape.points;
-  for (const MeasuredBone& bone : rest.bones) at_rest.bones.push_back(bone.rest);
+FrameState state_at_rest(const RestBody& rest) {
+  FrameState state;
+  state.positions = rest.shape.points;
+  for (const MeasuredBone& bone : rest.bones) state.bones.push_back(bone.rest);
+  return state;
+}
+
+void refuse_undefined(const RestBody& rest, const FrameState& at_rest,
+                      std::span<const std::string_view> names) {
   for (const Column& array : particle_arrays(rest, at_rest, names)) {
     const auto* values = std::get_if<std::vector<double>>(&array.values);
     if (values != nullptr &&

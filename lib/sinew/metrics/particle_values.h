@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include <sinew/core/cell_grid.h>
 #include <sinew/core/dataset.h>
 #include <sinew/metrics/frame.h>
 #include <sinew/metrics/rest_body.h>
@@ -35,29 +34,9 @@ struct ParticleValues {
   std::vector<double> turnover;      ///< (lost + gained) / neighbors at rest
   std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
   std::vector<double> weight;        ///< weight of its bone in it; empty where not known
-  /// sqrt(3/2 dev s : dev s) of the virial stress s = -(1/2V0) sum f (x) r, Pa; empty where the
-  /// body's pair force is not known.
+  /// Of the virial stress (pair_forces.h), Pa; empty where the forces are not known.
   std::vector<double> von_mises;
 };
-
-/// A particle near another one.
-struct Neighbor {
-  std::uint32_t index;
-  Vec3 apart;      ///< from it to the other one, m
-  double squared;  ///< of its length, m^2
-};
-
-/// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
-void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                    std::vector<Neighbor>& found);
-
-/// The virial stress of particle i, Pa: of all forces between particles and the volume force of
-/// each. The body's pair force must be known; `neighbors` are those within b at least.
-Mat3 virial_stress(const RestBody& rest, const Points& now, std::span<const Neighbor> neighbors,
-                   std::size_t i);
-
-/// sqrt(3/2 dev s : dev s).
-double von_mises(const Mat3& stress);
 
 /// In parallel. The state must be one of this body.
 ParticleValues particle_values(const RestBody& rest, const FrameState& state);
@@ -71,7 +50,12 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
                                     std::span<const std::string_view> names);
 
-/// Throws bad input for an array that no particle of the body has a value of, with the reason.
-void refuse_undefined(const RestBody& rest, std::span<const std::string_view> names);
+/// The body at rest as a frame, without velocities.
+FrameState state_at_rest(const RestBody& rest);
+
+/// Throws bad input for an array that no particle of a state at rest has a value of, with the
+/// reason.
+void refuse_undefined(const RestBody& rest, const FrameState& at_rest,
+                      std::span<const std::string_view> names);
 
 }  // namespace sinew

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@
 
 namespace sinew {
 
-/// The forces between particles as functions of their positions. Called from several threads.
+/// The forces between particles as functions of their distances. Called from several threads.
 struct PairLaw {
   /// Force between two particles at a distance (m), N, positive repels; empty: not known.
   std::function<double(double)> force;
@@ -29,7 +30,11 @@ struct PairLaw {
   double second_range = 0;  ///< m; pairs at rest that are closer, and no neighbors, are second ones
   /// Of two particles: on the force of their bond; empty: 1.
   std::function<double(std::uint32_t, std::uint32_t)> factor;
+  /// Neighbors at rest farther apart than this hold no longer, m.
+  double reach = std::numeric_limits<double>::infinity();
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
+  bool bonds_change = false;    ///< they break or creep: a frame's state must contain them
+  bool has_muscles = false;     ///< a frame's state must contain their stress
 };
 
 /// Input: the body at rest and its constants. Particles are in the written order.

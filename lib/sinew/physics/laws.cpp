@@ -57,4 +57,9 @@ const ForceLaw& law_of(const Material& material) {
   return laws.front();
 }
 
+bool bonds_change(const Material& material) {
+  return law_of(material).has_bonds &&
+         (material.bond.breaking_strain > 0 || material.bond.yield_strain > 0);
+}
+
 }  // namespace sinew

@@ -187,6 +187,13 @@ std::vector<std::int32_t> Simulation::broken_bonds() const {
   return std::visit([](const auto& stepper) { return stepper.broken_bonds(); }, stepper_);
 }
 
+std::vector<double> Simulation::rest_of_bonds(const NeighborLists& nearest,
+                                              const NeighborLists& second) const {
+  BondRest rest(nearest, second);
+  std::visit([&](const auto& stepper) { stepper.read(rest); }, stepper_);
+  return rest.take();
+}
+
 std::vector<Reaction> Simulation::reactions_of_obstacles() {
   evaluate();
   return std::visit([](const auto& stepper) { return stepper.reactions_of_obstacles(); }, stepper_);

@@ -64,6 +64,11 @@ class Simulation {
   /// which has no bonds.
   std::vector<std::int32_t> broken_bonds() const;
 
+  /// The rest length of each bond now, m, 0 once broken: by entry of `nearest`, then of `second`,
+  /// the neighbors at rest by id, ascending. Zeros for a material without bonds.
+  std::vector<double> rest_of_bonds(const NeighborLists& nearest,
+                                    const NeighborLists& second) const;
+
   /// The force of the body on each obstacle of its world at the present moment, about its frame.
   std::vector<Reaction> reactions_of_obstacles();
   /// The force of the body on each bone at the present moment, about its head.

@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
 #include <sinew/core/options.h>
 #include <sinew/core/particles.h>
@@ -91,6 +93,23 @@ struct Balance {
   double world_power = 0;                   ///< W
   double contact_energy = 0;                ///< in the springs of obstacles, J
   double held_kinetic = 0;                  ///< of particles that pins hold, J
+};
+
+/// The present rest lengths of a body's bonds, by particle id.
+class BondRest {
+ public:
+  /// Neighbors at rest by id, ascending: the nearest ones and the second ones (none: empty).
+  BondRest(const NeighborLists& nearest, const NeighborLists& second);
+
+  /// Of one direction of a bond that is whole, m. What is never set is broken.
+  void set(std::int32_t i, std::int32_t j, bool nearest, double length);
+  /// By entry of the nearest ones, then of the second ones, m; 0 once broken.
+  std::vector<double> take() { return std::move(length_); }
+
+ private:
+  const NeighborLists& nearest_;
+  const NeighborLists& second_;
+  std::vector<double> length_;
 };
 
 /// The saved state is not one of this stepper, or not valid.

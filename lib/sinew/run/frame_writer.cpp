@@ -7,7 +7,9 @@
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/io/gltf/moving_surface.h>
+#include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
+#include <sinew/run/bond_frames.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/frame_content.h>
 
@@ -121,7 +123,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size());
-  begin_arrays(output);
+  begin_arrays(output, kept);
 }
 
 void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const double> kept) {
@@ -139,20 +141,31 @@ void FrameWriter::begin_export(std::size_t kept) {
   export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", skin_.rest.size(), kept);
 }
 
-void FrameWriter::begin_arrays(const OutputSettings& output) {
-  arrays_ = requested_arrays(output.arrays);
-  if (arrays_.empty()) return;
+void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept) {
+  arrays_ = additional_arrays(output, body_);
+  if (arrays_.empty() && !output.bonds) return;
   RestInput input = measured_body(body_.material, body_.skeleton, body_.factors, body_.share);
   input.positions = body_.rest;
   input.surface = surface_;
   const auto bones = bones_of_particles(body_);
   input.bone.assign(bones.begin(), bones.end());
+  input.law.has_muscles = has_muscles(body_);
   measured_ = rest_body(std::move(input));
+  if (output.bonds)
+    bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
+                         each(every_, kept));
   try {
-    refuse_undefined(*measured_, arrays_);
+    refuse_undefined(*measured_, measured_at_rest(), arrays_);
   } catch (const Error& error) {
     throw error.with_context({"output.arrays"});
   }
+}
+
+FrameState FrameWriter::measured_at_rest() const {
+  FrameState state = state_at_rest(*measured_);
+  state.bond_rest = first_bond_rest(*measured_);
+  if (measured_->law.has_muscles) state.muscle_stress.assign(body_.rest.size(), Mat3::Zero());
+  return state;
 }
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
@@ -183,8 +196,19 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
   find_positions_by_id(frame.particles, frame.positions);
+  if (measured_ && frame.with_particles) take_forces(simulation, frame);
   for (const auto axis : {&Particles::x, &Particles::y, &Particles::z}) frame.particles.*axis = {};
   return frame;
+}
+
+/// What the forces between particles depend on beside their positions.
+void FrameWriter::take_forces(Simulation& simulation, Moved& frame) const {
+  if (measured_->law.bonds_change)
+    frame.bond_rest = simulation.rest_of_bonds(measured_->shape.neighbors, measured_->second);
+  if (!measured_->law.has_muscles) return;
+  const Muscles& muscles = body_.world->muscles;
+  frame.muscle_stress =
+      muscle_stress(muscles, activations_at(muscles, frame.moment.time), frame.positions);
 }
 
 void FrameWriter::write(Moved& frame) {
@@ -210,7 +234,12 @@ void FrameWriter::write_particles(Moved& frame) {
     FrameState state;
     state.positions = frame.positions;
     for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
+    state.bond_rest = std::move(frame.bond_rest);
+    state.muscle_stress = std::move(frame.muscle_stress);
     requested = particle_arrays(*measured_, state, arrays_);
+    if (bond_series_)
+      bond_series_->add(bonds_dataset(bond_values(*measured_, state), frame.positions,
+                                      selection_.ids, frame.moment));
   }
   const Forces& forces = frame.forces;
   const bool all = selection_.ids.empty();
@@ -240,6 +269,7 @@ void FrameWriter::close() {
   spare_ = {};
   for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
   if (obstacle_series_) obstacle_series_->close();
+  if (bond_series_) bond_series_->close();
   for (const Skinned& skinned : skinned_) skinned.series->close();
   bone_table_.close();
   if (!export_) return;

@@ -69,6 +69,8 @@ class FrameWriter {
     Particles particles;          ///< without positions
     Forces forces;
     std::vector<std::int32_t> broken_bonds;
+    std::vector<double> bond_rest;    ///< where bonds change
+    std::vector<Mat3> muscle_stress;  ///< by id, where stress is written
     Energies energies;
     Pose pose;
     BoneReactions reactions;
@@ -84,9 +86,11 @@ class FrameWriter {
 
   void begin_skinned(const OutputSettings& output, std::span<const double> kept);
   void begin_export(std::size_t kept);
-  void begin_arrays(const OutputSettings& output);
+  void begin_arrays(const OutputSettings& output, std::span<const double> kept);
+  FrameState measured_at_rest() const;
   Moved take(Simulation& simulation, double time);
   void write(Moved& frame);
+  void take_forces(Simulation& simulation, Moved& frame) const;
   void write_particles(Moved& frame);
   void write_surfaces(const Moved& frame);
 
@@ -106,8 +110,9 @@ class FrameWriter {
   BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not requested
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
-  std::vector<std::string_view> arrays_;  ///< additional ones that the scene requests
-  std::optional<RestBody> measured_;      ///< which they are computed from, if any
+  std::vector<std::string_view> arrays_;  ///< additional ones
+  std::optional<RestBody> measured_;      ///< which these and bonds are computed from, if any
+  std::optional<Series> bond_series_;     ///< where the scene requests it
   std::atomic<int> written_ = 0;
   bool one_by_one_;       ///< there is never more than one frame
   Moved spare_;           ///< the last frame, then, whose memory is reused

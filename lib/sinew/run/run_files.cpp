@@ -96,7 +96,7 @@ Points positions_in(const RunFiles& run, const Dataset& data) {
 
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
-  const Dataset data = read_vtu(file, {"displacement", "velocity", "broken_bonds"});
+  const Dataset data = read_vtu(file, {"displacement", "velocity", "broken_bonds", "von_mises"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
     frame.positions = positions_in(run, data);
@@ -108,6 +108,8 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
     frame.energies = energies_of(data);
     if (find(data.point_columns, "broken_bonds") && run.ids.empty())  // of bonds that are all there
       frame.broken_bonds = integers(data.point_columns, "broken_bonds");
+    if (find(data.point_columns, "von_mises"))
+      frame.von_mises = numbers(data.point_columns, "von_mises");
   });
 }
 
@@ -257,9 +259,9 @@ void FramesInOrder::begin() {
 
 PairLaw pair_law(const Material& material, const BondFactors& factors) {
   const ForceLaw& law = law_of(material);
-  const bool changes = material.bond.breaking_strain > 0 || material.bond.yield_strain > 0;
-  if (law.has_bonds && changes) return {};
   PairLaw measured;
+  measured.bonds_change = bonds_change(material);
+  if (!law.has_bonds) measured.reach = material.pair.b;
   measured.force = [&law, material](double d) { return law.force(material, d); };
   if (law.has_memory)
     measured.bond = [&law, material](double d, double rest) {
@@ -295,6 +297,8 @@ RestInput measured_body(const RunFiles& run) {
   std::vector<double> share = run.body.share.value_or(std::vector<double>());
   const BondFactors factors = bond_factors(rest, run.material, share);
   RestInput input = measured_body(run.material, run.skeleton, factors, std::move(share));
+  input.law.has_muscles = !run.settings.world.muscles.empty();
+  if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.positions = std::move(rest);
   input.surface = run.surface;
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
@@ -310,7 +314,10 @@ FrameState measured_frame(RunFrame frame) {
           std::move(frame.bones),
           frame.energies,
           std::move(frame.bone_lengths),
-          std::move(frame.broken_bonds)};
+          std::move(frame.broken_bonds),
+          {},
+          {},
+          std::move(frame.von_mises)};
 }
 
 }  // namespace sinew

@@ -57,6 +57,7 @@ struct RunFrame {
   std::vector<double> bone_lengths;  ///< head to tail, m: bones may stretch
   Energies energies;
   std::vector<std::int32_t> broken_bonds;  ///< of each particle; empty: it has no bonds
+  std::vector<double> von_mises;           ///< Pa; empty: not written
 };
 
 /// Throws bad input, naming the file, where it is damaged or of another body.
@@ -82,8 +83,7 @@ class FramesInOrder {
 
 // The input of metrics: the body and the forces in it.
 
-/// The material's forces between particles as functions of position; empty where bonds break or
-/// creep and the forces depend on history.
+/// The material's forces between particles.
 PairLaw pair_law(const Material& material, const BondFactors& factors = {});
 
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds

@@ -26,8 +26,8 @@ bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|report\\.html|"
       "metrics(_bones)?\\.(csv|json)|(bones|sections)\\.csv|surface\\.(obj|pc2|glb)|blowup\\.vtu|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
-      "(particles|surface|bones|frames|obstacles|skin_lbs|skin_dqs|values)/"
+      "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
+      "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/((compare_)?(body|surface|particles|section|strain|forces|bones)"
@@ -40,8 +40,8 @@ bool written_by_a_run(const fs::path& relative) {
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (const char* part : {"checkpoint", "", "particles", "surface", "bones", "frames", "obstacles",
-                           "skin_lbs", "skin_dqs", "values", "pictures"})
+  for (const char* part : {"checkpoint", "", "particles", "surface", "bones", "bonds", "frames",
+                           "obstacles", "skin_lbs", "skin_dqs", "values", "pictures"})
     for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
       if (!entry.is_directory(failed) &&
           written_by_a_run(entry.path().lexically_relative(folder.path / "")))

@@ -11,6 +11,7 @@
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
@@ -83,8 +84,9 @@ DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&r
   if (const MeasuredArray* array = find_measured(name)) {
     unit_ = array->unit;
     rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
-    if (name == "von_mises" && !rest_->law.force)
-      throw bad_input("von_mises cannot be measured in a run with this material", "show strain");
+    if (name == "von_mises" && !knows_forces(*rest_, {}) && read_frame(run, 0).von_mises.empty())
+      throw bad_input("the forces of this run do not follow from its positions alone",
+                      "run the scene with output.arrays von_mises");
     return;
   }
   const WrittenArray* array = find_written("particles", ArrayPlace::point, name);

@@ -50,10 +50,10 @@ double memory_per_particle(const StepperChoice& choice, const Body& body) {
   return bytes;
 }
 
-/// Numbers per particle in the arrays that the scene requests.
-double requested_numbers(const OutputSettings& output) {
+/// Numbers per particle in the arrays that not every scene has.
+double additional_numbers(const OutputSettings& output, const Body& body) {
   double numbers = 0;
-  for (const std::string_view name : requested_arrays(output.arrays)) {
+  for (const std::string_view name : additional_arrays(output, body)) {
     const WrittenArray* row = find_written("particles", ArrayPlace::point, name);
     numbers += std::max(1.0, static_cast<double>(row->components.size()));
   }
@@ -71,8 +71,9 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = setup.body.world ? 3 : 0;  // the force of the world
   const double written = particles * written_share(output, setup.body.rest);
-  const double reals = written * (reals_per_particle + reals_of_world + requested_numbers(output)) +
-                       surfaces * points * reals_per_point;
+  const double reals =
+      written * (reals_per_particle + reals_of_world + additional_numbers(output, setup.body)) +
+      surfaces * points * reals_per_point;
   const double wholes = written * wholes_per_particle +
                         surfaces * (points * wholes_per_point + faces * wholes_per_face);
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/frame_content.h>
 
+#include <string>
+
+#include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
+#include <sinew/physics/laws.h>
+#include <sinew/physics/world/world.h>
 
 namespace sinew {
 
@@ -17,6 +22,14 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
                     "give the least and the greatest corner of a box that meets the body, in "
                     "meters, as in [0, 0, 0, 0.1, 0.1, 0.1]");
   return ids;
+}
+
+std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body) {
+  std::string words = output.arrays;
+  const bool stress_is_lost =
+      bonds_change(body.material) || has_muscles(body) || output.region.has_value();
+  if (stress_is_lost && output.only.empty()) words += " von_mises";
+  return requested_arrays(words);
 }
 
 double written_share(const OutputSettings& output, const Points& rest) {

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include <sinew/core/vector.h>
+#include <sinew/physics/forces.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -15,6 +17,11 @@ namespace sinew {
 /// The particles that frames contain, ascending: those that are in output.region at rest (n x 3,
 /// m), its border included. Empty: all of them. Throws bad input for a region without any.
 std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest);
+
+/// The arrays of particles beside those that every scene has: the ones of output.arrays and, where
+/// positions alone do not give it later, von_mises: for bonds that break or creep, muscles and a
+/// part of the body. output.only leaves it out.
+std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body);
 
 /// The share of all frames' numbers per particle that is written, by output.every and
 /// output.region.

@@ -256,6 +256,9 @@ std::vector<Field<Settings>> make_output() {
       field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
                "writes the moving surface for Blender, 3ds Max and Maya: surface.obj (rest) with "
                "surface.pc2 (point cache), and surface.glb (morph targets)"),
+      field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
+               "also writes the bonds between particles as lines, with length, strain, force and "
+               "whether they broke"),
       may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
                                 "additional arrays of particles, such as \"J, stress\", or all: F, "
                                 "J, stretch, strain, hencky_strain, strain_eq, stress, von_mises, "

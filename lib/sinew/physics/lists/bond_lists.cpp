@@ -244,6 +244,22 @@ std::uint32_t BondLists<Real>::bonded_lanes(std::size_t block, std::int32_t diff
 }
 
 template <class Real>
+void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
+                           BondRest& found) const {
+  constexpr std::size_t size = kernel::Traits<Real>::block;
+  for (std::size_t block = 0; block + 1 < first.size(); ++block)
+    for (std::uint32_t e = first[block]; e < first[block + 1]; ++e)
+      for (std::size_t lane = 0; lane < size; ++lane) {
+        const kernel::BondEntry& entry = entries[e];
+        if ((entry.lanes >> lane & 1) == 0) continue;
+        const std::size_t k = block * size + lane;
+        const double crept = creep.empty() ? 0 : static_cast<double>(creep[e * size + lane]);
+        found.set(id[k], id[k + static_cast<std::size_t>(entry.difference)], e < second[block],
+                  (static_cast<double>(kinds[entry.kind].length) + crept) * units.length);
+      }
+}
+
+template <class Real>
 void BondLists<Real>::save(SimulationState& state) const {
   if (broken.empty() && creep.empty()) return;
   state.bonded_lanes.clear();

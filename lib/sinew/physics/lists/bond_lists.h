@@ -14,6 +14,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/stepper.h>
 
 namespace sinew {
 
@@ -35,6 +36,9 @@ struct BondLists {
   kernel::Bonds<Real> arrays(const Material& material, double step);
   /// Lanes of a block that are bonded to nearest neighbors at a difference.
   std::uint32_t bonded_lanes(std::size_t block, std::int32_t difference) const;
+
+  /// What is whole, with what it has crept by; `id` in the kernel's order.
+  void read(std::span<const std::int32_t> id, const Units& units, BondRest& found) const;
 
   /// What changes: of each entry the lanes that are whole, and what those have crept by.
   void save(SimulationState& state) const;

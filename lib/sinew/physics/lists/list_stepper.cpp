@@ -24,8 +24,7 @@ kernel::PairLaw pair_law_of(const Material& material) {
   const ForceLaw& law = law_of(material);
   if (!law.has_memory) return kernel::between_all;
   if (!law.has_bonds) return kernel::among_neighbors;
-  const bool changing = material.bond.breaking_strain > 0 || material.bond.yield_strain > 0;
-  return changing ? kernel::changing_springs : kernel::springs;
+  return bonds_change(material) ? kernel::changing_springs : kernel::springs;
 }
 
 }  // namespace
@@ -147,6 +146,11 @@ std::vector<std::int32_t> ListStepper<Real>::broken_bonds() const {
   for (std::size_t k = 0; k < broken.size() && !bonds_.broken.empty(); ++k)
     broken[layout_.caller()[k]] = bonds_.broken[k];
   return broken;
+}
+
+template <class Real>
+void ListStepper<Real>::read(BondRest& rest) const {
+  bonds_.read(layout_.id(), layout_.units(), rest);
 }
 
 template <class Real>

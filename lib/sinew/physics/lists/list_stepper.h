@@ -31,6 +31,7 @@ class ListStepper {
   ListCounts counts() const;
   /// By particle in the caller's order; none where the material has no bonds.
   std::vector<std::int32_t> broken_bonds() const;
+  void read(BondRest& rest) const;
   /// As evaluated last.
   std::vector<Reaction> reactions_of_obstacles() const { return surroundings_.reactions(); }
   std::vector<Reaction> reactions_of_pins() const { return surroundings_.reactions_of_pins(); }

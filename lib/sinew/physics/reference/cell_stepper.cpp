@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <sinew/core/parallel.h>
+#include <sinew/physics/laws.h>
 
 namespace sinew {
 namespace {
@@ -87,10 +88,23 @@ double CellStepper::stored_in_pairs() {
 }
 
 std::vector<std::int32_t> CellStepper::broken_bonds() const {
-  if (!solid_ || body_->material.model == MaterialModel::paper) return {};
+  if (!solid_ || !law_of(body_->material).has_bonds) return {};
   std::vector<std::int32_t> broken(particles_.size());
   for (std::size_t i = 0; i < broken.size(); ++i) broken[i] = solid_->broken(i);
   return broken;
+}
+
+void CellStepper::read(BondRest& rest) const {
+  if (!solid_ || !law_of(body_->material).has_bonds) return;
+  const auto set = [&](const Bonds& bonds, bool nearest) {
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e)
+        if (bonds.whole(e))
+          rest.set(particles_.id[i], particles_.id[bonds.neighbors.neighbor[e]], nearest,
+                   bonds.rest_length[e]);
+  };
+  set(solid_->bonds().nearest, true);
+  set(solid_->bonds().second, false);
 }
 
 void CellStepper::save(SimulationState& state) const {

@@ -29,6 +29,7 @@ class CellStepper {
   void read(const Pose& pose, Particles& particles);
   /// Bonds broken so far, by particle; none for a body without bonds.
   std::vector<std::int32_t> broken_bonds() const;
+  void read(BondRest& rest) const;
   /// As evaluated last; none without a world.
   std::vector<Reaction> reactions_of_obstacles() const { return reactions_; }
   /// On each bone; none without pins.

@@ -49,7 +49,8 @@ void sort_fibers(Muscles& all) {
   for (std::size_t m = 0; m < all.muscles.size(); ++m)
     for (const MuscleShare& share : all.muscles[m].shares)
       if (all.rest.defined(share.particle))
-        of[share.particle].push_back({static_cast<std::uint32_t>(m), share.weight});
+        of[share.particle].push_back(
+            {static_cast<std::uint32_t>(m), share.weight * all.share_of(share.particle)});
   all.row.assign(count, -1);
   all.first.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,8 +106,7 @@ Points by_id(const Particles& particles) {
 }
 
 /// F of every particle with fibers.
-std::vector<Mat3> active_gradients(const Muscles& all, const Particles& particles) {
-  const Points now = by_id(particles);
+std::vector<Mat3> active_gradients(const Muscles& all, const Points& now) {
   std::vector<Mat3> F(all.active.size());
   parallel_for(F.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row)
@@ -208,7 +208,8 @@ std::vector<MuscleShare> shares_bound_to(int bone, const Binding& binding) {
   return shares;
 }
 
-Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles) {
+Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
+                     std::span<const double> share) {
   for (Muscle& muscle : muscles) {
     check_muscle(muscle, rest.size());
     muscle.direction.normalize();
@@ -216,6 +217,7 @@ Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles) {
   Muscles all;
   all.rest = rest_shape(std::move(rest), rest_neighbor_range(radius));
   all.muscles = std::move(muscles);
+  all.share.assign(share.begin(), share.end());
   sort_fibers(all);
   return all;
 }
@@ -234,7 +236,7 @@ FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations
   forces.assign(particles.size(), Vec3::Zero());
   if (muscles.active.empty()) return {};
   const double volume = volume_per_particle(particles.radius);
-  const auto F = active_gradients(muscles, particles);
+  const auto F = active_gradients(muscles, by_id(particles));
   const auto by_offset = pulls(muscles, activations, F, volume);
   parallel_for(
       particles.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
@@ -245,19 +247,17 @@ FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations
 }
 
 std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activations,
-                                const Particles& particles) {
-  std::vector<Mat3> stress(particles.size(), Mat3::Zero());
-  if (muscles.active.empty()) return stress;
-  const auto F = active_gradients(muscles, particles);
-  parallel_for(particles.size(), muscle_particles_per_task,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   const std::int32_t row = muscles.row[static_cast<std::size_t>(particles.id[i])];
-                   if (row < 0) continue;
-                   const auto k = static_cast<std::size_t>(row);
-                   stress[i] = nominal_stress(muscles, activations, k, F[k]) * F[k].transpose();
-                 }
-               });
+                                const Points& now) {
+  std::vector<Mat3> stress(now.size(), Mat3::Zero());
+  const auto F = active_gradients(muscles, now);
+  parallel_for(F.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const std::uint32_t i = muscles.active[row];
+      if (muscles.share_of(i) > 0)
+        stress[i] = nominal_stress(muscles, activations, row, F[row]) * F[row].transpose() /
+                    muscles.share_of(i);
+    }
+  });
   return stress;
 }
 

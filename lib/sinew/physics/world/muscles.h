@@ -8,7 +8,8 @@
 // A fiber lies along t0 (unit) at rest and along F t0 in the deformed body, F the least-squares
 // deformation gradient over the rest neighbors. At activation a in [0, 1] and strength S (Pa) the
 // Kirchhoff stress (force per area times J, as in the virial formula with the rest volume) is a S t
-// t^T, t = F t0 / |F t0|. It derives from the potential, per particle of volume V0,
+// t^T, t = F t0 / |F t0|. It derives from the potential, per particle of volume V0
+// (of the body around it: less or more at a surface),
 //   U = a S V0 w ln(lambda),  lambda = |F t0|,
 //   force on neighbor j: -V0 P A^-1 X_ij, the opposite on i,  P = a S w (F t0) t0^T / lambda^2,
 // with A = sum X X^T at rest and w the particle's weight. P F^T is symmetric, so momentum and
@@ -18,6 +19,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,7 +55,7 @@ struct Muscles {
   /// One muscle's fiber in one particle.
   struct Fiber {
     std::uint32_t muscle;
-    double weight;
+    double weight;  ///< with the particle's share of the body
   };
 
   RestShape rest;
@@ -62,12 +64,17 @@ struct Muscles {
   std::vector<std::int32_t> row;      ///< by id: index in active, -1 for none
   std::vector<std::uint32_t> first;   ///< one longer than active; fibers of row k
   std::vector<Fiber> fibers;          ///< those of a particle in the order of the muscles
+  std::vector<double> share;          ///< by id; empty: 1 each
+
+  double share_of(std::size_t i) const { return share.empty() ? 1 : share[i]; }
 };
 
 /// Prepares the muscles of a body at `rest` (n x 3, m, by id) with particles of `radius` (m).
 /// Throws bad input for a direction of zero length, a strength that is not finite, activations
 /// outside [0, 1], shares of unknown particles, out of order or outside (0, 1].
-Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles);
+/// `share`: of the body around each particle, by id, over that of one inside; empty: 1 each.
+Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
+                     std::span<const double> share = {});
 
 /// The activation of each muscle at one moment.
 struct Activations {
@@ -87,10 +94,10 @@ struct FiberEnergy {
 FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
                           const Particles& particles, Points& forces);
 
-/// Kirchhoff stress of the fibers at each particle (n, in the order of `particles`), Pa. In
+/// Kirchhoff stress of the fibers at each particle, Pa, where they are `now` (n x 3, m, by id). In
 /// parallel.
 std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activations,
-                                const Particles& particles);
+                                const Points& now);
 
 /// An upper bound of the stiffness that fully active muscles add to any motion of the body near
 /// rest, N/m; fibers shortened to lambda add 1 / lambda^2 times as much.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What acts between the particles of a frame: bonds, contacts and volumes, and the stress of them.
+//
+//     const std::vector<Mat3> stress = stresses(rest, state);
+//     const BondValues bonds = bond_values(rest, state);
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/metrics/frame.h>
+#include <sinew/metrics/rest_body.h>
+
+namespace sinew {
+
+/// A particle near another one.
+struct Neighbor {
+  std::uint32_t index;
+  Vec3 apart;      ///< from it to the other one, m
+  double squared;  ///< of its length, m^2
+};
+
+/// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
+void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
+                    std::vector<Neighbor>& found);
+
+/// Whether the body's law and the state determine all forces between particles.
+bool knows_forces(const RestBody& rest, const FrameState& state);
+
+/// The virial stress of particle i, Pa: -(1/2V) sum f (x) r over all forces between particles, with
+/// the stress of its volume and of its muscles. V is the volume of the body around it at rest. The
+/// forces must be known; `neighbors` are those within b at least.
+Mat3 virial_stress(const RestBody& rest, const FrameState& state,
+                   std::span<const Neighbor> neighbors, std::size_t i);
+
+/// Of each particle; not-a-number where the forces are not known. In parallel.
+std::vector<Mat3> stresses(const RestBody& rest, const FrameState& state);
+
+/// sqrt(3/2 dev s : dev s).
+double von_mises(const Mat3& stress);
+
+/// The bonds of a frame, each once: pairs that were neighbors at rest, in the order of their first
+/// particle. In the paper's model all of these count as bonds, and as broken from b on.
+struct BondValues {
+  std::vector<std::array<std::uint32_t, 2>> ends;  ///< particles, the lower first
+  std::vector<double> length;                      ///< m
+  std::vector<double> strain;  ///< over the rest length, which may have crept; broken: not-a-number
+  std::vector<double> force;   ///< N, tension positive; not-a-number where it is not known
+  std::vector<std::int32_t> broken;  ///< 0 or 1
+};
+BondValues bond_values(const RestBody& rest, const FrameState& state);
+
+/// The rest lengths of all bonds before any has changed, m: FrameState::bond_rest.
+std::vector<double> first_bond_rest(const RestBody& rest);
+
+}  // namespace sinew

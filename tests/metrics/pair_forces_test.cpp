@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/metrics/pair_forces.h>
+
+#include <gtest/gtest.h>
+
+#include <sinew/core/particles.h>
+#include "world.h"
+
+namespace sinew::test::pair_forces_test {
+
+Map scaled(double by) {
+  return [by](const Vec3& point) -> Vec3 { return by * point; };
+}
+
+/// Springs of 1 N/m that change, and contacts of twice that.
+RestInput changing() {
+  RestInput input = box_input();
+  input.law.force = [](double d) { return d < 2 * r ? 2 * (2 * r - d) : 0; };
+  input.law.bond = [](double d, double rest) { return rest - d; };
+  input.law.bonds_change = true;
+  return input;
+}
+
+std::vector<double> times(double factor, std::vector<double> values) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// The pressure of twelve forces (N) at a distance (m) from each particle.
+double pressure(double force, double d) {
+  return 12 * force * d / 3 / (2 * volume_per_particle(r));
+}
+
+void expect_pressure(const RestBody& body, const FrameState& state, double expected) {
+  const std::vector<Mat3> found = stresses(body, state);
+  for (std::size_t i = 0; i < body.particles(); ++i)
+    if (body.shape.neighbors.of(i).size() == 12)
+      EXPECT_LT((found[i] + expected * Mat3::Identity()).norm(), 1e-12 * pressure(r, r));
+}
+
+TEST(PairForces, OfBondsThatChangeAreNotKnownWithoutTheirState) {
+  const RestBody body = rest_body(changing());
+  FrameState state = moved(body, scaled(1.1));
+  EXPECT_FALSE(knows_forces(body, state));
+  for (const Mat3& one : stresses(body, state)) EXPECT_TRUE(one.array().isNaN().all());
+  state.bond_rest = first_bond_rest(body);
+  EXPECT_TRUE(knows_forces(body, state));
+  expect_pressure(body, state, -pressure(0.1 * 2 * r, 1.1 * 2 * r));
+}
+
+TEST(PairForces, OfBondsThatCreptToTheirLengthAreNone) {
+  const RestBody body = rest_body(changing());
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = times(1.1, first_bond_rest(body));
+  expect_pressure(body, state, 0);
+}
+
+TEST(PairForces, OfBrokenBondsAreThoseOfContacts) {
+  const RestBody body = rest_body(changing());
+  FrameState apart = moved(body, scaled(1.1)), pressed = moved(body, scaled(0.9));
+  apart.bond_rest = pressed.bond_rest = times(0, first_bond_rest(body));
+  expect_pressure(body, apart, 0);
+  expect_pressure(body, pressed, pressure(2 * 0.1 * 2 * r, 0.9 * 2 * r));
+}
+
+TEST(PairForces, VolumesOfSeveredParticlesAreNotKept) {
+  RestInput input = changing();
+  input.law.volume_stiffness = 1000;
+  const RestBody body = rest_body(input);
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = times(0, first_bond_rest(body));
+  expect_pressure(body, state, 0);
+}
+
+TEST(PairForces, AreOverTheVolumeOfTheBodyAroundAParticle) {
+  RestInput input = changing();
+  input.share.assign(input.positions.size(), 0.5);
+  const RestBody body = rest_body(input);
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = first_bond_rest(body);
+  expect_pressure(body, state, -2 * pressure(0.1 * 2 * r, 1.1 * 2 * r));
+}
+
+TEST(PairForces, OfMusclesAddTheirStress) {
+  RestInput input = changing();
+  input.law.has_muscles = true;
+  const RestBody body = rest_body(input);
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = times(1.1, first_bond_rest(body));
+  EXPECT_FALSE(knows_forces(body, state));
+  state.muscle_stress.assign(body.particles(), 7 * Mat3::Identity());
+  expect_pressure(body, state, -7);
+}
+
+TEST(BondValues, HaveEachBondOnceWithItsStrainAndForce) {
+  const RestBody body = rest_body(changing());
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = times(1.05, first_bond_rest(body));
+  const BondValues values = bond_values(body, state);
+  ASSERT_EQ(2 * values.ends.size(), body.shape.neighbors.neighbor.size());
+  for (std::size_t k = 0; k < values.ends.size(); ++k) {
+    EXPECT_LT(values.ends[k][0], values.ends[k][1]);
+    EXPECT_NEAR(values.length[k], 2.2 * r, 1e-12 * r);
+    EXPECT_NEAR(values.strain[k], 1.1 / 1.05 - 1, 1e-12);
+    EXPECT_NEAR(values.force[k], 0.05 * 2 * r, 1e-12 * r);
+    EXPECT_EQ(values.broken[k], 0);
+  }
+}
+
+TEST(BondValues, OfBrokenOnesAreALengthWithoutAStrain) {
+  RestInput paper = box_input();
+  paper.law.force = [](double d) { return 2 * r - d; };
+  paper.law.reach = 2.15 * r;
+  const RestBody flowing = rest_body(paper), bonded = rest_body(changing());
+  FrameState torn = moved(bonded, scaled(1.1));
+  torn.bond_rest = times(0, first_bond_rest(bonded));
+  for (const BondValues& values :
+       {bond_values(bonded, torn), bond_values(flowing, moved(flowing, scaled(1.1)))})
+    for (std::size_t k = 0; k < values.ends.size(); ++k) {
+      EXPECT_NEAR(values.length[k], 2.2 * r, 1e-12 * r);
+      EXPECT_TRUE(std::isnan(values.strain[k]));
+      EXPECT_EQ(values.force[k], 0);
+      EXPECT_EQ(values.broken[k], 1);
+    }
+}
+
+}  // namespace sinew::test::pair_forces_test
