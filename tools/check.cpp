@@ -87,6 +87,8 @@ void add_material(const Material& material, Results& results) {
   results.add("young_modulus", material.young_modulus(), "Pa");
   results.add("poisson_ratio", material.constants().hill_poisson_ratio());
   results.add("bulk_modulus", material.constants().bulk_modulus(), "Pa");
+  if (material.bond.breaking_strain > 0)
+    results.add("breaking_strain", material.bond.breaking_strain);
   results.add("k1", pair.k1, "Pa");
   results.add("k2", pair.k2, "Pa");
   results.add("contact_stiffness", k, "N/m");

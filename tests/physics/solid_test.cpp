@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "world.h"
 
 namespace sinew::solid_test {
@@ -222,26 +224,123 @@ TEST(Bonds, BreakBeyondTheirStrainAndReportTheEnergy) {
   }
 }
 
-TEST(Bonds, CreepAfterWhatExceedsTheYieldStrain) {
-  MaterialOptions settings;
-  settings.model = MaterialModel::bonded;
-  settings.yield_strain = 0.02;
-  settings.creep_rate = 3;
-  const Material material = make_material(settings, {r, 1000 * volume_per_particle(r)});
-  Solid solid(material, {Vec3(0, 0, 0), Vec3(2 * r, 0, 0)});
-  const double stretched = 2.4 * r;
-  const Particles particles =
-      particles_at({Vec3(0, 0, 0), Vec3(stretched, 0, 0)}, r, material.mass);
-  const double before = solid.energy(particles);
+/// The energy of all bonds across a plane when they break, by counting them, over its area.
+double energy_of_crack(const Material& material, const Vec3& normal, double radius) {
+  const Points rest = test::fcc_ball(25, radius);
+  const SolidBonds bonds = make_bonds(rest, material);
+  const double width = 15 * radius;  // of a disk far from the surface
+  double sum = 0;
+  for (const Bonds* some : {&bonds.nearest, &bonds.second})
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      for (std::uint32_t e = some->neighbors.first[i]; e < some->neighbors.first[i + 1]; ++e) {
+        const Vec3 &from = rest[i], &to = rest[some->neighbors.neighbor[e]];
+        const double below = from.dot(normal) - 0.3 * radius, above = to.dot(normal) - 0.3 * radius;
+        if (!(below < 0 && above >= 0)) continue;
+        const Vec3 cut = from + (to - from) * (below / (below - above));
+        const double stretched = material.bond.breaking_strain * some->rest_length[e];
+        if (cut.norm() < width) sum += some->stiffness[e] / 2 * stretched * stretched;
+      }
+  return sum / (std::numbers::pi * (width * width - 0.09 * radius * radius));
+}
+
+TEST(Bonds, BreakWithTheFractureEnergyPerAreaWhateverTheRadius) {
+  std::mt19937 random(5);
+  for (const bool isotropic : {true, false})
+    for (const double radius : {0.01, 0.0025}) {
+      MaterialOptions options;
+      options.model = MaterialModel::bonded;
+      options.isotropic = isotropic;
+      options.fracture_energy = 3;
+      const Material material =
+          make_material(options, {radius, 1000 * volume_per_particle(radius)});
+      double mean = 0;
+      constexpr int planes = 20;
+      for (int k = 0; k < planes; ++k)
+        mean +=
+            energy_of_crack(material, test::random_vector(random).normalized(), radius) / planes;
+      EXPECT_NEAR(mean, 3, 0.1);
+    }
+}
+
+MaterialOptions yielding(double strain, double rate) {
+  MaterialOptions options;
+  options.model = MaterialModel::bonded;
+  options.yield_strain = strain;
+  options.creep_rate = rate;
+  return options;
+}
+
+/// The particle in the middle of a box or a ball.
+std::size_t innermost(const Points& points) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& point : points) middle += point / double(points.size());
+  const auto nearer = [&](const Vec3& a, const Vec3& b) {
+    return (a - middle).norm() < (b - middle).norm();
+  };
+  return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), nearer) -
+                                  points.begin());
+}
+
+/// Rest lengths over those of a body that is deformed like that for a time (s).
+std::vector<double> crept(const MaterialOptions& options, const Points& rest, const Mat3& F,
+                          double time) {
+  const Material material = make_material(options, {r, 1000 * volume_per_particle(r)});
+  Solid solid(material, rest);
+  const std::vector<double> before = solid.rest_lengths();
+  const Particles particles = particles_at(test::affine(rest, F), r, material.mass);
+  const double energy = solid.energy(particles);
   double lost = 0;
-  for (int step = 0; step < 1000; ++step) lost += solid.evolve(particles, 1e-3);
-  // dl/dt = rate (d - l - yield l): an exponential towards d / (1 + yield), in steps.
-  const double end = stretched / 1.02, start = 2 * r;
-  const double expected = end + (start - end) * std::exp(-3 * 1.02 * 1.0);
-  EXPECT_NEAR(solid.bonds().nearest.rest_length[0], expected, 1e-3 * r);
-  EXPECT_EQ(solid.bonds().nearest.rest_length[0], solid.bonds().nearest.rest_length[1]);
-  EXPECT_NEAR(before - solid.energy(particles), lost, 1e-12 * before);
-  EXPECT_EQ(solid.bonds().nearest.broken[0], 0);
+  for (int step = 0; step < 1000; ++step) lost += solid.evolve(particles, time / 1000);
+  EXPECT_NEAR(energy - solid.energy(particles), lost, 1e-12 * energy);
+  EXPECT_GE(lost, 0);
+  std::vector<double> ratios = solid.rest_lengths();
+  for (std::size_t e = 0; e < ratios.size(); ++e) ratios[e] /= before[e];
+  return ratios;
+}
+
+TEST(Flow, LeavesPressureAlone) {
+  for (const double scale : {0.8, 1.1})
+    for (const double ratio :
+         crept(yielding(0.001, 100), test::fcc_ball(5, r), scale * Mat3::Identity(), 1))
+      EXPECT_NEAR(ratio, 1, 1e-12);
+}
+
+TEST(Flow, BeginsAtTheYieldStrainOfABarThatIsPulled) {
+  const Points rest = test::fcc_box(9, 9, 9, r);
+  for (const Mat3& turn : {Mat3(Mat3::Identity()), test::turned({1, 2, 3}, 40)})
+    for (const double strain : {0.0099, 0.0103}) {
+      const Mat3 pulled = turn * Vec3(-0.25, -0.25, 1).asDiagonal() * turn.transpose();
+      const auto ratios = crept(yielding(0.01, 1), rest, Mat3::Identity() + strain * pulled, 0.1);
+      const NeighborLists near = neighbors_within(rest, rest_neighbor_range(r));
+      const std::size_t inner = innermost(rest);
+      const auto [least, most] = std::minmax_element(ratios.begin() + near.first[inner],
+                                                     ratios.begin() + near.first[inner + 1]);
+      if (strain < 0.01)
+        EXPECT_LT(*most - *least, 1e-12);
+      else
+        EXPECT_GT(*most - *least, 1e-5);
+    }
+}
+
+/// Within, rest lengths change by n D n of a strain D without trace, which decays towards the yield
+/// strain at the creep rate.
+TEST(Flow, DecaysShearToTheYieldStrainAndKeepsTheVolume) {
+  const Points rest = test::fcc_box(9, 9, 9, r);
+  const double strain = 1e-3, yield = 2e-4, rate = 3;
+  const Mat3 deviator = strain * Vec3(-0.5, -0.5, 1).asDiagonal();
+  const Mat3 F = Mat3::Identity() * 1.0005 + deviator;
+  const auto ratios = crept(yielding(yield, rate), rest, F, 1);
+  // Pulled bars have the deviator (1 + nu) 2/3 of their strain along them.
+  const double least = yield * 1.25 * 2 / 3, flowed = (strain - least) * (1 - std::exp(-rate));
+  const NeighborLists near = neighbors_within(rest, rest_neighbor_range(r));
+  const std::size_t inner = innermost(rest);
+  double sum = 0;
+  for (std::uint32_t e = near.first[inner]; e < near.first[inner + 1]; ++e) {
+    const Vec3 n = (rest[near.neighbor[e]] - rest[inner]).normalized();
+    EXPECT_NEAR(ratios[e] - 1, flowed / strain * n.dot(deviator * n), 0.01 * flowed);
+    sum += ratios[e] - 1;
+  }
+  EXPECT_LT(std::abs(sum) / 12, 0.002 * flowed);
 }
 
 }  // namespace sinew::solid_test

@@ -104,9 +104,10 @@ class Chance {
     if (drawn.material.k2) drawn.material.lambda = MaterialOptions().lambda;
     if (drawn.material.damping_ratio) drawn.material.damping = MaterialOptions().damping;
     if (drawn.material.model == MaterialModel::paper) {
-      drawn.material.breaking_strain.reset();
+      drawn.material.breaking_strain = drawn.material.fracture_energy = {};
       drawn.material.yield_strain.reset();
     } else {
+      if (drawn.material.breaking_strain) drawn.material.fracture_energy.reset();
       drawn.material.cohesion = Cohesion::all;
       if (!drawn.material.yield_strain) drawn.material.preset = MaterialPresetName::none;
     }
@@ -117,6 +118,8 @@ class Chance {
     if (drawn.material.model != MaterialModel::paper) drawn.material.cohesion = Cohesion::all;
     if (drawn.material.model == MaterialModel::paper)
       drawn.material.breaking_strain = drawn.material.yield_strain = std::nullopt;
+    if (drawn.material.model == MaterialModel::paper || drawn.material.breaking_strain)
+      drawn.material.fracture_energy.reset();
     if (drawn.body.packing != Packing::fcc) drawn.material.modulus_direction.reset();
     if (drawn.material.model == MaterialModel::paper || drawn.body.packing != Packing::fcc)
       drawn.material.isotropic.reset();

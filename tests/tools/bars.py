@@ -95,27 +95,29 @@ class Bar:
         self.material = {"model": "bonded", "young_modulus": YOUNG_MODULUS, **(material or {})}
         self.shear_modulus = YOUNG_MODULUS / (2 * (1 + poisson_ratio))
 
-    def run(self, kind, folder, *words):
-        """Pulled, bent or twisted until it rests; options of sinew simulate follow."""
+    def run(self, kind, folder, *words, ramp=2):
+        """Pulled, bent or twisted until it rests; options of sinew simulate follow. `ramp`: how long that takes, in
+        periods over 2 pi of the slowest motion."""
         speed = math.sqrt(YOUNG_MODULUS / 1000)
         lowest = 22.4 * WIDTH / math.sqrt(12) * speed / self.length**2  # rad/s: of a clamped bar
         grip = 2.3 * self.radius
         foot, hand = motions(kind, self.length)
-        return self.settled(SCENE, lowest, folder, words, grip=grip, upper=self.length - grip, foot=foot, hand=hand)
+        return self.settled(SCENE, lowest, folder, words, ramp, grip=grip,
+                            upper=self.length - grip, foot=foot, hand=hand)
 
     def contract(self, strength, folder, *words):
         """The free bar, whose muscle pulls along it with this stress (Pa)."""
         lowest = math.pi * math.sqrt(YOUNG_MODULUS / 1000) / self.length
-        return self.settled(CONTRACTED, lowest / 2, folder, words, strength=strength)
+        return self.settled(CONTRACTED, lowest / 2, folder, words, 2, strength=strength)
 
-    def settled(self, template, lowest, folder, words, **values):
+    def settled(self, template, lowest, folder, words, ramp, **values):
         """`lowest`: angular frequency of the slowest motion, rad/s."""
         mesh, scene = folder / "bar.obj", folder / "bar.yaml"
         write_box(mesh, WIDTH, self.length)
         scene.write_text(template.format(
             mesh=mesh, radius=self.radius, rotation=self.rotation, length=self.length,
             material="{" + ", ".join(f"{key}: {value}" for key, value in self.material.items()) + "}",
-            drag=2 * lowest, ramp=2 / lowest, duration=22 / lowest, **values))
+            drag=2 * lowest, ramp=ramp / lowest, duration=(20 + ramp) / lowest, **values))
         sinew("simulate", scene, "-o", folder / "run", "--quiet", *words, check=0)
         return folder / "run"
 

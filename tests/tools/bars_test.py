@@ -13,7 +13,7 @@ from pathlib import Path
 import meshio
 import numpy
 
-from bars import YOUNG_MODULUS, Bar
+from bars import PULL, WIDTH, YOUNG_MODULUS, Bar
 
 
 class Stiffness(unittest.TestCase):
@@ -60,10 +60,10 @@ class Middle:
 
 
 class Stress(unittest.TestCase):
-    def pulled(self, material, *words):
+    def pulled(self, material, *words, ramp=2):
         bar = Bar(9, material=material)
         with tempfile.TemporaryDirectory() as temporary:
-            run = bar.run("pull", Path(temporary), *words)
+            run = bar.run("pull", Path(temporary), *words, ramp=ramp)
             middle = Middle(bar, run)
             middle.bonds = None
             if (run / "bonds").exists():
@@ -85,6 +85,17 @@ class Stress(unittest.TestCase):
         for material in ({"breaking_strain": 0.5}, {"yield_strain": 0.5}):
             middle = self.pulled(material)
             self.assertLess(abs(middle.of("von_mises").mean() / (middle.strain * YOUNG_MODULUS) - 1), 0.03)
+
+    def test_stays_at_the_yield_stress_and_keeps_the_volume(self):
+        """Pulled slowly to four times the strain at which it yields; only the elastic part changes the volume."""
+        yield_strain = PULL / 4
+        middle = self.pulled({"yield_strain": yield_strain, "creep_rate": 1000}, "--set", "output.arrays=J, stress",
+                             ramp=20)
+        ratio = middle.of("stress")[:, 2].mean() / (YOUNG_MODULUS * yield_strain)
+        self.assertLess(abs(ratio - 1), 0.08)
+        self.assertLess(abs(middle.pull / (YOUNG_MODULUS * yield_strain * WIDTH**2) - 1), 0.08)
+        elastic = ratio * yield_strain * (1 - 2 * 0.25)
+        self.assertLess(abs(middle.of("J").mean() - 1 - elastic), 0.02 * PULL)
 
     def test_forces_of_the_bonds_through_a_section_are_the_pull(self):
         for material in ({}, {"model": "paper"}, {"yield_strain": 0.0005, "creep_rate": 50}):

@@ -71,6 +71,7 @@ struct MaterialOptions {
   std::optional<double> damping_ratio;
   DampingForm damping_form = DampingForm::paper;
   std::optional<double> breaking_strain;
+  std::optional<double> fracture_energy;
   std::optional<double> yield_strain;
   double creep_rate = 1;
 };

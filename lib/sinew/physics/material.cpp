@@ -24,6 +24,11 @@ double k1_of(const MaterialOptions& settings, const PackingStiffness& packing,
   return settings.young_modulus / (2 * per_k);  // E = per_k k / d0, k = 4 k1 r = 2 k1 d0
 }
 
+double poisson_ratio_of(const MaterialOptions& settings) {
+  constexpr double of_springs = 0.25;
+  return settings.model == MaterialModel::bonded_volume ? settings.poisson_ratio : of_springs;
+}
+
 PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   PackingStiffness packing;
   if (settings.model == MaterialModel::paper) return packing;
@@ -33,10 +38,30 @@ PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   return packing;
 }
 
+/// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
+/// strain.
+double yield_shear(double yield_strain, double poisson_ratio) {
+  return yield_strain * (1 + poisson_ratio) * std::sqrt(2.0 / 3);
+}
+
+/// The strain at which bonds of such a material break so that a crack takes that energy per area
+/// (J/m^2). A plane of normal n cuts |l n| / (2 V0) of the bonds l of each particle per area, with
+/// k (s l)^2 / 2 in each; over all directions, |l n| is l / 2 on average.
+double breaking_strain_for(double energy, double k, const PackingStiffness& packing, double r) {
+  const double nearest = 2 * r, second = std::sqrt(2.0) * nearest;
+  const double sum = 12 * k * std::pow(nearest, 3) + 6 * packing.second * k * std::pow(second, 3);
+  return std::sqrt(8 * volume_per_particle(r) * energy / sum);
+}
+
 void bond(const MaterialOptions& settings, const PackingStiffness& packing, Material& material) {
   const double k = material.pair.contact_stiffness();
-  material.bond = {k, packing.second * k, settings.breaking_strain.value_or(0),
-                   settings.yield_strain.value_or(0), settings.creep_rate};
+  const double breaking_strain =
+      settings.fracture_energy
+          ? breaking_strain_for(*settings.fracture_energy, k, packing, material.pair.r)
+          : settings.breaking_strain.value_or(0);
+  material.bond = {k, packing.second * k, breaking_strain,
+                   yield_shear(settings.yield_strain.value_or(0), poisson_ratio_of(settings)),
+                   settings.creep_rate};
   material.volume_stiffness = packing.volume * k / (2 * material.pair.r);
 }
 

@@ -16,8 +16,9 @@ struct BondStrength {
   double stiffness = 0;        ///< of nearest neighbors, N/m
   double second = 0;           ///< of second neighbors, N/m; 0: those have no bonds
   double breaking_strain = 0;  ///< in tension; 0: never breaks
-  double yield_strain = 0;     ///< in tension and compression; 0: never creeps
-  double creep_rate = 0;       ///< of what exceeds the yield strain, 1/s
+  /// Shear sqrt(D : D) around a particle beyond which its bonds creep (see solid.h); 0: never.
+  double yield_shear = 0;
+  double creep_rate = 0;  ///< of what exceeds it, 1/s
 };
 
 struct Material {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <sinew/core/particles.h>
+#include <sinew/physics/laws.h>
 #include <sinew/physics/reference/pair_pass.h>
 #include <sinew/physics/stepper.h>
 
@@ -15,6 +16,7 @@ namespace sinew {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
+constexpr double strain_per_stress = 7.5;  // D over dev T
 
 /// Index of j among the neighbors of i.
 std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
@@ -24,17 +26,7 @@ std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
   return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
 }
 
-/// The rest length after a time: strain beyond the yield strain decays; 0 for a bond that breaks.
-double next_length(const BondStrength& strength, double length, double d, double time) {
-  if (strength.breaking_strain > 0 && d > length * (1 + strength.breaking_strain)) return 0;
-  if (strength.yield_strain <= 0) return length;
-  const double excess = std::abs(d - length) - strength.yield_strain * length;
-  if (excess <= 0) return length;
-  const double crept = excess * -std::expm1(-strength.creep_rate * time);
-  return length + (d > length ? crept : -crept);
-}
-
-double energy(const PairForce* contact, double stiffness, double length, double d) {
+double energy_of_bond(const PairForce* contact, double stiffness, double length, double d) {
   if (length > 0) return stiffness / 2 * (d - length) * (d - length);
   if (contact == nullptr || d >= 2 * contact->r) return 0;
   return contact->potential(d) - contact->potential(2 * contact->r);
@@ -84,26 +76,6 @@ SolidBonds make_bonds(const Points& rest, const Material& material,
   apply(factors, id, bonds.nearest);
   apply(factors, id, bonds.second);
   return bonds;
-}
-
-double evolve(Bonds& bonds, const BondStrength& strength, const PairForce* contact,
-              const Particles& particles, double time) {
-  if (strength.breaking_strain <= 0 && strength.yield_strain <= 0) return 0;
-  // Both directions of a bond see the same distance to the last bit, and change alike.
-  return sum_over_particles(bonds.broken.size(), [&](std::size_t i) {
-    double released = 0;
-    for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
-      if (!bonds.whole(e)) continue;
-      const double d =
-          (particles.position(i) - particles.position(bonds.neighbors.neighbor[e])).norm();
-      const double before = bonds.rest_length[e], k = bonds.stiffness[e];
-      const double after = next_length(strength, before, d, time);
-      bonds.rest_length[e] = after;
-      bonds.broken[i] += after == 0;
-      released += (energy(contact, k, before, d) - energy(contact, k, after, d)) / 2;
-    }
-    return released;
-  });
 }
 
 namespace {
@@ -281,13 +253,75 @@ void Solid::restore(const std::vector<double>& rest_length) {
   }
 }
 
+/// P of each particle; none where no bond creeps.
+std::vector<Mat3> Solid::flow(const Particles& particles) const {
+  const double yield = material_.bond.yield_shear;
+  if (yield <= 0) return {};
+  std::vector<Mat3> flow(rest_.size(), Mat3::Zero());
+  for_each_particle(rest_.size(), [&](std::size_t i) {
+    double weights = 0, pulls = 0;
+    Mat3 stress = Mat3::Zero(), spread = Mat3::Zero();
+    const auto add = [&](const BondNow& bond) {
+      const double kl = bond.spring.stiffness * bond.spring.length;
+      const double weight = kl * bond.spring.length;
+      const double pull = kl * (bond.distance - bond.spring.length);
+      weights += weight;
+      pulls += pull;
+      if (bond.distance == 0) return;
+      const Vec3 n = bond.offset / bond.distance;
+      stress += pull * n * n.transpose();
+      spread += weight * n * n.transpose();
+    };
+    for_each_bond(bonds_.nearest, particles, i, add);
+    for_each_bond(bonds_.second, particles, i, add);
+    if (weights == 0) return;
+    const Mat3 T = (stress - pulls / weights * spread) / weights;
+    const Mat3 D = strain_per_stress * (T - T.trace() / 3 * Mat3::Identity());
+    const double shear = D.norm();
+    if (shear > yield) flow[i] = (1 - yield / shear) * D;
+  });
+  return flow;
+}
+
+/// Lets bonds creep and break over a step (s). `contact`: of a pair once its bond broke; none where
+/// it repels anyhow. Returns the energy lost, J.
+double Solid::evolve(Bonds& bonds, const PairForce* contact, const std::vector<Mat3>& flow,
+                     const Particles& particles, double step) const {
+  const BondStrength& strength = material_.bond;
+  const double crept = -std::expm1(-strength.creep_rate * step);
+  const auto next_length = [&](std::size_t i, const BondNow& bond) {
+    const double l = bond.spring.length;
+    if (strength.breaking_strain > 0 && bond.distance > l * (1 + strength.breaking_strain))
+      return 0.0;
+    if (flow.empty() || bond.distance == 0) return l;
+    const Vec3 n = bond.offset / bond.distance;
+    return l * (1 + crept * n.dot((flow[i] + flow[bond.neighbor]) * n) / 2);
+  };
+  // Both directions of a bond see the same distance to the last bit, and change alike.
+  return sum_over_particles(bonds.broken.size(), [&](std::size_t i) {
+    double released = 0;
+    for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e) {
+      if (!bonds.whole(e)) continue;
+      const std::uint32_t j = bonds.neighbors.neighbor[e];
+      const Vec3 offset = particles.position(i) - particles.position(j);
+      const double d = offset.norm(), before = bonds.rest_length[e], k = bonds.stiffness[e];
+      const double after = next_length(i, {j, offset, d, {before, k}});
+      bonds.rest_length[e] = after;
+      bonds.broken[i] += after == 0;
+      released +=
+          (energy_of_bond(contact, k, before, d) - energy_of_bond(contact, k, after, d)) / 2;
+    }
+    return released;
+  });
+}
+
 double Solid::evolve(const Particles& particles, double step) {
-  if (!law_->has_bonds) return 0;
+  if (!bonds_change(material_)) return 0;
   std::vector<bool> severed(rest_.size());
   for (std::size_t i = 0; i < severed.size(); ++i) severed[i] = broken(i) > 0;
-  double released =
-      sinew::evolve(bonds_.nearest, material_.bond, &material_.pair, particles, step) +
-      sinew::evolve(bonds_.second, material_.bond, nullptr, particles, step);
+  const std::vector<Mat3> now = flow(particles);
+  double released = evolve(bonds_.nearest, &material_.pair, now, particles, step) +
+                    evolve(bonds_.second, nullptr, now, particles, step);
   if (material_.volume_stiffness <= 0) return released;
   for (std::size_t i = 0; i < severed.size(); ++i)
     if (!severed[i] && broken(i) > 0) released += volume_energy(i);

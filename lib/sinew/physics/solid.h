@@ -9,6 +9,13 @@
 // dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weight w_i =
 // min(1, lambda_min(A_i) / (4 d0^2))^2 vanishes where neighbors are few: without it the particles
 // of a surface would halve the step.
+// Bonds that yield creep without a change of volume (as von Mises' plasticity). T = sum w (e - m) n
+// n^T / sum w is a particle's stress without pressure: the sum is over its bonds, e = (d - l) / l
+// with the mean m = sum w e / sum w, n are their directions, w = k l^2. Where sum w nnnn is
+// isotropic, D = 15/2 dev T is the deviator of its elastic strain. Where the shear sqrt(D : D)
+// exceeds the yield shear y, the rest length of a bond between i and j changes by
+//   dl/dt = rate l n (P_i + P_j)/2 n,  P = (1 - y / sqrt(D : D)) D, or 0 below it:
+// shear decays to the yield shear, and pressure stays.
 // paper with cohesion initial_neighbors: eq. 1, but only neighbors at rest attract each other.
 //
 //     Solid solid(material, rest);
@@ -29,7 +36,7 @@
 namespace sinew {
 
 // The bonds of a solid: neighbors at rest stay bonded wherever they move. A bond is a spring;
-// beyond a strain it breaks, and beyond a smaller one its rest length creeps (plastic flow).
+// beyond a strain it breaks, and where shear is large its rest length creeps (plastic flow).
 
 struct Bonds {
   NeighborLists neighbors;           ///< in both directions, in the order of the particles
@@ -73,11 +80,6 @@ void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i
   }
 }
 
-/// Lets bonds creep and break over a time (s). `contact`: of a pair once its bond broke; none where
-/// it repels anyhow. Returns the energy lost, J.
-double evolve(Bonds& bonds, const BondStrength& strength, const PairForce* contact,
-              const Particles& particles, double time);
-
 /// Whether a material's forces depend on the neighbors at rest.
 bool remembers_neighbors(const Material& material);
 
@@ -118,6 +120,9 @@ class Solid {
   void add_springs_of_second(const Particles& particles, Forces& forces) const;
   void find_volumes(const Particles& particles);
   Vec3 volume_force(std::size_t i) const;
+  std::vector<Mat3> flow(const Particles& particles) const;
+  double evolve(Bonds& bonds, const PairForce* contact, const std::vector<Mat3>& flow,
+                const Particles& particles, double step) const;
   double volume_energy(std::size_t i) const;
 
   Material material_;

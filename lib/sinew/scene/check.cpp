@@ -46,7 +46,7 @@ double memory_per_particle(const StepperChoice& choice, const Body& body) {
   const BondStrength& bond = body.material.bond;
   const double share = single ? 0.5 : 1;
   if (body.material.volume_stiffness > 0 || has_muscles(body)) bytes += share * memory_of_strain;
-  if (bond.yield_strain > 0 || bond.breaking_strain > 0) bytes += share * memory_of_changing_bonds;
+  if (bond.yield_shear > 0 || bond.breaking_strain > 0) bytes += share * memory_of_changing_bonds;
   return bytes;
 }
 

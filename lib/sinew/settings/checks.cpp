@@ -65,7 +65,12 @@ void check_material(const Settings& settings) {
                         " radii before it begins at a = " + number_text(material.a),
                     "give an a below b");
   const bool has_bonds = material.model != MaterialModel::paper;
-  for (const char* key : {"material.breaking_strain", "material.yield_strain"})
+  if (material.breaking_strain && material.fracture_energy)
+    throw bad_input(place_of(settings, "material.breaking_strain", "material.fracture_energy"),
+                    "material.fracture_energy sets the breaking strain, which is also given",
+                    "remove one of the two");
+  for (const char* key :
+       {"material.breaking_strain", "material.fracture_energy", "material.yield_strain"})
     if (is_given(settings, key) && !has_bonds)
       throw bad_input(settings.place(key),
                       std::string(key) + " is of bonds, and the paper's model has none",

@@ -119,11 +119,17 @@ std::vector<Field<Settings>> make_damping_and_strength() {
           "paper: eq. 2; symmetric: conserves momentum; central: also conserves angular momentum"),
       field<S>("material", "breaking_strain", SINEW_AT(S, material.breaking_strain), "",
                "strain at which a bond breaks, in bonded models", positive, "none"),
-      field<S>("material", "yield_strain", SINEW_AT(S, material.yield_strain), "",
-               "strain of a bond beyond which its rest length creeps, in bonded models", positive,
-               "none"),
+      field<S>("material", "fracture_energy", SINEW_AT(S, material.fracture_energy), "J/m^2",
+               "energy that a crack takes per area, in bonded models: sets breaking_strain so that "
+               "it does not depend on the radius",
+               positive, "none"),
+      field<S>(
+          "material", "yield_strain", SINEW_AT(S, material.yield_strain), "",
+          "strain of a bar that is pulled beyond which it flows, keeping its volume, in bonded "
+          "models",
+          positive, "none"),
       field<S>("material", "creep_rate", SINEW_AT(S, material.creep_rate), "1/s",
-               "fraction of the strain beyond yield_strain that creeps per unit of time",
+               "fraction of the shear beyond yield_strain that flows per unit of time",
                not_negative),
   };
 }

@@ -18,12 +18,11 @@ struct SolidLaw {
         touching2(L::all(4 * step.law.r * step.law.r)),
         k1(L::all(step.law.k1 / step.law.r)),
         push(push_of<L>(step.law)),
-        yield(L::all(step.bonds.yield)),
         breaking(L::all(1 + step.bonds.breaking)) {}
 
   PullLaw<L> pull;
   InverseLength<L> inverse;
-  V b2, touching2, k1, push, yield, breaking;
+  V b2, touching2, k1, push, breaking;
 };
 
 /// What a vector's bonds and contacts have met.
@@ -98,14 +97,16 @@ SINEW_INLINE typename L::V spring_energy(const Bond<L>& bond, typename L::V d) {
   return bond.stiffness * (longer * longer) * L::all(static_cast<typename L::Real>(0.5));
 }
 
-/// How far a bond is beyond its yield or breaking strain, where it is.
+/// Positive where a bond breaks or creeps.
 template <class L>
 SINEW_INLINE typename L::V excess(const Step<typename L::Real>& step, const SolidLaw<L>& law,
-                                  const Bond<L>& bond, typename L::V d) {
+                                  const Bond<L>& bond, typename L::V d, std::ptrdiff_t i) {
   typename L::V beyond = L::all(0);
   if (step.bonds.breaking > 0) beyond = L::larger(beyond, d - law.breaking * bond.length);
-  if (step.bonds.yield > 0)
-    beyond = L::larger(beyond, L::size(d - bond.length) - law.yield * bond.length);
+  if (step.bonds.yield > 0) {
+    const typename L::V own = L::load(step.bonds.flows + i);
+    beyond = L::larger(beyond, L::larger(own, L::load(step.bonds.flows + i + bond.difference)));
+  }
   return beyond;
 }
 
@@ -142,7 +143,7 @@ SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L
             part<L>(step, i, j, squared, bond.stiffness * bond.length, pull, d, apart.x);
           if constexpr (pairs == changing_springs)
             met.strained =
-                L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
+                L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d, i)));
           sums.add(step, i, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
         }
         if constexpr (sizeof(typename L::Real) == 8) {
@@ -168,7 +169,8 @@ SINEW_INLINE void add_second(const Step<typename L::Real>& step, const SolidLaw<
         if constexpr (careful)
           part<L>(step, i, j, squared, bond.stiffness * bond.length, pull, d, apart.x);
         if constexpr (pairs == changing_springs)
-          met.strained = L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d)));
+          met.strained =
+              L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d, i)));
         sums.push(bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(bond.mask, nearer<L, second>(squared), law.touching2);
@@ -258,73 +260,6 @@ SINEW_INLINE typename L::V volume_energy(const Volumes<typename L::Real>& volume
   const typename L::V growth = L::load(volumes.growth + i);
   return L::all(static_cast<typename L::Real>(0.5)) * L::load(volumes.stiffness + i) *
          (growth * growth);
-}
-
-/// A particle that lost a bond keeps its volume no longer. Returns the energy that is lost.
-template <class Real>
-Real forget_volume(const Volumes<Real>& volumes, std::ptrdiff_t i) {
-  const Real growth = volumes.growth[i];
-  const Real energy = volumes.stiffness[i] * growth * growth / 2;
-  volumes.stiffness[i] = 0;
-  return energy;
-}
-
-/// Lets the bonds of a vector creep and break: both directions of a bond see the same distance to
-/// the last bit, and change alike. Adds the energy that is lost, per time, to `lost`. A pair whose
-/// bond broke repels like any other.
-template <class L, Shell shell>
-[[gnu::noinline]] void change_bonds(const Step<typename L::Real>& step, std::size_t block, int lane,
-                                    typename L::Real* lost, bool& broke) {
-  using V = typename L::V;
-  using Real = typename L::Real;
-  constexpr int size = Traits<Real>::block;
-  const SolidLaw<L> law(step);
-  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
-  const Place<L> here = load_place<L>(step.before.x, i);
-  const bool repels = shell == second;  // once it is broken as before
-  const auto change = [&](const Bond<L>& bond, std::uint32_t e) {
-    const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
-    // As in the sums, so that a bond that counts as strained there is so here.
-    const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
-    const V d = L::pick(L::less(L::all(0), squared),
-                        squared * inverse_length<L, shell, true>(law, squared), L::all(0));
-    V freed = L::all(0);
-    if (step.bonds.yield > 0) {
-      const V longer = d - bond.length;
-      const V beyond =
-          L::keep(bond.mask, L::larger(L::size(longer) - law.yield * bond.length, L::all(0)));
-      const V share = L::all(step.bonds.crept) * beyond;
-      const V by = L::pick(L::less(L::all(0), longer), share, L::all(0) - share);
-      Real* crept = step.bonds.creep + static_cast<std::size_t>(e) * size + lane;
-      const V total = L::load(crept) + by;
-      L::store(crept, total);
-      Bond<L> after = bond;
-      after.length = L::all(bond.kind->length) + total;
-      freed = spring_energy<L>(bond, d) - spring_energy<L>(after, d);
-    }
-    if (step.bonds.breaking > 0) {
-      const auto breaks =
-          L::less(L::keep(bond.mask, law.breaking * bond.length), L::keep(bond.mask, d));
-      if (L::any(breaks)) {
-        broke = true;
-        Real gone[L::width];
-        L::store(gone, L::keep(breaks, L::all(1)));
-        for (int n = 0; n < L::width; ++n) {
-          if (gone[n] == 0) continue;
-          step.bonds.entries[e].lanes &= ~(std::uint32_t{1} << (lane + n));
-          ++step.bonds.broken[i + n];
-          if (step.volumes.stiffness != nullptr)
-            lost[n] += forget_volume(step.volumes, i + n) / step.drift;
-        }
-        const V kept = repels ? L::all(0) : repulsion_energy<L>(step.law, d);
-        freed = L::pick(breaks, spring_energy<L>(bond, d) - kept, freed);
-      }
-    }
-    add_to<L>(lost, L::keep(bond.mask, freed) * L::all(Real(0.5) / step.drift));
-  };
-  const std::uint32_t *first = step.bonds.first + block, *between = step.bonds.second + block;
-  for_each_bond<L>(step.bonds, shell == nearest ? *first : *between,
-                   shell == nearest ? *between : first[1], lane, change);
 }
 
 }  // namespace sinew::kernel

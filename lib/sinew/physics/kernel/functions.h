@@ -53,6 +53,7 @@ template <class L>
 constexpr Functions<typename L::Real> functions() {
   Functions<typename L::Real> all{};
   all.strain = flushed<L, strain_pieces<L>>;
+  all.flow = flushed<L, flow_pieces<L>>;
   add<L, between_all>(all);
   add<L, among_neighbors>(all);
   add<L, springs>(all);

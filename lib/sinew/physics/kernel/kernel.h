@@ -88,8 +88,10 @@ struct Bonds {
   const Real* own;       ///< rows x block: stiffness by lane, where it differs
   Real* creep;           ///< entries x block, added to the length; null: none creeps
   std::int32_t* broken;  ///< by particle
-  Real yield;            ///< strain beyond which a bond creeps
-  Real crept;            ///< share of the strain beyond that which a step takes
+  Real* flow[6];         ///< by particle: P of ../solid.h, x x, y y, z z, y z, z x, x y
+  Real* flows;           ///< by particle: positive where P is not 0
+  Real yield;            ///< squared shear beyond which bonds creep; 0: never
+  Real crept;            ///< share that a step takes of it
   Real breaking;         ///< strain at which it breaks
 };
 
@@ -279,6 +281,7 @@ using Work = void (*)(const Step<Real>&, std::size_t begin, std::size_t end);
 template <class Real>
 struct Functions {
   /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
+  Work<Real> flow;  ///< of bonds that creep
   Work<Real> strain;
   /// By PairLaw: finds the shares that pairwise damping needs, before a step.
   Work<Real> count[pair_laws];

@@ -7,6 +7,7 @@
 
 #include <sinew/physics/kernel/bonds.h>
 #include <sinew/physics/kernel/bones.h>
+#include <sinew/physics/kernel/changing_bonds.h>
 #include <sinew/physics/kernel/pairs.h>
 #include <sinew/physics/kernel/strain.h>
 

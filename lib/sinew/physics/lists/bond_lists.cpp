@@ -218,16 +218,22 @@ template <class Real>
 kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double step) {
   const BondStrength& strength = material.bond;
   const auto real = [](double value) { return static_cast<Real>(value); };
-  return {first.data(),
-          second.data(),
-          entries.data(),
-          kinds.data(),
-          own.data(),
-          creep.empty() ? nullptr : creep.data(),
-          broken.empty() ? nullptr : broken.data(),
-          real(strength.yield_strain),
-          real(-std::expm1(-strength.creep_rate * step)),
-          real(strength.breaking_strain)};
+  constexpr std::size_t block = kernel::Traits<Real>::block;
+  kernel::Bonds<Real> bonds{};
+  bonds.first = first.data();
+  bonds.second = second.data();
+  bonds.entries = entries.data();
+  bonds.kinds = kinds.data();
+  bonds.own = own.data();
+  bonds.broken = broken.empty() ? nullptr : broken.data();
+  bonds.breaking = real(strength.breaking_strain);
+  if (creep.empty()) return bonds;
+  bonds.creep = creep.data();
+  for (std::size_t k = 0; k < flow.size(); ++k) bonds.flow[k] = flow[k].data() + block;
+  bonds.flows = flows.data() + block;
+  bonds.yield = real(strength.yield_shear * strength.yield_shear);
+  bonds.crept = real(-std::expm1(-strength.creep_rate * step));
+  return bonds;
 }
 
 template <class Real>
@@ -309,7 +315,11 @@ BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::i
   bonds.set_units(body, mass, units);
   if (!law_of(body.material).has_bonds) return bonds;
   const BondStrength& strength = body.material.bond;
-  if (strength.yield_strain > 0) bonds.creep.assign(bonds.entries.size() * size, 0);
+  if (strength.yield_shear > 0) {
+    bonds.creep.assign(bonds.entries.size() * size, 0);
+    for (auto& values : bonds.flow) values.assign((blocks + 2) * size, 0);
+    bonds.flows.assign((blocks + 2) * size, 0);
+  }
   if (strength.breaking_strain > 0) bonds.broken.assign(blocks * size, 0);
   return bonds;
 }

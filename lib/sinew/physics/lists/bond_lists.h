@@ -7,6 +7,7 @@
 //     step.bonds = bonds.arrays(body.material, step);
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +30,9 @@ struct BondLists {
   std::vector<Real> own;             ///< the stiffness with it
   std::vector<Real> creep;           ///< entries x block; empty: none creeps
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
+  /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
+  std::array<std::vector<Real>, 6> flow;
+  std::vector<Real> flows;
 
   /// The lengths in these units.
   void set_units(const Body& body, double mass, const Units& units);

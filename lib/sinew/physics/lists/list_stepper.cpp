@@ -125,6 +125,8 @@ kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forc
   const auto now = job();
   if (!strain_.empty())
     on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
+  if (!bonds_.flows.empty())
+    on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.flow(now, first, last); });
   if (!share_.empty())
     on_all_pieces(
         [&](std::size_t first, std::size_t last) { kernel_.count[law_](now, first, last); });

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bonds that creep and break: ../solid.h gives the laws.
+#pragma once
+
+#include <sinew/physics/kernel/bonds.h>
+
+namespace sinew::kernel {
+
+/// A symmetric tensor: x x, y y, z z, y z, z x, x y.
+template <class L>
+struct Symmetric {
+  typename L::V at[6];
+};
+
+template <class L>
+SINEW_INLINE Symmetric<L> squares(const Triple<L>& a) {
+  return {{a.x * a.x, a.y * a.y, a.z * a.z, a.y * a.z, a.z * a.x, a.x * a.y}};
+}
+
+/// a : b.
+template <class L>
+SINEW_INLINE typename L::V product(const Symmetric<L>& a, const Symmetric<L>& b) {
+  const typename L::V normal =
+      L::fused(a.at[0], b.at[0], L::fused(a.at[1], b.at[1], a.at[2] * b.at[2]));
+  const typename L::V shear =
+      L::fused(a.at[3], b.at[3], L::fused(a.at[4], b.at[4], a.at[5] * b.at[5]));
+  return L::fused(L::all(2), shear, normal);
+}
+
+/// Sums over a particle's bonds: w, w e, w n n^T, w e n n^T.
+template <class L>
+struct StressSums {
+  typename L::V weights = L::all(0), pulls = L::all(0);
+  Symmetric<L> spread = {{weights, weights, weights, weights, weights, weights}};
+  Symmetric<L> stress = spread;
+};
+
+template <class L, Shell shell>
+SINEW_INLINE void add_stress(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                             std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
+                             StressSums<L>& sums) {
+  using V = typename L::V;
+  const std::uint32_t between = step.bonds.second[block];
+  for_each_bond<L>(
+      step.bonds, shell == nearest ? step.bonds.first[block] : between,
+      shell == nearest ? between : step.bonds.first[block + 1],
+      lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
+        const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
+        const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
+        const V inverse = L::pick(L::less(L::all(0), squared),
+                                  inverse_length<L, shell, true>(law, squared), L::all(0));
+        const V kl = L::keep(bond.mask, bond.stiffness * bond.length), weight = kl * bond.length;
+        const V pull = kl * L::fused(squared, inverse, L::all(0) - bond.length);
+        const V inverse2 = inverse * inverse;
+        const Symmetric<L> nn = squares<L>(apart);
+        sums.weights = sums.weights + weight;
+        sums.pulls = sums.pulls + pull;
+        for (int k = 0; k < 6; ++k) {
+          const V part = L::keep(bond.mask, nn.at[k] * inverse2);
+          sums.spread.at[k] = L::fused(weight, part, sums.spread.at[k]);
+          sums.stress.at[k] = L::fused(pull, part, sums.stress.at[k]);
+        }
+      });
+}
+
+/// D, the deviator of its elastic strain.
+template <class L>
+SINEW_INLINE Symmetric<L> shear_of(const StressSums<L>& sums) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  const V per_weight =
+      L::pick(L::less(L::all(0), sums.weights), L::all(1) / sums.weights, L::all(0));
+  const V mean = sums.pulls * per_weight, scale = L::all(Real(7.5)) * per_weight;
+  Symmetric<L> D;
+  for (int k = 0; k < 6; ++k) D.at[k] = scale * (sums.stress.at[k] - mean * sums.spread.at[k]);
+  const V third = (D.at[0] + D.at[1] + D.at[2]) * L::all(Real(1.0 / 3));
+  for (int k = 0; k < 3; ++k) D.at[k] = D.at[k] - third;
+  return D;
+}
+
+/// P of all particles of the pieces [begin, end).
+template <class L>
+void flow_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  constexpr int size = Traits<Real>::block;
+  const SolidLaw<L> law(step);
+  const V one = L::all(1), yield = L::all(step.bonds.yield);
+  const std::size_t last = end * blocks_per_piece;
+  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
+    for (int lane = 0; lane < size; lane += L::width) {
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
+      const Place<L> here = load_place<L>(step.before.x, i);
+      StressSums<L> sums;
+      add_stress<L, nearest>(step, law, block, lane, i, here, sums);
+      add_stress<L, second>(step, law, block, lane, i, here, sums);
+      const Symmetric<L> D = shear_of<L>(sums);
+      const V shear = product<L>(D, D);
+      const V flows =
+          L::keep(L::less(yield, shear), one - L::root(yield / L::larger(shear, yield)));
+      L::store(step.bonds.flows + i, flows);
+      for (int k = 0; k < 6; ++k) L::store(step.bonds.flow[k] + i, flows * D.at[k]);
+    }
+}
+
+/// A particle that lost a bond keeps its volume no longer. Returns the energy that is lost.
+template <class Real>
+Real forget_volume(const Volumes<Real>& volumes, std::ptrdiff_t i) {
+  const Real growth = volumes.growth[i];
+  const Real energy = volumes.stiffness[i] * growth * growth / 2;
+  volumes.stiffness[i] = 0;
+  return energy;
+}
+
+/// Lets the bonds of a vector creep and break: both directions of a bond see the same distance to
+/// the last bit, and change alike. Adds the energy that is lost, per time, to `lost`. A pair whose
+/// bond broke repels like any other.
+template <class L, Shell shell>
+[[gnu::noinline]] void change_bonds(const Step<typename L::Real>& step, std::size_t block, int lane,
+                                    typename L::Real* lost, bool& broke) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  constexpr int size = Traits<Real>::block;
+  const SolidLaw<L> law(step);
+  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  const bool repels = shell == second;  // once it is broken as before
+  const auto change = [&](const Bond<L>& bond, std::uint32_t e) {
+    const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
+    // As in the sums, so that a bond that counts as strained there is so here.
+    const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
+    const V inverse = L::pick(L::less(L::all(0), squared),
+                              inverse_length<L, shell, true>(law, squared), L::all(0));
+    const V d = squared * inverse;
+    V freed = L::all(0);
+    if (step.bonds.yield > 0) {
+      const std::ptrdiff_t j = i + bond.difference;
+      Symmetric<L> P;
+      for (int k = 0; k < 6; ++k)
+        P.at[k] = L::load(step.bonds.flow[k] + i) + L::load(step.bonds.flow[k] + j);
+      const V strain = product<L>(P, squares<L>(apart)) * (inverse * inverse);
+      const V by = L::keep(bond.mask, L::all(step.bonds.crept * Real(0.5)) * bond.length * strain);
+      Real* crept = step.bonds.creep + static_cast<std::size_t>(e) * size + lane;
+      const V total = L::load(crept) + by;
+      L::store(crept, total);
+      Bond<L> after = bond;
+      after.length = L::all(bond.kind->length) + total;
+      freed = spring_energy<L>(bond, d) - spring_energy<L>(after, d);
+    }
+    if (step.bonds.breaking > 0) {
+      const auto breaks =
+          L::less(L::keep(bond.mask, law.breaking * bond.length), L::keep(bond.mask, d));
+      if (L::any(breaks)) {
+        broke = true;
+        Real gone[L::width];
+        L::store(gone, L::keep(breaks, L::all(1)));
+        for (int n = 0; n < L::width; ++n) {
+          if (gone[n] == 0) continue;
+          step.bonds.entries[e].lanes &= ~(std::uint32_t{1} << (lane + n));
+          ++step.bonds.broken[i + n];
+          if (step.volumes.stiffness != nullptr)
+            lost[n] += forget_volume(step.volumes, i + n) / step.drift;
+        }
+        const V kept = repels ? L::all(0) : repulsion_energy<L>(step.law, d);
+        freed = L::pick(breaks, spring_energy<L>(bond, d) - kept, freed);
+      }
+    }
+    add_to<L>(lost, L::keep(bond.mask, freed) * L::all(Real(0.5) / step.drift));
+  };
+  const std::uint32_t *first = step.bonds.first + block, *between = step.bonds.second + block;
+  for_each_bond<L>(step.bonds, shell == nearest ? *first : *between,
+                   shell == nearest ? *between : first[1], lane, change);
+}
+
+}  // namespace sinew::kernel
