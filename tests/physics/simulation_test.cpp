@@ -256,7 +256,7 @@ TEST(Unstable, StopsWhereNoBoneHoldsTheFlesh) {
                          [&] {
                            for (int n = 0; n < 2000; ++n) simulation.step();
                          },
-                         {"in one step; use solver.time_step"});
+                         {"in one step: ", "; use solver.time_step"});
     }
 }
 

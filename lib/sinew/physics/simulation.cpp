@@ -8,6 +8,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/instability.h>
 #include <sinew/physics/solid.h>
 #include <sinew/physics/world/world.h>
 
@@ -83,9 +84,12 @@ void Simulation::forget_read() {
   read_ = false;
 }
 
-void Simulation::fail(const Offender& first) const {
+void Simulation::fail(const Offender& first) {
   const std::int32_t id = particles_.id[first.particle];
   const auto bones = body_->binding.of(id);
+  evaluate();
+  const std::string why =
+      cause_and_cure({*body_, pose(), time(), particles(), forces_, stepping_}, first.particle);
   const std::string where =
       bones.empty() ? "" : " on bone '" + body_->skeleton.bones[bones.front().bone].name + "'";
   throw Error(
@@ -96,7 +100,7 @@ void Simulation::fail(const Offender& first) const {
                               (bones.empty() ? " r relative to its previous motion in one step"
                                              : " r relative to its bone in one step")
                         : std::string(" reached a value that is not finite")) +
-          "; use solver.time_step " + three_digits(stepping_.step / 2) + " or less");
+          ": " + why);
 }
 
 const Particles& Simulation::particles() const {
