@@ -118,7 +118,7 @@ class Bar:
             mesh=mesh, radius=self.radius, rotation=self.rotation, length=self.length,
             material="{" + ", ".join(f"{key}: {value}" for key, value in self.material.items()) + "}",
             drag=2 * lowest, ramp=ramp / lowest, duration=(20 + ramp) / lowest, **values))
-        sinew("simulate", scene, "-o", folder / "run", "--quiet", *words, check=0)
+        sinew("simulate", scene, "-o", folder / "run", "--quiet", *words, check=0, timeout=1200)
         return folder / "run"
 
     def stiffness(self, kind):

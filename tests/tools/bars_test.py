@@ -61,7 +61,7 @@ class Middle:
 
 class Stress(unittest.TestCase):
     def pulled(self, material, *words, ramp=2):
-        bar = Bar(9, material=material)
+        bar = Bar(7, material=material)
         with tempfile.TemporaryDirectory() as temporary:
             run = bar.run("pull", Path(temporary), *words, ramp=ramp)
             middle = Middle(bar, run)
@@ -109,7 +109,7 @@ class Stress(unittest.TestCase):
     def test_of_a_free_muscle_is_none_and_it_shortens_by_its_stress_over_the_modulus(self):
         strength = YOUNG_MODULUS / 500
         for axis in ("100", "random"):
-            bar = Bar(9, axis=axis)
+            bar = Bar(7, axis=axis)
             with tempfile.TemporaryDirectory() as temporary:
                 run = bar.contract(strength, Path(temporary), "--set", "output.arrays=stress")
                 middle = Middle(bar, run)

@@ -43,9 +43,9 @@ solver:
 SERIES = ["particles", "surface", "bones", "frames"]
 
 
-def sinew(*words, check=None, **options):
+def sinew(*words, check=None, timeout=120, **options):
     done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
-                          timeout=120, **options)
+                          timeout=timeout, **options)
     if check is not None and done.returncode != check:
         raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
     return done
