@@ -167,6 +167,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Rung{"PaperPlate", plate, MaterialModel::paper, 0.1}),
     [](const auto& rung) { return std::string(rung.param.name); });
 
+TEST(Presets, SwingAsTheirDampingRatioSays) {
+  const Points rest = test::fcc_box(5, 5, 25, r);
+  for (const MaterialPreset& preset : material_presets())
+    for (const auto model : {MaterialModel::paper, MaterialModel::bonded}) {
+      if (preset.yield_strain && model == MaterialModel::paper) continue;
+      Settings settings = test::unbound(test::box_scene(25));
+      settings.material.model = model;
+      settings.material.density = preset.density;
+      settings.material.young_modulus = preset.young_modulus;
+      settings.material.damping_ratio = preset.damping_ratio;
+      settings.material.yield_strain = preset.yield_strain;
+      const ElasticModes modes = elastic_modes(test::make_body(settings, rest));
+      const Ring ring = measured(settings, rest, modes.frequency());
+      EXPECT_NEAR(ring.ratio, preset.damping_ratio, 0.1 * preset.damping_ratio) << preset.what;
+    }
+}
+
 /// Of a bar that is too large to be solved exactly.
 TEST(DampingRatioOfALargerBody, IsThatOfABodyThatRings) {
   for (const auto model : {MaterialModel::paper, MaterialModel::bonded}) {
