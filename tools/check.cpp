@@ -100,13 +100,24 @@ void add_material(const Material& material, Results& results) {
   results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
 }
 
-/// Of the bone along which the body is softest against what was asked for.
+/// Of each bone, and of that along which the body is softest against what was asked for.
 void add_planes(const Body& body, Results& results) {
   const auto bones = stiffness_along_bones(body);
   if (bones.empty()) return;
   const BoneStiffness& softest = *std::min_element(
       bones.begin(), bones.end(),
       [](const auto& a, const auto& b) { return a.bending_modulus() < b.bending_modulus(); });
+  auto all = nlohmann::ordered_json::array();
+  for (const BoneStiffness& bone : bones) {
+    results.add_line("along_bone", bone.bone + ", " + three_digits(bone.young_modulus) + " Pa, " +
+                                       three_digits(bone.planes) + " planes across, bends " +
+                                       three_digits(100 * bone.lack) + " % softer by its size");
+    all.push_back({{"bone", bone.bone},
+                   {"young_modulus", bone.young_modulus},
+                   {"planes_across", bone.planes},
+                   {"lack_of_bending_stiffness", 100 * bone.lack}});
+  }
+  results.add_value("along_bones", std::move(all));
   results.add("softest_bone", softest.bone);
   results.add("young_modulus_along_it", softest.young_modulus, "Pa");
   results.add("planes_across", softest.planes);
