@@ -72,13 +72,21 @@ TEST(PairForces, VolumesOfSeveredParticlesAreNotKept) {
   expect_pressure(body, state, 0);
 }
 
-TEST(PairForces, AreOverTheVolumeOfTheBodyAroundAParticle) {
+/// Weaker bonds stand for less of the body, under the same stress.
+TEST(PairForces, AreOverTheVolumeThatTheBondsMakeStiff) {
   RestInput input = changing();
-  input.share.assign(input.positions.size(), 0.5);
+  input.law.second = [](double d, double rest) { return (rest - d) / 4; };
+  input.law.second_range = 3.1 * r;
+  input.law.factor = [](std::uint32_t, std::uint32_t) { return 0.5; };
   const RestBody body = rest_body(input);
   FrameState state = moved(body, scaled(1.1));
   state.bond_rest = first_bond_rest(body);
-  expect_pressure(body, state, -2 * pressure(0.1 * 2 * r, 1.1 * 2 * r));
+  // As of factors 1: twelve bonds, and six of a quarter at sqrt(2) times the distance.
+  const double expected = pressure(0.1 * 2 * r, 1.1 * 2 * r) * (12 + 6 * 0.25 * 2) / 12;
+  const std::vector<Mat3> found = stresses(body, state);
+  for (std::size_t i = 0; i < body.particles(); ++i)
+    if (body.bonds_of(i) == 18)
+      EXPECT_LT((found[i] - expected * Mat3::Identity()).norm(), 1e-12 * expected);
 }
 
 TEST(PairForces, OfMusclesAddTheirStress) {

@@ -53,6 +53,13 @@ TEST(Instability, OfAStepOverTheLimitNamesTheLimit) {
   expect_cured(scene, {"over the limit of the body at rest, 0.00"}, 2);
 }
 
+TEST(Instability, OfAStepOverTheLimitDoesNotBlameTheWorld) {
+  Scene scene;
+  scene.step = 0.03;
+  scene.settings.solver.gravity = {0, 0, -9.81};
+  expect_cured(scene, {"over the limit of the body at rest, 0.00"}, 0.3);
+}
+
 TEST(Instability, OfABoneThatIsTooFastNamesIt) {
   Scene scene;
   scene.settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.02, 60)})};
@@ -62,7 +69,9 @@ TEST(Instability, OfABoneThatIsTooFastNamesIt) {
 TEST(Instability, OfGravityInWrongUnitsSaysSo) {
   Scene scene;
   scene.settings.solver.gravity = {0, 0, -9810};
-  expect_cured(scene, {"gravity alone moves it ", "give solver.gravity in m/s^2"}, 0.001);
+  const std::string error = scene.error_within(1);
+  for (const char* word : {"gravity alone moves it ", "give solver.gravity in m/s^2"})
+    EXPECT_NE(error.find(word), error.npos) << error;
 }
 
 TEST(Instability, OfAnObstacleInTheBodyNamesIt) {
@@ -73,9 +82,7 @@ TEST(Instability, OfAnObstacleInTheBodyNamesIt) {
   ball.stiffness = 500;
   scene.world.emplace();
   scene.world->obstacles = {ball};
-  const std::string error = scene.error_within(1);
-  for (const char* word : {"obstacle 'ball' pushes it out", "keep it off the body at rest"})
-    EXPECT_NE(error.find(word), error.npos) << error;
+  expect_cured(scene, {"obstacle 'ball' pushes it out", "keep it off the body at rest"}, 1);
 }
 
 }  // namespace sinew::instability_test

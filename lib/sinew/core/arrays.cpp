@@ -165,7 +165,8 @@ std::vector<WrittenArray> table_of_bonds() {
       {"bonds", cell, "strain", "1", one, real, scalars,
        "length over its rest length, which may have crept, minus 1; none once broken"},
       {"bonds", cell, "length", "m", one, real, plain, "distance of the two particles"},
-      {"bonds", cell, "force", "N", one, real, plain, "tension positive; 0 once broken"},
+      {"bonds", cell, "force", "N", one, real, plain,
+       "of its spring alone, without volumes and contacts; tension positive, 0 once broken"},
       {"bonds", cell, "broken", "1", one, whole, plain,
        "1 once it is broken; in the paper's model while it is longer than b"},
   };

@@ -33,10 +33,9 @@ void check(const RestBody& rest, const FrameState& state) {
           "has the broken bonds of " + std::to_string(state.broken_bonds.size()) +
               " particles and the body has " + std::to_string(n));
   for (std::size_t i = 0; i < state.broken_bonds.size(); ++i)
-    require(0 <= state.broken_bonds[i] &&
-                std::size_t(state.broken_bonds[i]) <= rest.shape.neighbors.of(i).size(),
+    require(0 <= state.broken_bonds[i] && std::size_t(state.broken_bonds[i]) <= rest.bonds_of(i),
             "has " + std::to_string(state.broken_bonds[i]) + " broken bonds at particle " +
-                std::to_string(i) + " of " + std::to_string(rest.shape.neighbors.of(i).size()));
+                std::to_string(i) + " of " + std::to_string(rest.bonds_of(i)));
   bool finite = std::isfinite(state.time) && all_finite(state.positions) &&
                 all_finite(state.velocities) && all_finite(state.surface_points);
   for (const RigidFrame& bone : state.bones)
@@ -163,7 +162,8 @@ void add_neighbors(FrameMetrics& out, const RestBody& rest, const ParticleValues
 void add_bonds(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   if (state.broken_bonds.empty() || rest.rest_pairs() == 0) return;
   const auto broken = [&](std::size_t i) { return state.broken_bonds[i]; };
-  out.broken_bonds = statistics(rest.particles(), broken).sum / (2 * rest.rest_pairs());
+  const double bonds = rest.rest_pairs() + static_cast<double>(rest.second.neighbor.size()) / 2;
+  out.broken_bonds = statistics(rest.particles(), broken).sum / (2 * bonds);
 }
 
 void add_sections(FrameMetrics& out, const RestBody& rest, const FrameState& state) {

@@ -256,7 +256,7 @@ namespace {
 const char* why_undefined(std::string_view name) {
   if (name == "stress" || name == "von_mises")
     return "forces of muscles and of bonds that break or creep do not follow from positions alone; "
-           "write it with the run, by output.arrays";
+           "the run itself writes it, by output.arrays";
   if (name == "pose_error") return "no particle has a bone";
   return "all neighbors of each particle lie in a plane";
 }

@@ -143,6 +143,24 @@ NeighborLists second_neighbors(const RestShape& shape, double range) {
   return second;
 }
 
+/// Of springs whose stiffness differs: sum k l^2 over a particle's bonds, over that of one inside.
+std::vector<double> stiffness_shares(const RestBody& body, const PairLaw& law) {
+  if (!law.factor || !law.second) return {};
+  const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
+  const double inside =
+      12 * k * 4 * body.radius * body.radius + 6 * second * 8 * body.radius * body.radius;
+  std::vector<double> shares(body.particles(), 0);
+  const auto add = [&](const NeighborLists& lists, double stiffness) {
+    for (std::size_t i = 0; i < lists.size(); ++i)
+      for (const std::uint32_t j : lists.of(i))
+        shares[i] += law.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
+                     (body.shape.points[i] - body.shape.points[j]).squaredNorm();
+  };
+  add(body.shape.neighbors, k);
+  add(body.second, second);
+  return shares;
+}
+
 RestBody rest_body(RestInput input) {
   check(input);
   RestBody body;
@@ -156,13 +174,13 @@ RestBody rest_body(RestInput input) {
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
   body.shape = rest_shape(std::move(input.positions), rest_neighbor_range(input.radius));
   if (input.law.second) body.second = second_neighbors(body.shape, input.law.second_range);
-  body.share = std::move(input.share);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;
+  body.share = stiffness_shares(body, input.law);
   body.interaction_range = input.interaction_range;
   body.start = input.start;
   body.law = std::move(input.law);

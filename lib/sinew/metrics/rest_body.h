@@ -49,7 +49,6 @@ struct RestInput {
   PairLaw law;
   double mass = not_measured;  ///< of a particle, kg
   std::vector<double> weight;  ///< n; the weight of that bone in each particle; or empty
-  std::vector<double> share;   ///< n; of the body around each over that inside; empty: 1 each
 };
 
 /// A particle that follows a bone: its attachment at rest, and whether a joint is near.
@@ -69,9 +68,10 @@ struct RestBody {
   double area = 0;    ///< of the surface, m^2
   std::vector<MeasuredBone> bones;
   std::vector<Bound> bound;
-  std::vector<int> bone_of;       ///< n; -1 for none
-  std::vector<double> weight;     ///< n, or empty
-  std::vector<double> share;      ///< n, or empty: 1 each
+  std::vector<int> bone_of;    ///< n; -1 for none
+  std::vector<double> weight;  ///< n, or empty
+  /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
+  std::vector<double> share;
   std::vector<double> stiffened;  ///< n; w of each particle's volume, empty where the law has none
   Slices slices;
   std::vector<Section> sections;
@@ -81,6 +81,10 @@ struct RestBody {
   double mass = not_measured;  ///< of a particle, kg
 
   std::size_t particles() const { return shape.points.size(); }
+  /// Bonds of a particle at rest, if its material has some.
+  std::size_t bonds_of(std::size_t i) const {
+    return shape.neighbors.of(i).size() + (second.size() > 0 ? second.of(i).size() : 0);
+  }
   double rest_pairs() const { return static_cast<double>(shape.neighbors.neighbor.size()) / 2; }
 };
 

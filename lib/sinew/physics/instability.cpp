@@ -15,7 +15,7 @@ namespace {
 // In radii: how far a bone may carry a particle in a step, and one of its forces may move it, until
 // these are the cause; what is sure to do no harm; and how far from its place on the bone a
 // particle is when the bone has left it.
-constexpr double fast = 0.25, strong = 0.05, harmless = 0.05, left_behind = 6;
+constexpr double fast = 0.25, strong = 0.05, harmless = 0.04, left_behind = 6;
 
 std::string step_text(double step) { return "solver.time_step " + three_digits(step) + " or less"; }
 
@@ -28,19 +28,22 @@ class Diagnosis {
       : failed_(failed),
         i_(particle),
         id_(static_cast<std::size_t>(failed.particles.id[particle])),
-        step_(failed.stepping.step) {}
+        step_(failed.stepping.step),
+        limit_(limit_of(failed)) {}
 
   std::string text() const {
+    if (limit_ > 0 && step_ > limit_)
+      return "the step of " + three_digits(step_) + " s is over the limit of the body at rest, " +
+             three_digits(limit_) + " s; use " + step_text(limit_ / 2);
     const double weight = by_force(failed_.particles.mass * failed_.stepping.gravity);
     if (weight > strong)
       return "gravity alone moves it " + in_a_step(weight) +
-             "; give solver.gravity in m/s^2 (9.81 on earth), or use " +
-             step_text(step_ * std::sqrt(strong / 2 / weight));
+             "; give solver.gravity in m/s^2 (9.81 on earth), or a stiffer material";
     const std::string by_bone = cause_by_bone();
     if (!by_bone.empty()) return by_bone;
     const std::string by_world = cause_by_world();
     if (!by_world.empty()) return by_world;
-    return cause_by_step();
+    return "its neighbors push it; use " + step_text(step_ / 4);
   }
 
  private:
@@ -66,7 +69,7 @@ class Diagnosis {
     if (behind > left_behind && pull > strong && pull > by_force(failed_.forces.pair[i_]))
       return "bone '" + rest.name + "' has left it " + three_digits(behind) +
              " r behind; begin near the pose at rest (motion.preroll), slow the motion, or use " +
-             step_text(step_ / 2);
+             step_text(step_for(failed_.forces.bone[i_].norm() * behind * radius / 2));
     return "";
   }
 
@@ -79,35 +82,41 @@ class Diagnosis {
     const WorldNow now = world_at(world, failed_.time, failed_.pose);
     double most = force.norm() / 2;
     const Obstacle* strongest = nullptr;
+    double energy = 0;
     for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
       const Contact touch = contact(world.obstacles[k], now.obstacles[k], position(),
                                     failed_.particles.velocity(i_), failed_.particles.radius);
       if (touch.force().norm() <= most) continue;
       most = touch.force().norm();
+      energy = touch.energy;
       strongest = &world.obstacles[k];
     }
     if (strongest != nullptr)
       return "obstacle '" + strongest->name + "' pushes it out by " + in_a_step(push) +
-             "; keep it off the body at rest, move it more slowly, or lower its stiffness";
-    return "fields and muscles move it " + in_a_step(push) + "; lower their strength, or use " +
-           step_text(step_ * std::sqrt(strong / 2 / push));
+             "; keep it off the body at rest, move it more slowly, lower its stiffness, or use " +
+             step_text(step_for(energy));
+    return "fields and muscles move it " + in_a_step(push) +
+           "; lower their strength, or choose a stiffer material";
   }
 
-  std::string cause_by_step() const {
+  static double limit_of(const FailedStep& failed) {
     WorldLoad load;
-    if (failed_.body.world)
-      load = {added_stiffness(*failed_.body.world, failed_.particles),
-              added_damping(*failed_.body.world, failed_.particles)};
-    const double limit = step_limit(failed_.stepping.integrator, failed_.body, load);
-    if (limit > 0 && step_ > limit)
-      return "the step of " + three_digits(step_) + " s is over the limit of the body at rest, " +
-             three_digits(limit) + " s; use " + step_text(limit / 2);
-    return "its neighbors push it; use " + step_text(step_ / 2);
+    if (failed.body.world)
+      load = {added_stiffness(*failed.body.world, failed.particles),
+              added_damping(*failed.body.world, failed.particles)};
+    return step_limit(failed.stepping.integrator, failed.body, load);
+  }
+
+  /// The step in which it moves no farther than is harmless once a spring has turned its energy
+  /// (J) into motion.
+  double step_for(double energy) const {
+    const double speed = std::sqrt(2 * energy / failed_.particles.mass);
+    return std::min(step_ / 2, 2 * harmless * failed_.particles.radius / speed);
   }
 
   const FailedStep& failed_;
   std::size_t i_, id_;
-  double step_;
+  double step_, limit_;  ///< s
 };
 
 }  // namespace

@@ -26,6 +26,10 @@ const Particles& checked(const Particles& particles) {
   return particles;
 }
 
+bool moved_less(const Offender& a, const Offender& b) {
+  return a.finite != b.finite ? a.finite : a.moved < b.moved;
+}
+
 bool is_finite(const LedgerEntries& ledger) {
   return std::isfinite(ledger.work) && std::isfinite(ledger.dissipation) &&
          std::isfinite(ledger.power);
@@ -62,7 +66,7 @@ void Simulation::step() {
   StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
   if (sums.failure) {
     offenders_ = std::move(sums.failure->all);
-    fail(sums.failure->first);
+    fail(*std::max_element(offenders_.begin(), offenders_.end(), moved_less));
   }
   ledger_.add_step(sums.power, sums.lost);
   world_ledger_.add_step(sums.world_power, 0);
@@ -84,19 +88,19 @@ void Simulation::forget_read() {
   read_ = false;
 }
 
-void Simulation::fail(const Offender& first) {
-  const std::int32_t id = particles_.id[first.particle];
+void Simulation::fail(const Offender& worst) {
+  const std::int32_t id = particles_.id[worst.particle];
   const auto bones = body_->binding.of(id);
   evaluate();
   const std::string why =
-      cause_and_cure({*body_, pose(), time(), particles(), forces_, stepping_}, first.particle);
+      cause_and_cure({*body_, pose(), time(), particles(), forces_, stepping_}, worst.particle);
   const std::string where =
       bones.empty() ? "" : " on bone '" + body_->skeleton.bones[bones.front().bone].name + "'";
   throw Error(
       Exit::unstable,
       "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
           std::to_string(id) + where +
-          (first.finite ? " moved over " + three_digits(most_radii_per_step) +
+          (worst.finite ? " moved over " + three_digits(most_radii_per_step) +
                               (bones.empty() ? " r relative to its previous motion in one step"
                                              : " r relative to its bone in one step")
                         : std::string(" reached a value that is not finite")) +

@@ -91,7 +91,7 @@ class Simulation {
   void evaluate();
   void forget_read();
   void set_time() const;
-  [[noreturn]] void fail(const Offender& first);
+  [[noreturn]] void fail(const Offender& worst);
 
   std::shared_ptr<const Body> body_;
   std::shared_ptr<const Motion> motion_;

@@ -262,9 +262,9 @@ std::vector<Mat3> Solid::flow(const Particles& particles) const {
     double weights = 0, pulls = 0;
     Mat3 stress = Mat3::Zero(), spread = Mat3::Zero();
     const auto add = [&](const BondNow& bond) {
-      const double kl = bond.spring.stiffness * bond.spring.length;
-      const double weight = kl * bond.spring.length;
-      const double pull = kl * (bond.distance - bond.spring.length);
+      const double k = bond.spring.stiffness;
+      const double weight = k * (rest_[i] - rest_[bond.neighbor]).squaredNorm();
+      const double pull = k * (bond.distance - bond.spring.length) * bond.distance;
       weights += weight;
       pulls += pull;
       if (bond.distance == 0) return;

@@ -9,10 +9,11 @@
 // dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weight w_i =
 // min(1, lambda_min(A_i) / (4 d0^2))^2 vanishes where neighbors are few: without it the particles
 // of a surface would halve the step.
-// Bonds that yield creep without a change of volume (as von Mises' plasticity). T = sum w (e - m) n
-// n^T / sum w is a particle's stress without pressure: the sum is over its bonds, e = (d - l) / l
-// with the mean m = sum w e / sum w, n are their directions, w = k l^2. Where sum w nnnn is
-// isotropic, D = 15/2 dev T is the deviator of its elastic strain. Where the shear sqrt(D : D)
+// Bonds that yield creep without a change of volume (as von Mises' plasticity). T = sum (p - m w) n
+// n^T / sum w is a particle's stress without pressure: the sum is over its bonds, n are their
+// directions, p = k (d - l) d, w = k l0^2 with the length l0 before any flow, m = sum p / sum w.
+// Where sum w nnnn is isotropic, D = 15/2 dev T is the deviator of a small elastic strain, and at
+// any strain that of the stress over 2 G. Where the shear sqrt(D : D)
 // exceeds the yield shear y, the rest length of a bond between i and j changes by
 //   dl/dt = rate l n (P_i + P_j)/2 n,  P = (1 - y / sqrt(D : D)) D, or 0 below it:
 // shear decays to the yield shear, and pressure stays.

@@ -144,7 +144,7 @@ void FrameWriter::begin_export(std::size_t kept) {
 void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept) {
   arrays_ = additional_arrays(output, body_);
   if (arrays_.empty() && !output.bonds) return;
-  RestInput input = measured_body(body_.material, body_.skeleton, body_.factors, body_.share);
+  RestInput input = measured_body(body_.material, body_.skeleton, body_.factors);
   input.positions = body_.rest;
   input.surface = surface_;
   const auto bones = bones_of_particles(body_);

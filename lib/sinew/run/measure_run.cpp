@@ -183,7 +183,9 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
                       const MeasureOptions& how) {
   Course course;
   FramesInOrder frames(run, how.ahead);
-  refuse_undefined(rest, state_at_rest(rest), how.arrays);
+  FrameState first = state_at_rest(rest);
+  first.von_mises = read_frame(run, 0).von_mises;
+  refuse_undefined(rest, first, how.arrays);
   ValueSeries values(run, how.arrays);
   for (std::size_t i = 0; i < run.frames(); ++i) {
     const FrameState state = measured_frame(frames.next());

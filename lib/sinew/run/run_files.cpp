@@ -280,7 +280,7 @@ PairLaw pair_law(const Material& material, const BondFactors& factors) {
 }
 
 RestInput measured_body(const Material& material, const Skeleton& skeleton,
-                        const BondFactors& factors, std::vector<double> share) {
+                        const BondFactors& factors) {
   RestInput input;
   for (const Bone& bone : skeleton.bones)
     input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
@@ -288,15 +288,14 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton,
   input.interaction_range = material.pair.b;
   input.mass = material.mass;
   input.law = pair_law(material, factors);
-  input.share = std::move(share);
   return input;
 }
 
 RestInput measured_body(const RunFiles& run) {
   Points rest = positions_of(run.body.particles);
-  std::vector<double> share = run.body.share.value_or(std::vector<double>());
-  const BondFactors factors = bond_factors(rest, run.material, share);
-  RestInput input = measured_body(run.material, run.skeleton, factors, std::move(share));
+  const std::vector<double> share = run.body.share.value_or(std::vector<double>());
+  RestInput input =
+      measured_body(run.material, run.skeleton, bond_factors(rest, run.material, share));
   input.law.has_muscles = !run.settings.world.muscles.empty();
   if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.positions = std::move(rest);

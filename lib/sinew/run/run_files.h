@@ -89,7 +89,7 @@ PairLaw pair_law(const Material& material, const BondFactors& factors = {});
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
 /// positions, surface and the bones of particles.
 RestInput measured_body(const Material& material, const Skeleton& skeleton,
-                        const BondFactors& factors = {}, std::vector<double> share = {});
+                        const BondFactors& factors = {});
 
 /// The same from a run's files, with its body at rest.
 RestInput measured_body(const RunFiles& run);

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 // Real numbers per particle (position, displacement, velocity, four forces, radius, weight) and per
 // point of the surface (position, displacement, normal), and integers in addition.
 constexpr double reals_per_particle = 23, wholes_per_particle = 6;
+constexpr double reals_per_bond = 3, wholes_per_bond = 4;
 constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
@@ -37,6 +38,7 @@ constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 constexpr double memory_with_lists_double = 510, memory_with_lists_single = 400;
 constexpr double memory_with_cells = 1500;
 constexpr double memory_of_strain = 170, memory_of_changing_bonds = 120;  // in double precision
+constexpr double memory_of_measuring = 500, memory_of_bonds = 700;        // what frames request
 constexpr double memory_per_point = 600, memory_beside = 60e6;
 
 double memory_per_particle(const StepperChoice& choice, const Body& body) {
@@ -60,6 +62,9 @@ double additional_numbers(const OutputSettings& output, const Body& body) {
   return numbers;
 }
 
+/// Of a particle inside, each bond shared by two.
+double bonds_of_one(const Body& body) { return body.material.bond.second > 0 ? 9 : 6; }
+
 }  // namespace
 
 Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
@@ -71,10 +76,12 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = setup.body.world ? 3 : 0;  // the force of the world
   const double written = particles * written_share(output, setup.body.rest);
+  const double bond_lines = output.bonds ? written * bonds_of_one(setup.body) : 0;
   const double reals =
+      bond_lines * reals_per_bond +
       written * (reals_per_particle + reals_of_world + additional_numbers(output, setup.body)) +
       surfaces * points * reals_per_point;
-  const double wholes = written * wholes_per_particle +
+  const double wholes = written * wholes_per_particle + bond_lines * wholes_per_bond +
                         surfaces * (points * wholes_per_point + faces * wholes_per_face);
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
   const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;
@@ -88,8 +95,12 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   needs.disk = static_cast<std::uint64_t>(
       (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
   const StepperChoice choice = stepper_choice(settings.solver);
-  needs.memory = static_cast<std::uint64_t>(particles * memory_per_particle(choice, setup.body) +
-                                            points * memory_per_point + memory_beside);
+  double per_particle = memory_per_particle(choice, setup.body);
+  if (output.bonds) per_particle += memory_of_bonds;
+  if (output.bonds || additional_numbers(output, setup.body) > 0)
+    per_particle += memory_of_measuring;
+  needs.memory = static_cast<std::uint64_t>(particles * per_particle + points * memory_per_point +
+                                            memory_beside);
   return needs;
 }
 

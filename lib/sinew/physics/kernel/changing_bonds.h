@@ -27,7 +27,7 @@ SINEW_INLINE typename L::V product(const Symmetric<L>& a, const Symmetric<L>& b)
   return L::fused(L::all(2), shear, normal);
 }
 
-/// Sums over a particle's bonds: w, w e, w n n^T, w e n n^T.
+/// Sums over a particle's bonds: w, p, w n n^T, p n n^T.
 template <class L>
 struct StressSums {
   typename L::V weights = L::all(0), pulls = L::all(0);
@@ -49,16 +49,16 @@ SINEW_INLINE void add_stress(const Step<typename L::Real>& step, const SolidLaw<
         const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
         const V inverse = L::pick(L::less(L::all(0), squared),
                                   inverse_length<L, shell, true>(law, squared), L::all(0));
-        const V kl = L::keep(bond.mask, bond.stiffness * bond.length), weight = kl * bond.length;
-        const V pull = kl * L::fused(squared, inverse, L::all(0) - bond.length);
+        const V k = L::keep(bond.mask, bond.stiffness), l0 = L::all(bond.kind->length);
+        const V d = squared * inverse, weight = k * l0 * l0, pull = k * (d - bond.length) * d;
         const V inverse2 = inverse * inverse;
         const Symmetric<L> nn = squares<L>(apart);
         sums.weights = sums.weights + weight;
         sums.pulls = sums.pulls + pull;
-        for (int k = 0; k < 6; ++k) {
-          const V part = L::keep(bond.mask, nn.at[k] * inverse2);
-          sums.spread.at[k] = L::fused(weight, part, sums.spread.at[k]);
-          sums.stress.at[k] = L::fused(pull, part, sums.stress.at[k]);
+        for (int n = 0; n < 6; ++n) {
+          const V part = L::keep(bond.mask, nn.at[n] * inverse2);
+          sums.spread.at[n] = L::fused(weight, part, sums.spread.at[n]);
+          sums.stress.at[n] = L::fused(pull, part, sums.stress.at[n]);
         }
       });
 }
