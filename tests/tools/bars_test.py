@@ -14,6 +14,7 @@ import meshio
 import numpy
 
 from bars import PULL, WIDTH, YOUNG_MODULUS, Bar
+from small_run import sinew
 
 
 class Stiffness(unittest.TestCase):
@@ -105,6 +106,18 @@ class Stress(unittest.TestCase):
             share = abs(ends[:, 1] - ends[:, 0]) / middle.bonds.cell_data["length"][0]
             force = (middle.bonds.cell_data["force"][0] * share)[across].sum()
             self.assertLess(abs(force / middle.pull - 1), 1e-4)
+
+    def test_a_torn_bar_is_measured_by_its_bonds(self):
+        bar = Bar(5, material={"breaking_strain": PULL / 2})
+        with tempfile.TemporaryDirectory() as temporary:
+            run = bar.run("pull", Path(temporary), "--set", "output.bonds=true")
+            sinew("measure", run, check=0)
+            with (run / "metrics.csv").open() as file:
+                measured = float(list(csv.DictReader(file))[-1]["broken_bonds"])
+            bonds = meshio.read(sorted((run / "bonds").glob("*.vtu"))[-1]).cell_data
+        self.assertGreater(measured, 0)
+        self.assertAlmostEqual(measured, bonds["broken"][0].mean(), places=12)
+        self.assertTrue(numpy.isnan(bonds["strain"][0][bonds["broken"][0] == 1]).all())
 
     def test_of_a_free_muscle_is_none_and_it_shortens_by_its_stress_over_the_modulus(self):
         strength = YOUNG_MODULUS / 500
