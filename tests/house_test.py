@@ -197,6 +197,14 @@ def pages(source):
         yield from sorted((source / folder).rglob("README.md"))
 
 
+def forgotten_tests(source):
+    """Tests that no list of sources names never run."""
+    lists = "\n".join(path.read_text() for path in sorted((source / "tests").rglob("CMakeLists.txt")))
+    for path in sorted((source / "tests").rglob("*_test.cpp")):
+        if not re.search(rf"\b{re.escape(path.name)}\b", lists):
+            yield f"{path.relative_to(source)} is in no list of sources"
+
+
 def breaches(source):
     lib = source / "lib" / "sinew"
     for room in sorted(path.name for path in lib.iterdir() if path.is_dir()):
@@ -213,6 +221,7 @@ def breaches(source):
         yield from size_breaches(source, path)
         yield from word_breaches(source, path)
     yield from share_breaches(source)
+    yield from forgotten_tests(source)
     for page in pages(source):
         yield from word_breaches(source, page)
     front = len((source / "README.md").read_text().split("\n")) - 1

@@ -34,8 +34,9 @@ double pressure(double force, double d) {
 void expect_pressure(const RestBody& body, const FrameState& state, double expected) {
   const std::vector<Mat3> found = stresses(body, state);
   for (std::size_t i = 0; i < body.particles(); ++i)
-    if (body.shape.neighbors.of(i).size() == 12)
+    if (body.shape.neighbors.of(i).size() == 12) {
       EXPECT_LT((found[i] + expected * Mat3::Identity()).norm(), 1e-12 * pressure(r, r));
+    }
 }
 
 TEST(PairForces, OfBondsThatChangeAreNotKnownWithoutTheirState) {
@@ -85,8 +86,9 @@ TEST(PairForces, AreOverTheVolumeThatTheBondsMakeStiff) {
   const double expected = pressure(0.1 * 2 * r, 1.1 * 2 * r) * (12 + 6 * 0.25 * 2) / 12;
   const std::vector<Mat3> found = stresses(body, state);
   for (std::size_t i = 0; i < body.particles(); ++i)
-    if (body.bonds_of(i) == 18)
+    if (body.bonds_of(i) == 18) {
       EXPECT_LT((found[i] - expected * Mat3::Identity()).norm(), 1e-12 * expected);
+    }
 }
 
 TEST(PairForces, OfMusclesAddTheirStress) {

@@ -14,8 +14,9 @@
 namespace sinew {
 namespace {
 
-constexpr int finer = 4;  // radius of the particles over that of the samples
-constexpr int samples_per_particle = finer * finer * finer;
+constexpr double finer = 1.5;  // radius of the particles over that of the samples
+constexpr int rotations = 24;  // of a cube
+constexpr double samples_per_particle = rotations * finer * finer * finer;
 constexpr std::int32_t neighbors_inside = 12;
 constexpr int reach = 3;  // steps of the lattice within which a sample belongs to a particle
 constexpr double most_scaling = 1.25, least_share = 0.2;
@@ -25,6 +26,21 @@ Mat3 oblique() {
   return (Eigen::AngleAxisd(0.731, Vec3::UnitZ()) * Eigen::AngleAxisd(0.417, Vec3::UnitY()) *
           Eigen::AngleAxisd(0.289, Vec3::UnitX()))
       .toRotationMatrix();
+}
+
+/// The rotations that bring a cube to itself. (A lattice is its own image under an inversion: with
+/// these it is also under mirrors.)
+std::vector<Mat3> rotations_of_a_cube() {
+  std::vector<Mat3> found;
+  std::array<int, 3> axes = {0, 1, 2};
+  do
+    for (int signs = 0; signs < 8; ++signs) {
+      Mat3 turn = Mat3::Zero();
+      for (int k = 0; k < 3; ++k) turn(axes[k], k) = (signs >> k & 1) != 0 ? -1 : 1;
+      if (turn.determinant() > 0) found.push_back(turn);
+    }
+  while (std::next_permutation(axes.begin(), axes.end()));
+  return found;
 }
 
 /// Finds filled sites by their place.
@@ -160,23 +176,25 @@ std::vector<double> volume_shares(const Surface& surface, const PackOptions& opt
                                   const BodySpace& space, const FilledSites& filled,
                                   const Touching& touching, double volume) {
   const SiteIndex index(filled);
-  PackOptions fine = options;
-  fine.lattice_axes = options.lattice_axes * oblique();
-  fine.lattice_origin.reset();
-  const BodySpace turned(surface, fine);
-  const FilledSites samples = samples_of(turned, fine, filled.lattice.radius / finer);
   const std::vector<LatticePlace> places = places_of(filled);
   Sampled sampled(touching.neighbors.size());
   const Lattice& lattice = filled.lattice;
-  for_each_site(samples.runs, [&](std::size_t, const Run& run, int n) {
-    const Vec3 point = turned.placement.from_lattice(samples.lattice.site(run.row, n));
-    const Vec3 at =
-        (space.placement.to_lattice(point) - lattice.origin).cwiseQuotient(lattice.unit);
-    const std::int64_t found = owner(index, at);
-    const auto site = static_cast<std::size_t>(found);
-    if (found >= 0 && touching.neighbors[site] < neighbors_inside)
-      sampled.add(site, at - Vec3(places[site][0], places[site][1], places[site][2]));
-  });
+  for (const Mat3& rotation : rotations_of_a_cube()) {
+    PackOptions fine = options;
+    fine.lattice_axes = options.lattice_axes * rotation * oblique();
+    fine.lattice_origin.reset();
+    const BodySpace turned(surface, fine);
+    const FilledSites samples = samples_of(turned, fine, lattice.radius / finer);
+    for_each_site(samples.runs, [&](std::size_t, const Run& run, int n) {
+      const Vec3 point = turned.placement.from_lattice(samples.lattice.site(run.row, n));
+      const Vec3 at =
+          (space.placement.to_lattice(point) - lattice.origin).cwiseQuotient(lattice.unit);
+      const std::int64_t found = owner(index, at);
+      const auto site = static_cast<std::size_t>(found);
+      if (found >= 0 && touching.neighbors[site] < neighbors_inside)
+        sampled.add(site, at - Vec3(places[site][0], places[site][1], places[site][2]));
+    });
+  }
   double inside = 0, outside = 0;
   std::vector<double> share(sampled.count.size(), 1);
   for (std::size_t i = 0; i < share.size(); ++i) {

@@ -14,8 +14,9 @@
 
 namespace sinew {
 
-/// Of the sites of `filled` (FCC), in their order; 1 inside. Sampled at
-/// 64 points a particle by a finer lattice at an angle to its own, to some percent each; where the
+/// Of the sites of `filled` (FCC), in their order; 1 inside. Sampled at 81 points a particle, by
+/// lattices at an angle to its own that are each other's images under its rotations, so that a body
+/// that is turned or mirrored in its lattice has the same shares; to some percent each. Where the
 /// particles fill the mesh's `volume` (m^3; else 0), their sum is that. The same for any number of
 /// threads.
 std::vector<double> volume_shares(const Surface& surface, const PackOptions& options,

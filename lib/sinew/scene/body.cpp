@@ -125,7 +125,7 @@ std::string origin_of(const Settings& settings) {
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');
-  if (needs_shares(settings)) hash.add("shares\n");
+  if (needs_shares(settings)) hash.add("shares of 24 lattices\n");
   return hash_text(hash.value());
 }
 
