@@ -12,8 +12,9 @@
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
+#include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
-#include <sinew/scene/stepper_choice.h>
+#include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
 #include <sinew/settings/read_scene.h>
 #include "command/command.h"
@@ -138,7 +139,11 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("time_step_factor", setup.steps.factor());
   results.add("steps_per_frame", setup.steps.per_frame);
   results.add("frames", setup.frames + 1);
-  results.add("steps", static_cast<std::int64_t>(setup.frames) * setup.steps.per_frame);
+  results.add("steps", setup.plan.steps_until(setup.frames));
+  if (setup.plan.divided() > 0) {
+    results.add("intervals_of_shorter_steps", setup.plan.divided());
+    results.add("shortest_time_step", setup.steps.step / setup.plan.most_parts(), "s");
+  }
   results.add("duration", settings.solver.duration, "s");
   results.add("bone_speed", speed, "radii per step");
 }
@@ -150,7 +155,7 @@ void add_stepper(const StepperChoice& choice, Results& results) {
 }
 
 Exit check(const std::string& scene, const Common& common) {
-  const Settings settings = read_scene(scene, common.overrides);
+  const Settings settings = with_fit(read_scene(scene, common.overrides));
   const Surface surface = read_mesh(settings);
   const SceneFiles files = read_files(settings);
   const Filling filling = fill_body(settings, surface);
@@ -158,14 +163,14 @@ Exit check(const std::string& scene, const Common& common) {
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);
-  const double speed = bone_speed(setup, settings.output.interval);
+  const double speed = farthest_carried(setup, settings.output.interval);
   auto warnings = warnings_of(setup, skin, speed);
   warn_of_stiffness(setup.body, warnings);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);
   const double rate = speed_in_motion(setup, choice, at_rest);
-  const double work = static_cast<double>(setup.frames) * setup.steps.per_frame *
+  const double work = static_cast<double>(setup.plan.steps_until(setup.frames)) *
                       static_cast<double>(filling.particles.size());
 
   Results results;

@@ -265,7 +265,7 @@ Exit info(const Options& options, const Common& common) {
   }
   BodyOptions body;
   if (is_scene(options.path)) {
-    const Settings settings = read_scene(options.path, common.overrides);
+    const Settings settings = with_fit(read_scene(options.path, common.overrides));
     add_scene(settings, results);
     body = settings.body;
   } else {

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     sinew::Simulation simulation = sinew::start(scene, ready);
     sinew::FrameWriter writer(argv[2], scene.output, ready);
     for (int frame = 0; frame <= ready.setup.frames; ++frame) {
-      while (simulation.steps() < frame * ready.setup.steps.per_frame) simulation.step();
+      while (simulation.steps() < ready.setup.plan.steps_until(frame)) simulation.step();
       writer.add(simulation, frame * scene.output.interval);
     }
     writer.close();

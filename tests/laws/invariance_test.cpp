@@ -29,6 +29,7 @@ struct Bent {
         test::track("upper", {test::bend_key(0, 0), test::bend_key(0.5 * scale, 60)})};
     settings.solver.time_step_factor = time_step_factor;
     settings.output.interval = scale / 32;
+    settings.solver.duration = scale;
     Simulation simulation = test::make_simulation(settings, rest);
     while (simulation.time() < 0.75 * scale) simulation.step();
     return simulation;

@@ -81,6 +81,10 @@ TEST(Read, TurnsTheMeshAsTheBodySays) {
   body.forward = Axis::minus_x;
   EXPECT_EQ(sizes(), Vec3(2, 6, 4));
   EXPECT_LT(bounds(read_surface(body).triangles.points).min().x(), -1.5);
+  body.rotation = Vec3(0, 90, 0);  // after up and forward
+  body.offset = Vec3(10, 20, 30);  // after scale
+  EXPECT_EQ(sizes(), Vec3(4, 6, 2));
+  EXPECT_EQ(bounds(read_surface(body).triangles.points).min().z(), 30);
 }
 
 TEST(Read, TakesObjAsProgramsWriteIt) {

@@ -23,6 +23,7 @@ struct World {
   double factor = 0.5;
   Vec3 velocity = Vec3::Zero();
   std::shared_ptr<const sinew::World> around = {};
+  std::vector<int> parts = {};  // of the steps, by intervals of 37 of them
 
   Simulation begin() const {
     Body body = test::make_body(settings, rest);
@@ -31,8 +32,10 @@ struct World {
       particles.set_velocity(i, particles.velocity(i) + velocity);
     const double step = test::step_of(settings, body, factor);
     body.world = around;
-    return Simulation(body, motion_of(settings, body.skeleton), particles,
-                      stepping_of(settings.solver, step));
+    Simulation simulation(body, motion_of(settings, body.skeleton), particles,
+                          stepping_of(settings.solver, step));
+    simulation.follow(StepPlan(step, 37, parts));
+    return simulation;
   }
 };
 
@@ -89,6 +92,13 @@ World tearing(const std::string& name, MaterialModel model) {
   world.settings.material.yield_strain = 0.005;
   world.settings.material.creep_rate = 30;
   world.shake = 0.05;
+  return world;
+}
+
+/// Steps are divided for a while, twice.
+World divided(const std::string& name, World world) {
+  world.name = name;
+  world.parts = {1, 4, 3, 1, 1, 20, 1};
   return world;
 }
 
@@ -152,7 +162,14 @@ std::vector<World> worlds() {
       surrounded("Surrounded", Integrator::symplectic_euler),
       in(binary32, surrounded("SurroundedInSingle", Integrator::symplectic_euler)),
       with(surrounded("SurroundedInCells", Integrator::symplectic_euler), NeighborSearch::cells),
-      surrounded("VerletSurrounded", Integrator::velocity_verlet)};
+      surrounded("VerletSurrounded", Integrator::velocity_verlet),
+      divided("DividedInDouble", bend("", binary64)),
+      divided("DividedInSingle", bend("", binary32)),
+      divided("DividedVerlet", with(bend("", binary64), Integrator::velocity_verlet)),
+      divided("DividedTearing", tearing("", MaterialModel::bonded_volume)),
+      divided("DividedTearingInSingle", in(binary32, tearing("", MaterialModel::bonded))),
+      divided("DividedInCells", with(bend("", binary64, 17), NeighborSearch::cells)),
+      divided("DividedAndSurrounded", surrounded("", Integrator::symplectic_euler))};
 }
 
 /// All results of a simulation at one moment.

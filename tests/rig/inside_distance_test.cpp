@@ -105,7 +105,7 @@ TEST(InsideDistance, IsTheStraightOneInTheOpen) {
     const Mat3 turned = test::turned({1, 2, 3}, turn);
     const Points rest = test::affine(test::fcc_box(15, 15, 31, r), turned);
     Skeleton skeleton = skeleton_of(test::box_scene(31));
-    skeleton = placed(skeleton, 1, turned);
+    skeleton = placed(skeleton, Placement{1, turned});
     const auto near = near_inside(inside_paths(rest, skeleton, r), skeleton, r);
     for (std::size_t i = 0; i < rest.size(); ++i)
       for (const BoneDistance& one : near[i]) {

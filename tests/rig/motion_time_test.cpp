@@ -63,6 +63,17 @@ TEST(ClipTime, LoopBeginsAgain) {
   for (const int round : {0, 1, 5}) expect_bend(settings, 2 * round + 0.5, 35, 30);
 }
 
+TEST(ClipTime, SpeedIsAFactorOnTheClipsRate) {
+  Settings settings = bending();
+  settings.motion.speed = 2;
+  expect_bend(settings, 0.5, 50, 60);
+  expect_bend(settings, 1.5, 80, 0);
+  settings.motion.extrapolation = Extrapolation::ping_pong;
+  expect_bend(settings, 1.5, 50, -60);
+  settings.motion.preroll = 1;
+  expect_bend(settings, 1.5, 50, 60);
+}
+
 TEST(ClipTime, PingPongGoesBackAndForth) {
   Settings settings = bending();
   settings.motion.extrapolation = Extrapolation::ping_pong;
@@ -98,6 +109,20 @@ TEST(Preroll, GoesSmoothlyFromRestToTheFirstPose) {
   expect_bend(settings, 0.5, 20 * (3.0 / 16 - 2.0 / 64), 20 * 6 * 0.25 * 0.75 / 2);
   expect_bend(settings, 2, 20, 30);
   expect_bend(settings, 3.5, 65, 30);
+}
+
+TEST(Preroll, TakesASecondPerRightAngleOrHalfTheSkeleton) {
+  Settings settings = bending();
+  const Skeleton skeleton = skeleton_of(settings);
+  const auto needed = [&] { return preroll_for(skeleton, motion_of(settings, skeleton)); };
+  EXPECT_DOUBLE_EQ(needed(), 0.3) << "20 degrees";
+  settings.motion.start = 2;
+  EXPECT_DOUBLE_EQ(needed(), 0.6) << "50 degrees";
+  settings.tracks[0].keys = {bend_key(0, 0)};
+  settings.motion.start = 0;
+  EXPECT_DOUBLE_EQ(needed(), 0);
+  settings.tracks[0].keys[0].translation = Vec3(0, 0, 2);
+  EXPECT_DOUBLE_EQ(needed(), 2);
 }
 
 TEST(Preroll, RampsTwistTranslationAndStretchAndNeverJumps) {
@@ -199,6 +224,21 @@ TEST(Placed, RigAndMotionTurnAndGrowTogether) {
     EXPECT_LT((b.axis() - turn * a.axis()).norm(), 1e-14);
     EXPECT_LT((b.velocity - 0.01 * turn * a.velocity).norm(), 1e-15);
     EXPECT_LT((b.angular_velocity - turn * a.angular_velocity).norm(), 1e-14);
+  }
+}
+
+TEST(Placed, RigTurnsAndMovesWithRotationAndOffset) {
+  Settings settings = bending(), other = settings;
+  other.skeleton.rotation = Vec3(0, 90, 0);
+  other.skeleton.offset = Vec3(1, 2, 3);
+  const Mat3 turn = rotation_of(other.skeleton.rotation);
+  for (const double time : {0.0, 0.7, 1.9}) {
+    const Skeleton one = skeleton_of(settings), two = skeleton_of(other);
+    const BonePose a = pose_at(one, motion_of(settings, one), time)[1];
+    const BonePose b = pose_at(two, motion_of(other, two), time)[1];
+    EXPECT_LT((b.frame.origin - turn * a.frame.origin - Vec3(1, 2, 3)).norm(), 1e-14);
+    EXPECT_LT((b.velocity - turn * a.velocity).norm(), 1e-14);
+    EXPECT_LT((b.axis() - turn * a.axis()).norm(), 1e-14);
   }
 }
 

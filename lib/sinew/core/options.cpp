@@ -2,6 +2,7 @@
 #include <sinew/core/options.h>
 
 #include <array>
+#include <cmath>
 
 namespace sinew {
 
@@ -27,6 +28,60 @@ Mat3 turn_of(Axis up_axis, std::optional<Axis> forward_axis) {
 
 Mat3 to_scene(const BodyOptions& body) { return turn_of(body.up, body.forward); }
 Mat3 to_scene(const SkeletonOptions& skeleton) { return turn_of(skeleton.up, skeleton.forward); }
+
+Placement placement_of(const BodyOptions& body) {
+  return {meters(body.unit) * body.scale, rotation_of(body.rotation) * to_scene(body), body.offset};
+}
+
+Placement placement_of(const SkeletonOptions& skeleton) {
+  return {skeleton.scale, rotation_of(skeleton.rotation) * to_scene(skeleton), skeleton.offset};
+}
+
+namespace {
+
+/// By a multiple of 90 degrees, without rounding.
+Mat3 quarter_turns(int axis, double angle) {
+  const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+  Mat3 quarter = Mat3::Zero();
+  quarter(axis, axis) = quarter(y, x) = 1;
+  quarter(x, y) = -1;
+  Mat3 turn = Mat3::Identity();
+  const int quarters = static_cast<int>(std::fmod(angle, 360) / 90) + 4;
+  for (int i = 0; i < quarters % 4; ++i) turn = quarter * turn;
+  return turn;
+}
+
+bool is_right(double angle) { return std::fmod(angle, 90) == 0; }
+
+/// Without the rounding of an angle near a right one.
+double without_noise(double angle) {
+  const double right = 90 * std::round(angle / 90);
+  return std::abs(angle - right) < 1e-9 ? right + 0.0 : angle;
+}
+
+}  // namespace
+
+Mat3 rotation_of(const Vec3& angles) {
+  if (is_right(angles.x()) && is_right(angles.y()) && is_right(angles.z()))
+    return quarter_turns(2, angles.z()) * quarter_turns(1, angles.y()) *
+           quarter_turns(0, angles.x());
+  const auto about = [&](int axis) {
+    return Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis));
+  };
+  return (about(2) * about(1) * about(0)).toRotationMatrix();
+}
+
+Vec3 angles_of(const Mat3& r) {
+  const double across = std::hypot(r(0, 0), r(1, 0));
+  Vec3 angles(0, std::atan2(-r(2, 0), across), 0);
+  if (across > 1e-12) {
+    angles.x() = std::atan2(r(2, 1), r(2, 2));
+    angles.z() = std::atan2(r(1, 0), r(0, 0));
+  } else {  // z lies along x: only their sum counts
+    angles.z() = std::atan2(-r(0, 1), r(1, 1));
+  }
+  return angles.unaryExpr([](double angle) { return without_noise(degrees(angle)); });
+}
 
 double meters(LengthUnit unit) {
   switch (unit) {

@@ -34,6 +34,8 @@ struct BodyOptions {
   double scale = 1;
   Axis up = Axis::z;
   std::optional<Axis> forward;
+  Vec3 rotation = Vec3::Zero();
+  Vec3 offset = Vec3::Zero();
   double weld = 0;
   FillRule rule = FillRule::unite;
   bool close_holes = false;
@@ -101,16 +103,40 @@ std::span<const MaterialPreset> material_presets();
 /// nullptr for none.
 const MaterialPreset* preset_named(MaterialPresetName name);
 
+enum class Fit { none, mesh };
+
 struct SkeletonOptions {
   std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
   double scale = 1;
   Axis up = Axis::z;
   std::optional<Axis> forward;
+  Vec3 rotation = Vec3::Zero();
+  Vec3 offset = Vec3::Zero();
+  Fit fit = Fit::none;
 };
 
 /// Rotates the directions of a mesh or a rig into the scene's: up becomes z, forward x. Exact.
 Mat3 to_scene(const BodyOptions& settings);
 Mat3 to_scene(const SkeletonOptions& settings);
+
+/// How the points of a file come into the scene: turned, scaled, then moved by `offset` (m).
+struct Placement {
+  double scale = 1;
+  Mat3 turn = Mat3::Identity();
+  Vec3 offset = Vec3::Zero();
+
+  bool is_identity() const { return scale == 1 && turn == Mat3::Identity() && offset.isZero(0); }
+  Vec3 operator()(const Vec3& point) const { return scale * (turn * point) + offset; }
+};
+
+/// By unit, scale, up and forward, rotation and offset.
+Placement placement_of(const BodyOptions& settings);
+Placement placement_of(const SkeletonOptions& settings);
+
+/// About x, then y, then z, degrees; exact in right angles.
+Mat3 rotation_of(const Vec3& degrees_about_axes);
+/// The angles of that rotation, degrees, y within 90; right angles exact.
+Vec3 angles_of(const Mat3& rotation);
 
 struct LimitDefinition {
   std::optional<double> swing = {};
@@ -145,7 +171,8 @@ struct MotionOptions {
   std::optional<double> frame_rate;
   Positions positions = Positions::replace;
   Extrapolation extrapolation = Extrapolation::hold;
-  double preroll = 0;
+  double speed = 1;
+  std::optional<double> preroll = {};
 };
 
 struct KeyDefinition {

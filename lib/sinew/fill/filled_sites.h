@@ -18,7 +18,7 @@ namespace sinew {
 struct BodySpace {
   BodySpace(const Surface& given, const PackOptions& options);
 
-  Placement placement;
+  LatticeFrame placement;
   Surface surface;
   Box box;  ///< that the lattice fills
   std::optional<Vec3> lattice_origin;

@@ -158,23 +158,23 @@ double exact_shift(double low, double high) {
 
 }  // namespace
 
-Placement::Placement(const Points& points, const Mat3& turn)
+LatticeFrame::LatticeFrame(const Points& points, const Mat3& turn)
     : turn_(turn), turned_(turn != Mat3::Identity()) {
   const Box box = bounds(points);
   for (int axis = 0; axis < 3; ++axis) shift_[axis] = exact_shift(box.min()[axis], box.max()[axis]);
 }
 
-Triangles Placement::to_lattice(Triangles surface) const {
+Triangles LatticeFrame::to_lattice(Triangles surface) const {
   for (Vec3& point : surface.points) point = to_lattice(point);
   return surface;
 }
 
-Vec3 Placement::to_lattice(const Vec3& point) const {
+Vec3 LatticeFrame::to_lattice(const Vec3& point) const {
   const Vec3 near = point - shift_;
   return turned_ ? Vec3(turn_.transpose() * near) : near;
 }
 
-Vec3 Placement::from_lattice(const Vec3& site) const {
+Vec3 LatticeFrame::from_lattice(const Vec3& site) const {
   return (turned_ ? Vec3(turn_ * site) : site) + shift_;
 }
 

@@ -80,11 +80,11 @@ LatticeSize lattice_size(const Box& box, double radius);
 // The placement of the lattice with respect to the mesh: it may be rotated, and a mesh far from the
 // origin is filled near it, where coordinates have more digits.
 
-class Placement {
+class LatticeFrame {
  public:
   /// `turn`: the lattice's axes as columns. Meshes farther from the origin than their size are
   /// shifted, by an amount that loses no digits.
-  Placement(const Points& points, const Mat3& turn);
+  LatticeFrame(const Points& points, const Mat3& turn);
 
   Triangles to_lattice(Triangles surface) const;
   Vec3 to_lattice(const Vec3& point) const;

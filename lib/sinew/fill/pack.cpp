@@ -42,7 +42,7 @@ void check(const Surface& surface, const PackOptions& options) {
 }
 
 /// Particles at the sites of the runs, in their order.
-Particles particles_in(const FilledSites& filled, const Placement& placement) {
+Particles particles_in(const FilledSites& filled, const LatticeFrame& placement) {
   Particles particles = particles_at_rest(count_of(filled.runs));
   particles.radius = filled.lattice.radius;
   for_each_site(filled.runs, [&](std::size_t place, const Run& run, int n) {

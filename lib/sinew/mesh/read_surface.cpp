@@ -30,12 +30,11 @@ Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) 
 namespace {
 
 void place(PolygonSoup& soup, const BodyOptions& body) {
-  const double by = meters(body.unit) * body.scale;
-  if (!(by > 0) || !std::isfinite(by))
+  const Placement placement = placement_of(body);
+  if (!(placement.scale > 0) || !std::isfinite(placement.scale))
     throw bad_input("the scale is " + number_text(body.scale), "give a number above 0");
-  const Mat3 turn = to_scene(body);
-  if (by == 1 && turn == Mat3::Identity()) return;
-  for (Vec3& point : soup.points) point = by * (turn * point);
+  if (placement.is_identity()) return;
+  for (Vec3& point : soup.points) point = placement(point);
 }
 
 PolygonSoup soup_of(const Triangles& triangles) {

@@ -19,12 +19,11 @@ namespace sinew {
 /// the time taken. Throws Error (bad input), naming the file.
 Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more = {});
 
-/// The surface from the polygons of a file: converted to meters, by unit and scale, and to the
-/// scene's axes, by up and forward; welded and cleaned; where the settings request it, its holes
-/// closed and the mesh replaced by a skin around it. Throws Error (bad input) where the soup has no
-/// faces, faces of fewer than 3 corners, corners that are not points or coordinates that are not
-/// finite, where the scale is not above 0, where closing holes leaves no face, and as clean(),
-/// close_holes() and wrap() do.
+/// The surface from the polygons of a file: brought into the scene by placement_of(); welded and
+/// cleaned; where the settings request it, its holes closed and the mesh replaced by a skin around
+/// it. Throws Error (bad input) where the soup has no faces, faces of fewer than 3 corners, corners
+/// that are not points or coordinates that are not finite, where the scale is not above 0, where
+/// closing holes leaves no face, and as clean(), close_holes() and wrap() do.
 Surface prepare(PolygonSoup soup, const BodyOptions& body);
 
 }  // namespace sinew

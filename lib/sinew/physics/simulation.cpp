@@ -53,6 +53,8 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
       motion_(std::make_shared<const Motion>(std::move(motion))),
       cursor_(body_->skeleton, *motion_),
       stepping_(stepping),
+      plan_(stepping.step),
+      unit_of_time_(stepping.step),
       stepper_(make_stepper(body_, stepping, checked(particles), instructions)),
       ledger_(stepping.step),
       world_ledger_(stepping.step),
@@ -60,7 +62,46 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
   forget_read();
 }
 
+void Simulation::follow(StepPlan plan) {
+  plan_ = std::move(plan);
+  set_step(plan_.step(0));
+}
+
+void Simulation::set_step(double step) {
+  stepping_.step = step;
+  std::visit([&](auto& stepper) { stepper.set_step(step); }, stepper_);
+  ledger_.set_step(step);
+  world_ledger_.set_step(step);
+}
+
+/// Velocities are half a step behind the positions (velocity Verlet's are read half a step later):
+/// from now on half a step of the new size.
+void Simulation::change_step(double step) {
+  evaluate();
+  const bool behind = stepping_.integrator != Integrator::explicit_euler && steps_ > 0;
+  const double later = behind ? (stepping_.step - step) / 2 : 0;
+  SimulationState state = save();
+  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
+                          ? state.whole_numbers.length / unit_of_time_
+                          : 1;
+  const auto shift = [&](auto& moving) {
+    for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
+      const std::size_t i = state.order.empty() ? k : state.order[k];
+      const Vec3 gain = later / unit * (forces_.total(i) / particles_.mass + stepping_.gravity);
+      for (int axis = 0; axis < 3; ++axis) {
+        auto& v = moving.v[axis][k];
+        v = static_cast<std::remove_reference_t<decltype(v)>>(v + gain[axis]);
+      }
+    }
+  };
+  std::visit(shift, state.moving);
+  std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
+  set_step(step);
+  forget_read();
+}
+
 void Simulation::step() {
+  if (const double next = plan_.step(steps_); next != stepping_.step) change_step(next);
   const Pose& now = pose();
   set_time();
   StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
@@ -233,10 +274,12 @@ void Simulation::restore(const SimulationState& state) {
   if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
+  const double last = plan_.step(std::max<std::int64_t>(0, state.steps - 1));
+  set_step(last);
   std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
   steps_ = state.steps;
-  ledger_.restore(state.ledger);
-  world_ledger_.restore(state.world_ledger);
+  ledger_.restore(state.ledger, last);
+  world_ledger_.restore(state.world_ledger, last);
   held_at_start_ = state.held_at_start;
   evaluated_ = false;
   forget_read();

@@ -19,6 +19,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/lists/list_stepper.h>
 #include <sinew/physics/reference/cell_stepper.h>
+#include <sinew/physics/step_plan.h>
 #include <sinew/physics/stepper.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/pose.h>
@@ -33,6 +34,9 @@ class Simulation {
   Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
              kernel::InstructionSet instructions = kernel::best_instruction_set());
 
+  /// From the start on, steps are of the sizes in the plan. Call it before the first step.
+  void follow(StepPlan plan);
+
   /// Advances by one step. Throws Error (unstable) that names step, particle, cause and a cure when
   /// a value is not finite or a particle moves over 0.25 r relative to its bone in the step (one
   /// without a bone: relative to its previous motion). The particles stay where they were before
@@ -41,7 +45,7 @@ class Simulation {
   /// Of the step that failed, in the order of the particles.
   const std::vector<Offender>& offenders() const { return offenders_; }
 
-  double time() const { return static_cast<double>(steps_) * stepping_.step; }  ///< s
+  double time() const { return plan_.time(steps_); }  ///< s
   std::int64_t steps() const { return steps_; }
   const Body& body() const { return *body_; }
   const Particles& particles() const;
@@ -91,12 +95,16 @@ class Simulation {
   void evaluate();
   void forget_read();
   void set_time() const;
+  void set_step(double step);
+  void change_step(double step);
   [[noreturn]] void fail(const Offender& worst);
 
   std::shared_ptr<const Body> body_;
   std::shared_ptr<const Motion> motion_;
   mutable PoseCursor cursor_;
-  Stepping stepping_;
+  Stepping stepping_;  ///< with the step made last
+  StepPlan plan_;
+  double unit_of_time_;  ///< of velocities in single precision, s
   std::int64_t steps_ = 0;
   mutable Stepper stepper_;
   EnergyLedger ledger_, world_ledger_;

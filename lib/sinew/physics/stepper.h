@@ -26,7 +26,10 @@ namespace sinew {
 
 class EnergyLedger {
  public:
-  explicit EnergyLedger(double step) : step_(step) {}
+  explicit EnergyLedger(double step) : step_(step), last_(step) {}
+
+  /// Of the steps that follow, s.
+  void set_step(double step) { step_ = step; }
 
   /// Adds a step that began with this power of the bones and this loss (W); trapezoidal rule for
   /// the power.
@@ -35,20 +38,25 @@ class EnergyLedger {
     now_.power = power;
     now_.begun = true;
     now_.dissipation += step_ * lost;
+    last_ = step_;
   }
 
   /// Until a moment with that power, J.
   double work_until(double power) const {
-    return now_.begun ? now_.work + step_ * (now_.power + power) / 2 : now_.work;
+    return now_.begun ? now_.work + last_ * (now_.power + power) / 2 : now_.work;
   }
   /// Including half of the step that begins with that loss, for the moment of the positions, J.
   double dissipation_until(double lost) const { return now_.dissipation + step_ * lost / 2; }
 
   const LedgerEntries& entries() const { return now_; }
-  void restore(const LedgerEntries& entries) { now_ = entries; }
+  /// `last`: the size of the step that was added last, s.
+  void restore(const LedgerEntries& entries, double last) {
+    now_ = entries;
+    step_ = last_ = last;
+  }
 
  private:
-  double step_;
+  double step_, last_;  ///< s, of the next step and of the one before
   LedgerEntries now_;
 };
 

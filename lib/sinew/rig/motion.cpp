@@ -15,24 +15,25 @@ namespace {
 
 constexpr double least_stretch = 0.01;  // a cubic between positive keys may be below
 
-/// A moment of the clip, and the clip's speed there: 1, 0 where it holds, -1 where it plays
+/// A moment of the clip, s, and its rate in the scene: 0 where it holds, below 0 where it plays
 /// backwards.
 struct ClipTime {
   double time, speed;
 };
 
-/// `passed` s after the clip began; before that it holds its beginning.
-ClipTime clip_time(const Motion& motion, double passed) {
-  if (passed < 0) return {motion.start, 0};
+/// `waited` s of the scene after the clip began; before that it holds its beginning.
+ClipTime clip_time(const Motion& motion, double waited) {
+  if (waited < 0) return {motion.start, 0};
+  const double speed = motion.speed, passed = speed * waited;
   const double length = clip_length(motion);
   const bool within = passed < length;
   if (within || motion.extrapolation == Extrapolation::hold || !(length > 0))
-    return {motion.start + std::min(passed, length), within ? 1.0 : 0.0};
+    return {motion.start + std::min(passed, length), within ? speed : 0.0};
   if (motion.extrapolation == Extrapolation::loop)
-    return {motion.start + std::fmod(passed, length), 1};
+    return {motion.start + std::fmod(passed, length), speed};
   const double position = std::fmod(passed, 2 * length);
-  if (position < length) return {motion.start + position, 1};
-  return {motion.start + 2 * length - position, -1};
+  if (position < length) return {motion.start + position, speed};
+  return {motion.start + 2 * length - position, -speed};
 }
 
 void slow_down(LocalMotion& motion, double speed) {
@@ -153,7 +154,8 @@ Motion played(Motion clip, const MotionOptions& options) {
   clip.extrapolation = options.extrapolation;
   clip.start = options.start;
   clip.end = options.end;
-  clip.preroll = options.preroll;
+  clip.speed = options.speed;
+  clip.preroll = options.preroll.value_or(0);
   const double last = last_key(clip);
   if (!clip.tracks.empty() && clip.start > 0 && clip.start >= clip.end.value_or(last))
     throw bad_value("start",
@@ -170,11 +172,11 @@ Motion played(Motion clip, const MotionOptions& options) {
   return clip;
 }
 
-Motion placed(Motion motion, double scale, const Mat3& turn) {
-  if (scale == 1 && turn == Mat3::Identity()) return motion;
+Motion placed(Motion motion, const Placement& placement) {
+  if (placement.scale == 1 && placement.turn == Mat3::Identity()) return motion;
   for (Track& track : motion.tracks) {
-    place(track.rotation, turn);
-    place(track.translation, scale, turn);
+    place(track.rotation, placement.turn);
+    place(track.translation, placement.scale, placement.turn);
   }
   return motion;
 }

@@ -67,25 +67,27 @@ struct Motion {
   Extrapolation extrapolation = Extrapolation::hold;
   double start = 0;                ///< s of the clip: the part of it that is used
   std::optional<double> end = {};  ///< s of the clip; none: its last key
-  double preroll = 0;              ///< s before the clip begins
+  double speed = 1;                ///< s of the clip per s of the scene
+  double preroll = 0;              ///< s of the scene before the clip begins
 };
 
 /// Time of the last key, s of the clip; 0 without keys.
 double last_key(const Track& track);
 double last_key(const Motion& motion);
 
-/// Duration of the part of the clip that is used, s.
+/// Duration of the part of the clip that is used, s of the clip.
 double clip_length(const Motion& motion);
 
 /// Whether any bone changes its length.
 bool stretches(const Motion& motion);
 
-/// A clip's motion, ready for poses: with start, end, extrapolation and preroll from the options.
-/// Throws bad_value, with the key "start", for a clip that would end before it starts.
+/// A clip's motion, ready for poses: with start, end, speed, extrapolation and preroll from the
+/// options (none where that is left open). Throws bad_value, with the key "start", for a clip that
+/// would end before it starts.
 Motion played(Motion clip, const MotionOptions& options);
 
 /// The motion in a scene's directions and lengths; see placed() in skeleton.h.
-Motion placed(Motion motion, double scale, const Mat3& turn);
+Motion placed(Motion motion, const Placement& placement);
 
 /// Builds the motion of these tracks; keys in frames count at `frame_rate` (1/s). played() prepares
 /// it. Throws bad_value, with a key such as "tracks[0].keys[2].time", for an unknown bone, two
@@ -97,7 +99,7 @@ Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skel
 /// The moment of a clip at a time of the scene.
 struct ClipMoment {
   double time = 0;     ///< of the clip, s
-  double speed = 1;    ///< s of the clip per s; 0 where it holds, -1 where it plays backwards
+  double speed = 1;    ///< s of the clip per s; 0 where it holds, below 0 where it plays backwards
   bool ramps = false;  ///< in the preroll:
   double reached = 1, rate = 0;  ///< reached share of the pose, and its rate, 1/s
 };

@@ -75,7 +75,8 @@ Excess limit(const Bone& bone, LocalMotion& motion) {
 
 namespace {
 
-/// Moments of the scene at which a track is sampled: its keys and three more between each two.
+/// Moments of the clip, from its start, at which a track is sampled: its keys and three more
+/// between each two.
 std::vector<double> moments_of(const Track& track, const Motion& motion) {
   const double length = clip_length(motion);
   std::vector<double> keys = {0, length};
@@ -86,8 +87,8 @@ std::vector<double> moments_of(const Track& track, const Motion& motion) {
   std::vector<double> moments;
   for (std::size_t i = 0; i + 1 < keys.size(); ++i)
     for (int part = 0; part < 4; ++part)
-      moments.push_back(motion.preroll + keys[i] + (keys[i + 1] - keys[i]) * part / 4);
-  moments.push_back(motion.preroll + length);
+      moments.push_back(keys[i] + (keys[i + 1] - keys[i]) * part / 4);
+  moments.push_back(length);
   return moments;
 }
 
@@ -100,9 +101,12 @@ std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& m
     if (!bone.limits.any()) continue;
     LimitPassed passed;
     for (const double time : moments_of(track, motion)) {
-      LocalMotion requested = track.at(motion.start + time - motion.preroll);
+      LocalMotion requested = track.at(motion.start + time);
       const Excess excess = limit(bone, requested);
-      if (excess.any() && !passed.most.any()) passed.bone = track.bone, passed.time = time;
+      if (excess.any() && !passed.most.any()) {
+        passed.bone = track.bone;
+        passed.time = motion.preroll + time / motion.speed;
+      }
       passed.most.swing = std::max(passed.most.swing, excess.swing);
       passed.most.twist = std::max(passed.most.twist, excess.twist);
     }
@@ -113,7 +117,7 @@ std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& m
 
 namespace {
 
-constexpr double least_turn = pi / 180;
+constexpr double least_turn = pi / 180, least_shift_of_size = 1e-3;
 
 /// The difference between two motions of a bone.
 struct Gap {
@@ -146,6 +150,13 @@ struct Worst {
   }
 };
 
+/// The diagonal of the box around all bones, m.
+double extent_of(const Skeleton& skeleton) {
+  Box box;
+  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
+  return box.diagonal().norm();
+}
+
 Worst worst_of(const Skeleton& skeleton, const Motion& motion, double least_shift,
                const std::function<Gap(const Bone&, const Track&)>& gap_of) {
   Worst worst;
@@ -158,6 +169,28 @@ Worst worst_of(const Skeleton& skeleton, const Motion& motion, double least_shif
   }
   return worst;
 }
+
+}  // namespace
+
+double preroll_for(const Skeleton& skeleton, const Motion& motion) {
+  constexpr double turn_per_second = pi / 2, sizes_per_second = 0.5;
+  const double size = extent_of(skeleton);
+  double most = 0, shift = 0;
+  for (const Track& track : motion.tracks) {
+    const Bone& bone = skeleton.bones[static_cast<std::size_t>(track.bone)];
+    most = std::max(most, gap_between(bone, track.at(motion.start), {}).turn);
+  }
+  Motion clip = motion;
+  clip.preroll = 0;
+  const Pose first = pose_at(skeleton, clip, 0), rest = rest_pose(skeleton);
+  for (std::size_t b = 0; b < first.size(); ++b)
+    shift = std::max(shift, (first[b].frame.origin - rest[b].frame.origin).norm());
+  if (most <= least_turn && shift <= least_shift_of_size * size) return 0;
+  const double time = std::max(most / turn_per_second, shift / (sizes_per_second * size));
+  return std::ceil(10 * time - 1e-9) / 10;
+}
+
+namespace {
 
 using Warnings = std::vector<std::string>;
 

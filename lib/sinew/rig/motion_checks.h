@@ -34,6 +34,11 @@ struct LimitPassed {
 /// The bones that the clip would move beyond their limits, sampled at its keys and between them.
 std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& motion);
 
+/// How long the way from rest to the clip's first pose should take, s, in tenths: 1 per 90 degrees
+/// that a bone turns on its parent, and per half of the skeleton's size that one moves. 0 where the
+/// clip begins at rest.
+double preroll_for(const Skeleton& skeleton, const Motion& motion);
+
 // What in a motion would tear a body, or is not done as requested.
 
 /// One line each, with numbers and a cure: bones that do not begin at rest without a preroll, that

@@ -169,11 +169,12 @@ Skeleton make_skeleton(std::span<const BoneDefinition> bones) {
   return skeleton;
 }
 
-Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn) {
+Skeleton placed(Skeleton skeleton, const Placement& placement) {
+  const Mat3& turn = placement.turn;
   for (Bone& bone : skeleton.bones) {
     const Mat3 roll = frame_along(bone.axis()).transpose() * bone.rest.rotation;
-    bone.length *= scale;
-    bone.rest.origin = scale * (turn * bone.rest.origin);
+    bone.length *= placement.scale;
+    bone.rest.origin = placement(bone.rest.origin);
     if (turn != Mat3::Identity()) bone.rest.rotation = frame_along(turn * bone.axis()) * roll;
   }
   return skeleton;

@@ -61,9 +61,9 @@ int bone_named(const Skeleton& skeleton, const std::string& name, const std::str
 /// or with two, connected to nothing, or with limits that exclude every rotation.
 Skeleton make_skeleton(std::span<const BoneDefinition> bones);
 
-/// The rig in a scene's directions and lengths: rotated about the origin, then scaled. The sides of
-/// its bones are those of a rig built in these directions: all formats give the same.
-Skeleton placed(Skeleton skeleton, double scale, const Mat3& turn);
+/// The rig in a scene's place, directions and lengths. The sides of its bones are those of a rig
+/// built in these directions: all formats give the same.
+Skeleton placed(Skeleton skeleton, const Placement& placement);
 
 /// A right-handed frame whose first column is along `axis` (any length but 0). Its second is across
 /// the axis and that one of x, y, z which is least along it, the first of those that are equal to

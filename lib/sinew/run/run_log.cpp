@@ -101,6 +101,7 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
+  describe(setup.plan, setup.frames);
   describe(stepper_choice(settings.solver));
   record_["steps"] = 0;
   record_["frames"] = 0;
@@ -111,6 +112,18 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
       " frames of " + std::to_string(steps.per_frame) + " steps");
   log("stability limit " + number_text(steps.limit) + " s, step " + number_text(steps.step) +
       " s, factor " + number_text(steps.factor()));
+}
+
+/// Frames with shorter steps before them: "shorter_steps": [{"frame": 7, "steps": 400}, ...]
+void RunLog::describe(const StepPlan& plan, int frames) {
+  if (plan.divided() == 0) return;
+  auto& list = record_["shorter_steps"] = nlohmann::ordered_json::array();
+  for (int frame = 1; frame <= frames; ++frame)
+    if (plan.parts(frame - 1) > 1)
+      list.push_back(
+          {{"frame", frame}, {"steps", plan.steps_until(frame) - plan.steps_until(frame - 1)}});
+  log("shorter steps before " + std::to_string(plan.divided()) +
+      " frames, where bones are fast: down to 1/" + std::to_string(plan.most_parts()));
 }
 
 void RunLog::describe(const StepperChoice& choice) {

@@ -12,7 +12,7 @@
 #include <sinew/core/file.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/setup.h>
-#include <sinew/scene/stepper_choice.h>
+#include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -42,6 +42,7 @@ class RunLog {
 
  private:
   void describe(const StepperChoice& choice);
+  void describe(const StepPlan& plan, int frames);
   void log(const std::string& line);
 
   RunFolder folder_;

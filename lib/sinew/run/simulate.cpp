@@ -14,6 +14,7 @@
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
+#include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 #include <sinew/settings/write_scene.h>
 
@@ -43,7 +44,7 @@ bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
 /// How the run advances through time.
 struct Schedule {
   int frames = 0;  ///< after the first
-  int steps_per_frame = 0;
+  StepPlan plan;
   double interval = 0;  ///< s between frames
   int there = 0;        ///< frames that are written already
 
@@ -56,12 +57,12 @@ struct Schedule {
 
   /// Frames up to a state; one that lies after the end is not of this run.
   int frames_until(const SimulationState& state) const {
-    const std::int64_t last = std::int64_t{frames} * steps_per_frame;
+    const std::int64_t last = plan.steps_until(frames);
     if (state.steps > last)
       throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
                           ", and the run ends with step " + std::to_string(last),
                       "begin again with --force");
-    return static_cast<int>(state.steps / steps_per_frame + 1);
+    return plan.intervals_begun(state.steps + 1);
   }
 };
 
@@ -116,7 +117,7 @@ class Run {
   }
 
   void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
-    schedule_ = {ready.setup.frames, ready.setup.steps.per_frame, scene_.output.interval};
+    schedule_ = {ready.setup.frames, ready.setup.plan, scene_.output.interval};
     std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
     simulation_.emplace(start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
     ready.body = {};  // millions of numbers that nobody needs any more
@@ -155,7 +156,7 @@ class Run {
     Stopwatch watch;
     const std::int64_t begun = simulation_->steps();
     for (int frame = schedule_.there;; simulation_->step()) {
-      if (simulation_->steps() == std::int64_t{frame} * schedule_.steps_per_frame) {
+      if (simulation_->steps() == schedule_.plan.steps_until(frame)) {
         log_.spend("stepping", watch.lap());
         add_frame(frame);
         log_.spend("writing", watch.lap());  // what the stepping waited for it
@@ -234,19 +235,31 @@ std::optional<SimulationState> state_to_resume(const RunFolder& folder,
   return state;
 }
 
+/// "skeleton.fit: scale 0.01, rotation [90, 0, 0], offset [0, 0, 1]"
+std::string fit_text(const SkeletonOptions& fitted) {
+  const auto list = [](const Vec3& v) {
+    return '[' + three_digits(v.x()) + ", " + three_digits(v.y()) + ", " + three_digits(v.z()) +
+           ']';
+  };
+  return "skeleton.fit: scale " + three_digits(fitted.scale) + ", rotation " +
+         list(fitted.rotation) + " degrees, offset " + list(fitted.offset) + " m";
+}
+
 void say_what_is_doubtful(const Settings& scene, const Setup& setup, const Triangles& surface,
                           const SimulateOptions& options) {
   say(options, "step " + three_digits(setup.steps.step) + " s, " +
                    three_digits(setup.steps.factor()) + " of the stability limit " +
                    three_digits(setup.steps.limit) + " s");
-  const double speed = bone_speed(setup, scene.output.interval);
+  const double speed = farthest_carried(setup, scene.output.interval);
   for (const std::string& warning : warnings_of(setup, surface, speed))
     if (options.warning) options.warning(warning);
 }
 
 }  // namespace
 
-RunResult simulate(const Settings& scene, const RunFolder& folder, const SimulateOptions& options) {
+RunResult simulate(const Settings& given, const RunFolder& folder, const SimulateOptions& options) {
+  const Settings scene = with_fit(given);
+  if (given.skeleton.fit != Fit::none) say(options, fit_text(scene.skeleton));
   create(folder);
   const FolderLock lock(folder);
   if (!lock.left_by().empty())

@@ -52,15 +52,7 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
                       "give another name with -o");
 }
 
-/// About x, then y, then z; degrees. Exactly the axes without rotation.
-Mat3 lattice_axes(const BodyOptions& body) {
-  const Vec3& angles = body.lattice_rotation;
-  if (angles.isZero(0)) return Mat3::Identity();
-  const auto about = [&](int axis) {
-    return Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis));
-  };
-  return (about(2) * about(1) * about(0)).toRotationMatrix();
-}
+Mat3 lattice_axes(const BodyOptions& body) { return rotation_of(body.lattice_rotation); }
 
 Surface read_mesh(const Settings& settings) {
   return with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });

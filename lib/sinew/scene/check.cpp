@@ -14,7 +14,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/scene/frame_content.h>
-#include <sinew/scene/stepper_choice.h>
+#include <sinew/scene/steps.h>
 
 namespace sinew {
 

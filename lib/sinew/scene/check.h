@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <sinew/scene/setup.h>
-#include <sinew/scene/stepper_choice.h>
+#include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {

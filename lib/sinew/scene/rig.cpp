@@ -5,7 +5,10 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/rig/fit.h>
 #include <sinew/rig/motion.h>
+#include <sinew/rig/motion_checks.h>
+#include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
 
 namespace sinew {
@@ -55,18 +58,21 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
 Motion in_scene(Motion clip, const Settings& settings) {
   Motion motion =
       at_keys(settings, "motion.", [&] { return played(std::move(clip), settings.motion); });
-  return placed(std::move(motion), settings.skeleton.scale, to_scene(settings.skeleton));
+  return placed(std::move(motion), placement_of(settings.skeleton));
 }
 
 Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& settings) {
-  return in_scene(renamed(clip_of(rig, settings).motion, rig.skeleton, skeleton), settings);
+  Motion motion =
+      in_scene(renamed(clip_of(rig, settings).motion, rig.skeleton, skeleton), settings);
+  if (!settings.motion.preroll) motion.preroll = preroll_for(skeleton, motion);
+  return motion;
 }
 
 }  // namespace
 
 Skeleton skeleton_of(const Settings& settings) {
   Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
-  return placed(std::move(skeleton), settings.skeleton.scale, to_scene(settings.skeleton));
+  return placed(std::move(skeleton), placement_of(settings.skeleton));
 }
 
 Motion motion_of(const Settings& settings, const Skeleton& skeleton) {
@@ -82,13 +88,22 @@ int bone_at(const Settings& settings, const std::string& entry, const Skeleton& 
   return at_keys(settings, "", [&] { return bone_named(skeleton, name, entry + ".bone"); });
 }
 
+Settings with_fit(Settings settings) {
+  if (settings.skeleton.fit == Fit::none) return settings;
+  const Skeleton skeleton = rig_of(settings, read_rig_files(settings)).skeleton;
+  const Placement placement = with_context(
+      settings, "skeleton.fit", [&] { return fit_to(read_mesh(settings).triangles, skeleton); });
+  settings.skeleton = placed_again(settings.skeleton, placement);
+  settings.skeleton.fit = Fit::none;
+  return settings;
+}
+
 SceneRig rig_of(const Settings& settings, const SceneFiles& files) {
   const bool own_bones = settings.skeleton.file.empty(), own_clip = settings.motion.file.empty();
   const Rig& from = files.skeleton.rig;
   SceneRig scene;
   scene.skeleton =
-      own_bones ? skeleton_of(settings)
-                : placed(from.skeleton, settings.skeleton.scale, to_scene(settings.skeleton));
+      own_bones ? skeleton_of(settings) : placed(from.skeleton, placement_of(settings.skeleton));
   const auto moved_by = [&](const char* key, const Rig& rig) {
     return with_context(settings, key, [&] { return clip_motion(rig, scene.skeleton, settings); });
   };

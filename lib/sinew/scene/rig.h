@@ -26,6 +26,10 @@ struct SceneRig {
   Motion motion;
 };
 
+/// With the numbers that skeleton.fit finds in place of it. Reads the mesh and the rig for that;
+/// errors name the scene's line.
+Settings with_fit(Settings settings);
+
 /// The clip of a file moves the bones of the same names. Throws bad input, with the scene's line.
 SceneRig rig_of(const Settings& settings, const SceneFiles& files);
 

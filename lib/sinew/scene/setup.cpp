@@ -8,12 +8,12 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/modes/elastic_modes.h>
-#include <sinew/physics/time_step.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>
+#include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
 
 namespace sinew {
@@ -31,9 +31,9 @@ BoneWeights weights_of_file(const Settings& settings, const SkinnedRig& rig, con
   if (rig.weights.weights.empty())
     throw bad_input(place, file.filename().string() + " holds no skinned mesh, so no weights",
                     "choose nearest or inside");
-  const Mat3 turn = to_scene(settings.skeleton);
+  const Placement placement = placement_of(settings.skeleton);
   Points points = rig.mesh.points;
-  for (Vec3& point : points) point = settings.skeleton.scale * (turn * point);
+  for (Vec3& point : points) point = placement(point);
   return carried_weights(points, rig.weights, rest);
 }
 
@@ -107,22 +107,6 @@ void set_damping_ratio(const MaterialOptions& settings, Body& body) {
   if (!modes.empty()) body.material.damping = modes.damping_for(*settings.damping_ratio);
 }
 
-StepChoice steps_of(const Settings& settings, const Body& body) {
-  const double limit = step_limit(settings.solver.integrator, body, load_of(body));
-  if (!(limit > 0) && settings.solver.integrator != Integrator::explicit_euler)
-    throw bad_input(settings.place("material.density"),
-                    "no time step is short enough for particles of " +
-                        three_digits(body.material.mass) + " kg on springs of " +
-                        three_digits(body.material.stiffness()) + " N/m",
-                    "give the material a density and a modulus of real ones, as 1000 kg/m^3 and "
-                    "1e4 Pa");
-  try {
-    return choose_step(settings.solver, limit, settings.output.interval);
-  } catch (const Error& error) {
-    throw error.with_context(settings.place("solver.integrator"));
-  }
-}
-
 }  // namespace
 
 Material material_of(const Settings& settings, const Particles& particles) {
@@ -145,14 +129,6 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   return body;
 }
 
-Stepping stepping_of(const SolverSettings& solver, double step) {
-  return {solver.integrator, step, solver.gravity, solver.precision, solver.neighbor_search};
-}
-
-StepChoice choose_step(const SolverSettings& solver, double limit, double interval) {
-  return choose_step(solver.time_step, solver.time_step_factor, limit, interval);
-}
-
 Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
              std::vector<double> share) {
   Setup setup;
@@ -166,16 +142,18 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
   setup.steps = steps_of(settings, setup.body);
+  setup.plan = plan_of(settings, setup);
   with_context(settings, "output.region",
                [&] { written_particles(settings.output, setup.body.rest); });
-  if (static_cast<double>(setup.frames) * setup.steps.per_frame > most_steps)
+  if (static_cast<double>(setup.plan.steps_until(setup.frames)) > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");
   return setup;
 }
 
-ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body) {
+ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   Stopwatch watch;
+  const Settings settings = with_fit(given);
   ReadyScene ready;
   ready.surface = read_mesh(settings);
   const SceneFiles files = read_files(settings);
@@ -195,29 +173,10 @@ Simulation start(const Settings& settings, const ReadyScene& ready) {
 }
 
 Simulation start(const Settings& settings, Setup setup, Particles particles) {
-  return Simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
-                    stepping_of(settings.solver, setup.steps.step));
-}
-
-double bone_speed(const Setup& setup, double interval) {
-  const Body& body = setup.body;
-  std::vector<double> reach(body.skeleton.size(), 0.0);  // from the bone's axis
-  for (const Influence& influence : body.binding.influences)
-    reach[influence.bone] = std::max(reach[influence.bone], influence.rest_distance);
-  double fastest = 0;
-  constexpr int samples_per_frame = 4;
-  PoseCursor poses(body.skeleton, setup.motion);
-  for (int sample = 0; sample <= samples_per_frame * setup.frames; ++sample) {
-    const Pose& pose = poses.at(sample * interval / samples_per_frame);
-    for (std::size_t b = 0; b < pose.size(); ++b) {
-      const double length = pose[b].stretch * body.skeleton.bones[b].length;
-      const Vec3 tail = pose[b].frame.origin + length * pose[b].axis();
-      const double spin = pose[b].angular_velocity.norm() * reach[b];
-      fastest = std::max(
-          {fastest, pose[b].velocity.norm() + spin, pose[b].velocity_at(tail).norm() + spin});
-    }
-  }
-  return fastest * setup.steps.step / body.material.pair.r;
+  Simulation simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
+                        stepping_of(settings.solver, setup.steps.step));
+  simulation.follow(std::move(setup.plan));
+  return simulation;
 }
 
 std::vector<std::int32_t> bones_of_particles(const Body& body) {

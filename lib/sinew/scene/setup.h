@@ -14,6 +14,7 @@
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/scene_files.h>
+#include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -37,15 +38,12 @@ struct Setup {
   Body body;
   Motion motion;
   StepChoice steps;
+  StepPlan plan;
   std::vector<Triangles> obstacles;  ///< of the world, as surfaces in coordinates of their shapes
   double joint_zone = 0;             ///< in square roots of the bones' cross-section
   bool weights_given = false;        ///< by a file: they distribute rotations in their own manner
   int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
-
-/// The settings of section solver for stepping, with the chosen step, s.
-Stepping stepping_of(const SolverSettings& solver, double step);
-StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
 
 /// Binds the particles to the bones and chooses the step. `share` as in Body. Errors name the
 /// scene's line.
@@ -69,9 +67,6 @@ Simulation start(const Settings& settings, const ReadyScene& ready);
 
 /// The simulation of a setup, at its start. Moved arguments are not copied.
 Simulation start(const Settings& settings, Setup setup, Particles particles);
-
-/// An upper bound of how far the bones move any particle in one step, in radii.
-double bone_speed(const Setup& setup, double interval);
 
 /// The bone with the largest weight for each particle, in the written order.
 std::vector<std::int32_t> bones_of_particles(const Body& body);

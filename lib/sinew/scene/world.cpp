@@ -79,13 +79,6 @@ Placed placed_mesh(const Surface& surface) {
   return placed;
 }
 
-Mat3 rotation_about_axes(const Vec3& angles) {
-  Mat3 turn = Mat3::Identity();
-  for (int axis = 0; axis < 3; ++axis)
-    turn = Eigen::AngleAxisd(radians(angles[axis]), Vec3::Unit(axis)) * turn;
-  return turn;
-}
-
 /// `mesh`: for that shape alone. `size`: of the body, m.
 Placed placed_shape(const ObstacleSettings& given, const Surface& mesh, double size) {
   const Vec3 zero = Vec3::Zero();
@@ -105,8 +98,7 @@ Placed placed_shape(const ObstacleSettings& given, const Surface& mesh, double s
       break;
     }
     case ObstacleShape::box:
-      placed = {
-          BoxShape{zero, *given.size / 2, rotation_about_axes(given.rotation)}, *given.center, {}};
+      placed = {BoxShape{zero, *given.size / 2, rotation_of(given.rotation)}, *given.center, {}};
       break;
   }
   placed.surface = surface_of(placed.shape, size);

@@ -25,6 +25,11 @@ std::vector<Field<Settings>> make_body() {
       choice<S>("body", "forward", SINEW_AT(S, body.forward), axes(),
                 "axis of the mesh that becomes the scene's x; auto: the axis after up, in the "
                 "order x, y, z, x"),
+      field<S>("body", "rotation", SINEW_AT(S, body.rotation), "degrees",
+               "rotation of the mesh about the scene's x, then y, then z axis, after up and "
+               "forward"),
+      field<S>("body", "offset", SINEW_AT(S, body.offset), "m",
+               "displacement of the mesh, after scale and rotation"),
       field<S>("body", "weld", SINEW_AT(S, body.weld), "m",
                "merges points of the mesh closer than this; 0 merges identical points only",
                not_negative),
@@ -148,6 +153,14 @@ std::vector<Field<Settings>> make_skeleton_section() {
       choice<S>("skeleton", "forward", SINEW_AT(S, skeleton.forward), axes(),
                 "axis of the rig that becomes the scene's x; auto: the axis after up, in the order "
                 "x, y, z, x"),
+      field<S>("skeleton", "rotation", SINEW_AT(S, skeleton.rotation), "degrees",
+               "rotation of the rig about the scene's x, then y, then z axis, after up and "
+               "forward"),
+      field<S>("skeleton", "offset", SINEW_AT(S, skeleton.offset), "m",
+               "displacement of the rig, after scale and rotation"),
+      choice<S>("skeleton", "fit", SINEW_AT(S, skeleton.fit), {"none", "mesh"},
+                "mesh: scales, rotates and moves the rig so that it lies inside the mesh; the "
+                "scene written with the run has the values found"),
   };
 }
 
@@ -172,8 +185,12 @@ std::vector<Field<Settings>> make_motion_section() {
           "motion", "extrapolation", SINEW_AT(S, motion.extrapolation),
           {"hold", "loop", "ping_pong"},
           "motion after the end of the clip: hold the last pose, repeat, or play back and forth"),
+      field<S>("motion", "speed", SINEW_AT(S, motion.speed), "",
+               "rate at which the clip plays: 0.5 takes twice the time", positive),
       field<S>("motion", "preroll", SINEW_AT(S, motion.preroll), "s",
-               "time before the clip in which the bones move smoothly from rest to its first pose",
+               "time before the clip in which the bones move smoothly from rest to its first pose; "
+               "auto: 0 for tracks; for the clip of a file 1 s per 90 degrees or per half size of "
+               "the skeleton",
                not_negative),
   };
 }

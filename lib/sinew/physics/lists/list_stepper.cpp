@@ -339,6 +339,15 @@ double ListStepper<Real>::travel_of_step() const {
 }
 
 template <class Real>
+void ListStepper<Real>::set_step(double step) {
+  stepping_.step = step;
+  surroundings_.set_step(step);
+  lists_ = VerletLists<Real>(kernel_, body_->material, step);
+  order_checked_ = -1;
+  stepped_ = false;
+}
+
+template <class Real>
 void ListStepper<Real>::save(SimulationState& state) const {
   layout_.save(state);
   bonds_.save(state);

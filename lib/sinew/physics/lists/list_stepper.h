@@ -25,6 +25,8 @@ class ListStepper {
               const Particles& particles, kernel::InstructionSet instructions);
 
   void set_time(double time) { time_ = time; }  ///< of the pose, s
+  /// Of the steps that follow, s; velocities stay as they are.
+  void set_step(double step);
   StepSums step(const Pose& pose);
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);

@@ -36,6 +36,12 @@ Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Steppin
       until_middle_(stepping.step / 2) {}
 
 template <class Real>
+void Surroundings<Real>::set_step(double step) {
+  stepping_.step = step;
+  until_middle_ = step / 2;
+}
+
+template <class Real>
 void Surroundings<Real>::set_order(std::span<const std::int32_t> id) {
   if (!any_) return;
   constexpr std::size_t block = BlockState<Real>::block;

@@ -50,6 +50,8 @@ class Surroundings {
              const VerletLists<Real>& lists, Points* forces);
   kernel::Surroundings<Real> calls();
 
+  void set_step(double step);  ///< s
+
   /// Of the last step or probe, added in the order of the pieces.
   WorldSums sums() const;
   std::vector<Reaction> reactions() const;          ///< of obstacles

@@ -23,6 +23,8 @@ class CellStepper {
 
   /// Time (s) of the next call: surroundings change with it.
   void set_time(double time) { time_ = time; }
+  /// Of the steps that follow, s; velocities stay as they are.
+  void set_step(double step) { stepping_.step = step; }
 
   StepSums step(const Pose& pose);
   Balance evaluate(const Pose& pose, Forces& forces);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// When the steps of a run take place. They are equal, but where bones are fast for a moment: there
+// each is divided into parts, the same number throughout an interval (from frame to frame).
+//
+//     const StepPlan plan(choice, interval, {1, 1, 4, 1});
+//     while (simulation.steps() < plan.steps_until(frame)) simulation.step();
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace sinew {
+
+class StepPlan {
+ public:
+  /// Equal steps, s.
+  explicit StepPlan(double step = 0) : step_(step) {}
+  /// Intervals of `per_interval` steps of `step` s, each divided into `parts` of the interval;
+  /// after the last of them steps are whole.
+  StepPlan(double step, int per_interval, std::vector<int> parts);
+
+  bool is_even() const { return first_.empty(); }
+  /// The size of step `n`, from 0, s.
+  double step(std::int64_t n) const;
+  /// The time before step `n`, s.
+  double time(std::int64_t n) const;
+  /// Steps before interval `index`. Only of a plan in intervals.
+  std::int64_t steps_until(int index) const;
+  /// Intervals that have begun before step `n`.
+  int intervals_begun(std::int64_t n) const;
+
+  /// Into how many parts the steps of an interval are divided.
+  int parts(int index) const;
+  int most_parts() const;
+  int divided() const;  ///< intervals of which the steps are
+
+ private:
+  std::size_t interval_of(std::int64_t n) const;
+
+  double step_ = 0;  ///< s, whole
+  int per_interval_ = 0;
+  std::vector<int> parts_;
+  std::vector<std::int64_t> first_;  ///< step of each interval, and of the end; none: all even
+};
+
+}  // namespace sinew

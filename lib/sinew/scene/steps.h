@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The steps of a scene: how long they are, where fast bones need shorter ones, and which stepper
+// makes them.
+//
+//     setup.steps = steps_of(settings, setup.body);
+//     setup.plan = plan_of(settings, setup);
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/step_plan.h>
+#include <sinew/physics/stepper.h>
+#include <sinew/physics/time_step.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+struct Setup;
+
+/// The settings of section solver for stepping, with the chosen step, s.
+Stepping stepping_of(const SolverSettings& solver, double step);
+StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
+
+/// For a body. Throws bad input, with the scene's line, where no step is stable.
+StepChoice steps_of(const Settings& settings, const Body& body);
+
+/// An upper bound of the speed at which bones carry any particle, m/s: by interval of that length
+/// (s), from frame to frame.
+std::vector<double> bone_speeds(const Setup& setup, double interval);
+
+/// With time_step: auto, the steps of each interval are divided until bones carry no particle
+/// farther in one than most_carried radii; otherwise all are even.
+StepPlan plan_of(const Settings& settings, const Setup& setup);
+inline constexpr double most_carried = 0.2;
+
+/// An upper bound of how far bones carry any particle in one step, in radii.
+double farthest_carried(const Setup& setup, double interval);
+
+// The stepper that a run uses.
+
+struct StepperChoice {
+  NeighborSearch search = NeighborSearch::lists;
+  Precision precision = Precision::binary64;
+  kernel::InstructionSet instructions = kernel::best_instruction_set();
+};
+
+/// The cell stepper has one precision, double, and no vector instructions.
+StepperChoice stepper_choice(const SolverSettings& solver);
+
+/// As the scene's keys spell them.
+const char* name_of(NeighborSearch search);
+const char* name_of(Precision precision);
+
+/// Typical particle-steps per second on one core.
+double usual_speed(const StepperChoice& choice);
+
+}  // namespace sinew
