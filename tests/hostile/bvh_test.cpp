@@ -57,19 +57,6 @@ std::string with(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
-class HostileBvhFile : public Scratch {};
-
-TEST_F(HostileBvhFile, ThatIsLargeIsRefusedBeforeItIsRead) {
-  const auto path = folder / "a.bvh";
-  const double memory = raised_memory([&] {
-    put_sparse(path, bvh_files::small, 3'000'000'000);
-    EXPECT_TRUE(contains(error_of([&] { read_bvh(path); }).what(), "is larger than"));
-    put_sparse(path, "v 0 0 0\n", 200'000'000);
-    EXPECT_TRUE(contains(error_of([&] { read_bvh(path); }).what(), "HIERARCHY"));
-  });
-  EXPECT_LT(memory, 50e6);
-}
-
 TEST(HostileBvh, CutAtEveryWord) {
   const std::string& text = bvh_files::small;
   const std::size_t hierarchy = text.find("MOTION");
@@ -287,6 +274,17 @@ TEST(HostileBvh, EveryHalfOfEveryFileHasOneLine) {
 }
 
 class HostileBvhFile : public Scratch {};
+
+TEST_F(HostileBvhFile, ThatIsLargeIsRefusedBeforeItIsRead) {
+  const auto path = folder / "a.bvh";
+  const double memory = raised_memory([&] {
+    put_sparse(path, bvh_files::small, 3'000'000'000);
+    EXPECT_TRUE(contains(error_of([&] { read_bvh(path); }).what(), "is larger than"));
+    put_sparse(path, "v 0 0 0\n", 200'000'000);
+    EXPECT_TRUE(contains(error_of([&] { read_bvh(path); }).what(), "HIERARCHY"));
+  });
+  EXPECT_LT(memory, 50e6);
+}
 
 TEST_F(HostileBvhFile, FilesThatCannotBeReadAreNamed) {
   const auto path = folder / "none.bvh";

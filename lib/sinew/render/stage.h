@@ -28,7 +28,7 @@ struct Shot {
   int width = 960, height = 720;
   double pixel = 1;
   Finish finish = Finish::fine;
-  int tile = 4096;  ///< rendered pixels: larger pictures are drawn in tiles, which take less memory
+  int tile = 2560;  ///< rendered pixels: larger pictures are drawn in tiles, which take less memory
 };
 
 struct Exposure {
