@@ -49,7 +49,7 @@ TEST(FigureSet, RefusesPicturesThatExceedTheMemory) {
   EXPECT_NO_THROW(check_memory(8192, 8192, 4e9));
   EXPECT_NO_THROW(check_memory(1280, 720, 1e9));
   test::expect_bad_input([] { check_memory(8192, 8192, 1e9); },
-                         {"8192 x 8192 pixels", "2.3 GB", "1.0 GB are free", "--width"});
+                         {"8192 x 8192 pixels", "2.7 GB", "1.0 GB are free", "--width"});
 }
 
 }  // namespace sinew::snapshots_test
