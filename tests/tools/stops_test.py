@@ -77,6 +77,23 @@ class Stops(SmallRun):
         self.assertEqual((self.record()["status"], self.record()["resumed"]), ("finished", 1))
         self.assert_same_as_unbroken(*words)
 
+    def test_damage_before_a_resumption_shows_after_it(self):
+        words = ["--set", "solver.duration=2", "--set", "output.checkpoint_interval=0"]
+        with subprocess.Popen([BIN / "sinew", "simulate", self.scene, "-o", self.out, *words],
+                              stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as child:
+            self.wait_for(child, "particles/particles_000009.vtu")
+            child.kill()
+        sinew("info", self.out, "--verify", check=0)
+        frame = self.out / "surface/surface_000001.vtu"
+        whole = frame.read_bytes()
+        frame.write_bytes(whole[:2000] + bytes([whole[2000] ^ 4]) + whole[2001:])
+        self.assertIn("going on from step", self.simulate("--resume", *words).stderr)
+        done = sinew("info", self.out, "--verify")
+        self.assert_one_line(done, 2, "1 of 251 files")
+        self.assertIn("damaged: surface/surface_000001.vtu\n", done.stdout)
+        frame.write_bytes(whole)
+        sinew("info", self.out, "--verify", check=0)
+
     def test_another_scene_or_a_broken_checkpoint_is_not_resumed(self):
         self.simulate("--set", "solver.wall_time=0.01", "--set", "solver.duration=2", check=130)
         done = self.simulate("--resume", "--set", "solver.duration=3", check=2)
