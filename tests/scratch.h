@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -37,6 +38,26 @@ inline std::string text_of(const std::filesystem::path& path) {
 
 inline void put(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
+}
+
+/// A file of that size which begins with `text`, followed by zeros that take no space on the disk.
+inline void put_sparse(const std::filesystem::path& path, const std::string& text,
+                       std::uintmax_t size) {
+  put(path, text);
+  std::filesystem::resize_file(path, size);
+}
+
+/// By how much `job` has raised the largest memory of this process so far, bytes.
+template <class Job>
+double raised_memory(Job&& job) {
+  const auto peak = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  };
+  const double before = peak();
+  job();
+  return peak() - before;
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

@@ -155,6 +155,7 @@ void add_stepper(const StepperChoice& choice, Results& results) {
 }
 
 Exit check(const std::string& scene, const Common& common) {
+  refuse_mesh_as_scene(scene);
   const Settings settings = with_fit(read_scene(scene, common.overrides));
   const Surface surface = read_mesh(settings);
   const SceneFiles files = read_files(settings);

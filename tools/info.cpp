@@ -8,10 +8,12 @@
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
+#include <sinew/io/checksums.h>
 #include <sinew/io/single_files.h>
 #include <sinew/mesh/diagnosis.h>
 #include <sinew/physics/time_step.h>
 #include <sinew/rig/motion.h>
+#include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
@@ -223,7 +225,40 @@ struct Options {
   std::string path, drawing;
   BodyFlags body;
   std::optional<double> radius;
+  bool verify = false;
 };
+
+void add_verified(const RunFolder& folder, Results& results, VerifiedFiles& files) {
+  files = verify_checksums(folder.path);
+  results.add("verified", files.files);
+  for (const std::string& name : files.damaged) results.add_line("damaged", name);
+  for (const std::string& name : files.missing) results.add_line("missing", name);
+  results.add_value("damaged", files.damaged);
+  results.add_value("missing", files.missing);
+}
+
+Exit describe_run(const Options& options, const Common& common) {
+  const RunFolder folder{options.path};
+  if (!folder.used())
+    throw bad_input(Place{options.path}, "is not the folder of a run",
+                    "give a file, or the folder that sinew run or sinew simulate writes");
+  const auto record = read_record(folder);
+  Results results;
+  results.add("folder", options.path);
+  for (const char* key : {"version", "status", "started", "particles", "bones", "frames", "steps",
+                          "time_step", "duration"})
+    if (const auto value = record.find(key); value != record.end())
+      results.add(key, value->is_array() ? nlohmann::ordered_json(value->size()) : *value);
+  VerifiedFiles files;
+  if (options.verify) add_verified(folder, results, files);
+  results.print(common.json);
+  const std::size_t wrong = files.damaged.size() + files.missing.size();
+  if (wrong == 0) return Exit::done;
+  throw bad_input(Place{options.path},
+                  std::to_string(wrong) + " of " + std::to_string(files.files) +
+                      " files are damaged or missing",
+                  "restore them from a copy, or run the scene again with --force");
+}
 
 void add_scene(const Settings& settings, Results& results) {
   SceneRig scene = rig_of(settings, read_rig_files(settings));
@@ -250,19 +285,29 @@ bool add_rig_alone(const Options& options, Results& results) {
   return true;
 }
 
+Exit print(Results& results, const std::vector<std::string>& warnings, const Common& common) {
+  results.add("warnings", warnings);
+  results.print(common.json);
+  for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
+  return Exit::done;
+}
+
 Exit info(const Options& options, const Common& common) {
+  if (options.verify || std::filesystem::is_directory(options.path))
+    return describe_run(options, common);
   Results results;
   results.add("file", options.path);
   if (add_rig_alone(options, results)) {
     results.print(common.json);
     return Exit::done;
   }
-  if (holds_rig(options.path))
-    add_rig_info(read_rig(options.path, {}).rig, options.radius, results);
-  if (!holds_mesh(options.path)) {
-    results.print(common.json);
-    return Exit::done;
+  std::vector<std::string> warnings;
+  if (holds_rig(options.path)) {
+    const Rig rig = read_rig(options.path, {}).rig;
+    add_rig_info(rig, options.radius, results);
+    warnings = rig.warnings;
   }
+  if (!holds_mesh(options.path)) return print(results, warnings, common);
   BodyOptions body;
   if (is_scene(options.path)) {
     const Settings settings = with_fit(read_scene(options.path, common.overrides));
@@ -272,11 +317,9 @@ Exit info(const Options& options, const Common& common) {
     body = body_of_mesh(options, common);
   }
   if (!options.drawing.empty()) refuse_output(options.drawing, {options.path, body.mesh});
-  const auto warnings = add_mesh_info(body, options.drawing, results);
-  results.add("warnings", warnings);
-  results.print(common.json);
-  for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
-  return Exit::done;
+  for (std::string& warning : add_mesh_info(body, options.drawing, results))
+    warnings.push_back(std::move(warning));
+  return print(results, warnings, common);
 }
 
 }  // namespace
@@ -286,19 +329,22 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv,
       {"info",
-       "Describes a mesh, rig, clip or scene and lists its defects.",
+       "Describes a mesh, rig, clip, scene or run and lists its defects.",
        {"sinew info data/meshes/box.obj", "sinew info part.stl --unit mm -o defects.vtu",
-        "sinew info configs/box_bend.yaml", "sinew info data/motions/walk.bvh --radius 0.01"}},
+        "sinew info configs/box_bend.yaml", "sinew info data/motions/walk.bvh --radius 0.01",
+        "sinew info out/box_bend --verify"}},
       [&](OptionList& list) {
         list.add("FILE", options.path,
                  "Mesh (" + mesh_formats() + "), rig (" + rig_formats +
-                     ") or scene, rig or clip (YAML)")
+                     "), scene, rig or clip (YAML), or the folder of a run")
             .required();
         list.add("-o", options.drawing, "Draw the mesh with its defects, for ParaView")
             .type_name("FILE.vtu");
         list.add("--radius", options.radius,
                  "Radius of particles, m: report how fast the rig would move them")
             .positive();
+        list.add_flag("--verify", options.verify,
+                      "Compare all files of a run with their checksums; names damaged ones");
         options.body.declare(list, BodyFlags::Kind::mesh);
       },
       [&](const Common& common) { return info(options, common); });

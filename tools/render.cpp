@@ -100,6 +100,7 @@ Exit render(const Options& options, const Common& common) {
   figure_set.folder =
       options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
   create({figure_set.folder});
+  const PicturesLock lock(figure_set.folder);
   int pictures = 0;
   for (std::size_t preset = 0; preset < presets.size(); ++preset) {
     FigureSet pages(shown, preset, figure_set);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <sinew/run/simulate.h>
+#include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
 
 #include "command/child.h"
@@ -47,6 +48,7 @@ std::string resume_words(const RunOptions& options, const Common& common, const 
 }
 
 Exit simulate_scene(int argc, char** argv, const RunOptions& options, const Common& common) {
+  refuse_mesh_as_scene(options.scene);
   const Settings settings = read_scene(options.scene, common.overrides);
   const RunFolder folder = run_folder(options.scene, options.folder);
   std::optional<Progress> progress;

@@ -16,7 +16,7 @@ def bvh():
     whole = (MOTIONS / "box_bend.bvh").read_bytes()
     files = dict(FOREIGN) | NOT_FILES | cut_short(whole)
     changes = {
-        "more_frames": ("Frames: 301", "Frames: 302"), "fewer_frames": ("Frames: 301", "Frames: 300"),
+        "more_frames": ("Frames: 301", "Frames: 302"), "fewer_frames": ("Frames: 301", "Frames: 299"),
         "no_frames": ("Frames: 301", "Frames: 0"), "negative_frames": ("Frames: 301", "Frames: -301"),
         "countless_frames": ("Frames: 301", "Frames: 99999999999999999999"), "many_frames": ("Frames: 301", "Frames: 2147483648"),
         "half_a_frame": ("Frames: 301", "Frames: 300.5"), "frames_of_words": ("Frames: 301", "Frames: many"),

@@ -197,7 +197,7 @@ TEST_F(HostileGltfRig, WhoseJointsLieInOnePointIsRefused) {
   Gltf gltf = bending_bar();
   gltf.json["skins"][0].erase("inverseBindMatrices");
   gltf.json["nodes"][2].erase("translation");
-  expect_refused(gltf, "all joints lie in one point");
+  expect_refused(gltf, "all joints lie in one point; give their nodes different places");
 }
 
 TEST_F(HostileGltfRig, WithWrongWeightsIsRefused) {

@@ -69,6 +69,28 @@ TEST_F(HostileGltf, UnderAnotherExtensionIsRefused) {
   expect_refused("mesh", plain, "give a .gltf or .glb file");
 }
 
+TEST_F(HostileGltf, ThatIsLargeIsRefusedBeforeItIsRead) {
+  const std::string header = text_of(write(folder, one_tetrahedron(), Form::packed)).substr(0, 12);
+  const double memory = raised_memory([&] {
+    for (const char* name : {"a.glb", "a.gltf"})
+      for (const std::string& begin : {std::string(), std::string("v 0 0 0\n")}) {
+        put_sparse(folder / name, begin, 3'000'000'000);
+        EXPECT_NE(answer(folder / name), "");
+      }
+    put_sparse(folder / "a.glb", header, 3'000'000'000);
+    EXPECT_TRUE(contains(answer(folder / "a.glb"), "but has 3000000000"));
+    put_sparse(folder / "a.gltf", "{", 3'000'000'000);
+    EXPECT_TRUE(contains(answer(folder / "a.gltf"), "is larger than"));
+  });
+  EXPECT_LT(memory, 50e6);
+}
+
+TEST_F(HostileGltf, ReadsOfABufferOnlyWhatItUses) {
+  const auto path = write(folder, one_tetrahedron(), Form::beside);
+  std::filesystem::resize_file(folder / "mesh.bin", 3'000'000'000);
+  EXPECT_LT(raised_memory([&] { EXPECT_EQ(answer(path), ""); }), 50e6);
+}
+
 TEST_F(HostileGltf, ThatIsNoFileIsRefused) {
   std::filesystem::create_directory(folder / "folder.glb");
   EXPECT_TRUE(contains(answer(folder / "folder.glb"), "is not a regular file"));

@@ -36,6 +36,25 @@ TEST_F(BoneTableFile, HasARowPerBoneAndFrame) {
             columns + "\n0," + rows[0] + "0," + rows[1] + "0.5," + rows[0] + "0.5," + rows[1]);
 }
 
+TEST_F(BoneTableFile, WritesNoNameThatASpreadsheetComputes) {
+  Skeleton skeleton;
+  const std::vector<BoneRow> some(1, {Vec3::Zero(), Vec3::Zero(), 0});
+  const auto cell = [&](const std::string& name) {
+    skeleton.bones.assign(1, {});
+    skeleton.bones[0].name = name;
+    BoneTable(folder / "bones.csv").add(0, skeleton, some, {some, {}, {}});
+    const std::string text = text_of(folder / "bones.csv"),
+                      row = text.substr(text.find("\n0,") + 3);
+    return row.substr(0, row.find(",0,0,"));
+  };
+  EXPECT_EQ(cell("=1+1"), "'=1+1");
+  EXPECT_EQ(cell("@SUM(A1,B1)"), "\"'@SUM(A1,B1)\"");
+  EXPECT_EQ(cell("+1"), "'+1");
+  EXPECT_EQ(cell("-1"), "'-1");
+  EXPECT_EQ(cell("'=1+1"), "''=1+1");  // so that one off gives the name again
+  EXPECT_EQ(cell("arm=1"), "arm=1");
+}
+
 TEST_F(BoneTableFile, GoesOnAfterTheFramesThatAreKept) {
   Skeleton skeleton;
   skeleton.bones.resize(2);

@@ -126,7 +126,7 @@ TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   expect_refused("text", {"not a checkpoint"});
   Checkpoint larger = sample();
   larger.run.particles = particles + 1;
-  expect_refused(bytes_of(larger), {"6 particles, not 5"});
+  expect_refused(bytes_of(larger), {"run has 6 particles", "body now 5", "--force"});
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {

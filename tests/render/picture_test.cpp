@@ -100,6 +100,42 @@ TEST(Picture, one_painter_draws_the_same_again) {
   EXPECT_EQ(painter.draw(rest, options).rgb, first.rgb);
 }
 
+/// Share of the pixels that differ by more than rounding does.
+double differing(const Image& a, const Image& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) count += std::abs(a.rgb[i] - b.rgb[i]) > 3;
+  return static_cast<double>(count) / static_cast<double>(a.rgb.size());
+}
+
+TEST(Picture, tiles_join_without_seams) {
+  const Snapshot snapshot = synthetic_snapshot(0.8, 0);
+  Painter painter(snapshot.surface, synthetic_scale());
+  for (const View view : {View::surface, View::both, View::bones})
+    for (const Finish finish : finishes) {
+      PictureOptions options = options_for(snapshot, view, finish);
+      const Image whole = painter.draw(snapshot, options);
+      options.tile = 90;                                     // divides neither side
+      const double most = view == View::both ? 1e-2 : 5e-4;  // edges of spheres round differently
+      EXPECT_LT(differing(painter.draw(snapshot, options), whole), most);
+    }
+}
+
+TEST(Picture, all_moments_have_lines_or_none_has) {
+  const Snapshot rest = synthetic_snapshot(0, 0);
+  Snapshot swollen = rest;
+  for (Vec3& point : swollen.surface.points) point *= 1.1;
+  Painter of_rest(rest.surface, synthetic_scale()), of_swollen(swollen.surface, synthetic_scale());
+  PictureOptions options{View::surface, {}, 120, 240, 10, Finish::fine};
+  const double cell = make_shading(rest.surface).mean_line;
+  const auto differ = [&](double pixels) {  // pictures of cells that are so long at rest
+    const Vec3 corner = cell / pixels * Vec3(50, 110, 1000);
+    options.camera.frame = Box(-corner, corner);
+    return differing(of_rest.draw(swollen, options), of_swollen.draw(swollen, options));
+  };
+  EXPECT_GT(differ(6.6), 0.05);  // lines closer than 7 pixels are left out
+  EXPECT_EQ(differ(7.4), 0);
+}
+
 TEST(Picture, an_empty_snapshot_is_white) {
   Painter painter({}, {});
   EXPECT_EQ(painted(painter.draw({}, {})), 0);

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sinew/run/figure_set.h>
 #include <sinew/run/simulate.h>
 #include <sinew/settings/read_scene.h>
+#include "expect_error.h"
 #include "settings/temp_folder.h"
 
 namespace sinew::snapshots_test {
@@ -41,6 +43,13 @@ TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
     EXPECT_NEAR((upper.tail - upper.head).norm(), stretch * 0.34648, 1e-6) << frame;
     EXPECT_LT((upper.head - lower.tail).norm(), 1e-6);
   }
+}
+
+TEST(FigureSet, RefusesPicturesThatExceedTheMemory) {
+  EXPECT_NO_THROW(check_memory(8192, 8192, 4e9));
+  EXPECT_NO_THROW(check_memory(1280, 720, 1e9));
+  test::expect_bad_input([] { check_memory(8192, 8192, 1e9); },
+                         {"8192 x 8192 pixels", "2.7 GB", "1.0 GB are free", "--width"});
 }
 
 }  // namespace sinew::snapshots_test

@@ -3,6 +3,7 @@
 """live_test.py MAKE_SERIES MODULES: ParaView follows a run while it is written.
 
 MODULES is the folder filled by get_paraview_python.sh."""
+import os
 import re
 import struct
 import subprocess
@@ -61,6 +62,39 @@ class Live(unittest.TestCase):
         width, height, channels, bytes_ = pixels_of(picture)
         self.assertEqual((width, height), (800, 400))
         self.assertGreater(len(set(bytes_)), 100)
+
+    def test_a_finished_run_shows_its_last_frame_on_any_display(self):
+        self.start_run(3, 0).wait()
+        (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "finished"}')
+        picture = self.run_folder / "live.png"
+        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages"}
+        done = subprocess.run(["xvfb-run", "-a", "pvbatch", self.run_folder / "live.py", "--frames", "2", "--size",
+                               "400", "200", "--picture", str(picture)], env=environment, capture_output=True,
+                              text=True, timeout=50)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("frame 2\nthe run has ended, 1 shown; view.py", done.stdout)
+        self.assertNotIn("rror", done.stderr)
+        self.assertEqual(pixels_of(picture)[:2], (400, 200))
+
+    def test_without_a_display_it_says_how_to_draw(self):
+        self.start_run(3, 0).wait()
+        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages"}
+        environment.pop("DISPLAY", None)
+        for script in ("live.py", "view.py"):
+            done = subprocess.run(["pvbatch", self.run_folder / script], env=environment, capture_output=True,
+                                  text=True, timeout=50)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(done.stderr.strip(), f"{script}: there is no screen; draw without one by: xvfb-run -a "
+                                                  f"pvbatch {script} --picture FILE.png")
+
+    def test_a_run_that_is_slow_leaves_a_picture_and_no_error_of_the_display(self):
+        self.start_run(3, 0).wait()
+        (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "running"}')
+        picture = self.run_folder / "live.png"
+        done = self.follow("--frames", "2", "--patience", "2", "--size", "400", "200", "--picture", str(picture))
+        self.assertEqual(done.stderr.strip(), "live.py: no further frame within 2 s, 1 shown")
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(picture.exists())
 
     def test_a_run_that_ends_is_no_failure_of_the_frames_shown(self):
         self.start_run(3, 0).wait()

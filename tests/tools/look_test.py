@@ -5,6 +5,7 @@
 usage: look_test.py BIN SOURCE MODULES      folder of the programs, of the project, and the one filled by
                                             get_paraview_python.sh
 """
+import fcntl
 import os
 import resource
 import shutil
@@ -104,6 +105,37 @@ class ViewPreset(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.names(), ["compare_body.mp4", "compare_body_000004.png",
                                         "compare_body_sheet.png"])
+
+    def test_large_pictures_take_little_memory(self):
+        words = ["render", self.run_folder, "-o", self.pictures, "--no-movie", "--times", "0.2",
+                 "--view", "particles", "--width", "4096", "--height", "4096"]
+        code = ("import resource, subprocess, sys; done = subprocess.run(sys.argv[1:]);"
+                "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss); sys.exit(done.returncode)")
+        done = subprocess.run([sys.executable, "-c", code, BIN / "sinew", *map(str, words)],
+                              capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(size_of(self.pictures / "particles_000004.png"), (4096, 4096))
+        peak = 1024 * int(done.stdout.split()[-1])
+        self.assertLess(peak, 1.3e9)  # drawn in one piece it takes twice as much
+
+    def test_what_a_killed_render_left_is_removed(self):
+        mine = self.pictures / ".notes.tmp"
+        left = [self.pictures / name for name in (".movie.mp4.tmp", ".strain.mp4.tmp", ".body_000003.png.tmp",
+                                                  ".contact_sheet.png.tmp")]
+        for file in [mine, *left]:
+            file.write_text("")
+        other = os.open(self.pictures, os.O_RDONLY)
+        fcntl.flock(other, fcntl.LOCK_SH)  # as another render that is drawing holds it
+        self.assertEqual(self.render("--times", "0", "--no-movie").returncode, 0)
+        self.assertTrue(all(file.exists() for file in left[:3]))
+        os.close(other)
+        self.assertEqual(self.render("--times", "0", "--no-movie").returncode, 0)
+        self.assertEqual(self.names(), [".notes.tmp", "body_000000.png", "contact_sheet.png"])
+
+    def test_times_outside_the_run_are_refused_with_its_range(self):
+        for times in ["nan", "-1", "1e300", "inf", "0.21", "0.1,0.3"]:
+            self.assert_one_line(self.render(f"--times={times}"), 2, "times from 0 to 0.2 s")
+        self.assertEqual(self.names(), [])
 
     def test_mistakes_are_told_with_their_cure(self):
         for words, part in [(["--view", "secton"], "did you mean section?"),

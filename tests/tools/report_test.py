@@ -137,6 +137,13 @@ class Report(unittest.TestCase):
             decimals = {len(tick.split("e")[0].partition(".")[2]) for tick in ticks if tick != "0"}
             self.assertEqual(len(decimals), 1, ticks)
 
+    def test_the_strip_of_angles_is_as_high_as_the_largest(self):
+        angles = [angle for _, angle in data_of((RUN / "report.html").read_text())["angles"]]
+        if angles:
+            self.assertGreater(max(angles), 0)
+        for ticks in self.states["start"]["angleTicks"]:
+            self.assertEqual(ticks, [f"bones {float(f'{max(angles):.4g}'):g}°"] if angles else None)
+
     def test_gaps_stay_gaps_and_what_is_flat_looks_flat(self):
         def change(data):
             gap, flat = data["charts"][0]["lines"][0]["points"], data["charts"][1]

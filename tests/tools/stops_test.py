@@ -77,6 +77,23 @@ class Stops(SmallRun):
         self.assertEqual((self.record()["status"], self.record()["resumed"]), ("finished", 1))
         self.assert_same_as_unbroken(*words)
 
+    def test_damage_before_a_resumption_shows_after_it(self):
+        words = ["--set", "solver.duration=2", "--set", "output.checkpoint_interval=0"]
+        with subprocess.Popen([BIN / "sinew", "simulate", self.scene, "-o", self.out, *words],
+                              stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as child:
+            self.wait_for(child, "particles/particles_000009.vtu")
+            child.kill()
+        sinew("info", self.out, "--verify", check=0)
+        frame = self.out / "surface/surface_000001.vtu"
+        whole = frame.read_bytes()
+        frame.write_bytes(whole[:2000] + bytes([whole[2000] ^ 4]) + whole[2001:])
+        self.assertIn("going on from step", self.simulate("--resume", *words).stderr)
+        done = sinew("info", self.out, "--verify")
+        self.assert_one_line(done, 2, "1 of 251 files")
+        self.assertIn("damaged: surface/surface_000001.vtu\n", done.stdout)
+        frame.write_bytes(whole)
+        sinew("info", self.out, "--verify", check=0)
+
     def test_another_scene_or_a_broken_checkpoint_is_not_resumed(self):
         self.simulate("--set", "solver.wall_time=0.01", "--set", "solver.duration=2", check=130)
         done = self.simulate("--resume", "--set", "solver.duration=3", check=2)
@@ -115,7 +132,24 @@ class Stops(SmallRun):
         lines[vertex] = " ".join([word[0], str(float(word[1]) + 0.001), *word[2:4]])
         self.simulate(*words, "--force", "--set", "solver.wall_time=0.01", check=130)
         mesh.write_text("\n".join(lines) + "\n")
-        self.assert_one_line(self.simulate(*words, "--resume", check=2), 2, "body is another")
+        self.assert_one_line(self.simulate(*words, "--resume", check=2), 2, "binds it, has changed", "--force", "with -o")
+
+    def test_a_body_of_another_count_is_not_resumed(self):
+        mesh = self.folder / "mine.obj"
+        words = ["--set", f"body.mesh={mesh}", "--set", "solver.duration=2"]
+        box = (SOURCE / "data/meshes/box.obj").read_text()
+        mesh.write_text(box)
+        self.simulate(*words, "--set", "solver.wall_time=0.01", check=130)
+        for factor in (1.5, 0.5):  # more particles of the same radius, and fewer
+            scaled = [" ".join(["v", *(str(factor * float(x)) for x in line.split()[1:4])])
+                      if line.startswith("v ") else line for line in box.splitlines()]
+            mesh.write_text("\n".join(scaled) + "\n")
+            done = self.simulate(*words, "--resume", check=2)
+            self.assert_one_line(done, 2, "the run has 237 particles", "--force", "with -o")
+            self.assertNotIn("remove the file", done.stderr)
+        mesh.write_text(box)
+        done = self.simulate(*words, "--resume", "--set", "body.count=500", check=2)
+        self.assert_one_line(done, 2, "section body has 'radius: 0.025'", "'radius: auto'", "--force", "with -o")
 
     def test_lock_names_its_process_and_is_taken_over_when_that_died(self):
         words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]

@@ -2,7 +2,10 @@
 #include "command/option_list.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdint>
+
+#include <sinew/core/text.h>
 
 namespace sinew {
 
@@ -37,7 +40,15 @@ CommandOption& CommandOption::range(int lowest, int highest) {
 }
 
 CommandOption& CommandOption::positive() {
-  option_->check(CLI::PositiveNumber);
+  option_->check(
+      [](const std::string& text) {
+        double value = 0;
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, value);
+        const bool good = read.ec == std::errc() && read.ptr == end && value > 0 && value <= 1e300;
+        return good ? "" : shown(text) + " is no positive number";
+      },
+      "POSITIVE");
   return *this;
 }
 

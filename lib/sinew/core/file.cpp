@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 #include <utility>
 
 #include <sinew/core/error.h>
@@ -62,8 +61,6 @@ void write_all(int file, const fs::path& path, const void* bytes, std::size_t co
     place += static_cast<std::uint64_t>(written);
   }
 }
-
-void close_file(const int* file) { ::close(*file); }
 
 }  // namespace
 
@@ -147,27 +144,66 @@ void write_file(const fs::path& path, std::string_view text) {
   file.finish();
 }
 
-std::string read_file(const fs::path& path, std::uint64_t limit) {
+namespace {
+
+/// A regular file, open for reading.
+class RegularFile {
+ public:
   // Not blocking: a pipe without a writer would block forever.
-  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) throw unreadable(path, errno);
-  const std::unique_ptr<const int, decltype(&close_file)> closed_at_the_end(&file, close_file);
-  struct stat status;
-  if (::fstat(file, &status) != 0) throw unreadable(path, errno);
-  if (!S_ISREG(status.st_mode))
-    throw bad_input({path.string()}, "is not a regular file", "name a file");
-  std::string text;
-  if (status.st_size > 0) text.reserve(std::min(limit, static_cast<std::uint64_t>(status.st_size)));
-  std::string piece(1 << 16, '\0');
-  while (const ssize_t count = ::read(file, piece.data(), piece.size())) {
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw unreadable(path, errno);
-    text.append(piece, 0, static_cast<std::size_t>(count));
-    if (text.size() > limit)
-      throw bad_input({path.string()}, "is larger than " + std::to_string(limit) + " bytes",
-                      "check that this is the file you mean");
+  explicit RegularFile(const fs::path& path)
+      : path_(path), file_{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)} {
+    struct stat status;
+    if (file_.number < 0 || ::fstat(file_.number, &status) != 0) throw unreadable(path_, errno);
+    if (!S_ISREG(status.st_mode))
+      throw bad_input({path_.string()}, "is not a regular file", "name a file");
+    size_ = static_cast<std::uint64_t>(status.st_size);
   }
+
+  std::uint64_t size() const { return size_; }  ///< that it tells; files of /proc tell 0
+
+  /// The bytes up to the end, or until there are `most`.
+  std::string read(std::uint64_t most) const {
+    std::string text;
+    text.reserve(std::min(most, size_));
+    std::string piece(1 << 16, '\0');
+    while (text.size() < most) {
+      const ssize_t count =
+          ::read(file_.number, piece.data(), std::min(most - text.size(), piece.size()));
+      if (count == 0) break;
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw unreadable(path_, errno);
+      text.append(piece, 0, static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  struct Descriptor {
+    int number;
+    ~Descriptor() {
+      if (number >= 0) ::close(number);
+    }
+  };
+
+  const fs::path& path_;
+  const Descriptor file_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uint64_t limit) {
+  const RegularFile file(path);
+  // Its size is checked first: a file that is too large is not read.
+  std::string text = file.size() > limit ? "" : file.read(limit + 1);
+  if (std::max<std::uint64_t>(file.size(), text.size()) > limit)
+    throw bad_input({path.string()}, "is larger than " + std::to_string(limit) + " bytes",
+                    "check that this is the file you mean");
   return text;
+}
+
+std::string read_head(const fs::path& path, std::uint64_t most) {
+  return RegularFile(path).read(most);
 }
 
 }  // namespace sinew

@@ -75,4 +75,8 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// The bytes of a regular file. Throws bad input when it cannot be read or is larger than `limit`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit = 64 << 20);
 
+/// The first bytes of a regular file, `most` or as many as it has. Throws bad input when it cannot
+/// be read.
+std::string read_head(const std::filesystem::path& path, std::uint64_t most);
+
 }  // namespace sinew

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/bone_table.h>
 
+#include <string_view>
+
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
 
-/// In quotes where it contains a comma or a quote (RFC 4180).
-std::string cell(const std::string& text) {
+/// In quotes where it contains a comma or a quote (RFC 4180). Behind an apostrophe where a
+/// spreadsheet would take it for a formula, or where it begins with one: readers take one off.
+std::string cell(std::string text) {
+  if (!text.empty() && std::string_view("=+-@\t\r'").find(text[0]) != std::string_view::npos)
+    text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

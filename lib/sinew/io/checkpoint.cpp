@@ -19,6 +19,7 @@ constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 2;
 constexpr std::size_t name_size = 8;
 // Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
+constexpr std::size_t most_before_count = 4096;  // bytes
 constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
 
 Error no_checkpoint(const std::string& what) {
@@ -249,6 +250,14 @@ std::string_view checked(std::string_view text) {
   return body.substr(head_size);
 }
 
+/// The settings are the same, so the mesh is another.
+void check_count(std::uint64_t found, std::uint64_t particles) {
+  if (found != particles)
+    throw bad_input("the run has " + std::to_string(found) + " particles, the scene's body now " +
+                        std::to_string(particles) + ": its mesh or its filling has changed",
+                    "restore it, replace the run with --force, or choose another folder with -o");
+}
+
 Checkpoint parsed(std::string_view text, std::uint64_t particles) {
   Reader reader(checked(text));
   Checkpoint checkpoint;
@@ -256,10 +265,25 @@ Checkpoint parsed(std::string_view text, std::uint64_t particles) {
     checkpoint.state.moving = MovingInSingle();
   walk(checkpoint, reader);
   if (reader.left() > 0) throw no_checkpoint("it continues after its last section");
-  if (checkpoint.run.particles != particles)
-    throw no_checkpoint("it is of " + std::to_string(checkpoint.run.particles) +
-                        " particles, not " + std::to_string(particles));
+  check_count(checkpoint.run.particles, particles);
   return checkpoint;
+}
+
+/// Before the file is read, whose largest size depends on the count. Other files are told apart
+/// later.
+void check_count_in(std::string_view head, std::uint64_t particles) {
+  if (head.size() < head_size || !head.starts_with(magic)) return;
+  Reader reader(head.substr(magic.size()));
+  const auto mark = reader.one<std::uint32_t>(), version = reader.one<std::uint32_t>();
+  if (mark != byte_order_mark || version != format_version) return;
+  [[maybe_unused]] const auto size = reader.one<std::uint64_t>();
+  RunIdentity run;
+  reader("program", run.program);
+  reader("scene", run.scene);
+  reader("body", run.body);
+  reader("motion", run.motion);
+  reader("count", run.particles);
+  check_count(run.particles, particles);
 }
 
 }  // namespace
@@ -282,6 +306,7 @@ void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
 
 Checkpoint read_checkpoint(const fs::path& path, std::uint64_t particles) {
   try {
+    check_count_in(read_head(path, most_before_count), particles);
     const std::string text =
         read_file(path, particles * most_bytes_per_particle + most_bytes_beside);
     return parsed(text, particles);

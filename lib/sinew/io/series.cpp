@@ -121,9 +121,17 @@ void remove_older(const fs::path& folder, const std::string& series,
 
 }  // namespace
 
+void refuse_link(const fs::path& folder) {
+  std::error_code unreachable;
+  if (fs::is_symlink(fs::symlink_status(folder, unreachable)))
+    throw bad_input({folder.string()}, "is a link to another folder, whose files would be replaced",
+                    "remove the link, or choose another folder with -o");
+}
+
 Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
     : folder_(std::move(folder)), format_(std::move(format)) {
   format_.finite = true;
+  refuse_link(folder_ / format_.series);
   keep(kept);
   try {
     fs::create_directories(folder_ / format_.series);

@@ -28,13 +28,16 @@ std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
 /// The text of a PVD with these rows.
 std::string pvd_text(const std::vector<PvdRow>& rows);
 
+/// Throws bad input where a folder of frames is a link: what it leads to is of no run.
+void refuse_link(const std::filesystem::path& folder);
+
 /// Writes a series frame by frame. A concurrent reader finds complete files only: each frame is
 /// written before the PVD lists it, and the PVD is replaced at most once a second.
 class Series {
  public:
   /// Starts the series format.series in `folder`, which is created; an older one is removed except
   /// for its first frames, at the times `kept` (s), after which it continues. Throws not written,
-  /// and bad input when one of these is missing.
+  /// and bad input when one of these is missing or DIR/NAME is a link to another folder.
   Series(std::filesystem::path folder, VtuFormat format, std::span<const double> kept = {});
   /// Closes; errors are ignored: call close() to receive them.
   ~Series();
@@ -48,6 +51,7 @@ class Series {
   void close();
 
   const std::vector<PvdRow>& rows() const { return rows_; }
+  const std::string& name() const { return format_.series; }
 
  private:
   void keep(std::span<const double> times);

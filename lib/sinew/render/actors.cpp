@@ -76,12 +76,6 @@ void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Sh
   look.SetLineWidth(static_cast<float>(width));
 }
 
-double mean_length(const Points& points, const std::vector<Shading::Edge>& edges) {
-  double sum = 0;
-  for (const auto& [a, b] : edges) sum += (points[a] - points[b]).norm();
-  return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
-}
-
 /// Lifted off the surface along its normals, which would otherwise hide half of each line.
 Points lifted(const Triangles& surface, double by) {
   Points points = surface.points;
@@ -169,7 +163,7 @@ void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& sk
 void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
              const LineStyle& style) {
   constexpr double wide_enough = 7;  // pixels between lines: closer ones would gray the skin
-  if (mean_length(snapshot.surface.points, skin.lines) < wide_enough * style.pixel) return;
+  if (skin.mean_line < wide_enough * style.pixel) return;
   add_lines(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
 }
 

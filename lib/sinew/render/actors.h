@@ -20,7 +20,7 @@ void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& sk
 struct LineStyle {
   double width = 1;  ///< of the sharp edges, in rendered pixels; the others are thinner
   double lift = 0;   ///< off the skin, m
-  double pixel = 0;  ///< size of one, m: lines closer than a few pixels are left out
+  double pixel = 0;  ///< size of one, m: lines that are a few pixels long at rest are left out
 };
 
 /// The skin's sharp edges.

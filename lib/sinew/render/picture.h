@@ -27,7 +27,13 @@ struct PictureOptions {
   int width = 960, height = 720;  ///< pixels
   int margin = 24;                ///< pixels around the camera's frame, at least
   Finish finish = Finish::fine;
+  int tile = Shot().tile;  ///< see Shot
 };
+
+inline constexpr int largest_picture = 8192;  ///< pixels in either direction
+
+/// The most memory that drawing and writing a page of this size takes, bytes.
+double memory_of_picture(int width, int height);
 
 /// Holds what all pictures of a run share: the stage, the skin's edges and the color scale.
 class Painter {

@@ -67,6 +67,12 @@ void join(const Triangles& surface, const Side& a, const Side& b, std::vector<in
         parent[root(parent, 3 * a.face + i)] = root(parent, 3 * b.face + k);
 }
 
+double mean_length(const Points& points, const std::vector<Shading::Edge>& edges) {
+  double sum = 0;
+  for (const auto& [a, b] : edges) sum += (points[a] - points[b]).norm();
+  return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
+}
+
 /// Corners joined by smooth edges share one shaded point.
 void split(const Triangles& rest, std::vector<int>& parent, Shading& skin) {
   std::vector<int> shaded(parent.size(), -1);
@@ -110,6 +116,7 @@ Shading make_shading(const Triangles& rest) {
   const bool quadrangles =
       2 * static_cast<double>(diagonals.size()) > 0.95 * static_cast<double>(rest.faces.size());
   if (!quadrangles) skin.lines.insert(skin.lines.end(), diagonals.begin(), diagonals.end());
+  skin.mean_line = mean_length(rest.points, skin.lines);
   return skin;
 }
 

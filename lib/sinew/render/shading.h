@@ -18,6 +18,7 @@ struct Shading {
   std::vector<std::array<int, 3>> faces;  ///< of shaded points, which are split along creases
   std::vector<Edge> creases;              ///< of the surface's points: sharp or open edges
   std::vector<Edge> lines;                ///< its other edges, except diagonals of quadrangles
+  double mean_line = 0;                   ///< mean length of these at rest, m
 
   /// The shaded surface when the surface's points (n x 3, m) have moved to `points`.
   Triangles at(const Points& points) const;

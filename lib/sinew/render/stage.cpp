@@ -44,9 +44,37 @@ Box filled(const Box& frame, int width, int height, double scale) {
   return Box(center - half, center + half);
 }
 
-void aim_at(vtkCamera& out, const Mat3& view, const Box& box) {
+/// Part of a picture, pixels from its upper left corner.
+struct Tile {
+  int x, y, width, height;
+};
+
+constexpr int tile_border = 8;  // pixels: lines and filters reach from one tile into the next
+
+Tile with_border(const Tile& tile, int width, int height) {
+  const int left = std::max(0, tile.x - tile_border), top = std::max(0, tile.y - tile_border);
+  return {left, top, std::min(width, tile.x + tile.width + tile_border) - left,
+          std::min(height, tile.y + tile.height + tile_border) - top};
+}
+
+std::vector<Tile> tiles_of(int width, int height, int most) {
+  std::vector<Tile> tiles;
+  for (int y = 0; y < height; y += most)
+    for (int x = 0; x < width; x += most)
+      tiles.push_back({x, y, std::min(most, width - x), std::min(most, height - y)});
+  return tiles;
+}
+
+/// A tile of the picture that `box` fills, in the view's axes.
+Box part_of(const Box& box, const Tile& tile, double pixel) {
+  const Vec3 low(box.min().x() + tile.x * pixel, box.max().y() - (tile.y + tile.height) * pixel,
+                 box.min().z());
+  const Vec3 size(tile.width * pixel, tile.height * pixel, box.sizes().z());
+  return Box(low, low + size);
+}
+
+void aim_at(vtkCamera& out, const Mat3& view, const Box& box, double away) {
   const Vec3 size = box.sizes();
-  const double away = size.norm();
   const Vec3 focus = view.transpose() * box.center();
   const Vec3 eye = focus + away * view.row(2).transpose();
   out.ParallelProjectionOn();
@@ -57,6 +85,16 @@ void aim_at(vtkCamera& out, const Mat3& view, const Box& box) {
   out.SetClippingRange(away - size.z() / 2, away + size.z() / 2);
 }
 
+Exposure unexposed(int width, int height, double pixel) {
+  const auto size = static_cast<std::size_t>(width) * height;
+  Exposure exposure;
+  exposure.image = Image(width, height);
+  exposure.depth = {width, height, pixel, {}};
+  exposure.depth.depth.assign(size, std::numeric_limits<float>::infinity());
+  exposure.coverage.assign(size, 0);
+  return exposure;
+}
+
 }  // namespace
 
 struct Stage::Parts {
@@ -64,42 +102,54 @@ struct Stage::Parts {
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderStepsPass> steps;
   vtkNew<vtkOpenGLFXAAPass> smoothing;
+  Shot shot;
   Box box;        // in the picture
   int times = 1;  // rendered this many times larger than the picture
 
-  int width() const { return window->GetSize()[0]; }
-  int height() const { return window->GetSize()[1]; }
-  Image pixels() const;
-  void measure(Exposure& exposure) const;
+  void expose(const Tile& tile, Exposure& exposure);
+  Image pixels(const Tile& drawn) const;
+  void measure(const Tile& drawn, const Tile& tile, Exposure& exposure) const;
 };
 
-Image Stage::Parts::pixels() const {
-  Image image(width(), height());
+/// Renders a tile into its part of the exposure.
+void Stage::Parts::expose(const Tile& tile, Exposure& exposure) {
+  const Tile drawn = with_border(tile, shot.width, shot.height);
+  window->SetSize(times * drawn.width, times * drawn.height);
+  aim_at(*renderer->GetActiveCamera(), shot.camera.view, part_of(box, drawn, shot.pixel),
+         box.sizes().norm());
+  window->Render();
+  const Image image = pixels(drawn);
+  for (int y = 0; y < tile.height; ++y)
+    std::copy_n(image.at(tile.x - drawn.x, tile.y - drawn.y + y), 3 * tile.width,
+                exposure.image.at(tile.x, tile.y + y));
+  measure(drawn, tile, exposure);
+}
+
+Image Stage::Parts::pixels(const Tile& drawn) const {
+  Image image(times * drawn.width, times * drawn.height);
   vtkNew<vtkUnsignedCharArray> rgb;
   window->GetPixelData(0, 0, image.width - 1, image.height - 1, 0, rgb);
   for (int y = 0; y < image.height; ++y)  // VTK counts rows from below
     std::copy_n(rgb->GetPointer(3 * static_cast<vtkIdType>(image.height - 1 - y) * image.width),
                 3 * image.width, image.at(0, y));
-  return image;
+  return times == 2 ? halved(image) : image;
 }
 
-/// Depth at every pixel of the picture, coverage averaged over the rendered pixels.
-void Stage::Parts::measure(Exposure& exposure) const {
-  const int wide = width(), high = height(), columns = wide / times, rows = high / times;
+/// Depth at every pixel of the tile, coverage averaged over the rendered pixels.
+void Stage::Parts::measure(const Tile& drawn, const Tile& tile, Exposure& exposure) const {
+  const int wide = times * drawn.width, high = times * drawn.height;
+  const int left = times * (tile.x - drawn.x), top = times * (tile.y - drawn.y);
   vtkNew<vtkFloatArray> buffer;  // 0 (near) .. 1 (background)
   window->GetZbufferData(0, 0, wide - 1, high - 1, buffer);
   const float* z = buffer->GetPointer(0);
   const auto deep = static_cast<float>(box.sizes().z());
   const float share = 1.0F / static_cast<float>(times * times);
-  const auto size = static_cast<std::size_t>(columns) * rows;
-  exposure.depth = {columns, rows, box.sizes().y() / rows, {}};
-  exposure.depth.depth.assign(size, std::numeric_limits<float>::infinity());
-  exposure.coverage.assign(size, 0);
-  for (int y = 0; y < rows * times; ++y)
-    for (int x = 0; x < columns * times; ++x) {
-      const float part = z[static_cast<std::size_t>(high - 1 - y) * wide + x];
+  for (int y = 0; y < times * tile.height; ++y)
+    for (int x = 0; x < times * tile.width; ++x) {
+      const float part = z[static_cast<std::size_t>(high - 1 - top - y) * wide + left + x];
       if (part >= 1) continue;
-      const auto pixel = static_cast<std::size_t>(y / times) * columns + x / times;
+      const auto pixel = static_cast<std::size_t>(tile.y + y / times) * shot.width + tile.x +
+                         static_cast<std::size_t>(x / times);
       exposure.coverage[pixel] += share;
       if (y % times == 0 && x % times == 0) exposure.depth.depth[pixel] = part * deep;
     }
@@ -119,21 +169,20 @@ Stage::Stage() : parts_(std::make_unique<Parts>()) {
 
 Stage::~Stage() = default;
 
-void Stage::aim(const Camera& camera, int width, int height, double pixel, Finish finish) {
-  parts_->times = finish == Finish::fine ? 2 : 1;
-  parts_->window->SetSize(parts_->times * width, parts_->times * height);
-  parts_->renderer->SetPass(finish == Finish::quick ? parts_->smoothing.Get() : nullptr);
-  parts_->box = filled(camera.frame, width, height, pixel);
-  aim_at(*parts_->renderer->GetActiveCamera(), camera.view, parts_->box);
+void Stage::aim(const Shot& shot) {
+  parts_->shot = shot;
+  parts_->times = shot.finish == Finish::fine ? 2 : 1;
+  parts_->renderer->SetPass(shot.finish == Finish::quick ? parts_->smoothing.Get() : nullptr);
+  parts_->box = filled(shot.camera.frame, shot.width, shot.height, shot.pixel);
 }
 
 vtkRenderer& Stage::renderer() { return *parts_->renderer; }
 
 Exposure Stage::render() {
-  parts_->window->Render();
-  Exposure exposure;
-  exposure.image = parts_->times == 2 ? halved(parts_->pixels()) : parts_->pixels();
-  parts_->measure(exposure);
+  const Shot& shot = parts_->shot;
+  Exposure exposure = unexposed(shot.width, shot.height, shot.pixel);
+  for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / parts_->times))
+    parts_->expose(tile, exposure);
   parts_->renderer->RemoveAllViewProps();
   return exposure;
 }

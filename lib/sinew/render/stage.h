@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stage in front of the camera: an offscreen window, its lights, and the rendered image.
 //
-//     stage.aim(camera, width, height, pixel, Finish::fine);
+//     stage.aim({camera, width, height, pixel, Finish::fine});
 //     add_particles(stage.renderer(), snapshot, scale);
 //     const Exposure exposure = stage.render();
 #pragma once
@@ -21,6 +21,16 @@ enum class Finish {
   fine,   ///< rendered at twice the size: for pictures
 };
 
+/// What the camera sees: a picture of width x height pixels, each `pixel` (m) in size, about the
+/// middle of the camera's frame.
+struct Shot {
+  Camera camera;
+  int width = 960, height = 720;
+  double pixel = 1;
+  Finish finish = Finish::fine;
+  int tile = 2560;  ///< rendered pixels: larger pictures are drawn in tiles, which take less memory
+};
+
 struct Exposure {
   Image image;
   DepthImage depth;
@@ -34,9 +44,7 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Sets up the camera for pictures of width x height pixels, each `pixel` (m) in size, about the
-  /// middle of its frame.
-  void aim(const Camera& camera, int width, int height, double pixel, Finish finish);
+  void aim(const Shot& shot);
   /// To which actors are added.
   vtkRenderer& renderer();
   /// Renders the actors and clears the stage.

@@ -129,6 +129,7 @@ struct Clip {
 struct Rig {
   Skeleton skeleton;
   std::vector<Clip> clips;
+  std::vector<std::string> warnings = {};  ///< of the file, with its place: what it gets wrong
 };
 
 /// Throws bad input (without the path) for an unknown name, with the nearest known one.

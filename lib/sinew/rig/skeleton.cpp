@@ -278,11 +278,10 @@ void check(const std::vector<Joint>& joints) {
 
 }  // namespace
 
-Skeleton skeleton_of(const std::vector<Joint>& joints) {
+Skeleton skeleton_of(const std::vector<Joint>& joints, const char* cure) {
   check(joints);
   const double size = size_of(joints);
-  if (!(size > 0))
-    throw bad_input("all joints lie in one point", "give them offsets, or an End Site");
+  if (!(size > 0)) throw bad_input("all joints lie in one point", cure);
   const std::vector<Children> children = children_of(joints);
   Names names(joints);
   Skeleton skeleton;

@@ -87,9 +87,11 @@ struct Joint {
   std::optional<Vec3> end;  ///< where the bone ends, if the file gives it; like place
 };
 
-/// Bone i is joint i. A name already used gets a suffix, "_2", "_3"; an empty one becomes
-/// "joint_INDEX". Throws bad input for no joints, a parent that does not come first, places that
-/// are not finite, or joints that are all in one point.
-Skeleton skeleton_of(const std::vector<Joint>& joints);
+/// Bone i is joint i. `cure`: what the file's user can do where all joints are in one point. A name
+/// already used gets a suffix, "_2", "_3"; an empty one becomes "joint_INDEX". Throws bad input for
+/// no joints, a parent that does not come first, places that are not finite, or joints that are all
+/// in one point.
+Skeleton skeleton_of(const std::vector<Joint>& joints,
+                     const char* cure = "give them different places");
 
 }  // namespace sinew

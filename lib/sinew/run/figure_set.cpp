@@ -3,8 +3,12 @@
 
 #include <algorithm>
 
+#include <sinew/core/error.h>
+#include <sinew/core/system.h>
+#include <sinew/core/text.h>
 #include <sinew/render/figure.h>
 #include <sinew/render/movie.h>
+#include <sinew/scene/check.h>
 
 namespace sinew {
 namespace {
@@ -14,11 +18,34 @@ std::string numbered(std::size_t frame) {
   return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
 }
 
+void check_times(const std::vector<double>& times, const RunFiles& run) {
+  constexpr double slack = 1e-6;  // of the run: times are typed in a few digits
+  const double first = run.particle_rows.front().time,
+               last = run.particle_rows[run.frames() - 1].time;
+  for (const double time : times)
+    if (!(time >= first && time <= last + slack * (last - first)))
+      throw bad_input("there is no picture at " + number_text(time) + " s",
+                      "give times from " + number_text(first) + " to " + number_text(last) +
+                          " s, as --times " + number_text(first) + ',' + number_text(last));
+}
+
 }  // namespace
+
+void check_memory(int width, int height, double available) {
+  const double needed = memory_of_picture(width, height);
+  if (needed <= available) return;
+  const auto text = [](double bytes) { return bytes_text(static_cast<std::uint64_t>(bytes)); };
+  throw bad_input("pictures of " + std::to_string(width) + " x " + std::to_string(height) +
+                      " pixels need about " + text(needed) + " of memory, " + text(available) +
+                      " are free",
+                  "choose a smaller --width and --height");
+}
 
 FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset,
                      FigureSetOptions options)
     : runs_(std::move(runs)), preset_(preset), options_(std::move(options)) {
+  check_times(options_.times, runs_.front()->files());
+  check_memory(options_.width, options_.height, available_memory());
   for (const DrawnRun* run : runs_) painters_.emplace_back(run->files().surface, scale());
 }
 
@@ -105,7 +132,8 @@ void FigureSet::sheet() {
   }
   SheetOptions sheet;
   sheet.view = options_.view;
-  sheet.width = options_.width * 5 / 4;  // several moments need more space
+  // Several moments need more space.
+  sheet.width = std::min(largest_picture, options_.width * 5 / 4);
   sheet.row_height = options_.height * 7 / 9;
   if (of_body()) {
     write_png(contact_sheet(painters_[0], over_time[0], sheet), place("contact_sheet.png"));

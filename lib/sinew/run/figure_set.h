@@ -26,10 +26,14 @@ struct FigureSetOptions {
   std::vector<double> times;                   ///< s; empty: the run's key frames
 };
 
+/// Throws bad input where pictures of this size take more than `available` bytes.
+void check_memory(int width, int height, double available);
+
 /// One view preset of one run or two, in the same colors and to the same scale.
 class FigureSet {
  public:
-  /// `preset`: index of the runs' view preset. The runs must outlive this object.
+  /// `preset`: index of the runs' view preset. The runs must outlive this object. Throws bad input
+  /// for times outside the first run and for pictures that exceed the memory.
   FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset, FigureSetOptions options);
 
   int pictures();  ///< one for each moment; returns their number

@@ -2,6 +2,7 @@
 #include <sinew/run/frame_writer.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <sinew/core/arrays.h>
@@ -124,6 +125,38 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size());
   begin_arrays(output, kept);
+  begin_checksums();
+}
+
+std::vector<Series*> FrameWriter::all_series() {
+  std::vector<Series*> all{&particles_, &skins_, &bones_, &frames_};
+  for (auto* series : {&obstacle_series_, &bond_series_})
+    if (*series) all.push_back(&**series);
+  for (const Skinned& skinned : skinned_) all.push_back(skinned.series.get());
+  return all;
+}
+
+/// Those of kept frames, and of what was written before the frames.
+void FrameWriter::begin_checksums() {
+  std::set<std::string> begun{"body.vtu", "scene.yaml"}, stay = begun;
+  for (const Series* series : all_series()) {
+    for (const PvdRow& row : series->rows()) stay.insert(row.file);
+    listed_.push_back(series->rows().size());
+  }
+  std::vector<Checksum> kept;
+  if (written_ > 0) kept = read_checksums(folder_);
+  std::erase_if(kept, [&](const Checksum& file) { return !stay.contains(file.name); });
+  checksums_.emplace(folder_, kept);
+  if (written_ > 0) return;
+  for (const std::string& name : begun)
+    if (std::filesystem::exists(folder_ / name)) checksums_->add(name);
+}
+
+void FrameWriter::list_new_frames() {
+  const std::vector<Series*> all = all_series();
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const auto& rows = all[k]->rows(); listed_[k] < rows.size(); ++listed_[k])
+      checksums_->add(rows[listed_[k]].file);
 }
 
 void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const double> kept) {
@@ -224,6 +257,7 @@ void FrameWriter::write(Moved& frame) {
   if (obstacle_series_)
     obstacle_series_->add(
         obstacles_of(obstacles_, frame.obstacles, frame.on_obstacles, frame.moment));
+  list_new_frames();
   ++written_;
   spare_ = std::move(frame);
 }
@@ -267,14 +301,16 @@ void FrameWriter::write_surfaces(const Moved& frame) {
 void FrameWriter::close() {
   writer_.finish();
   spare_ = {};
-  for (Series* series : {&particles_, &skins_, &bones_, &frames_}) series->close();
-  if (obstacle_series_) obstacle_series_->close();
-  if (bond_series_) bond_series_->close();
-  for (const Skinned& skinned : skinned_) skinned.series->close();
+  for (Series* series : all_series()) {
+    series->close();
+    checksums_->add(series->name() + ".pvd");
+  }
   bone_table_.close();
+  checksums_->add("bones.csv");
   if (!export_) return;
   export_->close();
   write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_);
+  for (const char* name : {"surface.obj", "surface.pc2", "surface.glb"}) checksums_->add(name);
 }
 
 }  // namespace sinew

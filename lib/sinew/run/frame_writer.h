@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the present state of a simulation as one frame of each series, by a separate thread while
-// the simulation continues. Also writes bones.csv and, where the
-// scene requests them, the surface by skinning alone and its export for animators.
+// the simulation continues. Also writes bones.csv, checksums.sfv and, where the scene requests
+// them, the surface by skinning alone and its export for animators.
 //
 //     FrameWriter writer(folder, output, body, surface, obstacles);
 //     writer.add(simulation, time);
@@ -20,6 +20,7 @@
 #include <sinew/core/background.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/bone_table.h>
+#include <sinew/io/checksums.h>
 #include <sinew/io/frames.h>
 #include <sinew/io/particle_frame.h>
 #include <sinew/io/point_cache.h>
@@ -93,6 +94,9 @@ class FrameWriter {
   void take_forces(Simulation& simulation, Moved& frame) const;
   void write_particles(Moved& frame);
   void write_surfaces(const Moved& frame);
+  std::vector<Series*> all_series();
+  void begin_checksums();
+  void list_new_frames();
 
   std::filesystem::path folder_;
   double interval_;  ///< s between frames
@@ -113,6 +117,8 @@ class FrameWriter {
   std::vector<std::string_view> arrays_;  ///< additional ones
   std::optional<RestBody> measured_;      ///< which these and bonds are computed from, if any
   std::optional<Series> bond_series_;     ///< where the scene requests it
+  std::optional<Checksums> checksums_;
+  std::vector<std::size_t> listed_;  ///< frames of each series whose checksums are
   std::atomic<int> written_ = 0;
   bool one_by_one_;       ///< there is never more than one frame
   Moved spare_;           ///< the last frame, then, whose memory is reused

@@ -16,14 +16,20 @@
 namespace sinew {
 namespace {
 
+struct DecidingLine {
+  std::string section, text;
+};
+
 /// Lines of a resolved scene that affect the results, without comments.
-std::vector<std::string> deciding_lines(const std::string& resolved) {
-  std::vector<std::string> lines;
+std::vector<DecidingLine> deciding_lines(const std::string& resolved) {
+  std::vector<DecidingLine> lines;
+  std::string section;
   std::istringstream text(resolved);
   for (std::string line; std::getline(text, line);) {
     line = line.substr(0, line.find("  # "));
+    if (!line.starts_with(' ')) section = line.substr(0, line.find(':'));
     if (!line.starts_with("  checkpoint_interval:") && !line.starts_with("  wall_time:"))
-      lines.push_back(line);
+      lines.push_back({section, line});
   }
   return lines;
 }
@@ -35,7 +41,8 @@ std::string trimmed(const std::string& line) {
 
 Error another_run(const std::string& what) {
   return bad_input("--resume continues the same run only: " + what,
-                   "give what the run began with, or replace the run with --force");
+                   "give what the run began with, replace the run with --force, or choose another "
+                   "folder with -o");
 }
 
 void add(const Triangles& surface, Hash& hash) {
@@ -90,17 +97,18 @@ void check_same_scene(const RunFolder& folder, const std::string& resolved) {
   if (!std::filesystem::exists(folder.scene())) return;
   const auto there = deciding_lines(read_file(folder.scene())), here = deciding_lines(resolved);
   for (std::size_t i = 0; i < std::max(there.size(), here.size()); ++i) {
-    const std::string before = i < there.size() ? there[i] : "",
-                      now = i < here.size() ? here[i] : "";
-    if (before != now)
-      throw another_run("it has '" + trimmed(before) + "' where the scene has '" + trimmed(now) +
-                        "'");
+    const DecidingLine none, &before = i < there.size() ? there[i] : none,
+                             &now = i < here.size() ? here[i] : none;
+    if (before.text != now.text)
+      throw another_run("section " + (before.section.empty() ? now : before).section + " has '" +
+                        trimmed(before.text) + "' in the run and '" + trimmed(now.text) +
+                        "' in the scene");
   }
 }
 
 RunIdentity identity_of(const std::string& resolved, const Setup& setup, const Triangles& surface) {
   Hash scene;
-  for (const std::string& line : deciding_lines(resolved)) scene.add(line + '\n');
+  for (const DecidingLine& line : deciding_lines(resolved)) scene.add(line.text + '\n');
   return {version(),          scene.value(),          body_hash(setup.body, surface),
           motion_hash(setup), setup.body.rest.size(), setup.steps.step};
 }
@@ -120,8 +128,9 @@ std::optional<SimulationState> RunCheckpoints::resume(const RunIdentity& run,
   if (was.time_step != run.time_step)
     throw another_run("its step is " + number_text(was.time_step) + " s, not " +
                       number_text(run.time_step) + " s");
-  if (was.body != run.body) throw another_run("its body is another");
-  if (was.motion != run.motion) throw another_run("its motion is another");
+  if (was.body != run.body) throw another_run("the mesh, or what fills or binds it, has changed");
+  if (was.motion != run.motion)
+    throw another_run("the motion of its bones or obstacles has changed");
   if (was.scene != run.scene) throw another_run("its scene is another");
   return std::move(found->state);
 }

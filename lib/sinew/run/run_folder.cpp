@@ -14,6 +14,8 @@
 #include <vector>
 
 #include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/io/series.h>
 
 namespace sinew {
 
@@ -24,29 +26,46 @@ namespace {
 /// Names that a run writes in its folder; in DIR/NAME/ only files numbered as a run numbers them.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
-      "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|report\\.html|"
+      "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|checksums\\.sfv|report\\.html|"
       "metrics(_bones)?\\.(csv|json)|(bones|sections)\\.csv|surface\\.(obj|pc2|glb)|blowup\\.vtu|"
       "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
       "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
-      "pictures/((compare_)?(body|surface|particles|section|strain|forces|bones)"
-      "_([0-9]{6,}|sheet)\\.png|contact_sheet\\.png|\\.?(movie|(compare_)?(body|surface|particles|"
-      "section|strain|forces|bones))\\.mp4(\\.tmp)?)");
+      "pictures/\\.?((compare_)?(body|surface|particles|section|strain|forces|bones)"
+      "_([0-9]{6,}|sheet)\\.png|contact_sheet\\.png|(movie|(compare_)?(body|surface|particles|"
+      "section|strain|forces|bones))\\.mp4)(\\.tmp)?");
   return std::regex_match(relative.generic_string(), ours);
 }
 
-/// Checkpoints first: without them a partly removed run cannot be resumed.
+/// Folders within that of a run, and the run's own. Checkpoints first: without them a partly
+/// removed run cannot be resumed.
+constexpr std::array<const char*, 12> run_parts = {
+    "checkpoint", "",          "particles", "surface",  "bones",  "bonds",
+    "frames",     "obstacles", "skin_lbs",  "skin_dqs", "values", "pictures"};
+
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (const char* part : {"checkpoint", "", "particles", "surface", "bones", "bonds", "frames",
-                           "obstacles", "skin_lbs", "skin_dqs", "values", "pictures"})
+  for (const char* part : run_parts)
     for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
       if (!entry.is_directory(failed) &&
           written_by_a_run(entry.path().lexically_relative(folder.path / "")))
         files.push_back(entry.path());
   return files;
+}
+
+/// Hidden files and those of a body filled beforehand are no obstacle.
+void refuse_others(const RunFolder& folder) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder.path, none)) {
+    const std::string name = entry.path().filename().string();
+    const bool part = std::find(run_parts.begin(), run_parts.end(), name) != run_parts.end();
+    if (name.front() == '.' || name == "body.vtu" || (part && entry.is_directory(none))) continue;
+    throw bad_input(Place{folder.path.string()},
+                    "holds files that are of no run, " + shown(name) + " for one",
+                    "choose a folder that is empty or does not exist, with -o");
+  }
 }
 
 }  // namespace
@@ -81,12 +100,16 @@ void remove_old_run(const RunFolder& folder) {
 }
 
 void refuse_foreign_files(const RunFolder& folder) {
+  for (const char* part : run_parts)
+    if (*part != '\0') refuse_link(folder.path / part);
+  if (folder.used()) return;
   for (const fs::path& file : files_of_run(folder)) {
     // Of a run killed before it had written its record.
     if (file.filename().string().front() == '.' && file.extension() == ".tmp") continue;
     throw bad_input(Place{file.string()}, "exists, but no run.json of a run beside it",
                     "choose another folder with -o, or move the file away");
   }
+  refuse_others(folder);
 }
 
 std::uint64_t size_of_old_run(const RunFolder& folder) {
@@ -97,6 +120,31 @@ std::uint64_t size_of_old_run(const RunFolder& folder) {
     if (!failed) bytes += size;
   }
   return bytes;
+}
+
+namespace {
+
+/// What a program that was killed has left of its pictures.
+void remove_unfinished(const fs::path& pictures) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(pictures, failed)) {
+    const fs::path name = entry.path().filename();
+    const bool unfinished = name.string().front() == '.' && name.extension() == ".tmp";
+    if (unfinished && written_by_a_run("pictures" / name)) fs::remove(entry.path(), failed);
+  }
+}
+
+}  // namespace
+
+PicturesLock::PicturesLock(const fs::path& folder)
+    : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (folder_ < 0) return;  // then nothing can be written there either
+  if (::flock(folder_, LOCK_EX | LOCK_NB) == 0) remove_unfinished(folder);
+  ::flock(folder_, LOCK_SH);
+}
+
+PicturesLock::~PicturesLock() {
+  if (folder_ >= 0) ::close(folder_);
 }
 
 namespace {

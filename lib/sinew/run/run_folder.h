@@ -45,11 +45,25 @@ void create(const RunFolder& folder);
 /// written.
 void remove_old_run(const RunFolder& folder);
 
-/// Throws bad input where a folder that no run has used holds a file that a run would replace.
+/// Throws bad input where a folder that no run has used holds files, hidden ones and a body
+/// excepted, and where one of the folders within is a link: files elsewhere would be replaced.
 void refuse_foreign_files(const RunFolder& folder);
 
 /// Bytes that remove_old_run would free.
 std::uint64_t size_of_old_run(const RunFolder& folder);
+
+/// Held while pictures are drawn into a folder. The first one removes what killed programs have
+/// left unfinished there.
+class PicturesLock {
+ public:
+  explicit PicturesLock(const std::filesystem::path& folder);
+  ~PicturesLock();
+  PicturesLock(const PicturesLock&) = delete;
+  PicturesLock& operator=(const PicturesLock&) = delete;
+
+ private:
+  int folder_ = -1;
+};
 
 /// Held while a run works in its folder; the kernel releases it however the program ends. DIR/.lock
 /// names the process that holds it.

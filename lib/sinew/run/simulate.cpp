@@ -27,7 +27,6 @@ void say(const SimulateOptions& options, const std::string& line) {
 
 /// Whether there is anything to do; refuses to overwrite a run unasked.
 bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
-  if (!folder.used()) refuse_foreign_files(folder);
   if (!folder.used()) return true;
   const std::string status = status_of(folder);
   if (options.force) return true;
@@ -260,6 +259,7 @@ void say_what_is_doubtful(const Settings& scene, const Setup& setup, const Trian
 RunResult simulate(const Settings& given, const RunFolder& folder, const SimulateOptions& options) {
   const Settings scene = with_fit(given);
   if (given.skeleton.fit != Fit::none) say(options, fit_text(scene.skeleton));
+  refuse_foreign_files(folder);  // before anything is written there, a lock included
   create(folder);
   const FolderLock lock(folder);
   if (!lock.left_by().empty())

@@ -42,6 +42,14 @@ bool is_scene(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
+void refuse_mesh_as_scene(const std::string& path) {
+  if (names_mesh(path, gltf_formats))
+    throw bad_input({path}, "this is a mesh, not a scene", "make a scene of it: sinew new " + path);
+  if (lower(std::filesystem::path(path).extension().string()) == ".bvh")
+    throw bad_input({path}, "this is a rig, not a scene",
+                    "make a scene of it and a mesh: sinew new MESH " + path);
+}
+
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs) {
   if (std::filesystem::path(output).extension() != ".vtu")
     throw bad_input("'" + output + "' is no name for a VTU file", "give a name that ends in .vtu");

@@ -31,6 +31,9 @@ Surface read_body_mesh(const BodyOptions& body);
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
 
+/// Throws bad input for a mesh or a BVH file, by its extension, where a scene is expected.
+void refuse_mesh_as_scene(const std::string& path);
+
 /// Throws Error (bad input) for an output that is not .vtu or is one of the inputs.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs);
 

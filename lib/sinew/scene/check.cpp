@@ -325,7 +325,7 @@ void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
 
 std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surface,
                                      double bone_speed) {
-  Warnings warnings;
+  Warnings warnings = setup.file_warnings;
   if (setup.body.material.model == MaterialModel::paper)
     warn_of_material(setup.body.material.pair, warnings);
   warn_of_step(setup.steps, warnings);

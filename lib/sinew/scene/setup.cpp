@@ -50,8 +50,21 @@ std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& p
   return ids;
 }
 
+void refuse_empty(const BoundRegion& region, const Points& rest, const Place& place) {
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    if (region.holds(i, rest[i])) return;
+  const Box body = bounds(rest);
+  const auto corner = [](const Vec3& point) {
+    return '[' + three_digits(point.x()) + ", " + three_digits(point.y()) + ", " +
+           three_digits(point.z()) + ']';
+  };
+  throw bad_input(place, "there is no particle in this region",
+                  "choose one that reaches into the body, from " + corner(body.min()) + " to " +
+                      corner(body.max()) + " m");
+}
+
 BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleton& skeleton,
-                      std::size_t particles) {
+                      const Points& rest) {
   const BoundSettings& given = settings.bound[index];
   const std::string path = "binding.explicit[" + std::to_string(index) + "]";
   const bool box = given.low && given.high, ball = given.center && given.radius;
@@ -65,9 +78,10 @@ BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleto
                     "give ids, low and high of a box, or center and radius of a ball");
   BoundRegion region;
   region.bone = bone_at(settings, path, skeleton, given.bone);
-  if (given.ids) region.ids = ids_of(settings, path + ".ids", *given.ids, particles);
+  if (given.ids) region.ids = ids_of(settings, path + ".ids", *given.ids, rest.size());
   if (box) region.box = Box(*given.low, *given.high);
   if (ball) region.center = *given.center, region.radius = *given.radius;
+  refuse_empty(region, rest, settings.place(path));
   return region;
 }
 
@@ -82,7 +96,7 @@ Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skel
   options.joint_zone = given.joint_zone;
   if (given.core_radius) options.core_radius = *given.core_radius;
   for (std::size_t i = 0; i < settings.bound.size(); ++i)
-    options.regions.push_back(region_of(settings, i, skeleton, rest.size()));
+    options.regions.push_back(region_of(settings, i, skeleton, rest));
   if (given.method == BindMethod::file)
     options.weights = weights_of_file(settings, files.skeleton, rest);
   return bind_to_bones(rest, skeleton, options);
@@ -105,6 +119,14 @@ void set_damping_ratio(const MaterialOptions& settings, Body& body) {
   if (!settings.damping_ratio) return;
   const ElasticModes modes = elastic_modes(body);
   if (!modes.empty()) body.material.damping = modes.damping_for(*settings.damping_ratio);
+}
+
+/// Of a rig that gives both bones and motion only once.
+std::vector<std::string> warnings_of(const SceneFiles& files) {
+  std::vector<std::string> warnings = files.skeleton.rig.warnings;
+  if (files.motion.warnings != warnings)
+    warnings.insert(warnings.end(), files.motion.warnings.begin(), files.motion.warnings.end());
+  return warnings;
 }
 
 }  // namespace
@@ -139,6 +161,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);
   setup.motion = std::move(rig.motion);
+  setup.file_warnings = warnings_of(files);
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
   setup.steps = steps_of(settings, setup.body);

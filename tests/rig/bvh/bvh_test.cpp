@@ -13,6 +13,18 @@ using bvh_files::replaced;
 
 Bvh parsed(const std::string& text) { return parse_bvh(text, "small.bvh"); }
 
+TEST(Bvh, WithOneFrameMoreThanItAnnouncesIsReadWhole) {
+  const std::string text = replaced(bvh_files::small, "Frames: 3", "Frames: 2");
+  const Bvh bvh = parse_bvh(text, "a.bvh"), whole = parse_bvh(bvh_files::small, "a.bvh");
+  EXPECT_EQ(bvh.frames, 3);
+  EXPECT_EQ(bvh.values, whole.values);
+  EXPECT_TRUE(whole.warnings.empty());
+  const std::vector<std::string> warnings = {
+      "a.bvh:26:1: one frame more than the 2 that are announced; it is read as well"};
+  EXPECT_EQ(bvh.warnings, warnings);
+  EXPECT_EQ(rig_of(bvh).warnings, warnings);
+}
+
 TEST(Bvh, HoldsWhatTheFileSays) {
   const Bvh bvh = parsed(bvh_files::small);
   ASSERT_EQ(bvh.joints.size(), 3u);

@@ -230,7 +230,7 @@ const GltfAccessor& accessor_of(const GltfDocument& document, int index, const s
 }
 
 CheckedGltf checked_gltf(const std::filesystem::path& path) {
-  std::string file = read_file(path, most_gltf_bytes);  // its errors name the path
+  std::string file = read_gltf_file(path);  // its errors name the path
   try {
     return checked(gltf_container(std::move(file), path.extension()), path.parent_path());
   } catch (const Error& error) {

@@ -37,19 +37,20 @@ std::string_view chunk_at(std::string_view file, std::size_t at) {
   return file.substr(at + chunk_header_size, size);
 }
 
-void check_header(std::string_view file) {
+/// `file_size`: of the whole file, of which these may be the first bytes.
+void check_header(std::string_view file, std::uint64_t file_size) {
   if (file.size() < header_size) throw damaged_gltf("it is cut short in its header");
   const std::uint32_t version = word_at(file, 4), size = word_at(file, 8);
   if (version != 2)
     throw bad_input("it is a binary glTF of version " + std::to_string(version),
                     "export it as glTF 2.0");
-  if (size != file.size())
+  if (size != file_size)
     throw damaged_gltf("it says it has " + std::to_string(size) + " bytes, but has " +
-                       std::to_string(file.size()));
+                       std::to_string(file_size));
 }
 
 GltfContainer chunks_of(std::string_view file) {
-  check_header(file);
+  check_header(file, file.size());
   GltfContainer container;
   std::size_t count = 0;
   for (std::size_t at = header_size; at < file.size(); ++count) {
@@ -115,10 +116,9 @@ std::string file_bytes(const std::string& uri, std::size_t size, const fs::path&
   if (scheme || name.find('\0') != std::string::npos || !stays_below(below))
     throw bad_input("a buffer is to be found at " + shown(uri) + ", outside the file's own folder",
                     "put the .bin file beside it and export it so");
-  std::string bytes = read_file(folder / below, most_gltf_bytes);
+  std::string bytes = read_head(folder / below, size);
   if (bytes.size() < size)
     throw too_short(size, bytes.size()).with_context({(folder / below).string()});
-  bytes.resize(size);
   return bytes;
 }
 
@@ -135,6 +135,22 @@ std::string bytes_of(const GltfBuffer& buffer, const std::optional<std::string>&
 }
 
 }  // namespace
+
+std::string read_gltf_file(const fs::path& path) {
+  constexpr std::uint64_t enough = 4096;  // bytes
+  std::string head = read_head(path, enough);
+  const std::uint64_t size = std::max<std::uint64_t>(fs::file_size(path), head.size());
+  const bool binary = head.starts_with(glb_magic);
+  const auto first = head.find_first_not_of(" \t\r\n");
+  if (size == head.size() || (!binary && first != std::string::npos && head[first] != '{'))
+    return head;
+  try {
+    if (binary) check_header(head, size);
+  } catch (const Error& error) {
+    throw error.with_context({path.string()});
+  }
+  return read_file(path, most_gltf_bytes);
+}
 
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension) {
   const std::string kind = lower(extension.string());

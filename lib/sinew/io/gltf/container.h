@@ -2,7 +2,7 @@
 // The two forms of glTF files, plain JSON and GLB, which contains JSON and binary data; and the
 // bytes of their buffers.
 //
-//     const GltfContainer container = gltf_container(read_file(path), path.extension());
+//     const GltfContainer container = gltf_container(read_gltf_file(path), path.extension());
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,11 @@ struct GltfContainer {
   std::string json;
   std::optional<std::string> binary;  ///< the binary chunk of a GLB
 };
+
+/// The bytes of a file; of one that does not begin as glTF does only the first, which show why.
+/// Throws bad input, with the path, where it cannot be read or a GLB has another length than its
+/// header says.
+std::string read_gltf_file(const std::filesystem::path& path);
 
 /// The content of a file of that extension (".gltf", ".glb", in any case). Throws bad input
 /// (without the path) where it is neither, is truncated, or has the other's extension.

@@ -68,7 +68,8 @@ Skeleton skeleton_in(const GltfDocument& document, const GltfBindPose& bind) {
   for (const GltfJoint& joint : bind.joints)
     joints.push_back({node_of(document, joint.node).name, joint.parent, joint.bind.translation(),
                       end_of(document, joint, leaf[joints.size()])});
-  return skeleton_of(joints);
+  return skeleton_of(joints,
+                     "give their nodes different places, or one of them a child as its end");
 }
 
 /// Sets the clip's frames where its keys are evenly spaced.

@@ -6,8 +6,10 @@
     pvbatch live.py --help                                  all options
 
 The layout is that of view.py. New frame files, which a run writes atomically, are looked for ten
-times a second. The range of colors grows with the run. When the run has ended, open view.py.
+times a second. The range of colors grows with the run. Of a run that has ended it shows the last
+frame; view.py shows all of them.
 """
+import json
 import time
 import types
 
@@ -39,6 +41,8 @@ class Follower:
     def wait_for_first(self):
         end = time.monotonic() + self.options.patience
         while self.newest() < 0:
+            if self.ended() and self.newest() < 0:
+                stop("the run has ended without a frame; its run.json and log.txt tell why")
             if time.monotonic() > end:
                 stop(f"no frame within {self.options.patience:g} s; start the run first")
             time.sleep(0.1)
@@ -50,6 +54,14 @@ class Follower:
         while self.complete(self.number + 1):
             self.number += 1
         return self.number
+
+    def ended(self):
+        """Whether its record says that no frame will come any more."""
+        try:
+            with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as record:
+                return json.load(record)["status"] != "running"
+        except (OSError, ValueError, KeyError, TypeError):
+            return False
 
     def stamp(self, series):
         status = os.stat(self.path(series, self.number))
@@ -137,21 +149,33 @@ def refresh(sources):
 
 
 def follow_in_batch(follower, sources, options):
-    """Updates the sources, as the window does otherwise; prints a line per frame."""
+    """Updates the sources, as the window does otherwise; prints a line per frame. Returns what went
+    wrong, or nothing."""
     RenderAllViews()
     shown = 1
     print(f"frame {follower.shown['particles'][0]}", flush=True)
     end = time.monotonic() + options.patience
     while shown < options.frames:
-        if time.monotonic() > end:
-            stop(f"no further frame within {options.patience:g} s, {shown} shown")
+        ended = follower.ended()
         if not follower.has_news("particles"):
+            if ended:
+                print(f"the run has ended, {shown} shown; view.py shows all of it", flush=True)
+                return None
+            if time.monotonic() > end:
+                return f"no further frame within {options.patience:g} s, {shown} shown"
             time.sleep(0.02)
             continue
         refresh(sources)
         shown += 1
         end = time.monotonic() + options.patience
         print(f"frame {follower.shown['particles'][0]}", flush=True)
+    return None
+
+
+def end_batch(what):
+    """Ends the program without its views, whose window the display may have lost by then."""
+    print(f"{SCRIPT}: {what}", file=sys.stderr, flush=True)
+    os._exit(1)
 
 
 def main():
@@ -171,9 +195,11 @@ def main():
         RenderAllViews()
         return
     layout.SetSize(*options.size)
-    follow_in_batch(follower, sources, options)
+    wrong = follow_in_batch(follower, sources, options)
     if options.picture:
         SaveScreenshot(options.picture, layout, ImageResolution=options.size, SeparatorWidth=0)
+    if wrong:
+        end_batch(wrong)
 
 
 def main_in_a_module():

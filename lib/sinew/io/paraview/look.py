@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Representations and colors of the parts of a run."""
 import paraview.simple
+import vtkmodules.vtkRenderingOpenGL2
 from paraview.simple import *
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from run_files import *
 
@@ -198,9 +200,17 @@ def show_time(note, view, options):
     shown.WindowLocation = "Upper Left Corner"
 
 
+def need_screen():
+    """Without one, a render window of X aborts the whole program."""
+    if os.environ.get("DISPLAY") or vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
+        return
+    stop(f"there is no screen; draw without one by: xvfb-run -a pvbatch {SCRIPT} --picture FILE.png")
+
+
 def show_all(sources, options, scene):
     """`sources` by the names of their series. Left: the body cut open; right: the bones inside the
     translucent skin. Returns the layout and its left view."""
+    need_screen()
     paraview.simple._DisableFirstRenderCameraReset()  # it would undo look_at()
     layout, left, right = two_views()
     show_particles(cut_body(sources["particles"], options, scene), left, options, scene.array,

@@ -67,6 +67,13 @@ std::vector<MeshFormat> with(std::span<const MeshFormat> more) {
   return all;
 }
 
+const MeshFormat* format_of(const std::string& path, const std::vector<MeshFormat>& all) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const MeshFormat& format) {
+    return format.extension == extension_of(path);
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
 Error unknown_format(const std::string& path, const std::vector<MeshFormat>& all) {
   const std::string extension = extension_of(path);
   std::string cure = "give an ";
@@ -88,11 +95,13 @@ std::string mesh_format_names(std::span<const MeshFormat> more) {
   return listed(names);
 }
 
+bool names_mesh(const std::string& path, std::span<const MeshFormat> more) {
+  return format_of(path, with(more)) != nullptr;
+}
+
 PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more) {
-  const std::string extension = extension_of(path);
   const std::vector<MeshFormat> all = with(more);
-  for (const MeshFormat& format : all)
-    if (format.extension == extension) return format.read(path);
+  if (const MeshFormat* format = format_of(path, all)) return format->read(path);
   check_mesh_file(path);  // first check that the file exists
   throw unknown_format(path, all);
 }

@@ -25,6 +25,9 @@ struct MeshFormat {
 /// "OBJ, OFF, STL, PLY" and the names of `more`.
 std::string mesh_format_names(std::span<const MeshFormat> more = {});
 
+/// Whether a path has the extension of one of the formats, in either case.
+bool names_mesh(const std::string& path, std::span<const MeshFormat> more = {});
+
 /// The polygons of a file, unchanged: at least one face, corners that exist, finite coordinates.
 /// The extension, in either case, selects the format: OBJ, OFF (text), STL, PLY (text and binary)
 /// or one of `more`. Throws Error (bad input) naming file, line if any, fault and cure, also where

@@ -11,6 +11,7 @@
 namespace sinew {
 namespace {
 
+constexpr std::string_view first_word = "HIERARCHY";
 constexpr std::size_t most_joints = 10'000;
 constexpr std::size_t deepest = 200;
 
@@ -23,7 +24,7 @@ class Hierarchy {
   explicit Hierarchy(BvhText& text) : text_(text) {}
 
   std::vector<BvhJoint> read() {
-    text_.expect("HIERARCHY", "name a BVH file, which begins with HIERARCHY");
+    text_.expect(first_word, "name a BVH file, which begins with HIERARCHY");
     while (!open_.empty() || begins_root()) read_item();
     return std::move(joints_);
   }
@@ -163,7 +164,7 @@ class Hierarchy {
   std::vector<Open> open_;
 };
 
-constexpr std::uint64_t most_bytes = 256 << 20;
+constexpr std::uint64_t most_bytes = 256 << 20, enough_for_its_first_word = 4096;
 constexpr double shortest_frame = 1e-9, longest_frame = 1e6;  // s
 
 int read_frame_count(BvhText& text, std::size_t channels) {
@@ -230,6 +231,13 @@ void refuse_end(BvhText& text, const Bvh& bvh, std::string_view frames) {
                    "correct the number of frames, or export the file again");
 }
 
+/// Many files announce the number of their last frame, counted from 0.
+void warn_of_one_more(const BvhText& text, Bvh& bvh) {
+  bvh.warnings.push_back(text.place_of(text.rest()).text() + ": one frame more than the " +
+                         std::to_string(bvh.frames) + " that are announced; it is read as well");
+  ++bvh.frames;
+}
+
 void refuse_rest(BvhText& text, const Bvh& bvh, std::string_view frames) {
   const std::size_t channels = bvh.channels(), more = words_in(text.rest());
   text.next();
@@ -250,11 +258,17 @@ void read_motion(BvhText& text, Bvh& bvh) {
   const std::string_view frames = text.rest();
   const std::size_t count = static_cast<std::size_t>(bvh.frames) * channels;
   bvh.values.reserve(count);
-  while (bvh.values.size() < count) {
-    if (text.at_end()) refuse_end(text, bvh, frames);
-    bvh.values.push_back(text.number("a value of a frame"));
-  }
-  if (!text.at_end()) refuse_rest(text, bvh, frames);
+  const auto read_until = [&](std::size_t size) {
+    while (bvh.values.size() < size) {
+      if (text.at_end()) refuse_end(text, bvh, frames);
+      bvh.values.push_back(text.number("a value of a frame"));
+    }
+  };
+  read_until(count);
+  if (text.at_end()) return;
+  if (words_in(text.rest()) != channels) refuse_rest(text, bvh, frames);
+  warn_of_one_more(text, bvh);
+  read_until(count + channels);
 }
 
 }  // namespace
@@ -274,6 +288,8 @@ Bvh parse_bvh(std::string_view text, const std::string& file) {
 }
 
 Bvh read_bvh(const std::filesystem::path& path) {
+  const std::string head = read_head(path, enough_for_its_first_word);
+  if (!same_word(BvhText("", head).next(), first_word)) return parse_bvh(head, path.string());
   return parse_bvh(read_file(path, most_bytes), path.string());
 }
 

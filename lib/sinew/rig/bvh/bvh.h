@@ -8,8 +8,8 @@
 // case, any spaces and line ends, frames that are split over lines, numbers such as "+1", ".5" or
 // "1e-3", a byte order mark, names with spaces, several roots, joints without channels, channels in
 // any order, an End Site beside child joints (of several in one joint the first counts), with a
-// name or "CHANNELS 0". A file that ends after its HIERARCHY is a skeleton without a clip. Not
-// accepted: comments, scale channels.
+// name or "CHANNELS 0". One frame more than announced is read with a warning. A file that ends
+// after its HIERARCHY is a skeleton without a clip. Not accepted: comments, scale channels.
 #pragma once
 
 #include <filesystem>
@@ -37,10 +37,11 @@ struct BvhJoint {
 
 /// The contents of a file, without any interpretation.
 struct Bvh {
-  std::vector<BvhJoint> joints;  ///< parents come first
-  int frames = 0;                ///< 0: the file holds a skeleton only
-  double frame_time = 0;         ///< s
-  std::vector<double> values;    ///< frames x channels(), degrees and units of the file
+  std::vector<BvhJoint> joints;            ///< parents come first
+  int frames = 0;                          ///< 0: the file holds a skeleton only
+  double frame_time = 0;                   ///< s
+  std::vector<double> values;              ///< frames x channels(), degrees and units of the file
+  std::vector<std::string> warnings = {};  ///< what the file gets wrong and is read all the same
 
   std::size_t channels() const;  ///< of all joints
   bool operator==(const Bvh&) const = default;

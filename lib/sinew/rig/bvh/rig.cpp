@@ -230,7 +230,8 @@ Rig rig_of(const Bvh& bvh, const BvhOptions& options) {
   check_numbers(options);
   const Reading reading(bvh, options);
   Rig rig;
-  rig.skeleton = skeleton_of(joints_of(bvh, reading));
+  rig.skeleton = skeleton_of(joints_of(bvh, reading), "give them OFFSETs, or an End Site");
+  rig.warnings = bvh.warnings;
   if (bvh.frames > 0) rig.clips.push_back(ClipMaker(bvh, options, reading).clip());
   return rig;
 }

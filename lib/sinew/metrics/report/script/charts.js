@@ -114,10 +114,13 @@ function shownEnds(chart) {
   return { suggestedMin: middle - half, suggestedMax: size === 0 ? 1 : middle + half };
 }
 
-/** The bones' angle is in a strip beneath, which contains its one label. */
-const angleScale = () => ({ axis: "y", position: "left", stack: "all", stackWeight: 1, min: 0,
-  suggestedMax: 1, ticks: { maxTicksLimit: 2, mirror: true, labelOffset: 9,
-    callback: (value) => (value > 0 ? `bones ${readable(value)}°` : "") } });
+/** The bones' angle is in a strip beneath, as high as the largest angle, which is its one label. */
+function angleScale() {
+  const most = Math.max(...data.angles.map((point) => point[1] ?? 0));
+  return { axis: "y", position: "left", stack: "all", stackWeight: 1, min: 0, max: most || 1,
+    afterBuildTicks: (scale) => { scale.ticks = [{ value: scale.max }]; },
+    ticks: { mirror: true, labelOffset: 9, callback: () => `bones ${readable(most)}°` } };
+}
 
 function timeScales(chart, [low, high]) {
   const scales = data.angles.length ? { angle: angleScale() } : {};

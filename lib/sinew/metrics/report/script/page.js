@@ -25,6 +25,7 @@ function begin() {
     timeRange: timeCharts.length ? [timeCharts[0].scales.x.min, timeCharts[0].scales.x.max] : null,
     heights: timeCharts.map((chart) => [chart.scales.y.min, chart.scales.y.max]),
     ticks: timeCharts.map((chart) => chart.scales.y.ticks.map((tick) => tick.label)),
+    angleTicks: timeCharts.map((chart) => chart.scales.angle?.ticks.map((tick) => tick.label)),
     gaps: timeCharts.map((chart) => chart.getDatasetMeta(0).data.filter((point) => point.skip).length),
     pointed: timeCharts[0]?.tooltip.dataPoints?.map(({ dataset, parsed }) =>
       [dataset.label, parsed.x, parsed.y]) ?? [],
