@@ -187,7 +187,7 @@ Exit check(const std::string& scene, const Common& common) {
   results.add("particle_steps_per_second", rate);
   results.add("stepping_time", work / rate, "s");
   results.add("warnings", warnings.size());
-  results.print(common.json);
+  results.print(common);
   for (const std::string& warning : warnings)
     std::fprintf(stderr, "sinew: warning: %s\n", warning.c_str());
   return Exit::done;

@@ -53,7 +53,7 @@ void print(const FillReport& report, const Options& options, const Common& commo
   for (const ReportRow& row : rows_of(report)) results.add(row.key, json_of(row.value), row.unit);
   results.add("warnings", report.warnings);
   results.add("file", options.output);
-  results.print(common.json);
+  results.print(common);
   for (const std::string& warning : report.warnings) say(common, "sinew: warning: " + warning);
 }
 

@@ -251,7 +251,7 @@ Exit describe_run(const Options& options, const Common& common) {
       results.add(key, value->is_array() ? nlohmann::ordered_json(value->size()) : *value);
   VerifiedFiles files;
   if (options.verify) add_verified(folder, results, files);
-  results.print(common.json);
+  results.print(common);
   const std::size_t wrong = files.damaged.size() + files.missing.size();
   if (wrong == 0) return Exit::done;
   throw bad_input(Place{options.path},
@@ -287,7 +287,7 @@ bool add_rig_alone(const Options& options, Results& results) {
 
 Exit print(Results& results, const std::vector<std::string>& warnings, const Common& common) {
   results.add("warnings", warnings);
-  results.print(common.json);
+  results.print(common);
   for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
   return Exit::done;
 }
@@ -298,7 +298,7 @@ Exit info(const Options& options, const Common& common) {
   Results results;
   results.add("file", options.path);
   if (add_rig_alone(options, results)) {
-    results.print(common.json);
+    results.print(common);
     return Exit::done;
   }
   std::vector<std::string> warnings;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; or a comparison of two runs.
+#include <cmath>
+
 #include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>
+#include <sinew/core/text.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
 #include <sinew/run/compare_runs.h>
@@ -45,7 +48,32 @@ double worst_of(const Measured& measured, const Metric& metric, const MetricSumm
   return summary.worst_frame ? measured.frames[*summary.worst_frame].*metric.value : not_measured;
 }
 
-void print_results(const Measured& measured, bool as_json) {
+/// How well the body follows its bones, in a few lines.
+void add_verdicts(const Measured& measured, const RunFiles& run, Results& results) {
+  const auto worst = [&](std::string_view name, double& time) {
+    const auto metrics = metrics_table();
+    for (std::size_t i = 1; i < metrics.size(); ++i)
+      if (metrics[i].name == name) {
+        const MetricSummary& summary = measured.summary.metrics[i];
+        if (summary.worst_frame) time = measured.frames[*summary.worst_frame].time;
+        return worst_of(measured, metrics[i], summary);
+      }
+    return not_measured;
+  };
+  const auto add = [&](std::string_view name, const std::string& key, const std::string& unit) {
+    double time = 0;
+    const double value = worst(name, time);
+    if (std::isfinite(value))
+      results.add_headline(key, three_digits(value) + unit + ", at " + three_digits(time) + " s");
+  };
+  add("bone_angle", "bone_angle", " degrees");
+  add("volume_error", "volume_error", " of the volume at rest");
+  add("inverted", "inverted", " of " + std::to_string(run.body.particles.size()) + " particles");
+  add("pose_error_rms", "pose_error", " m rms from the bones' rigid pose");
+  add("self_intersections", "self_intersections", " pairs of faces");
+}
+
+void print_results(const Measured& measured, const RunFiles& run, const Common& common) {
   Results results;
   results.add("frames", measured.frames.size());
   const auto metrics = metrics_table();
@@ -55,7 +83,9 @@ void print_results(const Measured& measured, bool as_json) {
   }
   for (const RunMetric& metric : run_metrics_table())
     results.add(std::string(metric.name), measured.summary.*metric.value, std::string(metric.unit));
-  results.print(as_json);
+  add_verdicts(measured, run, results);
+  results.add_headline("report", (run.folder.path / "report.html").string());
+  results.print(common);
 }
 
 /// Reports limits that were exceeded one by one.
@@ -100,7 +130,7 @@ Exit measure_folder(const Options& options, const Common& common) {
   Measured measured = measure_run(run, how);
   write_tables(run.folder, measured);
   record_stage(run.folder, "measuring", watch.lap());
-  print_results(measured, common.json);
+  print_results(measured, run, common);
   if (const std::string reasons = reasons_for_distrust(
           measured.frames, measured.summary, run.body.particles.radius, run.body.particles.size());
       !reasons.empty())
@@ -111,7 +141,7 @@ Exit measure_folder(const Options& options, const Common& common) {
 }
 
 /// The largest differences.
-void print_comparison(const RunComparison& compared, bool as_json) {
+void print_comparison(const RunComparison& compared, const Common& common) {
   Results results;
   results.add("frames", compared.differences.size());
   if (!compared.remarks.empty()) results.add("remarks", compared.remarks);
@@ -123,7 +153,7 @@ void print_comparison(const RunComparison& compared, bool as_json) {
     results.add(is_distance(name) ? name : name + "_difference",
                 compared.differences[*largest].*metrics[i].value, std::string(metrics[i].unit));
   }
-  results.print(as_json);
+  results.print(common);
 }
 
 Exit compare_folders(const Options& options, const Common& common) {
@@ -134,7 +164,7 @@ Exit compare_folders(const Options& options, const Common& common) {
                     "leave them out");
   const RunComparison comparison = compare_runs(options.folders[0], options.folders[1],
                                                 how_to_measure(options, common), options.out);
-  print_comparison(comparison, common.json);
+  print_comparison(comparison, common);
   return told(comparison.checks);
 }
 

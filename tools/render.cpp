@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-render: pictures and a movie of a run, without ParaView.
+#include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <memory>
 
 #include <sinew/core/system.h>
+#include <sinew/core/threads.h>
 #include <sinew/render/display.h>
 #include <sinew/run/figure_set.h>
 #include <sinew/run/run_record.h>
+#include "command/child.h"
 #include "command/command.h"
 #include "command/results.h"
 
@@ -18,8 +22,9 @@ struct Options {
   std::string folder, other_folder, target, array, camera = "three_quarter", colors = "indigo";
   std::vector<std::string> views{"body"};
   std::vector<double> times, range;
+  std::vector<int> part;  ///< of the movie's frames, which goes to standard output: K of N
   int width = 1280, height = 720;
-  bool no_movie = false;
+  bool no_movie = false, no_pictures = false;
 };
 
 std::string help_of_views() {
@@ -49,6 +54,8 @@ void declare_what(OptionList& list, Options& options) {
            "Array shown in color: displacement, velocity, force_pair, strain, J, ...")
       .type_name("NAME");
   list.add_flag("--no-movie", options.no_movie, "Pictures only");
+  list.add_flag("--no-pictures", options.no_pictures, "Movie only");
+  list.add("--part", options.part).comma_separated().expected(2).group("");
   list.add("-o", options.target, "Folder of the pictures, by default DIR/pictures");
 }
 
@@ -84,7 +91,54 @@ FigureSetOptions figure_set_options(const Options& options) {
   return figure_set;
 }
 
-Exit render(const Options& options, const Common& common) {
+/// Other processes that draw their parts of the movie at the same time, as one has one display.
+class Helpers {
+ public:
+  /// With the words of this command.
+  Helpers(int count, const std::vector<std::string>& words) {
+    for (int k = 1; k <= count; ++k) {
+      std::vector<std::string> with_part = {"--part",
+                                            std::to_string(k) + ',' + std::to_string(count + 1)};
+      with_part.insert(with_part.end(), words.begin(), words.end());
+      helpers_.push_back(std::make_unique<Helper>("render", with_part));
+    }
+  }
+
+  /// Frames as they draw them; a helper that fails is replaced by `pages`.
+  std::vector<FrameSource> sources(FigureSet& pages) {
+    std::vector<FrameSource> sources;
+    for (auto& helper : helpers_)
+      sources.push_back([&helper, &pages](std::size_t frame) {
+        const MovieOptions movie = pages.movie_options();
+        Image image(movie.width, movie.height);
+        if (helper && helper->read(image.rgb)) return image;
+        helper.reset();
+        return pages.movie_frame(frame);
+      });
+    return sources;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Helper>> helpers_;
+};
+
+/// Each reads the run for itself: of large ones there is but one.
+int helpers_for(const RunFiles& run, const Options& options) {
+  constexpr std::size_t large = 2'000'000;
+  constexpr int most = 3;
+  if (options.no_movie || run.body.particles.size() > large) return 0;
+  return std::min(threads_allowed() - 1, most);
+}
+
+/// A part of the movies' frames, as bytes.
+void write_part(FigureSet& pages, const std::vector<int>& part) {
+  for (int frame = part[0]; frame < static_cast<int>(pages.movie_frames()); frame += part[1]) {
+    const Image image = pages.movie_frame(static_cast<std::size_t>(frame));
+    print_out(std::string(image.rgb.begin(), image.rgb.end()));
+  }
+}
+
+Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
   FigureSetOptions figure_set = figure_set_options(options);
   std::vector<ViewPreset> presets;
   for (const std::string& view : options.views) presets.push_back(view_preset_named(view));
@@ -99,21 +153,31 @@ Exit render(const Options& options, const Common& common) {
   const RunFiles& run = runs.front().files();
   figure_set.folder =
       options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
+  if (!options.part.empty()) {
+    for (std::size_t preset = 0; preset < presets.size(); ++preset) {
+      FigureSet pages(shown, preset, figure_set);
+      write_part(pages, options.part);
+    }
+    return Exit::done;
+  }
   create({figure_set.folder});
   const PicturesLock lock(figure_set.folder);
+  Helpers helpers(helpers_for(run, options), words);
   int pictures = 0;
   for (std::size_t preset = 0; preset < presets.size(); ++preset) {
     FigureSet pages(shown, preset, figure_set);
-    pictures += pages.pictures() + 1;
-    pages.sheet();
-    if (!options.no_movie) pages.movie();
+    if (!options.no_pictures) {
+      pictures += pages.pictures() + 1;
+      pages.sheet();
+    }
+    if (!options.no_movie) pages.movie(helpers.sources(pages));
   }
   Results results;
-  results.add("pictures", pictures);
+  if (!options.no_pictures) results.add("pictures", pictures);
   if (!options.no_movie) results.add("movie_frames", run.frames());
   record_stage(run.folder, "rendering", watch.lap());
   results.add("folder", figure_set.folder.string());
-  results.print(common.json);
+  results.print(common);
   return Exit::done;
 }
 
@@ -131,5 +195,7 @@ int main(int argc, char** argv) {
   return run_command(
       argc, argv, about,
       [&](OptionList& list) { declare_what(list, options), declare_how(list, options); },
-      [&](const Common& common) { return render(options, common); });
+      [&](const Common& common) {
+        return render(options, common, std::vector<std::string>(argv + 1, argv + argc));
+      });
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-run: fills, simulates, measures, renders and reports, each by its own program.
+#include <fmt/format.h>
 #include <filesystem>
 
+#include <sinew/core/system.h>
 #include <sinew/run/run_folder.h>
 #include "command/child.h"
 #include "command/command.h"
@@ -34,9 +36,9 @@ Words simulate_words(const Options& options, const Common& common, const std::st
   return words;
 }
 
-Words render_words(const Options& options, const Common& common, const std::string& folder) {
+Words render_words(const char* without, const Common& common, const std::string& folder) {
   Words words = shared_words(common);
-  if (options.no_movie) words.push_back("--no-movie");
+  words.push_back(without);
   words.insert(words.end(), {"--", folder});
   return words;
 }
@@ -47,31 +49,76 @@ Words measure_words(const Common& common, const std::string& folder) {
   return words;
 }
 
-/// Runs one part and collects its results. It prints its own error message.
-Exit do_part(const std::string& command, const Words& words, Results& results) {
-  const ChildEnd end = run_child(command, words);
-  const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
-  if (found.is_object())
+/// The parts of a run, one after the other, with their results and times.
+class Parts {
+ public:
+  explicit Parts(std::string folder) { results_.add("folder", folder_ = std::move(folder)); }
+
+  /// Runs one part. It prints its own error message.
+  Exit run(const std::string& command, const char* stage, const Words& words) {
+    Stopwatch watch;
+    const ChildEnd end = run_child(command, words);
+    const double seconds = watch.lap();
+    total_ += seconds;
+    times_ += (times_.empty() ? "" : ", ") + std::string(stage) + ' ' + tenths(seconds);
+    const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
+    if (found.is_object()) collect(found);
+    for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
+                             Exit::not_written, Exit::interrupted})
+      if (end.exit == static_cast<int>(known)) return known;
+    throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
+                        (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
+                    "see whether memory ran out; run sinew " + command + " by itself");
+  }
+
+  /// Where what people look at lies.
+  void add_places(bool movie) {
+    results_.add("report", folder_ + "/report.html");
+    results_.add_headline("pictures", folder_ + "/pictures/contact_sheet.png");
+    if (movie) results_.add_headline("movie", folder_ + "/pictures/movie.mp4");
+  }
+
+  void print(const Common& common) {
+    results_.add_headline("time", tenths(total_) + " s (" + times_ + ')');
+    results_.print(common);
+  }
+
+ private:
+  static std::string tenths(double seconds) { return fmt::format("{:.1f}", seconds); }
+
+  void collect(const nlohmann::ordered_json& found) {
     for (const auto& [key, value] : found.items())
-      if (key != "folder") results.add(key, value);
-  for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
-                           Exit::not_written, Exit::interrupted})
-    if (end.exit == static_cast<int>(known)) return known;
-  throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
-                      (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
-                  "see whether memory ran out; run sinew " + command + " by itself");
+      if (key != "folder" && key != "summary") results_.add(key, value);
+    if (found.contains("summary"))
+      for (const auto& line : found["summary"])
+        if (const std::string words = line; !words.starts_with("folder: "))
+          results_.add_headline("", words);
+  }
+
+  Results results_;
+  std::string folder_, times_;
+  double total_ = 0;  ///< s
+};
+
+/// The report includes the pictures, so they are made first; it does not wait for the movie.
+Exit show(const Options& options, const Common& common, const std::string& folder, Parts& parts) {
+  Exit exit = parts.run("render", "pictures", render_words("--no-movie", common, folder));
+  if (exit == Exit::done) exit = parts.run("measure", "measuring", measure_words(common, folder));
+  if (exit == Exit::done) parts.add_places(!options.no_movie);
+  if (exit == Exit::done && !options.no_movie)
+    exit = parts.run("render", "movie", render_words("--no-pictures", common, folder));
+  return exit;
 }
 
 Exit run(const Options& options, const Common& common) {
   const std::string folder = run_folder(options.scene, options.folder).path.string();
-  Results results;
-  results.add("folder", folder);
-  Exit exit = do_part("simulate", simulate_words(options, common, folder), results);
-  // The report includes the pictures, so they are made first.
-  if (exit == Exit::done) exit = do_part("render", render_words(options, common, folder), results);
-  if (exit == Exit::done) exit = do_part("measure", measure_words(common, folder), results);
-  if (exit == Exit::done) results.add("report", folder + "/report.html");
-  if (exit != Exit::bad_input) results.print(common.json);  // else nothing was run
+  Parts parts(folder);
+  Exit exit = parts.run("simulate", "simulation", simulate_words(options, common, folder));
+  if (exit == Exit::done)
+    exit = show(options, common, folder, parts);
+  else if (exit == Exit::unstable)
+    show(options, common, folder, parts);            // the frames before: they show what happened
+  if (exit != Exit::bad_input) parts.print(common);  // else nothing was run
   return exit;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include <sinew/core/text.h>
 #include <sinew/run/simulate.h>
 #include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
@@ -19,7 +20,7 @@ namespace {
 
 using namespace sinew;
 
-void print_results(const RunFolder& folder, const std::string& text, bool as_json) {
+void print_results(const RunFolder& folder, const std::string& text, const Common& common) {
   const auto record = nlohmann::ordered_json::parse(text);
   Results results;
   results.add("folder", folder.path.string());
@@ -27,7 +28,14 @@ void print_results(const RunFolder& folder, const std::string& text, bool as_jso
                           "time_step_factor", "precision", "neighbor_search", "instruction_set",
                           "particle_steps_per_second", "state_hash"})
     results.add(key, record[key]);
-  results.print(as_json);
+  results.add_headline("status", record["status"]);
+  results.add_headline("particles", std::to_string(record["particles"].get<std::int64_t>()));
+  results.add_headline("frames", std::to_string(record["frames"].get<std::int64_t>()) + " (" +
+                                     std::to_string(record["steps"].get<std::int64_t>()) +
+                                     " steps of " +
+                                     three_digits(record["time_step"].get<double>()) + " s)");
+  results.add_headline("folder", folder.path.string());
+  results.print(common);
 }
 
 /// As a shell takes it for one word.
@@ -68,7 +76,7 @@ Exit simulate_scene(int argc, char** argv, const RunOptions& options, const Comm
   const RunResult result = simulate(settings, folder, how);
   progress.reset();
   if (result.was_finished) return Exit::done;
-  print_results(folder, result.record, common.json);
+  print_results(folder, result.record, common);
   if (result.exit == Exit::interrupted)
     say(common, "sinew: stopped; go on with: " + resume_words(options, common, folder));
   return result.exit;

@@ -33,7 +33,7 @@ Exit sample(const Options& options, const Common& common) {
   results.add("mesh", settings.body.mesh);
   results.add("bones", settings.bones.size());
   results.add("radius", settings.body.radius.value_or(0));
-  results.print(common.json);
+  results.print(common);
   return options.fail == "limit" ? Exit::limit_passed : Exit::done;
 }
 

@@ -90,7 +90,14 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments) {
+namespace {
+
+struct Child {
+  pid_t process = 0;
+  int output = -1;  ///< to be read
+};
+
+Child start_child(const std::string& command, const std::vector<std::string>& arguments) {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   std::string program = (folder / ("sinew-" + command)).string();
   const Error cannot_start =
@@ -100,22 +107,50 @@ ChildEnd run_child(const std::string& command, const std::vector<std::string>& a
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
-
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start;
-  pass_signals_on();  // exec resets the handlers in the child
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child > 0) child_of_signals = child;
   if (child == 0) become(program, words, pipe[1], parent);
   ::close(pipe[1]);
   if (child < 0) throw cannot_start;
+  return {child, pipe[0]};
+}
+
+}  // namespace
+
+ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments) {
+  pass_signals_on();  // exec resets the handlers in the child
+  const Child child = start_child(command, arguments);
+  child_of_signals = child.process;
   ChildEnd end;
-  end.output = read_all(pipe[0]);
-  ::close(pipe[0]);
-  end.exit = wait_for(child);
+  end.output = read_all(child.output);
+  ::close(child.output);
+  end.exit = wait_for(child.process);
   child_of_signals = 0;
   return end;
+}
+
+Helper::Helper(const std::string& command, const std::vector<std::string>& arguments) {
+  const Child child = start_child(command, arguments);
+  process_ = child.process;
+  output_ = child.output;
+}
+
+Helper::~Helper() {
+  ::close(output_);
+  ::kill(process_, SIGTERM);
+  wait_for(process_);
+}
+
+bool Helper::read(std::span<std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t got = ::read(output_, bytes.data(), bytes.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
 }
 
 }  // namespace sinew

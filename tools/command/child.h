@@ -5,6 +5,8 @@
 //     const ChildEnd end = run_child("simulate", {"scene.yaml"});
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,5 +32,21 @@ struct ChildEnd {
 /// Runs sinew-COMMAND from the folder of this program and waits. SIGINT and SIGTERM are forwarded
 /// to it. Throws bad input where it cannot be started.
 ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments);
+
+/// Another program of sinew at work beside this one, until this object ends.
+class Helper {
+ public:
+  /// Throws bad input where it cannot be started.
+  Helper(const std::string& command, const std::vector<std::string>& arguments);
+  ~Helper();
+  Helper(const Helper&) = delete;
+  Helper& operator=(const Helper&) = delete;
+
+  /// The next bytes of its standard output; false where it ended before.
+  bool read(std::span<std::uint8_t> bytes);
+
+ private:
+  int process_ = 0, output_ = -1;
+};
 
 }  // namespace sinew

@@ -26,7 +26,7 @@ struct About {
 /// The options of every command.
 struct Common {
   bool quiet = false;
-  bool json = false;
+  bool json = false, verbose = false;
   int threads = 0;  ///< 0: one per core
   std::vector<Override> overrides;
 };

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command/results.h"
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+
+#include "command/command.h"
 
 namespace sinew {
 namespace {
@@ -16,9 +19,16 @@ using Json = nlohmann::ordered_json;
 // File names may be in any encoding; JSON is UTF-8.
 constexpr auto replace_wrong_bytes = Json::error_handler_t::replace;
 
-std::string plain(const Json& value) {
+std::string four_digits(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+std::string plain(const Json& value, bool briefly) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return number_text(value.get<double>());
+  if (value.is_number_float())
+    return briefly ? four_digits(value.get<double>()) : number_text(value.get<double>());
   return value.dump(-1, ' ', false, replace_wrong_bytes);
 }
 
@@ -36,22 +46,44 @@ void Results::add_value(std::string key, Json value) {
   entries_.push_back({std::move(key), "", std::move(value), In::object});
 }
 
-std::string Results::text() const {
-  std::string text;
+void Results::add_headline(std::string key, std::string words) {
+  entries_.push_back({std::move(key), "", std::move(words), In::headlines});
+}
+
+std::vector<std::string> Results::headlines() const {
+  std::vector<std::string> lines;
   for (const Entry& one : entries_)
-    if (one.in != In::object)
-      text += one.key + ": " + plain(one.value) + (one.unit.empty() ? "" : ' ' + one.unit) + '\n';
+    if (one.in == In::headlines)
+      lines.push_back((one.key.empty() ? "" : one.key + ": ") + one.value.get<std::string>());
+  return lines;
+}
+
+std::string Results::text(bool briefly) const {
+  const bool in_words = briefly && !headlines().empty();
+  std::string text;
+  if (in_words) {
+    for (const std::string& line : headlines()) text += line + '\n';
+    return text;
+  }
+  for (const Entry& one : entries_)
+    if (one.in != In::headlines && one.in != In::object)
+      text += one.key + ": " + plain(one.value, briefly) +
+              (one.unit.empty() ? "" : ' ' + one.unit) + '\n';
   return text;
 }
 
 std::string Results::json() const {
   Json object = Json::object();
   for (const Entry& one : entries_)
-    if (one.in != In::lines) object[one.key] = one.value;
+    if (one.in == In::both || one.in == In::object) object[one.key] = one.value;
+  const std::vector<std::string> words = headlines();
+  if (!words.empty()) object["summary"] = words;
   return object.dump(2, ' ', false, replace_wrong_bytes) + '\n';
 }
 
-void Results::print(bool as_json) const { print_out(as_json ? json() : text()); }
+void Results::print(const Common& common) const {
+  print_out(common.json ? json() : text(!common.verbose));
+}
 
 void print_out(const std::string& text) {
   errno = 0;

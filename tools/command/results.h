@@ -3,7 +3,7 @@
 //
 //     Results results;
 //     results.add("radius", 0.01, "m");
-//     results.print(common.json);
+//     results.print(common);
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace sinew {
+
+struct Common;
 
 /// Collects named values in order and prints them: one "key: value" per line, or one JSON object.
 class Results {
@@ -21,14 +23,20 @@ class Results {
   void add_line(std::string key, nlohmann::ordered_json value, std::string unit = "");
   void add_value(std::string key, nlohmann::ordered_json value);
 
-  std::string text() const;  ///< "key: value" lines
+  /// A line in words, for people. Where there are any, other results are printed with --verbose and
+  /// --json alone.
+  void add_headline(std::string key, std::string words);
+  std::vector<std::string> headlines() const;  ///< "key: words", in the object as summary
+
+  /// "key: value" lines; briefly: the headlines alone, and numbers to four digits.
+  std::string text(bool briefly = false) const;
   std::string json() const;  ///< one object; numbers that are not finite become null
 
   /// Prints text() or json(). Throws Error (not_written) where standard output fails.
-  void print(bool as_json) const;
+  void print(const Common& common) const;
 
  private:
-  enum class In { both, lines, object };
+  enum class In { both, lines, object, headlines };
   struct Entry {
     std::string key, unit;
     nlohmann::ordered_json value;

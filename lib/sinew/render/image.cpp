@@ -6,9 +6,11 @@
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <sinew/core/file.h>
+#include <sinew/core/parallel.h>
 
 namespace sinew {
 
@@ -28,6 +30,66 @@ Image halved(const Image& image) {
             static_cast<std::uint8_t>((above[c] + above[c + 3] + below[c] + below[c + 3] + 2) / 4);
     }
   return half;
+}
+
+namespace {
+
+/// 0 .. 255, by the weights of Rec. 601 in sixteenths.
+int brightness(const std::uint8_t* pixel) {
+  return (5 * pixel[0] + 9 * pixel[1] + 2 * pixel[2]) / 16;
+}
+
+/// Of the pixels in the row, which continues beyond both ends.
+void brightness_of_row(const Image& image, int row, std::vector<int>& values) {
+  const std::uint8_t* pixel = image.at(0, std::clamp(row, 0, image.height - 1));
+  for (int x = 0; x < image.width; ++x) values[x + 1] = brightness(pixel + 3 * x);
+  values.front() = values[1];
+  values.back() = values[image.width];
+}
+
+/// Blends a pixel with its neighbors across the edge, by how much it sticks out of their mean.
+void smooth_pixel(const Image& image, int x, int y, const std::array<int, 4>& around, int here,
+                  std::uint8_t* out) {
+  const auto& [up, down, left, right] = around;
+  const bool horizontal = std::abs(up + down - 2 * here) >= std::abs(left + right - 2 * here);
+  const bool first = horizontal ? std::abs(up - here) >= std::abs(down - here)
+                                : std::abs(left - here) >= std::abs(right - here);
+  const int step = first ? -1 : 1;
+  const int other_x = std::clamp(x + (horizontal ? 0 : step), 0, image.width - 1);
+  const int other_y = std::clamp(y + (horizontal ? step : 0), 0, image.height - 1);
+  const int contrast =
+      std::max({up, down, left, right, here}) - std::min({up, down, left, right, here});
+  const float out_of_mean =
+      std::abs(static_cast<float>(up + down + left + right) / 4 - static_cast<float>(here)) /
+      static_cast<float>(contrast);
+  const float share = 0.5F * std::min(1.0F, 1.5F * out_of_mean);
+  const std::uint8_t *own = image.at(x, y), *other = image.at(other_x, other_y);
+  for (int c = 0; c < 3; ++c)
+    out[c] = static_cast<std::uint8_t>((1 - share) * own[c] + share * other[c] + 0.5F);
+}
+
+}  // namespace
+
+Image with_smooth_edges(const Image& image) {
+  constexpr int least_contrast = 16;
+  Image smooth = image;
+  parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t begin, std::size_t end) {
+    const auto padded = static_cast<std::size_t>(image.width) + 2;
+    std::vector<int> above(padded), here(padded), below(padded);
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      brightness_of_row(image, y - 1, above);
+      brightness_of_row(image, y, here);
+      brightness_of_row(image, y + 1, below);
+      for (int x = 0; x < image.width; ++x) {
+        const std::array<int, 4> around = {above[x + 1], below[x + 1], here[x], here[x + 2]};
+        const auto [low, high] =
+            std::minmax({around[0], around[1], around[2], around[3], here[x + 1]});
+        if (high - low >= least_contrast)
+          smooth_pixel(image, x, y, around, here[x + 1], smooth.at(x, y));
+      }
+    }
+  });
+  return smooth;
 }
 
 void paste(Image& image, const Image& part, int x, int y) {

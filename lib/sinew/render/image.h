@@ -25,6 +25,10 @@ struct Image {
 /// Half the width and height: the mean of 2 x 2 pixels each.
 Image halved(const Image& image);
 
+/// Antialiases edges, where neighboring pixels differ in brightness: each is blended with the one
+/// across the edge (after FXAA, Lottes 2009). Runs in parallel.
+Image with_smooth_edges(const Image& image);
+
 /// Copies `part` to (x, y), its upper left corner; clipped at the borders.
 void paste(Image& image, const Image& part, int x, int y);
 

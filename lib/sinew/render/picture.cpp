@@ -26,7 +26,8 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
                       "draw one run at a time");
 }
 
-std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(std::lround(value)); }
+/// Of a value of 0 to 255.
+std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
 
 /// Darkens the hollows, but never to black.
 void add_shadows(Exposure& exposure, double radius) {
@@ -34,6 +35,7 @@ void add_shadows(Exposure& exposure, double radius) {
   std::vector<std::uint8_t>& rgb = exposure.image.rgb;
   const std::vector<float> hidden = occlusion(exposure.depth, radius);
   for (std::size_t i = 0; i < hidden.size(); ++i) {
+    if (hidden[i] == 0) continue;
     const float light = std::max(least, 1 - strength * hidden[i]);
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
       rgb[c] = byte_of(light * static_cast<float>(rgb[c]));
@@ -48,12 +50,14 @@ Image with_shadows(Exposure exposure, double radius) {
 
 /// Blends `over` into the image where it covers anything.
 void shine_through(Image& image, const Exposure& over, float strength) {
-  for (std::size_t i = 0; i < over.coverage.size(); ++i)
+  for (std::size_t i = 0; i < over.coverage.size(); ++i) {
+    if (over.coverage[i] == 0) continue;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
       const float part = strength * over.coverage[i];
       image.rgb[c] = byte_of(part * static_cast<float>(over.image.rgb[c]) +
                              (1 - part) * static_cast<float>(image.rgb[c]));
     }
+  }
 }
 
 /// Lightened toward white, so that what is drawn over it is visible.
@@ -118,6 +122,11 @@ Image Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
 
 Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
   check(snapshot, skin_, options);
+  const Image image = drawn(snapshot, options);
+  return options.finish == Finish::quick ? with_smooth_edges(image) : image;
+}
+
+Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
   const double pixel =
       meters_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
                        std::max(1, options.height - 2 * options.margin));

@@ -49,6 +49,7 @@ class Painter {
 
  private:
   struct Sizes;
+  Image drawn(const Snapshot& snapshot, const PictureOptions& options);
   Image particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
   Image surface(const Snapshot& snapshot, const Sizes& sizes);
   Image pale_skin(const Snapshot& snapshot, const Sizes& sizes);

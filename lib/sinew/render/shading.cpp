@@ -170,23 +170,32 @@ float hidden(const DepthImage& image, const Discs& discs, float radius, int x, i
     const float above = plane - depth_at(image, x + dx, y + dy);
     if (!(above > 0.04F * radius)) continue;  // includes the background: infinitely far below
     const float near = radius / std::max(radius, above);  // objects far in front hide less
-    sum += near * near * above / std::hypot(above, distance);
+    sum += near * near * above / std::sqrt(above * above + distance * distance);
   }
   return sum / samples;
 }
 
-std::vector<float> blurred(const std::vector<float>& values, int width, int height) {
+/// The mean of 4 x 4 pixels, at those that are not background.
+std::vector<float> blurred(const std::vector<float>& values, const DepthImage& image) {
+  const int width = image.width, height = image.height;
   std::vector<float> means(values.size());
   parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+    std::vector<float> sums(static_cast<std::size_t>(width));  // of 4 rows
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      std::fill(sums.begin(), sums.end(), 0.0F);
+      for (int row = y - 1; row < y + 3; ++row) {
+        const float* there =
+            &values[static_cast<std::size_t>(std::clamp(row, 0, height - 1)) * width];
+        for (int x = 0; x < width; ++x) sums[x] += there[x];
+      }
       for (int x = 0; x < width; ++x) {
+        if (!std::isfinite(image.at(x, y))) continue;
         float sum = 0;
-        for (int row = y - 1; row < y + 3; ++row)
-          for (int column = x - 1; column < x + 3; ++column)
-            sum += values[static_cast<std::size_t>(std::clamp(row, 0, height - 1)) * width +
-                          std::clamp(column, 0, width - 1)];
+        for (int column = x - 1; column < x + 3; ++column)
+          sum += sums[std::clamp(column, 0, width - 1)];
         means[static_cast<std::size_t>(y) * width + x] = sum / 16;
       }
+    }
   });
   return means;
 }
@@ -202,7 +211,7 @@ std::vector<float> occlusion(const DepthImage& image, double radius) {
         result[static_cast<std::size_t>(y) * image.width + x] =
             hidden(image, discs, static_cast<float>(radius), x, y);
   });
-  return blurred(result, image.width, image.height);
+  return blurred(result, image);
 }
 
 }  // namespace sinew

@@ -17,7 +17,7 @@ class vtkRenderer;
 namespace sinew {
 
 enum class Finish {
-  quick,  ///< antialiased by a filter: for movies
+  quick,  ///< rendered once, its edges smoothed afterwards: for movies
   fine,   ///< rendered at twice the size: for pictures
 };
 

@@ -145,23 +145,34 @@ void FigureSet::sheet() {
   write_png(contact_sheet(rows, sheet), place(name() + "_sheet.png"));
 }
 
-void FigureSet::movie() {
+std::size_t FigureSet::movie_frames() const { return runs_.front()->files().frames(); }
+
+MovieOptions FigureSet::movie_options() const {
   MovieOptions movie;
   movie.width = options_.width & ~1;  // H.264 requires even sizes
   movie.height = options_.height & ~1;
   const double interval = runs_.front()->files().settings.output.interval;
   movie.frames_per_second = std::clamp(1 / interval, 0.1, 240.0);
-  Movie playback(place(of_body() ? "movie.mp4" : name() + ".mp4"), movie);
+  return movie;
+}
+
+Image FigureSet::movie_frame(std::size_t frame) {
   FigureOptions options = figure_options(Finish::quick);
-  options.width = movie.width;
-  options.height = movie.height;
-  for (std::size_t frame = 0; frame < runs_.front()->files().frames(); ++frame) {
-    const std::vector<Snapshot> moment = snapshots(frame);
-    std::vector<Panel> side_by_side = panels(moment);
-    if (of_body())
-      side_by_side = {{&painters_[0], &moment[0], View::surface, ""},
-                      {&painters_[0], &moment[0], View::particles, ""}};
-    playback.add(figure(side_by_side, options));
+  options.width = movie_options().width;
+  options.height = movie_options().height;
+  const std::vector<Snapshot> moment = snapshots(frame);
+  std::vector<Panel> side_by_side = panels(moment);
+  if (of_body())
+    side_by_side = {{&painters_[0], &moment[0], View::surface, ""},
+                    {&painters_[0], &moment[0], View::particles, ""}};
+  return figure(side_by_side, options);
+}
+
+void FigureSet::movie(std::span<const FrameSource> others) {
+  Movie playback(place(of_body() ? "movie.mp4" : name() + ".mp4"), movie_options());
+  for (std::size_t frame = 0; frame < movie_frames(); ++frame) {
+    const std::size_t share = frame % (others.size() + 1);
+    playback.add(share == 0 ? movie_frame(frame) : others[share - 1](frame));
   }
   playback.finish();
 }

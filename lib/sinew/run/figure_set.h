@@ -8,11 +8,14 @@
 #include <array>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <sinew/render/figure.h>
+#include <sinew/render/movie.h>
 #include <sinew/run/snapshots.h>
 
 namespace sinew {
@@ -29,6 +32,9 @@ struct FigureSetOptions {
 /// Throws bad input where pictures of this size take more than `available` bytes.
 void check_memory(int width, int height, double available);
 
+/// A picture of the movie's size.
+using FrameSource = std::function<Image(std::size_t frame)>;
+
 /// One view preset of one run or two, in the same colors and to the same scale.
 class FigureSet {
  public:
@@ -38,7 +44,12 @@ class FigureSet {
 
   int pictures();  ///< one for each moment; returns their number
   void sheet();    ///< all moments in one picture; of the body as in the paper's figure 4
-  void movie();    ///< of all frames; of the body, its surface beside its particles
+  /// Of all frames; of the body, its surface beside its particles. Drawn in turn by this object and
+  /// by `others`: frame i by the one of number i modulo their count, this one first.
+  void movie(std::span<const FrameSource> others = {});
+  std::size_t movie_frames() const;
+  MovieOptions movie_options() const;
+  Image movie_frame(std::size_t frame);
 
  private:
   const DrawnView& drawn(std::size_t run) const { return runs_[run]->view_presets()[preset_]; }
