@@ -27,8 +27,6 @@ Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) 
   }
 }
 
-namespace {
-
 void place(PolygonSoup& soup, const BodyOptions& body) {
   const double by = meters(body.unit) * body.scale;
   if (!(by > 0) || !std::isfinite(by))
@@ -37,6 +35,8 @@ void place(PolygonSoup& soup, const BodyOptions& body) {
   if (by == 1 && turn == Mat3::Identity()) return;
   for (Vec3& point : soup.points) point = by * (turn * point);
 }
+
+namespace {
 
 PolygonSoup soup_of(const Triangles& triangles) {
   PolygonSoup soup{triangles.points, {}};
