@@ -286,14 +286,15 @@ bool add_rig_alone(const Options& options, Results& results) {
 }
 
 Exit print(Results& results, const std::vector<std::string>& warnings, const Common& common) {
-  results.add("warnings", warnings);
+  results.add_value("warnings", warnings);
   results.print(common);
   for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
   return Exit::done;
 }
 
 Exit info(const Options& options, const Common& common) {
-  if (options.verify || std::filesystem::is_directory(options.path))
+  std::error_code unreachable;
+  if (options.verify || std::filesystem::is_directory(options.path, unreachable))
     return describe_run(options, common);
   Results results;
   results.add("file", options.path);
@@ -319,6 +320,7 @@ Exit info(const Options& options, const Common& common) {
   if (!options.drawing.empty()) refuse_output(options.drawing, {options.path, body.mesh});
   for (std::string& warning : add_mesh_info(body, options.drawing, results))
     warnings.push_back(std::move(warning));
+  results.add_line("warnings", warnings);
   return print(results, warnings, common);
 }
 

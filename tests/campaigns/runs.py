@@ -75,12 +75,17 @@ class Run:
         assert sorted(mine) == sorted(its), (self.way, sorted(set(mine) ^ set(its)))
         other = [str(name) for name in mine if mine[name] != its[name]]
         assert not other, (self.way, other)
+        done = subprocess.run([self.binaries / "sinew-info", self.out, "--verify"], capture_output=True, text=True,
+                              timeout=60)
+        assert done.returncode == 0, (self.way, done.stdout, done.stderr)
 
 
 def files_of(out):
     """All that a run tells, but when, where and how it was done (body.vtu: how long filling took)."""
     beside = {"run.json", "log.txt", ".lock", "view.py", "live.py", "body.vtu", "checkpoint/a.bin", "checkpoint/b.bin"}
     files = {str(file.relative_to(out)): file.read_bytes() for file in out.rglob("*") if file.is_file()}
+    if sums := files.get("checksums.sfv"):
+        files["checksums.sfv"] = b"\n".join(line for line in sums.split(b"\n") if not line.startswith(b"body.vtu "))
     return {name: content for name, content in files.items() if name not in beside}
 
 

@@ -78,4 +78,20 @@ TEST_F(PointCacheFile, HoldsPointsAndFacesInOrder) {
   EXPECT_EQ(read_file(path), "# surface at rest, m\nv 0 0 0\nv 1 0 0.1\nv 0 1 0\nf 1 2 3\n");
 }
 
+TEST_F(PointCacheFile, NamesPartsAndTextureCoordinatesOfFaces) {
+  const Triangles surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+                             {{0, 1, 2}, {1, 3, 2}, {0, 1, 3}}};
+  SurfaceLook look{{{0, 0.5}, {1, 0}, {0.25, 1}},
+                   {{0, 1, 2}, {-1, -1, -1}, {2, 1, 0}},
+                   {0, -1, 1},
+                   {{"arm", "skin", "red"}, {"arm", "nail", "red"}},
+                   {"../a.mtl"}};
+  write_obj(folder / "surface.obj", surface, look);
+  const std::string text = read_file(folder / "surface.obj");
+  EXPECT_TRUE(contains(text, "m\nmtllib ../a.mtl\nv 0 0 0\n"));
+  EXPECT_EQ(text.substr(text.find("vt")),
+            "vt 0 0.5\nvt 1 0\nvt 0.25 1\no arm\ng skin\nusemtl red\nf 1/1 2/2 3/3\n"
+            "f 2 4 3\ng nail\nf 1/3 2/2 4/1\n");
+}
+
 }  // namespace sinew::point_cache_test

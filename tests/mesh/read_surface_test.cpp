@@ -36,6 +36,36 @@ TEST(Read, TakesEveryDigitFromObjOffAndPly) {
   }
 }
 
+TEST(Look, IsThatOfThePolygonInTheSamePlace) {
+  const Folder folder;
+  BodyOptions body;
+  body.mesh = folder.file("a.obj",
+                          "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
+                          "v 1 0 0\nvt 0 0\nvt 1 0 0\nvt 1 1\nvt 0 1\n"
+                          "f 1 5 2\ng base plate\nusemtl wood\nf 1/1 4/4 3/3/1 6/-3\n"
+                          "g\nf 2/9 3/1 5/1\nf 3//2 4//1 5\nf 4 1 5\n");
+  body.unit = LengthUnit::mm;
+  const Triangles surface = read_surface(body).triangles;
+  const SurfaceLook look = look_of(body, surface);
+  EXPECT_EQ(look.libraries.at(0).substr(look.libraries[0].rfind('/')), "/my materials.mtl");
+  ASSERT_EQ(look.part.size(), surface.faces.size());
+  int in_base = 0;
+  for (std::size_t i = 0; i < surface.faces.size(); ++i) {
+    const bool base = look.part[i] >= 0 && look.parts[look.part[i]].group == "base plate";
+    in_base += base;
+    for (int k = 0; k < 3; ++k) {  // the coordinates are those of the places
+      ASSERT_EQ(look.corners[i][k] >= 0, base);
+      if (!base) continue;
+      const Vec3& point = surface.points[surface.faces[i][k]];
+      const auto& [u, v] = look.coordinates[look.corners[i][k]];
+      EXPECT_EQ((std::array{1e-3 * u, 1e-3 * v}), (std::array{point.x(), point.y()}));
+    }
+  }
+  EXPECT_EQ(in_base, 2);
+  body.mesh = folder.file("a.off", mesh_files::off(shapes::sphere(1, 1)));
+  EXPECT_TRUE(look_of(body, read_surface(body).triangles).part.empty());
+}
+
 TEST(Read, TakesTextAndBinaryStl) {
   const Folder folder;
   const auto soup = shapes::torus(1, 0.25, 8, 6);

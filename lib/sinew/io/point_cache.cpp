@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sinew/core/error.h>
@@ -38,17 +39,44 @@ Error no_cache(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_obj(const std::filesystem::path& path, const Triangles& surface) {
+namespace {
+
+/// The lines by which a face's part differs from that before it.
+std::string part_lines(const SurfaceLook::Part& before, const SurfaceLook::Part& part) {
+  std::string text;
+  if (part.object != before.object) text += "o " + part.object + '\n';
+  if (part.group != before.group) text += "g " + part.group + '\n';
+  if (part.material != before.material) text += "usemtl " + part.material + '\n';
+  return text;
+}
+
+std::string corner_text(int point, int coordinates) {
+  const std::string text = std::to_string(point + 1);
+  return coordinates < 0 ? text : text + '/' + std::to_string(coordinates + 1);
+}
+
+}  // namespace
+
+void write_obj(const std::filesystem::path& path, const Triangles& surface,
+               const SurfaceLook& look) {
   NewFile file(path);
   std::string text = "# surface at rest, m\n";
+  for (const std::string& library : look.libraries) text += "mtllib " + library + '\n';
   for (const Vec3& point : surface.points) {
     text += "v " + number_text(point.x());
     text += ' ' + number_text(point.y());
     text += ' ' + number_text(point.z()) + '\n';
   }
-  for (const auto& face : surface.faces) {
+  for (const auto& [u, v] : look.coordinates)
+    text += "vt " + number_text(u) + ' ' + number_text(v) + '\n';
+  constexpr std::array<int, 3> none{-1, -1, -1};
+  SurfaceLook::Part before;
+  for (std::size_t i = 0; i < surface.faces.size(); ++i) {
+    const int part = look.part.empty() ? -1 : look.part[i];
+    if (part >= 0) text += part_lines(std::exchange(before, look.parts[part]), look.parts[part]);
+    const auto& coordinates = look.corners.empty() ? none : look.corners[i];
     text += 'f';
-    for (const int corner : face) text += ' ' + std::to_string(corner + 1);
+    for (int k = 0; k < 3; ++k) text += ' ' + corner_text(surface.faces[i][k], coordinates[k]);
     text += '\n';
   }
   file.write(text.data(), text.size());

@@ -13,12 +13,15 @@
 #include <vector>
 
 #include <sinew/core/file.h>
+#include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
 
 namespace sinew {
 
-/// Points and faces, in the order of `surface`. Throws not written.
-void write_obj(const std::filesystem::path& path, const Triangles& surface);
+/// Points and faces in the order of `surface`, with what `look` says of the faces, if anything; the
+/// paths of its libraries are relative to the file. Throws not written.
+void write_obj(const std::filesystem::path& path, const Triangles& surface,
+               const SurfaceLook& look = {});
 
 /// PC2: "POINTCACHE2\0", int32 version 1, int32 points, float start, float rate, int32 samples,
 /// then float32 x y z of every point of every sample; little endian. It grows sample by sample; its

@@ -27,8 +27,6 @@ Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) 
   }
 }
 
-namespace {
-
 void place(PolygonSoup& soup, const BodyOptions& body) {
   const Placement placement = placement_of(body);
   if (!(placement.scale > 0) || !std::isfinite(placement.scale))
@@ -36,6 +34,8 @@ void place(PolygonSoup& soup, const BodyOptions& body) {
   if (placement.is_identity()) return;
   for (Vec3& point : soup.points) point = placement(point);
 }
+
+namespace {
 
 PolygonSoup soup_of(const Triangles& triangles) {
   PolygonSoup soup{triangles.points, {}};

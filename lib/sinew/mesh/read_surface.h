@@ -10,6 +10,7 @@
 #include <span>
 
 #include <sinew/core/options.h>
+#include <sinew/core/surface_look.h>
 #include <sinew/mesh/readers/mesh_formats.h>
 #include <sinew/mesh/surface.h>
 
@@ -19,11 +20,21 @@ namespace sinew {
 /// the time taken. Throws Error (bad input), naming the file.
 Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more = {});
 
+/// Brings the points into the scene by placement_of(). Throws Error (bad input) where the scale is
+/// not above 0.
+void place(PolygonSoup& soup, const BodyOptions& body);
+
 /// The surface from the polygons of a file: brought into the scene by placement_of(); welded and
 /// cleaned; where the settings request it, its holes closed and the mesh replaced by a skin around
 /// it. Throws Error (bad input) where the soup has no faces, faces of fewer than 3 corners, corners
 /// that are not points or coordinates that are not finite, where the scale is not above 0, where
 /// closing holes leaves no face, and as clean(), close_holes() and wrap() do.
 Surface prepare(PolygonSoup soup, const BodyOptions& body);
+
+/// The texture coordinates, groups and materials of an OBJ file, for the surface made from it; none
+/// of other formats. Faces take the look of the polygon whose corners are in the same places; new
+/// faces (of closed holes or a wrap) and those with welded corners have none. Throws Error (bad
+/// input), naming the file, where it cannot be read.
+SurfaceLook look_of(const BodyOptions& body, const Triangles& surface);
 
 }  // namespace sinew

@@ -13,6 +13,7 @@
 #include <sinew/run/bond_frames.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/frame_content.h>
+#include <sinew/settings/text_file.h>
 
 namespace sinew {
 namespace {
@@ -102,7 +103,8 @@ struct ReactionColumns {
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const Body& body, const Triangles& surface,
-                         std::vector<Triangles> obstacles, std::span<const double> kept)
+                         std::vector<Triangles> obstacles, std::span<const double> kept,
+                         SurfaceLook look)
     : folder_(folder),
       interval_(output.interval),
       body_(body),
@@ -123,7 +125,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
   begin_skinned(output, kept);
-  if (output.export_surface) begin_export(kept.size());
+  if (output.export_surface) begin_export(kept.size(), std::move(look));
   begin_arrays(output, kept);
   begin_checksums();
 }
@@ -169,8 +171,9 @@ void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const do
   if (output.skin_dqs) begin(dual_quaternion_skinned, "skin_dqs");
 }
 
-void FrameWriter::begin_export(std::size_t kept) {
-  write_obj(folder_ / "surface.obj", surface_);
+void FrameWriter::begin_export(std::size_t kept, SurfaceLook look) {
+  for (std::string& library : look.libraries) library = path_in(folder_, library);
+  write_obj(folder_ / "surface.obj", surface_, look);
   export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", skin_.rest.size(), kept);
 }
 
@@ -203,8 +206,8 @@ FrameState FrameWriter::measured_at_rest() const {
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const ReadyScene& ready)
-    : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles,
-                  ready.setup.obstacles) {}
+    : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles, ready.setup.obstacles,
+                  {}, ready.look) {}
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does

@@ -38,11 +38,11 @@ namespace sinew {
 class FrameWriter {
  public:
   /// `surface`: the body's skin at rest; `obstacles`: those of its world, each in its own frame;
-  /// `kept`: times (s) of frames already written. The body must outlive the writer. Throws not
-  /// written, and bad input when one of those frames is missing.
+  /// `kept`: times (s) of frames already written; `look`: of the exported surface. The body must
+  /// outlive the writer. Throws not written, and bad input when one of those frames is missing.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
               const Triangles& surface, std::vector<Triangles> obstacles,
-              std::span<const double> kept = {});
+              std::span<const double> kept = {}, SurfaceLook look = {});
   /// The same of a scene that begins.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
               const ReadyScene& ready);
@@ -86,7 +86,7 @@ class FrameWriter {
   };
 
   void begin_skinned(const OutputSettings& output, std::span<const double> kept);
-  void begin_export(std::size_t kept);
+  void begin_export(std::size_t kept, SurfaceLook look);
   void begin_arrays(const OutputSettings& output, std::span<const double> kept);
   FrameState measured_at_rest() const;
   Moved take(Simulation& simulation, double time);

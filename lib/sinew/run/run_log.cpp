@@ -63,16 +63,23 @@ void go_on_from(const Json& before, Json& record) {
   record["resumed"] = 1 + before.value("resumed", 0);
 }
 
+/// Written before anything else: the record tells that the other files are of a run.
+Json written_record(const RunFolder& folder, const std::vector<std::string>& command,
+                    bool resumed) {
+  Json record = begin_record(command);
+  record["seconds"] = Json::object();
+  record["resumed"] = 0;
+  if (resumed) go_on_from(read_record(folder), record);
+  write_record(folder, record);
+  return record;
+}
+
 }  // namespace
 
 RunLog::RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed)
     : folder_(folder),
-      record_(begin_record(command)),
+      record_(written_record(folder, command, resumed)),
       log_(folder.log(), resumed ? size_of(folder.log()) : 0) {
-  record_["seconds"] = Json::object();
-  record_["resumed"] = 0;
-  if (resumed) go_on_from(read_record(folder), record_);
-  write_record(folder_, record_);
   std::string words;
   for (const std::string& word : command) words += (words.empty() ? "" : " ") + word;
   log("sinew " + record_["version"].get<std::string>() + ": " + words);

@@ -126,7 +126,7 @@ class Run {
       log_.frames(schedule_.there);
     }
     writer_.emplace(folder_.path, scene_.output, simulation_->body(), ready.surface.triangles,
-                    std::move(obstacles), schedule_.times_there());
+                    std::move(obstacles), schedule_.times_there(), std::move(ready.look));
     simulation_->forces();  // finds the first neighbors: no part of what writing costs
   }
 

@@ -7,6 +7,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/mesh/read_surface.h>
 #include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
@@ -179,6 +180,7 @@ ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   const Settings settings = with_fit(given);
   ReadyScene ready;
   ready.surface = read_mesh(settings);
+  if (settings.output.export_surface) ready.look = look_of(settings.body, ready.surface.triangles);
   const SceneFiles files = read_files(settings);
   ready.body =
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <sinew/core/particles.h>
+#include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
 #include <sinew/physics/simulation.h>
 #include <sinew/physics/time_step.h>
@@ -54,6 +55,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
 /// A scene filled, bound and ready to be stepped.
 struct ReadyScene {
   Surface surface;
+  SurfaceLook look;  ///< of the surface, where it is exported
   BodyFile body;
   Setup setup;
   double seconds_filling = 0, seconds_binding = 0;

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Representations and colors of the parts of a run."""
+import ctypes
+import time
+
 import paraview.simple
 import vtkmodules.vtkRenderingOpenGL2
 from paraview.simple import *
@@ -201,8 +204,21 @@ def show_time(note, view, options):
 
 
 def need_screen():
-    """Without one, a render window of X aborts the whole program."""
-    if os.environ.get("DISPLAY") or vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
+    """Without one, a render window of X aborts the whole program. The connection stays open: xvfb-run's
+    server starts over when its last client leaves, and a program that comes back then finds none."""
+    if vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
+        return
+    try:
+        open_display = ctypes.CDLL("libX11.so.6").XOpenDisplay
+    except OSError:
+        return
+    open_display.restype = ctypes.c_void_p
+    end = time.monotonic() + 3
+    while not open_display(None):
+        if not os.environ.get("DISPLAY") or time.monotonic() > end:
+            break
+        time.sleep(0.1)
+    else:
         return
     stop(f"there is no screen; draw without one by: xvfb-run -a pvbatch {SCRIPT} --picture FILE.png")
 

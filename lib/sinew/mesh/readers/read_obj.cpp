@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <sinew/core/text.h>
@@ -30,7 +32,7 @@ std::string joined(std::string_view text) {
 
 class ObjReader {
  public:
-  explicit ObjReader(const MeshFile& file) : file_(file) {}
+  ObjReader(const MeshFile& file, ObjLook* look) : file_(file), look_(look) {}
 
   PolygonSoup soup() {
     if (file_.content.find('\\') == std::string::npos)
@@ -57,14 +59,42 @@ class ObjReader {
       const std::string_view keyword = words.next();
       if (keyword == "v") soup_.points.push_back(next_point(words, file_));
       if (keyword == "f") face(words);
+      if (look_) look_at(keyword, lines.line(), words);
     }
     refuse_too_many_points(file_, soup_.points.size());
   }
 
+  /// The lines of a look; coordinates that are no numbers are 0.
+  void look_at(std::string_view keyword, std::string_view line, Words& words) {
+    if (keyword == "vt") {
+      const double u = number_in(words.next()).value_or(0), v = number_in(words.next()).value_or(0);
+      look_->coordinates.push_back({std::isfinite(u) ? u : 0, std::isfinite(v) ? v : 0});
+    }
+    if (keyword == "mtllib") look_->libraries.push_back(after(keyword, line));
+    SurfaceLook::Part part = look_->parts.empty() ? SurfaceLook::Part() : look_->parts.back();
+    if (keyword == "o") part.object = after(keyword, line);
+    if (keyword == "g") part.group = after(keyword, line);
+    if (keyword == "usemtl") part.material = after(keyword, line);
+    if (keyword == "o" || keyword == "g" || keyword == "usemtl")
+      look_->parts.push_back(std::move(part));
+  }
+
+  /// The rest of a line, without the spaces around it.
+  static std::string after(std::string_view keyword, std::string_view line) {
+    line.remove_prefix(line.find(keyword) + keyword.size());
+    while (!line.empty() && line.back() <= ' ') line.remove_suffix(1);
+    while (!line.empty() && line.front() <= ' ') line.remove_prefix(1);
+    return std::string(line);
+  }
+
   void face(Words& words) {
     corners_.clear();
-    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+    if (look_) look_->part.push_back(static_cast<int>(look_->parts.size()) - 1);
+    if (look_) look_->corners.emplace_back();
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       corners_.push_back(static_cast<int>(corner(word, words.line()) - 1));
+      if (look_) look_->corners.back().push_back(coordinates_of(word));
+    }
     if (corners_.size() < 3)
       throw file_.broken(words.line(),
                          "the face has " + std::to_string(corners_.size()) + " corners",
@@ -84,7 +114,18 @@ class ObjReader {
     return from_one;
   }
 
+  /// The second index of "7/1" or "7/1/3", from 0; -1 for none.
+  int coordinates_of(std::string_view word) const {
+    const std::size_t slash = std::min(word.find('/'), word.size());
+    word.remove_prefix(std::min(slash + 1, word.size()));
+    const auto index = integer_in(word.substr(0, word.find('/')));
+    const auto there = static_cast<std::int64_t>(look_->coordinates.size());
+    const std::int64_t from_one = index ? (*index < 0 ? *index + there + 1 : *index) : 0;
+    return from_one < 1 || from_one > INT32_MAX ? -1 : static_cast<int>(from_one - 1);
+  }
+
   const MeshFile& file_;
+  ObjLook* look_;
   PolygonSoup soup_;
   std::vector<int> corners_;
   std::int64_t largest_ = 0;
@@ -93,6 +134,8 @@ class ObjReader {
 
 }  // namespace
 
-PolygonSoup read_obj(const MeshFile& file) { return ObjReader(file).soup(); }
+PolygonSoup read_obj(const MeshFile& file) { return ObjReader(file, nullptr).soup(); }
+
+PolygonSoup read_obj(const MeshFile& file, ObjLook& look) { return ObjReader(file, &look).soup(); }
 
 }  // namespace sinew
