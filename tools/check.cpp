@@ -12,6 +12,7 @@
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
+#include <sinew/scene/warnings.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/steps.h>

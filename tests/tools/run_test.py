@@ -301,7 +301,6 @@ class Commands(SmallRun):
                                ("0.34648]\n    - name: upper\n      parent: lower\n      tail: [0, 0, 0.69296]",
                                 "0.05]\n    - name: upper\n      parent: lower\n      tail: [0, 0, 0.1]",
                                 "farther from it than"),
-                               ("time: 0.2", "time: 0.02", "cannot follow"),
                                ("- time: 0\n", "- time: 0\n          twist: 9\n", "begin at rest"),
                                ("- bone: upper", "- bone: upper\n      interpolation: step", "jumps"),
                                ("skeleton:\n  bones:\n", "skeleton:\n  bones:\n    - name: idle\n"
@@ -313,6 +312,11 @@ class Commands(SmallRun):
             self.assertNotEqual(changed, text)
             doubtful.write_text(changed)
             self.assertIn(word, sinew("check", doubtful, check=0).stderr)
+        doubtful.write_text(text.replace("time: 0.2", "time: 0.02"))
+        self.assertIn("cannot follow", sinew("check", doubtful, "--set", "solver.time_step=0.002", check=0).stderr)
+        by_itself = sinew("check", doubtful, "--json", check=0)
+        self.assertNotIn("cannot follow", by_itself.stderr)
+        self.assertGreater(json.loads(by_itself.stdout)["intervals_of_shorter_steps"], 0)
 
     def test_check_tells_how_steps_are_done(self):
         for sets, used in [(["solver.precision=single"], ("single", "lists")),

@@ -6,7 +6,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/run/run_record.h>
-#include <sinew/scene/check.h>
+#include <sinew/scene/warnings.h>
 #include <sinew/settings/table.h>
 
 namespace sinew {

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/warnings.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/text.h>
+#include <sinew/physics/solid.h>
+#include <sinew/physics/world/world.h>
+#include <sinew/rig/motion_checks.h>
+
+namespace sinew {
+
+std::vector<BoneStiffness> stiffness_along_bones(const Body& body) {
+  const Material& material = body.material;
+  std::vector<BoneStiffness> all;
+  for (std::size_t b = 0; b < body.skeleton.size(); ++b) {
+    const Bone& bone = body.skeleton.bones[b];
+    const double planes =
+        std::sqrt(body.binding.cross_section[b]) / half_plane_spacing(material.pair.r);
+    if (!(planes > 0)) continue;
+    const Vec3 along = body.lattice.transpose() * bone.rest.rotation.col(0);
+    all.push_back({bone.name, material.constants().young_modulus(along), planes,
+                   lack_of_bending_stiffness(planes, material.bond.second > 0)});
+  }
+  return all;
+}
+
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+// Beyond this the second neighbors, at 2.83 r, weaken the packing at rest: noise grows.
+constexpr double largest_stable_b = 2.75;
+constexpr double fastest_bone =
+    0.5;  // radii per step: faster bones pass neighbors instead of pushing them
+constexpr double largest_miss = 0.1;   // of a modulus
+constexpr double deepest_start = 0.1;  // radii inside an obstacle: more is visible as a kick
+constexpr double least_shift = 0.1;    // radii: a smaller jump of a bone is invisible
+// In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
+constexpr double far_from_bone = 3;
+constexpr double steepest_joint = 5;  // degrees between two planes: more breaks bonds
+
+void warn_of_material(const PairForce& pair, Warnings& warnings) {
+  if (pair.b > largest_stable_b * pair.r)
+    warnings.push_back("b is " + three_digits(pair.b / pair.r) +
+                       " radii: second neighbors at 2.83 weaken the packing until it collapses by "
+                       "itself; set material.b to 2.75 or less");
+  if (pair.a > 2 * pair.r * (1 + 1e-9))
+    warnings.push_back("a is " + three_digits(pair.a / pair.r) +
+                       " radii: between 2 and a neighbors do not pull and a free body swells; set "
+                       "material.a to 2");
+}
+
+void warn_of_step(const StepChoice& steps, Warnings& warnings) {
+  const std::string share =
+      "the time step is " + three_digits(steps.factor()) + " of the stability limit: ";
+  if (steps.factor() > 1)
+    warnings.push_back(share + "the run will become unstable; use solver.time_step " +
+                       three_digits(steps.limit / 2) + " or auto");
+  else if (steps.factor() > 0.9)
+    warnings.push_back(share + "bent joints oscillate above 0.9; use solver.time_step auto");
+}
+
+void warn_of_speed(double speed, Warnings& warnings) {
+  if (speed > fastest_bone)
+    warnings.push_back("a bone moves particles by " + three_digits(speed) +
+                       " radii in a step: the body cannot follow; slow the motion down or shorten "
+                       "solver.time_step");
+}
+
+std::string bone_of(const Setup& setup, const Track& track) {
+  return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
+}
+
+/// The largest rotation of the bone about itself in the track, by rotations and twist, rad.
+double turn_about_bone(const Bone& bone, const Track& track) {
+  double turned = 0, twisted = 0;
+  for (const Quat& rotation : track.rotation.values) {
+    const double along = rotation.vec().dot(bone.axis());
+    turned = std::max(turned, std::abs(2 * std::atan2(along, std::abs(rotation.w()))));
+  }
+  for (const double twist : track.twist.values) twisted = std::max(twisted, std::abs(twist));
+  return turned + twisted;
+}
+
+/// Planes of particles over which a rotation about the bone is distributed.
+double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
+  const double length = joint_zone * std::sqrt(setup.body.binding.cross_section[bone]);
+  return std::max(1.0, length / half_plane_spacing(setup.body.material.pair.r));
+}
+
+void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
+  const Bone& bone = setup.body.skeleton.bones[track.bone];
+  if (bone.parent == no_bone || setup.weights_given) return;
+  const double turn = turn_about_bone(bone, track);
+  const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
+  if (step > steepest_joint)
+    warnings.push_back("bone " + bone_of(setup, track) + " turns " + three_digits(degrees(turn)) +
+                       " degrees about itself, " + three_digits(step) +
+                       " from one plane of particles to the next: that cuts the body; set "
+                       "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
+}
+
+Box box_of(const Skeleton& skeleton) {
+  Box box;
+  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
+  return box;
+}
+
+/// Where the rig lies, if that is not where the body is, and what helps.
+std::string place_of_rig(const Body& body) {
+  const Box rig = box_of(body.skeleton), flesh = bounds(body.rest);
+  const std::string cure = "; set skeleton.fit to mesh, or give skeleton scale, rotation and offset";
+  const double ratio = rig.diagonal().norm() / flesh.diagonal().norm();
+  if (ratio > 3 || ratio < 1.0 / 3)
+    return ": the rig is " + three_digits(ratio) + " times as large as the body" + cure;
+  const double beside = std::sqrt(rig.squaredExteriorDistance(flesh));
+  if (beside > 0) return ": the rig lies " + three_digits(beside) + " m beside the body" + cure;
+  return "; move them into the body, or remove them";
+}
+
+void warn_of_idle_bones(const Body& body, Warnings& warnings) {
+  std::vector<std::string_view> idle;
+  for (std::size_t b = 0; b < body.skeleton.size(); ++b)
+    if (!(body.binding.cross_section[b] > 0)) idle.emplace_back(body.skeleton.bones[b].name);
+  if (idle.empty()) return;
+  std::string names = shown(std::string(idle.front()));
+  if (idle.size() > 1) names += " and " + std::to_string(idle.size() - 1) + " more";
+  warnings.push_back("no particle follows " + std::to_string(idle.size()) + " of " +
+                     std::to_string(body.skeleton.size()) + " bones (" + names + ")" +
+                     place_of_rig(body));
+}
+
+/// Angles of 1.57 and the like, all of them small.
+void warn_of_radians(const Setup& setup, Warnings& warnings) {
+  constexpr double twelfth = pi / 12, closeness = 0.005;  // as rounded to two or three digits
+  double most = 0;
+  for (const Track& track : setup.motion.tracks)
+    for (const Quat& rotation : track.rotation.values)
+      most = std::max(most, degrees(rotation_vector(rotation).norm()));
+  const double parts = std::round(most / twelfth);
+  if (most > 2 * pi || parts < 2 || std::abs(most - parts * twelfth) > closeness * twelfth * parts)
+    return;
+  if (std::abs(most - std::round(most)) < 1e-9) return;  // whole degrees
+  warnings.push_back("the largest rotation of a bone is " + three_digits(most) +
+                     " degrees, which is " + three_digits(degrees(most)) +
+                     " degrees in radians: angles are in degrees");
+}
+
+/// Sizes that no soft body has: a unit is wrong.
+void warn_of_unit(const Body& body, Warnings& warnings) {
+  constexpr double largest = 30, smallest = 1e-3;  // m
+  const double size = bounds(body.rest).diagonal().norm();
+  if (size <= largest && size >= smallest) return;
+  warnings.push_back("the body is " + three_digits(size) + " m across: if that is not its size, " +
+                     (size > largest ? "set body.unit to mm or cm" : "make body.scale larger"));
+}
+
+/// By bone: the distance from it, m, beyond which a particle's lever arm is too long.
+std::vector<double> longest_arms(const Body& body) {
+  const double half = bounds(body.rest).diagonal().norm() / 2;
+  std::vector<double> arms;
+  arms.reserve(body.skeleton.size());
+  for (const double section : body.binding.cross_section)
+    arms.push_back(std::min(half, far_from_bone * std::sqrt(section)));
+  return arms;
+}
+
+void warn_of_far_particles(const Body& body, Warnings& warnings) {
+  const std::size_t bones = body.skeleton.size();
+  const std::vector<double> limit = longest_arms(body);
+  std::vector<double> farthest(bones, 0.0);
+  std::vector<std::size_t> count(bones, 0);
+  for (std::size_t i = 0; i < body.rest.size(); ++i) {
+    const int bone = body.binding.bone(i);
+    if (bone == no_bone) continue;
+    const double distance = distance_to(body.skeleton.bones[bone], body.rest[i]);
+    if (distance > limit[bone]) ++count[bone];
+    farthest[bone] = std::max(farthest[bone], distance);
+  }
+  std::size_t worst = bones;
+  for (std::size_t b = 0; b < bones; ++b)
+    if (count[b] > 0 && (worst == bones || farthest[b] > farthest[worst])) worst = b;
+  if (worst == bones) return;
+  const auto others = std::count_if(count.begin(), count.end(), [](auto n) { return n > 0; }) - 1;
+  warnings.push_back(
+      std::to_string(count[worst]) + " particles of bone '" + body.skeleton.bones[worst].name +
+      "' are farther from it than " + three_digits(limit[worst]) + " m, up to " +
+      three_digits(farthest[worst]) + " m" +
+      (others > 0 ? " (and some of " + std::to_string(others) + " more bones)" : "") +
+      "; add a bone there, or let them follow the others by binding.core_radius");
+}
+
+void warn_of_unreached(const Binding& binding, Warnings& warnings) {
+  if (binding.unreached > 0)
+    warnings.push_back(
+        std::to_string(binding.unreached) +
+        " particles are reached from no bone inside the body and follow the nearest "
+        "by straight distance; close the body's gaps, or give it a bone in each piece");
+}
+
+/// Whether an edge is longer than both bones that its ends are nearest to; no bone is shorter than
+/// `shortest`, m.
+bool spans_bones(const Skeleton& skeleton, double shortest, const Vec3& from, const Vec3& to) {
+  if ((to - from).norm() <= shortest) return false;  // nearly all, without a search
+  const int a = nearest_bone(skeleton, from), b = nearest_bone(skeleton, to);
+  const double longer = std::max(skeleton.bones[a].length, skeleton.bones[b].length);
+  return a != b && (to - from).norm() > longer;
+}
+
+/// The surface follows the particles at its points alone.
+void warn_of_coarse_surface(const Setup& setup, const Triangles& surface, Warnings& warnings) {
+  if (setup.motion.tracks.empty()) return;
+  const Skeleton& skeleton = setup.body.skeleton;
+  double shortest = skeleton.bones.front().length;
+  for (const Bone& bone : skeleton.bones) shortest = std::min(shortest, bone.length);
+  std::size_t count = 0;
+  for (const auto& face : surface.faces) {
+    bool spans = false;
+    for (int k = 0; k < 3; ++k)
+      spans = spans || spans_bones(skeleton, shortest, surface.points[face[k]],
+                                   surface.points[face[(k + 1) % 3]]);
+    count += spans;
+  }
+  if (count > 0)
+    warnings.push_back(std::to_string(count) +
+                       " faces of the mesh reach from bone to bone with edges longer than both: "
+                       "the surface, its volume too, cannot bend there as the particles do; "
+                       "subdivide the mesh");
+}
+
+/// A body that begins inside an obstacle is pushed out of it violently.
+void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
+  if (!setup.body.world) return;
+  const World& world = *setup.body.world;
+  const WorldNow start = world_at(world, 0, pose_at(setup.body.skeleton, setup.motion, 0));
+  const double r = setup.body.material.pair.r;
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    std::size_t count = 0;
+    for (const Vec3& place : setup.body.rest) {
+      const double pressing =
+          contact(world.obstacles[k], start.obstacles[k], place, Vec3::Zero(), r).pressing;
+      count += pressing > deepest_start * r * world.obstacles[k].stiffness;
+    }
+    if (count > 0)
+      warnings.push_back(std::to_string(count) + " particles begin over " +
+                         three_digits(deepest_start) + " radii within obstacle '" +
+                         world.obstacles[k].name +
+                         "', which throws them out; move it away from the body");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surface,
+                                     double bone_speed) {
+  Warnings warnings = setup.file_warnings;
+  if (setup.body.material.model == MaterialModel::paper)
+    warn_of_material(setup.body.material.pair, warnings);
+  warn_of_step(setup.steps, warnings);
+  warn_of_speed(bone_speed, warnings);
+  for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
+  for (std::string& warning :
+       motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
+    warnings.push_back(std::move(warning));
+  warn_of_unit(setup.body, warnings);
+  warn_of_radians(setup, warnings);
+  warn_of_idle_bones(setup.body, warnings);
+  warn_of_far_particles(setup.body, warnings);
+  warn_of_unreached(setup.body.binding, warnings);
+  warn_of_overlaps(setup, warnings);
+  warn_of_coarse_surface(setup, surface, warnings);
+  return warnings;
+}
+
+void warn_of_stiffness(const Body& body, std::vector<std::string>& warnings) {
+  const double asked = body.material.young_modulus();
+  const auto bones = stiffness_along_bones(body);
+  const auto miss = [&](const BoneStiffness& bone) {
+    return std::abs(bone.bending_modulus() / asked - 1);
+  };
+  const auto count = std::count_if(bones.begin(), bones.end(), [&](const BoneStiffness& bone) {
+    return miss(bone) > largest_miss;
+  });
+  if (count == 0) return;
+  const BoneStiffness& worst = *std::max_element(
+      bones.begin(), bones.end(), [&](const auto& a, const auto& b) { return miss(a) < miss(b); });
+  const bool softer = worst.bending_modulus() < asked;
+  const bool isotropic = body.material.bond.second > 0;
+  warnings.push_back(
+      "bends along " + std::to_string(count) + " of " + std::to_string(bones.size()) +
+      (bones.size() == 1 ? " bone" : " bones") +
+      " are over 10 % softer or stiffer than the modulus of " + three_digits(asked) +
+      " Pa; most along '" + worst.bone + "': " + three_digits(worst.bending_modulus()) + " Pa, " +
+      std::to_string(std::lround(100 * miss(worst))) + (softer ? " % softer" : " % stiffer") +
+      ", of " + three_digits(worst.planes) + " planes across; make body.radius smaller" +
+      (isotropic ? ""
+                 : ", or use material.model bonded with fcc packing, which makes up for most"));
+}
+
+}  // namespace sinew
