@@ -206,11 +206,15 @@ CurveGraph curve_skeleton(const Triangles& surface) {
   } catch (const std::exception&) {  // CGAL's checks, of surfaces that cut themselves
     graph = {};
   }
-  if (graph.points.empty())
-    graph = contracted(parts_of(closed_mesh(wrapped_skin(surface), frame)), frame);
+  if (!graph.points.empty()) {
+    measure_inner(surface, graph);
+    return graph;
+  }
+  const Triangles skin = wrapped_skin(surface);
+  graph = contracted(parts_of(closed_mesh(skin, frame)), frame);
   if (graph.points.empty())
     throw bad_input("the surface contracts to no curve", "give the bones of a rig");
-  measure_inner(surface, graph);
+  measure_inner(skin, graph);
   return graph;
 }
 

@@ -17,12 +17,13 @@ namespace {
 
 constexpr double least_reach = 1.7;   // of a limb, in widths of the place where it begins
 constexpr double flat_end = 0.15;     // of the width: points so near the farthest are the tip
-constexpr double least_length = 2.5;  // of a body with limbs, in its widths
+constexpr double least_trunk = 0.75;  // length of a limb between two forks, in their widths
+constexpr double least_both = 2.5;    // of a body with limbs, in its widths
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// The graph while it becomes a tree.
-struct Tree {
-  explicit Tree(const CurveGraph& given);
+struct CurveTree {
+  explicit CurveTree(const CurveGraph& given);
 
   double distance(int a, int b) const { return (graph.points[a] - graph.points[b]).norm(); }
 
@@ -36,7 +37,7 @@ struct Tree {
 };
 
 /// Root mean square distance of the skin around a point, m.
-double width_at(const Tree& tree, int point) {
+double width_at(const CurveTree& tree, int point) {
   const double inner = tree.graph.inner[point];
   double sum = 0;
   std::size_t count = 0;
@@ -51,7 +52,7 @@ double width_at(const Tree& tree, int point) {
   return count == 0 ? inner : std::max(inner, std::sqrt(sum / static_cast<double>(count)));
 }
 
-Tree::Tree(const CurveGraph& given) : graph(given) {
+CurveTree::CurveTree(const CurveGraph& given) : graph(given) {
   const std::size_t count = graph.points.size();
   joined.resize(count), skin.resize(count), children.resize(count);
   parent.assign(count, -1);
@@ -62,15 +63,15 @@ Tree::Tree(const CurveGraph& given) : graph(given) {
   for (std::size_t i = 0; i < count; ++i) width.push_back(width_at(*this, static_cast<int>(i)));
 }
 
-struct Paths {
+struct CurvePaths {
   std::vector<double> length;  ///< infinite where there is none
   std::vector<int> before;
   std::vector<int> order;  ///< reached points, the nearest first
 };
 
-Paths paths_from(const Tree& tree, int start) {
+CurvePaths paths_from(const CurveTree& tree, int start) {
   const std::size_t count = tree.graph.points.size();
-  Paths paths{std::vector<double>(count, inf), std::vector<int>(count, -1), {}};
+  CurvePaths paths{std::vector<double>(count, inf), std::vector<int>(count, -1), {}};
   using Reached = std::pair<double, int>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
   paths.length[start] = 0;
@@ -92,16 +93,16 @@ Paths paths_from(const Tree& tree, int start) {
 }
 
 /// About the volume of the body around a point.
-double weight_of(const Tree& tree, int point) {
+double weight_of(const CurveTree& tree, int point) {
   return static_cast<double>(tree.skin[point].size()) * tree.graph.inner[point];
 }
 
 /// The point from which the way to all of the body is the shortest.
-int middle_of(const Tree& tree, const std::vector<int>& points) {
+int middle_of(const CurveTree& tree, const std::vector<int>& points) {
   int best = points.front();
   double least = inf;
   for (const int start : points) {
-    const Paths paths = paths_from(tree, start);
+    const CurvePaths paths = paths_from(tree, start);
     double sum = 0;
     for (const int point : points) sum += weight_of(tree, point) * paths.length[point];
     if (sum < least) least = sum, best = start;
@@ -110,7 +111,7 @@ int middle_of(const Tree& tree, const std::vector<int>& points) {
 }
 
 /// Links outside of the tree close rings: marks the ways from both ends to where they meet.
-void mark_ring(Tree& tree, int a, int b) {
+void mark_ring(CurveTree& tree, int a, int b) {
   tree.cut[a] = tree.cut[b] = true;
   std::vector<int> above_a;
   for (int at = a; at >= 0; at = tree.parent[at]) above_a.push_back(at);
@@ -121,8 +122,8 @@ void mark_ring(Tree& tree, int a, int b) {
     for (int at = end; at != meeting; at = tree.parent[at]) tree.on_ring[at] = true;
 }
 
-void grow(Tree& tree, int root) {
-  const Paths paths = paths_from(tree, root);
+void grow(CurveTree& tree, int root) {
+  const CurvePaths paths = paths_from(tree, root);
   for (const int point : paths.order) {
     tree.parent[point] = paths.before[point];
     if (point != root) tree.children[paths.before[point]].push_back(point);
@@ -133,7 +134,7 @@ void grow(Tree& tree, int root) {
 }
 
 /// The points of the branch that ends at a leaf, from there, without the one where it begins.
-std::vector<int> branch_of(const Tree& tree, int leaf) {
+std::vector<int> branch_of(const CurveTree& tree, int leaf) {
   std::vector<int> branch{leaf};
   while (true) {
     const int next = tree.parent[branch.back()];
@@ -143,7 +144,7 @@ std::vector<int> branch_of(const Tree& tree, int leaf) {
 }
 
 /// How far the skin of a branch reaches from where it begins, in widths there.
-double reach_of(const Tree& tree, const std::vector<int>& branch) {
+double reach_of(const CurveTree& tree, const std::vector<int>& branch) {
   const int from = tree.parent[branch.back()];
   double farthest = 0;
   for (const int point : branch) {
@@ -154,12 +155,12 @@ double reach_of(const Tree& tree, const std::vector<int>& branch) {
   return farthest / tree.width[from];
 }
 
-bool is_leaf(const Tree& tree, int point) {
+bool is_leaf(const CurveTree& tree, int point) {
   return tree.children[point].empty() && tree.parent[point] >= 0;
 }
 
 /// Its skin goes to where it began.
-void cut_off(Tree& tree, const std::vector<int>& branch) {
+void cut_off(CurveTree& tree, const std::vector<int>& branch) {
   const int from = tree.parent[branch.back()];
   std::erase(tree.children[from], branch.back());
   for (const int point : branch) {
@@ -171,7 +172,7 @@ void cut_off(Tree& tree, const std::vector<int>& branch) {
 }
 
 /// Cuts the shortest branches first: what is left of a fork may then be one limb.
-void prune(Tree& tree, const std::vector<int>& points) {
+void prune(CurveTree& tree, const std::vector<int>& points) {
   while (true) {
     std::vector<int> shortest;
     double least = least_reach;
@@ -189,7 +190,7 @@ void prune(Tree& tree, const std::vector<int>& points) {
 }
 
 /// The middle of the farthest points of the skin around the last part of a line.
-Vec3 tip_of(const Tree& tree, const std::vector<int>& chain) {
+Vec3 tip_of(const CurveTree& tree, const std::vector<int>& chain) {
   const Points& points = tree.graph.points;
   const int leaf = chain.back();
   const double width = tree.width[leaf];
@@ -211,7 +212,7 @@ Vec3 tip_of(const Tree& tree, const std::vector<int>& chain) {
   return count == 0 ? points[leaf] : Vec3(sum / count);
 }
 
-Limb limb_along(const Tree& tree, const std::vector<int>& chain, int body, int parent) {
+Limb limb_along(const CurveTree& tree, const std::vector<int>& chain, int body, int parent) {
   Limb limb;
   limb.body = body, limb.parent = parent;
   for (const int point : chain) {
@@ -231,7 +232,7 @@ Limb limb_along(const Tree& tree, const std::vector<int>& chain, int body, int p
   return limb;
 }
 
-void add_limbs(const Tree& tree, int from, int parent, int body, std::vector<Limb>& limbs) {
+void add_limbs(const CurveTree& tree, int from, int parent, int body, std::vector<Limb>& limbs) {
   for (const int child : tree.children[from]) {
     std::vector<int> chain{from, child};
     while (tree.children[chain.back()].size() == 1)
@@ -240,6 +241,32 @@ void add_limbs(const Tree& tree, int from, int parent, int body, std::vector<Lim
     limbs.push_back(limb_along(tree, chain, body, parent));
     add_limbs(tree, chain.back(), number, body, limbs);
   }
+}
+
+/// Limbs between forks that are one place of the body: those beyond begin where they do.
+void merge_forks(std::vector<Limb>& limbs) {
+  std::vector<int> number(limbs.size());  // -1: merged
+  std::vector<Limb> kept;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    Limb limb = std::move(limbs[i]);
+    while (limb.parent >= 0 && number[limb.parent] < 0) {
+      const Limb& fork = limbs[limb.parent];
+      limb.line.insert(limb.line.begin(), fork.line.begin(), fork.line.end() - 1);
+      limb.inner.insert(limb.inner.begin(), fork.inner.begin(), fork.inner.end() - 1);
+      limb.parent = fork.parent;
+    }
+    const bool short_fork =
+        limb.end == Limb::End::fork &&
+        length(limb) < least_trunk * std::max(limb.inner.front(), limb.inner.back());
+    number[i] = short_fork ? -1 : static_cast<int>(kept.size());
+    if (short_fork) {
+      limbs[i] = std::move(limb);
+      continue;
+    }
+    if (limb.parent >= 0) limb.parent = number[limb.parent];
+    kept.push_back(std::move(limb));
+  }
+  limbs = std::move(kept);
 }
 
 /// The points of each component, the component of the lowest point first.
@@ -254,7 +281,7 @@ std::vector<std::vector<int>> components_of(const CurveGraph& graph) {
 }
 
 /// Too short for its width: what there is of limbs says nothing about the body.
-bool is_compact(const Tree& tree, int root, const std::vector<Limb>& limbs) {
+bool is_compact(const CurveTree& tree, int root, const std::vector<Limb>& limbs) {
   double longest = 0, second = 0;
   for (const Limb& limb : limbs) {
     if (limb.parent >= 0 || limb.end != Limb::End::tip) return false;
@@ -264,15 +291,16 @@ bool is_compact(const Tree& tree, int root, const std::vector<Limb>& limbs) {
     else
       second = std::max(second, now);
   }
-  return longest + second < least_length * 2 * tree.width[root];
+  return longest + second < least_both * 2 * tree.width[root];
 }
 
-std::vector<Limb> limbs_in(Tree& tree, const std::vector<int>& points, int body) {
+std::vector<Limb> limbs_in(CurveTree& tree, const std::vector<int>& points, int body) {
   const int root = middle_of(tree, points);
   grow(tree, root);
   prune(tree, points);
   std::vector<Limb> limbs;
   add_limbs(tree, root, -1, body, limbs);
+  merge_forks(limbs);
   if (!is_compact(tree, root, limbs)) return limbs;
   Points skin;
   for (const int point : points)
@@ -321,7 +349,7 @@ std::vector<Limb> axis_limbs(const Points& skin) {
 }
 
 std::vector<Limb> limbs_of(const CurveGraph& graph) {
-  Tree tree(graph);
+  CurveTree tree(graph);
   std::vector<Limb> limbs;
   int body = 0;
   for (const std::vector<int>& points : components_of(graph)) {

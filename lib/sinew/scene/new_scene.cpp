@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/new_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/text.h>
+#include <sinew/fill/fill_limits.h>
+#include <sinew/fill/pack.h>
+#include <sinew/mesh/curve_skeleton.h>
+#include <sinew/rig/limb_bones.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/guess.h>
+#include <sinew/scene/new_choices.h>
+#include <sinew/scene/rig_choice.h>
+
+namespace sinew {
+namespace {
+
+// Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
+constexpr double fewest = 3000, most = 16000, most_if_split = 60000;
+constexpr double across = 4.5;      // particles across a limb
+constexpr double thin_share = 0.1;  // of the limbs' length is thinner than what counts as thin
+constexpr double pictures = 24;     // per second
+// A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
+// of waves, and with them steps per second, go with the size.
+constexpr double usual_size = 0.5, usual_modulus = 10e3;
+constexpr double layer_share = 1.0 / 40;  // thickness of a layer along a mesh without inside
+
+double longest_side(const Surface& surface) {
+  return bounds(surface.triangles.points).sizes().maxCoeff();
+}
+
+/// Reads the mesh; unit and axes as guessed.
+Surface read_guessing(NewChoices& choices) {
+  BodyOptions& body = choices.settings.body;
+  Surface surface = read_body_mesh(body);
+  const UnitGuess unit = guess_unit(body.mesh, longest_side(surface));
+  const UpGuess up = guess_up(body.mesh, bounds(surface.triangles.points));
+  body.unit = unit.unit, choices.unit = unit.why;
+  body.up = up.up, choices.axes = up.why;
+  if (up.up == Axis::y) body.forward = Axis::z;
+  if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
+  if (ambiguous_share(surface) > most_ambiguous || !(volume_inside(surface) > 0))
+    body.thickness = layer_share * longest_side(surface);
+  return surface;
+}
+
+/// The limbs by the curves of the skin, or along the longest axis of its points.
+std::vector<Limb> limbs_in(const Surface& surface) {
+  try {
+    std::vector<Limb> limbs = limbs_of(curve_skeleton(surface.triangles));
+    if (!limbs.empty()) return limbs;
+  } catch (const Error&) {  // no closed surface can be made of the mesh
+  }
+  return axis_limbs(surface.triangles.points);
+}
+
+/// Distance from the surface along the limbs: a tenth of their length is thinner.
+double thin_inner(const std::vector<Limb>& limbs) {
+  std::vector<std::pair<double, double>> pieces;  // inner, length
+  double all = 0;
+  for (const Limb& limb : limbs) {
+    const std::size_t end = limb.line.size() - (limb.end == Limb::End::tip ? 1 : 0);
+    for (std::size_t i = 1; i < end; ++i) {
+      pieces.emplace_back(limb.inner[i], (limb.line[i] - limb.line[i - 1]).norm());
+      all += pieces.back().second;
+    }
+  }
+  std::sort(pieces.begin(), pieces.end());
+  double so_far = 0;
+  for (const auto& [inner, length] : pieces)
+    if ((so_far += length) >= thin_share * all) return inner;
+  return std::numeric_limits<double>::infinity();
+}
+
+/// As a person writes it.
+double three_figures(double value) {
+  const double step = std::pow(10, std::floor(std::log10(value)) - 2);
+  const double steps = std::round(value / step), parts = std::round(1 / step);
+  return parts > 1 ? steps / parts : steps * step;
+}
+
+FillReport filled(const NewChoices& choices, const Surface& surface) {
+  return fill_body(choices.settings, surface).report;
+}
+
+std::size_t bodies_in(const FillReport& report) {
+  return static_cast<std::size_t>(
+      std::count_if(report.bodies.begin(), report.bodies.end(),
+                    [](const BodyReport& b) { return b.particles > 0; }));
+}
+
+/// Makes particles smaller where parts of the body do not hold together.
+void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
+  BodyOptions& body = choices.settings.body;
+  const double area_of = area(surface.triangles);
+  const double volume =
+      body.thickness ? *body.thickness * area_of : std::max(volume_inside(surface), 0.0);
+  const double inner = std::min(thin_inner(limbs), 2 * volume / area_of);
+  const std::size_t parts = limbs.empty() ? 1 : static_cast<std::size_t>(limbs.back().body) + 1;
+  choices.thickness = 2 * inner;
+  const double wanted = inner / across;
+  body.radius = three_figures(
+      std::clamp(wanted, radius_for_count(volume, most), radius_for_count(volume, fewest)));
+  FillReport report = filled(choices, surface);
+  while (!body.thickness &&
+         static_cast<std::size_t>(report.groups) > std::max(bodies_in(report), parts) &&
+         static_cast<double>(report.particles) < most_if_split / 2) {
+    body.radius = three_figures(0.8 * *body.radius);
+    report = filled(choices, surface);
+  }
+  choices.particles = report.particles;
+  choices.size = "About " + std::to_string(report.particles) + " particles, " +
+                 three_digits(inner / *body.radius) + " across limbs that are " +
+                 three_digits(2 * inner) + " m thick";
+}
+
+void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
+  const double radius = *choices.settings.body.radius;
+  LimbRig rig = bones_of(limbs, {.radius = radius});
+  if (rig.tracks.empty()) {
+    Points skin;
+    for (const Limb& limb : limbs) skin.insert(skin.end(), limb.line.begin(), limb.line.end());
+    rig = bones_of(axis_limbs(skin), {.radius = radius});
+  }
+  choices.settings.bones = std::move(rig.bones);
+  choices.settings.tracks = std::move(rig.tracks);
+  const auto tips = std::count_if(limbs.begin(), limbs.end(),
+                                  [](const Limb& limb) { return limb.end == Limb::End::tip; });
+  choices.bones = std::to_string(choices.settings.bones.size()) + " bones along " +
+                  std::to_string(tips) + " limbs of the mesh, by its curve skeleton";
+  double last = 0;
+  for (const TrackDefinition& track : choices.settings.tracks)
+    last = std::max(last, *track.keys.back().time);
+  choices.settings.solver.duration = last + rest_after;
+}
+
+void choose_material(const Surface& surface, NewChoices& choices) {
+  const double share = longest_side(surface) / usual_size;
+  choices.settings.material.model = MaterialModel::bonded;
+  choices.settings.material.young_modulus = three_figures(usual_modulus * share * share);
+}
+
+void choose_binding(BindingOptions& binding) {
+  binding.joint_zone = 0.7;
+  binding.stiffness = binding.twist_stiffness = 6.4;
+  binding.axial_stiffness = 2.56;
+  if (binding.method == BindMethod::nearest) binding.method = BindMethod::inside;
+}
+
+}  // namespace
+
+NewScene new_scene(const NewSceneFiles& files) {
+  NewChoices choices;
+  Settings& settings = choices.settings;
+  settings.body.mesh = files.mesh;
+  settings.output.interval = 1 / pictures;
+  Surface surface = read_guessing(choices);
+  const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
+  if (!rig.empty()) surface = use_rig(rig, std::move(surface), choices);
+  const std::vector<Limb> limbs = limbs_in(surface);
+  choices.box = bounds(surface.triangles.points);
+  choose_radius(surface, limbs, choices);
+  if (rig.empty()) use_limbs(limbs, choices);
+  choose_material(surface, choices);
+  choose_binding(settings.binding);
+  const std::filesystem::path folder = std::filesystem::path(files.scene).parent_path();
+  return {new_scene_text(choices, folder), choices.unit, choices.axes, choices.bones, choices.size};
+}
+
+}  // namespace sinew
