@@ -45,9 +45,11 @@ std::string scene_path(const Options& options) {
 Exit make(Options options, const Common& common) {
   options.files.scene = scene_path(options);
   const NewScene scene = new_scene(options.files);
+  if (!scene.mesh.empty()) write_file(scene.mesh, scene.mesh_text);
   write_file(options.files.scene, scene.text);
   Results results;
   results.add("scene", options.files.scene);
+  if (!scene.mesh.empty()) results.add("mesh", scene.mesh);
   results.add("unit", scene.unit);
   results.add("up", scene.axes);
   results.add("bones", scene.bones);

@@ -24,6 +24,7 @@ struct NewChoices {
   double thickness = 0;                 ///< of its limbs, m
   std::vector<std::string> clips = {};  ///< others than the one that plays
   std::string clip_note = {};           ///< about that one
+  std::string refined_from = {};        ///< the file whose triangles were too large
 };
 
 /// The scene, as a file in `folder`.

@@ -13,6 +13,7 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/pack.h>
 #include <sinew/mesh/curve_skeleton.h>
+#include <sinew/mesh/refine.h>
 #include <sinew/rig/limb_bones.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/guess.h>
@@ -32,7 +33,7 @@ constexpr double pictures = 24;     // per second
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
 constexpr double layer_share = 1.0 / 40;  // thickness of a layer along a mesh without inside
 
-double longest_side(const Surface& surface) {
+double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
 }
 
@@ -40,14 +41,14 @@ double longest_side(const Surface& surface) {
 Surface read_guessing(NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
   Surface surface = read_body_mesh(body);
-  const UnitGuess unit = guess_unit(body.mesh, longest_side(surface));
+  const UnitGuess unit = guess_unit(body.mesh, extent(surface));
   const UpGuess up = guess_up(body.mesh, bounds(surface.triangles.points));
   body.unit = unit.unit, choices.unit = unit.why;
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
   if (ambiguous_share(surface) > most_ambiguous || !(volume_inside(surface) > 0))
-    body.thickness = layer_share * longest_side(surface);
+    body.thickness = layer_share * extent(surface);
   return surface;
 }
 
@@ -141,8 +142,30 @@ void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
   choices.settings.solver.duration = last + rest_after;
 }
 
+/// Sides no longer than half a limb's thickness, of so many faces at most.
+double bending_side(const Surface& surface, double thickness) {
+  constexpr double most_faces = 20e3;
+  return std::max(thickness / 2, std::sqrt(area(surface.triangles) / most_faces));
+}
+
+/// Replaces a mesh of large triangles, whose corners alone would show how the body bends.
+void refine_mesh(const std::string& scene, const Surface& surface, NewChoices& choices,
+                 NewScene& made) {
+  constexpr double too_long = 3;
+  const double side = bending_side(surface, choices.thickness);
+  if (longest_side(surface.triangles) <= too_long * side) return;
+  std::filesystem::path path = scene;
+  path.replace_filename(path.stem().string() + "_fine.obj");
+  made.mesh = path.string();
+  made.mesh_text = obj_text(refined(surface.triangles, side));
+  BodyOptions& body = choices.settings.body;
+  choices.refined_from = std::filesystem::path(body.mesh).filename().string();
+  body.mesh = made.mesh;
+  body.unit = LengthUnit::m, body.up = Axis::z, body.forward.reset();
+}
+
 void choose_material(const Surface& surface, NewChoices& choices) {
-  const double share = longest_side(surface) / usual_size;
+  const double share = extent(surface) / usual_size;
   choices.settings.material.model = MaterialModel::bonded;
   choices.settings.material.young_modulus = three_figures(usual_modulus * share * share);
 }
@@ -170,8 +193,12 @@ NewScene new_scene(const NewSceneFiles& files) {
   if (rig.empty()) use_limbs(limbs, choices);
   choose_material(surface, choices);
   choose_binding(settings.binding);
-  const std::filesystem::path folder = std::filesystem::path(files.scene).parent_path();
-  return {new_scene_text(choices, folder), choices.unit, choices.axes, choices.bones, choices.size};
+  NewScene made;
+  refine_mesh(files.scene, surface, choices, made);
+  made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
+  made.unit = choices.unit, made.axes = choices.axes;
+  made.bones = choices.bones, made.size = choices.size;
+  return made;
 }
 
 }  // namespace sinew

@@ -19,11 +19,13 @@ struct NewSceneFiles {
 
 struct NewScene {
   std::string text;                     ///< of the file, with comments
+  std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
 };
 
-/// Reads and measures the files, and fills the mesh once. Throws bad input, with the file, for what
-/// cannot be read or filled, and for a rig without a bone.
+/// A mesh whose triangles are too large to bend with the body is replaced by the same one in
+/// smaller triangles. Reads and measures the files, and fills the mesh once. Throws bad input, with
+/// the file, for what cannot be read or filled, and for a rig without a bone.
 NewScene new_scene(const NewSceneFiles& files);
 
 }  // namespace sinew

@@ -54,6 +54,10 @@ std::string note(const std::string& text) { return "  # " + text + '\n'; }
 std::string body_text(const NewChoices& choices, const std::filesystem::path& folder) {
   const Settings& s = choices.settings;
   std::string text = "body:\n  mesh: " + quoted(path_in(folder, s.body.mesh)) + '\n';
+  if (!choices.refined_from.empty())
+    text += note("It is " + choices.refined_from +
+                 " in triangles small enough to bend with the body,") +
+            note("in meters, z up.");
   text += note("Unit: " + choices.unit + '.') + key_text(s, "body", "unit");
   text += note("Up: " + choices.axes + '.') + key_text(s, "body", "up");
   if (s.body.forward) text += key_text(s, "body", "forward");
