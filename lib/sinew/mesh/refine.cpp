@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <sinew/core/text.h>
+#include <sinew/mesh/border.h>
 
 namespace sinew {
 namespace {
@@ -81,6 +82,27 @@ Triangles refined(Triangles surface, double longest) {
     if (!middles.any()) return surface;
     surface.faces = std::move(faces);
   }
+}
+
+Triangles thickened(const Triangles& surface, double thickness) {
+  const Points normals = point_normals(surface);
+  const int count = static_cast<int>(surface.points.size());
+  Triangles layer;
+  for (const double side : {thickness / 2, -thickness / 2})
+    for (int i = 0; i < count; ++i) layer.points.push_back(surface.points[i] + side * normals[i]);
+  for (const auto& [a, b, c] : surface.faces) {
+    layer.faces.push_back({a, b, c});
+    layer.faces.push_back({count + a, count + c, count + b});
+  }
+  const std::vector<EdgeUse> uses = edge_uses(surface);
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    if (edge.size() != 1) return;
+    const int from = edge[0].forward ? edge[0].low : edge[0].high;
+    const int to = edge[0].forward ? edge[0].high : edge[0].low;
+    layer.faces.push_back({to, from, count + from});
+    layer.faces.push_back({to, count + from, count + to});
+  });
+  return layer;
 }
 
 std::string obj_text(const Triangles& surface) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/rig/limb_bones.h>
+#include <sinew/rig/limbs.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -16,6 +16,7 @@ constexpr double root_share = 0.15;   // of two limbs, on either side of where t
 constexpr double least_bone = 3;      // length of bones in distances from the surface
 constexpr int most_alike = 5;         // bones of a straight limb
 constexpr double trunk_share = 0.4;   // of the angle, where a limb holds others
+constexpr double stout_share = 0.67;  // of the angle, where a limb is about as thick as long
 constexpr double long_trunk = 3;      // in distances from the surface: such limbs bend
 
 /// A line with the length up to each of its points.
@@ -27,8 +28,8 @@ class Course {
   }
 
   double length() const { return so_far_.back(); }
-  Vec3 at(double way) const { return mixed(line_, way); }
-  double inner(double way) const { return mixed(inner_, way); }
+  Vec3 at(double place) const { return mixed(line_, place); }
+  double inner(double place) const { return mixed(inner_, place); }
 
   /// Lengths along the line at which its bones between two places begin and end: within the
   /// tolerance of the line (Douglas and Peucker).
@@ -50,11 +51,11 @@ class Course {
 
  private:
   template <class T>
-  T mixed(const std::vector<T>& values, double way) const {
+  T mixed(const std::vector<T>& values, double place) const {
     std::size_t i = 1;
-    while (i + 1 < so_far_.size() && so_far_[i] < way) ++i;
+    while (i + 1 < so_far_.size() && so_far_[i] < place) ++i;
     const double span = so_far_[i] - so_far_[i - 1];
-    const double share = span > 0 ? std::clamp((way - so_far_[i - 1]) / span, 0.0, 1.0) : 0;
+    const double share = span > 0 ? std::clamp((place - so_far_[i - 1]) / span, 0.0, 1.0) : 0;
     return (1 - share) * values[i - 1] + share * values[i];
   }
 
@@ -116,7 +117,7 @@ class Maker {
 
  private:
   struct Begin {
-    double way;  ///< along the limb, where its first bone begins
+    double place;  ///< along the limb, where its first bone begins
     std::string parent;
     bool stem;  ///< the first bone does not move
   };
@@ -154,9 +155,9 @@ class Maker {
 
   double add_root_along(int limb) {
     const Course course(limbs_[limb]);
-    const double way = stem_of(course);
-    add_bone(root_, "", course.at(0), course.at(way));
-    return way;
+    const double place = stem_of(course);
+    add_bone(root_, "", course.at(0), course.at(place));
+    return place;
   }
 
   static double stem_of(const Course& course) {
@@ -186,26 +187,26 @@ class Maker {
     const std::string name = prefix_ + (trunk ? "trunk" : "limb") + std::to_string(number + 1);
     const double end =
         course.length() - (trunk ? 0 : std::min(options_.radius, course.length() / 4));
-    double way = begin.way;
+    double place = begin.place;
     std::string parent = begin.parent;
     if (begin.stem) {
-      way = stem_of(course);
-      add_bone(name, parent, course.at(0), course.at(way));
+      place = stem_of(course);
+      add_bone(name, parent, course.at(0), course.at(place));
       parent = name;
     }
     last_[number] = parent;
-    if (end - way < options_.radius) return;  // the stem is all there is
-    add_chain(number, name, parent, course, way, end);
+    if (end - place < options_.radius) return;  // the stem is all there is
+    add_chain(number, name, parent, course, place, end);
   }
 
   void add_chain(int number, const std::string& name, std::string parent, const Course& course,
-                 double way, double end) {
-    const double inner = mean_inner(course, way, end), from = way;
+                 double place, double end) {
+    const double inner = mean_inner(course, place, end), from = place;
     std::vector<double> knots;
-    course.add_knots(way, end, options_.radius / 2, knots);
-    const double longest = std::max((end - way) / most_alike, least_bone * inner);
-    knots = divided(way, knots, std::min(longest, std::max((end - way) / 2, 2 * inner)));
-    join_short(way, std::max(2 * options_.radius, inner / 2), knots);
+    course.add_knots(place, end, options_.radius / 2, knots);
+    const double longest = std::max((end - place) / most_alike, least_bone * inner);
+    knots = divided(place, knots, std::min(longest, std::max((end - place) / 2, 2 * inner)));
+    join_short(place, std::max(2 * options_.radius, inner / 2), knots);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < knots.size(); ++i) {
       names.push_back(name + '_' + std::to_string(i + 1));
@@ -213,7 +214,7 @@ class Maker {
       parent = names.back();
     }
     last_[number] = parent;
-    move(limbs_[number], names, course.at(end) - course.at(way), (end - way) / inner);
+    move(limbs_[number], names, course.at(end) - course.at(place), (end - place) / inner);
   }
 
   static double mean_inner(const Course& course, double from, double to) {
@@ -228,7 +229,10 @@ class Maker {
             double slender) {
     double angle = options_.angle;
     if (limb.on_ring && !fold_) return;
-    if (limb.end == Limb::End::fork) angle *= slender < long_trunk ? 0 : trunk_share;
+    if (limb.end == Limb::End::fork)
+      angle *= slender < long_trunk ? 0 : trunk_share;
+    else if (slender < long_trunk)
+      angle *= stout_share;
     if (angle == 0) return;
     const Vec3 axis = fold_ ? fold_axis() : bend_axis(chord);
     for (const std::string& name : names)

@@ -12,19 +12,17 @@
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/pack.h>
+#include <sinew/mesh/clean.h>
 #include <sinew/mesh/curve_skeleton.h>
 #include <sinew/mesh/refine.h>
-#include <sinew/rig/limb_bones.h>
+#include <sinew/rig/limbs.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/guess.h>
-#include <sinew/scene/new_choices.h>
-#include <sinew/scene/rig_choice.h>
 
 namespace sinew {
 namespace {
 
 // Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
-constexpr double fewest = 3000, most = 16000, most_if_split = 60000;
+constexpr double fewest = 3000, most = 10000, most_if_split = 60000;
 constexpr double across = 4.5;      // particles across a limb
 constexpr double thin_share = 0.1;  // of the limbs' length is thinner than what counts as thin
 constexpr double pictures = 24;     // per second
@@ -37,6 +35,16 @@ double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
 }
 
+/// Instead of a mesh without inside.
+Surface layer_along(const Surface& sheet, NewChoices& choices) {
+  const double thickness = layer_share * extent(sheet);
+  choices.changed = "a layer of " + three_digits(thickness) + " m along";
+  const Triangles layer = thickened(sheet.triangles, thickness);
+  PolygonSoup soup{layer.points, {}};
+  for (const auto& face : layer.faces) soup.polygons.emplace_back(face.begin(), face.end());
+  return clean(soup);
+}
+
 /// Reads the mesh; unit and axes as guessed.
 Surface read_guessing(NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
@@ -47,9 +55,8 @@ Surface read_guessing(NewChoices& choices) {
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (ambiguous_share(surface) > most_ambiguous || !(volume_inside(surface) > 0))
-    body.thickness = layer_share * extent(surface);
-  return surface;
+  if (ambiguous_share(surface) <= most_ambiguous && volume_inside(surface) > 0) return surface;
+  return layer_along(surface, choices);
 }
 
 /// The limbs by the curves of the skin, or along the longest axis of its points.
@@ -101,8 +108,7 @@ std::size_t bodies_in(const FillReport& report) {
 void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
   const double area_of = area(surface.triangles);
-  const double volume =
-      body.thickness ? *body.thickness * area_of : std::max(volume_inside(surface), 0.0);
+  const double volume = volume_inside(surface);
   const double inner = std::min(thin_inner(limbs), 2 * volume / area_of);
   const std::size_t parts = limbs.empty() ? 1 : static_cast<std::size_t>(limbs.back().body) + 1;
   choices.thickness = 2 * inner;
@@ -148,18 +154,21 @@ double bending_side(const Surface& surface, double thickness) {
   return std::max(thickness / 2, std::sqrt(area(surface.triangles) / most_faces));
 }
 
-/// Replaces a mesh of large triangles, whose corners alone would show how the body bends.
+/// Writes the mesh anew where its large triangles would not show how the body bends, or where it
+/// has been changed.
 void refine_mesh(const std::string& scene, const Surface& surface, NewChoices& choices,
                  NewScene& made) {
   constexpr double too_long = 3;
   const double side = bending_side(surface, choices.thickness);
-  if (longest_side(surface.triangles) <= too_long * side) return;
+  const bool coarse = longest_side(surface.triangles) > too_long * side;
+  if (!coarse && choices.changed.empty()) return;
   std::filesystem::path path = scene;
   path.replace_filename(path.stem().string() + "_fine.obj");
   made.mesh = path.string();
-  made.mesh_text = obj_text(refined(surface.triangles, side));
+  made.mesh_text = obj_text(coarse ? refined(surface.triangles, side) : surface.triangles);
   BodyOptions& body = choices.settings.body;
-  choices.refined_from = std::filesystem::path(body.mesh).filename().string();
+  if (choices.changed.empty()) choices.changed = "smaller triangles of";
+  choices.changed += ' ' + std::filesystem::path(body.mesh).filename().string();
   body.mesh = made.mesh;
   body.unit = LengthUnit::m, body.up = Axis::z, body.forward.reset();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/new_choices.h>
+#include <sinew/scene/new_scene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,16 +54,10 @@ std::string note(const std::string& text) { return "  # " + text + '\n'; }
 std::string body_text(const NewChoices& choices, const std::filesystem::path& folder) {
   const Settings& s = choices.settings;
   std::string text = "body:\n  mesh: " + quoted(path_in(folder, s.body.mesh)) + '\n';
-  if (!choices.refined_from.empty())
-    text += note("It is " + choices.refined_from +
-                 " in triangles small enough to bend with the body,") +
-            note("in meters, z up.");
+  if (!choices.changed.empty()) text += note("It holds " + choices.changed + ", in meters, z up.");
   text += note("Unit: " + choices.unit + '.') + key_text(s, "body", "unit");
   text += note("Up: " + choices.axes + '.') + key_text(s, "body", "up");
   if (s.body.forward) text += key_text(s, "body", "forward");
-  if (s.body.thickness)
-    text += note("The mesh has no inside: a layer along it is filled.") +
-            key_text(s, "body", "thickness");
   return text + note(choices.size + '.') + key_text(s, "body", "radius");
 }
 
