@@ -8,6 +8,7 @@
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/curve_skeleton.h>
 #include <sinew/mesh/refine.h>
+#include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/rig/binding.h>
 #include <sinew/rig/limbs.h>
@@ -182,6 +183,27 @@ TEST(Refined, KeepsPlacesVolumeAndClosure) {
   EXPECT_NEAR(volume(fine), 6, 1e-12);
   EXPECT_NEAR(area(fine), area(box), 1e-12);
   EXPECT_EQ(border_of(fine, edge_uses(fine), border_loops(edge_uses(fine))).edges, 0u);
+}
+
+TEST(Solids, AreClosedAndHaveTheirVolume) {
+  const Vec3 size(0.1, 0.2, 0.5);
+  const double pillar = pi / 4 * 0.1 * 0.2;
+  const std::array<double, 4> volumes = {0.01, pillar * 0.5 * 2 / 3, pillar * 0.5,
+                                         pillar * (0.4 + 0.1 * 2 / 3)};
+  for (int i = 0; i < 4; ++i) {
+    const Triangles body = solid(static_cast<SolidShape>(i), size);
+    EXPECT_EQ(border_of(body, edge_uses(body), border_loops(edge_uses(body))).edges, 0u);
+    EXPECT_NEAR(volume(body), volumes[i], 0.01 * volumes[i]);
+    EXPECT_TRUE(bounds(body.points).sizes().isApprox(size, 0.01));
+    EXPECT_EQ(bounds(body.points).min().z(), 0);
+  }
+  const Vec3 from(1, 2, 3), to(1.2, 1.9, 3.3);
+  const Triangles capsule = capsule_between(from, to, 0.05);
+  for (const Vec3& point : capsule.points) {
+    const double share =
+        std::clamp((point - from).dot(to - from) / (to - from).squaredNorm(), 0., 1.);
+    EXPECT_NEAR((point - from - share * (to - from)).norm(), 0.05, 1e-9);
+  }
 }
 
 TEST(Thickened, IsAClosedLayer) {

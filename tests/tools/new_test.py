@@ -51,6 +51,19 @@ class New(unittest.TestCase):
         self.assertIn("limb2_1", self.scene.read_text())
         self.runs()
 
+    def test_a_shape_without_a_mesh(self):
+        self.make("--shape", "capsule", "--size", "0.1,0.1,0.4")
+        self.assertTrue(self.scene.with_suffix(".obj").is_file())
+        self.runs()
+        self.assertIn("box, sphere", sinew("new", "--shape", "egg", check=2).stderr)
+        self.assertIn("three lengths", sinew("new", "--shape", "box", "--size", "1,2", check=2, cwd=self.folder).stderr)
+        self.assertIn("--shape", sinew("new", check=2).stderr)
+
+    def test_a_rig_alone_gets_a_skin(self):
+        made = self.make(SOURCE / "data/motions/walk.bvh")
+        self.assertIn("100 %", made["bones"])
+        sinew("check", self.scene, check=0)
+
     def test_a_sheet_becomes_a_layer(self):
         self.make(self.write("sheet.obj", SHEET))
         self.runs()

@@ -88,6 +88,7 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 
 constexpr double wanted_faces = 6000;   // half a second of contraction
+constexpr double least_faces = 800;     // of each part
 constexpr double small_part = 0.01;     // of the largest part's volume
 constexpr double wrapped_faces = 6000;  // of CGAL's wrap, 2.5 to a square of its length
 constexpr int rounds = 3;               // of remeshing: more change little
@@ -122,8 +123,11 @@ Mesh closed_mesh(const Triangles& surface, const Frame& frame) {
   return mesh;
 }
 
-void make_even(Mesh& mesh) {
-  const double edge = std::sqrt(pmp::area(mesh) / wanted_faces / 0.433);
+/// In some thousand faces for all parts together, and some hundred for each.
+void make_even(Mesh& mesh, double area_of_all) {
+  const double own = pmp::area(mesh);
+  const double faces = std::max(wanted_faces * own / area_of_all, least_faces);
+  const double edge = std::sqrt(own / faces / 0.433);
   pmp::isotropic_remeshing(mesh.faces(), edge, mesh, pmp::parameters::number_of_iterations(rounds));
   mesh.collect_garbage();
 }
@@ -174,8 +178,10 @@ bool any_overlap(const std::vector<Mesh>& parts) {
 CurveGraph contracted(std::vector<Mesh> parts, const Frame& frame) {
   CGAL::get_default_random() = CGAL::Random(0);  // whatever was computed before
   CurveGraph graph;
+  double area_of_all = 0;
+  for (const Mesh& part : parts) area_of_all += pmp::area(part);
   for (Mesh& part : parts) {
-    make_even(part);
+    make_even(part, area_of_all);
     contract(part, frame, graph);
   }
   return graph;

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
+#include <sinew/core/union_find.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/pack.h>
 #include <sinew/mesh/clean.h>
@@ -23,9 +26,10 @@ namespace {
 
 // Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
 constexpr double fewest = 3000, most = 10000, most_if_split = 60000;
-constexpr double across = 4.5;      // particles across a limb
-constexpr double thin_share = 0.1;  // of the limbs' length is thinner than what counts as thin
-constexpr double pictures = 24;     // per second
+constexpr double across = 4.5;       // particles across a limb
+constexpr double thin_share = 0.1;   // of the limbs' length is thinner than what counts as thin
+constexpr double most_loose = 0.01;  // of the particles, such as single ones at a tip
+constexpr double pictures = 24;      // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
@@ -94,14 +98,21 @@ double three_figures(double value) {
   return parts > 1 ? steps / parts : steps * step;
 }
 
-FillReport filled(const NewChoices& choices, const Surface& surface) {
-  return fill_body(choices.settings, surface).report;
-}
-
-std::size_t bodies_in(const FillReport& report) {
-  return static_cast<std::size_t>(
-      std::count_if(report.bodies.begin(), report.bodies.end(),
-                    [](const BodyReport& b) { return b.particles > 0; }));
+/// The share of the particles that do not belong to the `parts` largest groups that touch.
+double loose_share(const Particles& particles, std::size_t parts) {
+  const NeighborLists touching =
+      neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
+  const int count = static_cast<int>(particles.size());
+  UnionFind groups(particles.size());
+  for (int i = 0; i < count; ++i)
+    for (const std::uint32_t j : touching.of(i)) groups.join(i, static_cast<int>(j));
+  std::vector<std::size_t> sizes(particles.size());
+  for (int i = 0; i < count; ++i) ++sizes[groups.first_of(i)];
+  std::sort(sizes.rbegin(), sizes.rend());
+  const std::size_t held = std::accumulate(
+      sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(std::min(parts, sizes.size())),
+      std::size_t{0});
+  return 1 - static_cast<double>(held) / static_cast<double>(particles.size());
 }
 
 /// Makes particles smaller where parts of the body do not hold together.
@@ -110,20 +121,20 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
   const double area_of = area(surface.triangles);
   const double volume = volume_inside(surface);
   const double inner = std::min(thin_inner(limbs), 2 * volume / area_of);
-  const std::size_t parts = limbs.empty() ? 1 : static_cast<std::size_t>(limbs.back().body) + 1;
+  const std::size_t parts =
+      static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
   choices.thickness = 2 * inner;
   const double wanted = inner / across;
   body.radius = three_figures(
       std::clamp(wanted, radius_for_count(volume, most), radius_for_count(volume, fewest)));
-  FillReport report = filled(choices, surface);
-  while (!body.thickness &&
-         static_cast<std::size_t>(report.groups) > std::max(bodies_in(report), parts) &&
-         static_cast<double>(report.particles) < most_if_split / 2) {
+  Particles particles = fill_body(choices.settings, surface).particles;
+  while (loose_share(particles, parts) > most_loose &&
+         static_cast<double>(particles.size()) < most_if_split / 2) {
     body.radius = three_figures(0.8 * *body.radius);
-    report = filled(choices, surface);
+    particles = fill_body(choices.settings, surface).particles;
   }
-  choices.particles = report.particles;
-  choices.size = "About " + std::to_string(report.particles) + " particles, " +
+  choices.particles = particles.size();
+  choices.size = "About " + std::to_string(choices.particles) + " particles, " +
                  three_digits(inner / *body.radius) + " across limbs that are " +
                  three_digits(2 * inner) + " m thick";
 }

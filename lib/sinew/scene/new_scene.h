@@ -75,6 +75,10 @@ std::string new_scene_text(const NewChoices& choices, const std::filesystem::pat
 /// The mesh's own path if it holds a rig as well, else "".
 std::string rig_within(const std::string& mesh);
 
+/// A body for a rig alone: capsules around its bones, a fifth of their length thick on either side,
+/// in one skin. m, z up; rigs longer than 20 are taken for cm. Throws bad input, with the path.
+Triangles skin_of_rig(const std::string& path);
+
 /// Sets skeleton, motion, binding and duration. Of the axes that files usually have, and of the
 /// scales by which units differ, those count with which most of the bones lies inside the mesh;
 /// the mesh may be turned as well: returns its surface. Throws bad input, with the path.

@@ -9,6 +9,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/mesh/repair.h>
+#include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
@@ -135,7 +137,27 @@ void bend_ends(const Skeleton& skeleton, const Mat3& turn, NewChoices& choices) 
   choices.settings.solver.duration = 1.25 + rest_after;
 }
 
+constexpr double longest_rig_in_m = 20;  // of a rig; longer ones are in cm
+constexpr double thick_bone = 0.2, least_bone = 0.015, most_bone = 0.05;  // of its length, the rig
+
 }  // namespace
+
+Triangles skin_of_rig(const std::string& path) {
+  SkeletonOptions axes;
+  axes.up = usual_axes[0].up, axes.forward = usual_axes[0].forward;
+  Skeleton skeleton = read_rig(path, {}).rig.skeleton;
+  const bool long_rig = box_of(skeleton).sizes().maxCoeff() > longest_rig_in_m;
+  skeleton = placed(std::move(skeleton), long_rig ? 0.01 : 1, to_scene(axes));
+  const double size = box_of(skeleton).sizes().maxCoeff();
+  Triangles capsules;
+  double thinnest = most_bone * size;
+  for (const Bone& bone : skeleton.bones) {
+    const double radius = std::clamp(thick_bone * bone.length, least_bone * size, most_bone * size);
+    thinnest = std::min(thinnest, radius);
+    append(capsule_between(bone.head(), bone.tail(), radius), capsules);
+  }
+  return wrap(capsules, thinnest);
+}
 
 std::string rig_within(const std::string& mesh) { return holds_rig(mesh) ? mesh : ""; }
 
