@@ -151,18 +151,21 @@ void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
   choices.settings.tracks = std::move(rig.tracks);
   const auto tips = std::count_if(limbs.begin(), limbs.end(),
                                   [](const Limb& limb) { return limb.end == Limb::End::tip; });
-  choices.bones = std::to_string(choices.settings.bones.size()) + " bones along " +
-                  std::to_string(tips) + " limbs of the mesh, by its curve skeleton";
+  choices.bones = std::to_string(choices.settings.bones.size()) + " bones along ";
+  choices.bones +=
+      tips == 0 ? "the rings" : std::to_string(tips) + (tips == 1 ? " limb" : " limbs");
+  choices.bones += " of the mesh";
   double last = 0;
   for (const TrackDefinition& track : choices.settings.tracks)
     last = std::max(last, *track.keys.back().time);
   choices.settings.solver.duration = last + rest_after;
 }
 
-/// Sides no longer than half a limb's thickness, of so many faces at most.
+/// Sides no longer than half a limb's thickness, of so many faces at most: halving makes right
+/// triangles whose longest side is up to half as long.
 double bending_side(const Surface& surface, double thickness) {
-  constexpr double most_faces = 20e3;
-  return std::max(thickness / 2, std::sqrt(area(surface.triangles) / most_faces));
+  constexpr double most_faces = 40e3;
+  return std::max(thickness / 2, 4 * std::sqrt(area(surface.triangles) / most_faces));
 }
 
 /// Writes the mesh anew where its large triangles would not show how the body bends, or where it

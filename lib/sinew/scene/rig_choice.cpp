@@ -118,8 +118,8 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
       std::max(std::round((motion.preroll + played + rest_after) * 100) / 100, rest_after);
 }
 
-/// Bends the bones that hold no others, and those that hold these, where a rig has no clip.
-void bend_ends(const Skeleton& skeleton, const Mat3& turn, NewChoices& choices) {
+/// Bends the bones that hold no others, where a rig has no clip.
+void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
   std::vector<bool> holds(skeleton.size());
   for (const Bone& bone : skeleton.bones)
     if (bone.parent >= 0) holds[bone.parent] = true;
@@ -127,7 +127,7 @@ void bend_ends(const Skeleton& skeleton, const Mat3& turn, NewChoices& choices) 
     if (holds[b]) continue;
     TrackDefinition& track = choices.settings.tracks.emplace_back();
     track.bone = skeleton.bones[b].name;
-    const Vec3 axis = turn.transpose() * (turn * skeleton.bones[b].rest.rotation.col(1));
+    const Vec3 axis = skeleton.bones[b].rest.rotation.col(1);
     for (const auto& [time, angle] :
          {std::pair{0.0, 0.0}, {0.5, 20.0}, {0.75, 20.0}, {1.25, 0.0}}) {
       KeyDefinition& key = track.keys.emplace_back();
@@ -181,7 +181,7 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   if (!rig.weights.weights.empty() && placing.share >= least_share)
     settings.binding.method = BindMethod::file;
   choose_clip(rig.rig, choices);
-  if (rig.rig.clips.empty()) bend_ends(skeleton, to_scene(settings.skeleton), choices);
+  if (rig.rig.clips.empty()) bend_ends(skeleton, choices);
   return surface;
 }
 
