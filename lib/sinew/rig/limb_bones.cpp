@@ -131,7 +131,6 @@ class Maker {
       if (limbs_[i].body == body && limbs_[i].parent < 0) first.push_back(static_cast<int>(i));
     std::stable_sort(first.begin(), first.end(),
                      [&](int a, int b) { return length(limbs_[a]) > length(limbs_[b]); });
-    fold_ = first.size() == 2 && limbs_[first[0]].on_ring && limbs_[first[1]].on_ring;
     const double begun = first.size() == 2 ? add_root_between(first) : add_root_along(first[0]);
     for (const int i : first) {
       const bool two = first.size() == 2;
@@ -214,7 +213,7 @@ class Maker {
       parent = names.back();
     }
     last_[number] = parent;
-    move(limbs_[number], names, course.at(end) - course.at(place), (end - place) / inner);
+    move(number, names, course.at(end) - course.at(place), (end - place) / inner);
   }
 
   static double mean_inner(const Course& course, double from, double to) {
@@ -225,18 +224,31 @@ class Maker {
   }
 
   /// Bends the bones of a limb about one axis; `slender`: its length in distances from the surface.
-  void move(const Limb& limb, const std::vector<std::string>& names, const Vec3& chord,
-            double slender) {
+  void move(int number, const std::vector<std::string>& names, const Vec3& chord, double slender) {
+    const Limb& limb = limbs_[number];
+    const bool loop = closes_loop(number);
     double angle = options_.angle;
-    if (limb.on_ring && !fold_) return;
+    if (limb.on_ring && !loop) return;
     if (limb.end == Limb::End::fork)
       angle *= slender < long_trunk ? 0 : trunk_share;
     else if (slender < long_trunk)
       angle *= stout_share;
     if (angle == 0) return;
-    const Vec3 axis = fold_ ? fold_axis() : bend_axis(chord);
+    const Vec3 axis = bend_axis(loop ? Vec3(limb.line.back() - limb.line.front()) : chord);
     for (const std::string& name : names)
       rig_.tracks.push_back(track_of(name, axis, angle / static_cast<double>(names.size())));
+  }
+
+  /// Whether another limb from the same place ends where this one does: they bend as one, about one
+  /// axis.
+  bool closes_loop(int number) const {
+    const Limb& limb = limbs_[number];
+    for (const Limb& other : limbs_)
+      if (&other != &limb && other.body == limb.body && other.parent == limb.parent &&
+          other.end == Limb::End::ring && limb.end == Limb::End::ring &&
+          (other.line.back() - limb.line.back()).norm() < limb.inner.back())
+        return true;
+    return false;
   }
 
   /// Across the limb, towards the thin side of the body unless the limb goes there.
@@ -245,13 +257,6 @@ class Maker {
     const Vec3 direction = chord.normalized();
     const int side = std::abs(direction.dot(axes_.col(0))) < along ? 0 : 1;
     return direction.cross(axes_.col(side)).normalized();
-  }
-
-  /// Along the root: both sides of the ring then meet again.
-  Vec3 fold_axis() const {
-    for (const BoneDefinition& bone : rig_.bones)
-      if (bone.name == root_) return (*bone.tail - *bone.head).normalized();
-    return axes_.col(0);
   }
 
   TrackDefinition track_of(const std::string& bone, const Vec3& axis, double angle) const {
@@ -272,7 +277,6 @@ class Maker {
   std::vector<std::string> last_;  ///< bone of each limb at which others begin
   Mat3 axes_ = Mat3::Identity();
   std::string root_, prefix_;
-  bool fold_ = false;
 };
 
 }  // namespace
