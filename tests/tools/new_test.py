@@ -64,6 +64,13 @@ class New(unittest.TestCase):
         self.assertIn("100 %", made["bones"])
         sinew("check", self.scene, check=0)
 
+    def test_names_with_spaces_and_other_folders(self):
+        mesh = self.write("a part: #1.obj", BAR)
+        self.scene = self.folder / "sub/my scene.yaml"
+        self.scene.parent.mkdir()
+        self.make(mesh)
+        sinew("check", self.scene, check=0)
+
     def test_a_sheet_becomes_a_layer(self):
         self.make(self.write("sheet.obj", SHEET))
         self.runs()
@@ -71,7 +78,7 @@ class New(unittest.TestCase):
     def test_a_rig_gives_bones_weights_and_one_of_its_clips(self):
         self.make(SOURCE / "data/motions/fox.glb")
         text = self.scene.read_text()
-        for line in ("method: file", "clip: walk", "also holds: wag"):
+        for line in ("method: file", "clip: walk", "also holds: 'wag'"):
             self.assertIn(line, text)
         sinew("check", self.scene, check=0)
 

@@ -182,7 +182,7 @@ void refine_mesh(const std::string& scene, const Surface& surface, NewChoices& c
   made.mesh_text = obj_text(coarse ? refined(surface.triangles, side) : surface.triangles);
   BodyOptions& body = choices.settings.body;
   if (choices.changed.empty()) choices.changed = "smaller triangles of";
-  choices.changed += ' ' + std::filesystem::path(body.mesh).filename().string();
+  choices.changed += ' ' + shown(std::filesystem::path(body.mesh).filename().string());
   body.mesh = made.mesh;
   body.unit = LengthUnit::m, body.up = Axis::z, body.forward.reset();
 }

@@ -107,7 +107,8 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
   const Clip& clip = rig.clips.front();
   MotionOptions& motion = choices.settings.motion;
   if (rig.clips.size() > 1) motion.clip = clip.name;
-  for (std::size_t i = 1; i < rig.clips.size(); ++i) choices.clips.push_back(rig.clips[i].name);
+  for (std::size_t i = 1; i < rig.clips.size(); ++i)
+    choices.clips.push_back(shown(rig.clips[i].name));
   if (begins_elsewhere(rig.skeleton, clip.motion)) motion.preroll = preroll;
   const double played = std::min(clip.duration, longest_clip);
   choices.clip_note =
