@@ -16,6 +16,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,7 @@ constexpr double small_part = 0.01;     // of the largest part's volume
 constexpr double wrapped_faces = 6000;  // of CGAL's wrap, 2.5 to a square of its length
 constexpr int rounds = 3;               // of remeshing: more change little
 constexpr std::size_t most_contractions = 500;
+constexpr std::ptrdiff_t most_handles = 40;
 
 Vec3 vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -130,6 +132,16 @@ void make_even(Mesh& mesh, double area_of_all) {
   const double edge = std::sqrt(own / faces / 0.433);
   pmp::isotropic_remeshing(mesh.faces(), edge, mesh, pmp::parameters::number_of_iterations(rounds));
   mesh.collect_garbage();
+}
+
+/// A sponge has no limbs, and takes minutes to contract.
+void refuse_sponge(const Mesh& part) {
+  const auto count = [](std::size_t n) { return static_cast<std::ptrdiff_t>(n); };
+  const std::ptrdiff_t euler = count(part.number_of_vertices()) - count(part.number_of_edges()) +
+                               count(part.number_of_faces());
+  if (1 - euler / 2 > most_handles)
+    throw bad_input("the surface has " + std::to_string(1 - euler / 2) + " handles",
+                    "give the bones of a rig");
 }
 
 /// Adds the curves of one part.
@@ -181,6 +193,7 @@ CurveGraph contracted(std::vector<Mesh> parts, const Frame& frame) {
   double area_of_all = 0;
   for (const Mesh& part : parts) area_of_all += pmp::area(part);
   for (Mesh& part : parts) {
+    refuse_sponge(part);
     make_even(part, area_of_all);
     contract(part, frame, graph);
   }
