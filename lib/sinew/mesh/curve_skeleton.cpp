@@ -95,6 +95,7 @@ constexpr double wrapped_faces = 6000;  // of CGAL's wrap, 2.5 to a square of it
 constexpr int rounds = 3;               // of remeshing: more change little
 constexpr std::size_t most_contractions = 500;
 constexpr std::ptrdiff_t most_handles = 40;
+constexpr std::size_t most_parts = 40;  // each takes a tenth of a second
 
 Vec3 vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -175,7 +176,8 @@ std::vector<Mesh> parts_of(const Mesh& mesh) {
   std::sort(order.begin(), order.end());
   std::vector<Mesh> large;
   for (const auto& [volume, i] : order)
-    if (volume <= small_part * order.front().first) large.push_back(parts[i]);
+    if (volume <= small_part * order.front().first && large.size() < most_parts)
+      large.push_back(parts[i]);
   return large;
 }
 
