@@ -24,7 +24,8 @@ struct Known {
   std::string_view name, purpose;
 };
 
-constexpr std::array<Known, 8> commands = {{
+constexpr std::array<Known, 9> commands = {{
+    {"new", "write a scene for a mesh, which runs as it is"},
     {"run", "fill, simulate, render and measure a scene"},
     {"check", "report what a run needs, and doubtful settings"},
     {"fill", "fill a mesh with closest-packed particles"},

@@ -57,6 +57,12 @@ TEST(SelfIntersections, AreFoundInOpenAndCrowdedSurfacesToo) {
   EXPECT_GT(crossings(folded).pairs, 0u);
 }
 
+TEST(SelfIntersections, EndWhereFacesWithoutAreaHaveTwoPointsInOnePlace) {
+  const Triangles surface{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                          {{0, 1, 2}, {1, 0, 2}, {0, 2, 3}}};
+  EXPECT_EQ(self_intersections(surface).pairs, 0u);
+}
+
 TEST(SelfIntersections, StopWhereThereAreTooMany) {
   const auto soup = together(sphere(1, 4), sphere(1, 4, Vec3(0.01, 0.02, 0.03)));
   const SelfIntersections all = crossings(soup),

@@ -154,7 +154,8 @@ TEST_F(FrontTest, HelpListsTheCommands) {
   for (const char* help : {"--help", "-h", "help"}) {
     const Ran ran = sinew(help);
     EXPECT_EQ(ran.exit, 0);
-    for (const char* name : {"run", "check", "fill", "simulate", "measure", "render", "info"})
+    for (const char* name :
+         {"new", "run", "check", "fill", "simulate", "measure", "render", "info"})
       EXPECT_TRUE(holds(ran.out, std::string("\n  ") + name + ' ')) << name;
   }
 }
@@ -167,7 +168,7 @@ TEST_F(FrontTest, WrongUseIsOneLineWithAHint) {
   const std::pair<const char*, const char*> uses[] = {
       {"", "no command given"},
       {"simulat", "did you mean simulate?"},
-      {"dance", "use one of run, check"},
+      {"dance", "use one of new, run, check"},
       {"--quiet fill", "behind the command"},
       {"render", "sinew-render: cannot be started"}};
   for (const auto& [arguments, part] : uses) {

@@ -91,10 +91,13 @@ Middles middles_of(const Triangles& surface, const PairTest& test) {
   Middles middles;
   for (Face face : surface.faces) {
     if (!test.flat(face)) continue;
-    std::sort(face.begin(), face.end(), [&](int a, int b) {  // along the line they lie on
+    const auto before = [&](int a, int b) {  // along the line they lie on
       const Vec3 &p = surface.points[a], &q = surface.points[b];
       return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
-    });
+    };
+    std::sort(face.begin(), face.end(), before);
+    // Points of one place are not between others: two such faces would cut each other without end.
+    if (!before(face[0], face[1]) || !before(face[1], face[2])) continue;
     middles[{std::min(face[0], face[2]), std::max(face[0], face[2])}] = face[1];
   }
   return middles;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/new_scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+// Sizes of bodies, in the unit of their files. Parts for printers are in mm, figures of animators
+// in m or cm; few bodies that bend are longer than a whale.
+constexpr double longest_in_m = 20, longest_stl_in_m = 2, shortest_figure_in_cm = 50,
+                 longest_figure_in_cm = 300;
+constexpr double on_ground = 0.02;  // of the height
+
+std::string format_of(const std::filesystem::path& mesh) {
+  return lower(mesh.extension().string());
+}
+
+bool is_gltf(const std::string& format) { return format == ".glb" || format == ".gltf"; }
+
+std::string long_text(double longest) { return "the mesh is " + three_digits(longest) + " long"; }
+
+/// Whether the body stands on 0 along an axis, and lies on both sides of it along the others.
+bool stands(const Box& box, int axis) {
+  const Vec3 size = box.sizes();
+  bool on_zero = std::abs(box.min()[axis]) <= on_ground * size[axis];
+  for (int other = 0; other < 3; ++other)
+    if (other != axis)
+      on_zero =
+          on_zero && box.min()[other] < -0.2 * size[other] && box.max()[other] > 0.2 * size[other];
+  return on_zero;
+}
+
+}  // namespace
+
+UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
+  const std::string format = format_of(mesh);
+  if (is_gltf(format)) return {LengthUnit::m, "glTF is in meters"};
+  if (format == ".stl" && longest > longest_stl_in_m)
+    return {LengthUnit::mm, long_text(longest) + ", and STL is mostly in millimeters"};
+  if (longest <= longest_in_m) return {LengthUnit::m, long_text(longest) + ": meters fit"};
+  if (format != ".stl" && longest >= shortest_figure_in_cm && longest <= longest_figure_in_cm)
+    return {LengthUnit::cm, long_text(longest) + ": a figure in centimeters, or another unit"};
+  return {LengthUnit::mm, long_text(longest) + ": too long for meters, millimeters are usual"};
+}
+
+UpGuess guess_up(const std::filesystem::path& mesh, const Box& box) {
+  if (is_gltf(format_of(mesh))) return {Axis::y, "y is up in glTF"};
+  if (stands(box, 2)) return {Axis::z, "the body stands on z = 0"};
+  if (stands(box, 1)) return {Axis::y, "the body stands on y = 0"};
+  return {Axis::z, "nothing in the file says otherwise"};
+}
+
+}  // namespace sinew

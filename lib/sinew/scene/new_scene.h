@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A first scene for a mesh, with the bones and the clip of a rig or with bones of the mesh's own:
+// every choice that a person would make first, and why.
+//
+//     const NewScene scene = new_scene({"part.stl", "", "part.yaml"});
+//     write_file("part.yaml", scene.text);
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sinew/core/vector.h>
+#include <sinew/mesh/surface.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+struct NewSceneFiles {
+  std::string mesh;   ///< a path
+  std::string rig;    ///< a path; "": the mesh's own, if it has one
+  std::string scene;  ///< where the scene will be; paths in it are relative to its folder
+};
+
+struct NewScene {
+  std::string text;                     ///< of the file, with comments
+  std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
+  std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
+};
+
+/// A mesh whose triangles are too large to bend with the body is replaced by the same one in
+/// smaller triangles. Reads and measures the files, and fills the mesh once. Throws bad input, with
+/// the file, for what cannot be read or filled, and for a rig without a bone.
+NewScene new_scene(const NewSceneFiles& files);
+
+// What files of meshes do not say: the unit of their lengths, and where up is.
+
+struct UnitGuess {
+  LengthUnit unit = LengthUnit::m;
+  std::string why;
+};
+
+/// From the format and the longest side of the box, as the file has it.
+UnitGuess guess_unit(const std::filesystem::path& mesh, double longest);
+
+struct UpGuess {
+  Axis up = Axis::z;
+  std::string why;
+};
+
+/// From the format, and from the axis in which the body stands on 0, as the file has it.
+UpGuess guess_up(const std::filesystem::path& mesh, const Box& box);
+
+// What a new scene is made of, before it is text.
+
+/// Time of the scene after the motion, s.
+inline constexpr double rest_after = 0.2;
+
+struct NewChoices {
+  Settings settings;                    ///< paths relative to the current directory
+  std::string unit, axes, bones, size;  ///< why; see NewScene
+  std::size_t particles = 0;
+  Box box;                              ///< of the body, m
+  double thickness = 0;                 ///< of its limbs, m
+  std::vector<std::string> clips = {};  ///< others than the one that plays
+  std::string clip_note = {};           ///< about that one
+  std::string changed = {};             ///< what the written mesh is; "": the given one
+};
+
+/// The scene, as a file in `folder`.
+std::string new_scene_text(const NewChoices& choices, const std::filesystem::path& folder);
+
+// A rig comes into a scene with axes and scale, so that its bones lie in the mesh, and with a clip.
+
+/// The mesh's own path if it holds a rig as well, else "".
+std::string rig_within(const std::string& mesh);
+
+/// A body for a rig alone: capsules around its bones, a fifth of their length thick on either side,
+/// in one skin. m, z up; rigs longer than 20 are taken for cm. Throws bad input, with the path.
+Triangles skin_of_rig(const std::string& path);
+
+/// Sets skeleton, motion, binding and duration. Of the axes that files usually have, and of the
+/// scales by which units differ, those count with which most of the bones lies inside the mesh;
+/// the mesh may be turned as well: returns its surface. Throws bad input, with the path.
+Surface use_rig(const std::string& rig, Surface surface, NewChoices& choices);
+
+}  // namespace sinew

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/new_scene.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/mesh/repair.h>
+#include <sinew/mesh/solids.h>
+#include <sinew/mesh/winding.h>
+#include <sinew/rig/motion.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/scene_files.h>
+
+namespace sinew {
+namespace {
+
+constexpr double least_share = 0.5;  // of the bones inside the mesh, for them to belong together
+constexpr double longest_clip = 3;   // s of the scene, for a first picture
+constexpr double preroll = 0.5;      // s
+constexpr int places_per_bone = 5;
+
+struct Axes {
+  Axis up;
+  std::optional<Axis> forward;
+};
+
+constexpr std::array<Axes, 2> usual_axes = {{{Axis::y, Axis::z}, {Axis::z, std::nullopt}}};
+
+Winding winding_of(const Surface& surface) {
+  std::vector<std::array<Vec3, 3>> faces;
+  for (const Triangles* part : {&surface.triangles, &surface.caps})
+    for (const auto& [a, b, c] : part->faces)
+      faces.push_back({part->points[a], part->points[b], part->points[c]});
+  return Winding(std::move(faces));
+}
+
+/// Of the bones' length.
+double share_inside(const Skeleton& skeleton, const Winding& winding) {
+  double inside = 0, all = 0;
+  for (const Bone& bone : skeleton.bones)
+    for (int i = 0; i < places_per_bone; ++i) {
+      const Vec3 place = bone.head() + (i + 0.5) / places_per_bone * bone.length * bone.axis();
+      all += bone.length;
+      if (winding.around(place).value_or(0) > 0) inside += bone.length;
+    }
+  return inside / all;
+}
+
+Box box_of(const Skeleton& skeleton) {
+  Box box;
+  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
+  return box;
+}
+
+struct Placing {
+  Axes mesh, rig;
+  double scale = 1, share = -1;
+};
+
+/// Units in which rigs come, the mesh's own first, and what makes both equally high.
+std::vector<double> scales_of(const Skeleton& skeleton, const Surface& surface, LengthUnit unit) {
+  const double high = bounds(surface.triangles.points).sizes().maxCoeff();
+  return {meters(unit), 1,      0.01,
+          0.001,        0.0254, high / std::max(box_of(skeleton).sizes().maxCoeff(), 1e-12)};
+}
+
+/// The placing with which most of the bones lies inside; the first one of equals.
+Placing placing_of(const Skeleton& skeleton, const Surface& surface, const BodyOptions& body) {
+  Placing best;
+  const Winding winding = winding_of(surface);
+  const Mat3 now = to_scene(body);
+  const std::vector<double> scales = scales_of(skeleton, surface, body.unit);
+  for (const Axes& mesh : {Axes{body.up, body.forward}, usual_axes[0], usual_axes[1]}) {
+    BodyOptions turned;
+    turned.up = mesh.up, turned.forward = mesh.forward;
+    for (const Axes& rig : usual_axes) {
+      SkeletonOptions axes;
+      axes.up = rig.up, axes.forward = rig.forward;
+      const Mat3 turn = now * to_scene(turned).transpose() * to_scene(axes);
+      for (const double scale : scales) {
+        const double share = share_inside(placed(skeleton, scale, turn), winding);
+        if (share > best.share + 0.02) best = {mesh, rig, scale, share};
+      }
+    }
+  }
+  return best;
+}
+
+/// Whether the bones are elsewhere when the clip begins than at rest.
+bool begins_elsewhere(const Skeleton& skeleton, const Motion& motion) {
+  const Pose first = pose_at(skeleton, motion, 0);
+  const double near = 0.005 * box_of(skeleton).diagonal().norm();
+  for (std::size_t b = 0; b < skeleton.size(); ++b) {
+    const Bone& bone = skeleton.bones[b];
+    if ((first[b].carried(bone.tail(), bone) - bone.tail()).norm() > near) return true;
+  }
+  return false;
+}
+
+void choose_clip(const Rig& rig, NewChoices& choices) {
+  if (rig.clips.empty()) return;
+  const Clip& clip = rig.clips.front();
+  MotionOptions& motion = choices.settings.motion;
+  if (rig.clips.size() > 1) motion.clip = clip.name;
+  for (std::size_t i = 1; i < rig.clips.size(); ++i)
+    choices.clips.push_back(shown(rig.clips[i].name));
+  if (begins_elsewhere(rig.skeleton, clip.motion)) motion.preroll = preroll;
+  const double played = std::min(clip.duration, longest_clip);
+  choices.clip_note =
+      "The clip " + shown(clip.name) + " of the file, " + three_digits(clip.duration) + " s long";
+  if (played < clip.duration) choices.clip_note += "; solver.duration shows its beginning";
+  choices.clip_note += '.';
+  choices.settings.solver.duration =
+      std::max(std::round((motion.preroll + played + rest_after) * 100) / 100, rest_after);
+}
+
+/// Bends the bones that hold no others, where a rig has no clip.
+void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
+  std::vector<bool> holds(skeleton.size());
+  for (const Bone& bone : skeleton.bones)
+    if (bone.parent >= 0) holds[bone.parent] = true;
+  for (std::size_t b = 0; b < skeleton.size(); ++b) {
+    if (holds[b]) continue;
+    TrackDefinition& track = choices.settings.tracks.emplace_back();
+    track.bone = skeleton.bones[b].name;
+    const Vec3 axis = skeleton.bones[b].rest.rotation.col(1);
+    for (const auto& [time, angle] :
+         {std::pair{0.0, 0.0}, {0.5, 20.0}, {0.75, 20.0}, {1.25, 0.0}}) {
+      KeyDefinition& key = track.keys.emplace_back();
+      key.time = time, key.axis = axis, key.angle = angle;
+    }
+  }
+  choices.settings.solver.duration = 1.25 + rest_after;
+}
+
+constexpr double longest_rig_in_m = 20;  // of a rig; longer ones are in cm
+constexpr double thick_bone = 0.2, least_bone = 0.015, most_bone = 0.05;  // of its length, the rig
+
+}  // namespace
+
+Triangles skin_of_rig(const std::string& path) {
+  SkeletonOptions axes;
+  axes.up = usual_axes[0].up, axes.forward = usual_axes[0].forward;
+  Skeleton skeleton = read_rig(path, {}).rig.skeleton;
+  const bool long_rig = box_of(skeleton).sizes().maxCoeff() > longest_rig_in_m;
+  skeleton = placed(std::move(skeleton), long_rig ? 0.01 : 1, to_scene(axes));
+  const double size = box_of(skeleton).sizes().maxCoeff();
+  Triangles capsules;
+  double thinnest = most_bone * size;
+  for (const Bone& bone : skeleton.bones) {
+    const double radius = std::clamp(thick_bone * bone.length, least_bone * size, most_bone * size);
+    thinnest = std::min(thinnest, radius);
+    append(capsule_between(bone.head(), bone.tail(), radius), capsules);
+  }
+  return wrap(capsules, thinnest);
+}
+
+std::string rig_within(const std::string& mesh) { return holds_rig(mesh) ? mesh : ""; }
+
+Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
+  Settings& settings = choices.settings;
+  const SkinnedRig rig = read_rig(path, {});
+  const Skeleton& skeleton = rig.rig.skeleton;
+  const bool same = path == settings.body.mesh;
+  Placing placing = same ? Placing{usual_axes[0], usual_axes[0], 1, 1}
+                         : placing_of(skeleton, surface, settings.body);
+  settings.skeleton.file = path;
+  settings.skeleton.up = placing.rig.up, settings.skeleton.forward = placing.rig.forward;
+  settings.skeleton.scale = placing.scale;
+  const bool turned = settings.body.up != placing.mesh.up;
+  settings.body.up = placing.mesh.up, settings.body.forward = placing.mesh.forward;
+  if (turned) surface = read_body_mesh(settings.body), choices.axes = "the bones of the rig lie so";
+  choices.bones = std::to_string(skeleton.size()) + " bones of the rig, " +
+                  three_digits(std::round(100 * placing.share)) + " % of them inside the mesh";
+  if (same) choices.bones = std::to_string(skeleton.size()) + " bones of the file itself";
+  if (placing.share < least_share) choices.bones += ": see skeleton.scale, up and forward";
+  if (!rig.weights.weights.empty() && placing.share >= least_share)
+    settings.binding.method = BindMethod::file;
+  choose_clip(rig.rig, choices);
+  if (rig.rig.clips.empty()) bend_ends(skeleton, choices);
+  return surface;
+}
+
+}  // namespace sinew

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew-new: a scene for a mesh, which runs as it is.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/mesh/refine.h>
+#include <sinew/mesh/solids.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/new_scene.h>
+#include <sinew/scene/scene_files.h>
+#include "command/command.h"
+#include "command/results.h"
+
+namespace {
+
+using namespace sinew;
+
+struct Options {
+  NewSceneFiles files;
+  std::string shape;
+  std::string size = "0.1,0.1,0.4";
+  bool force = false;
+};
+
+void declare(OptionList& list, Options& options) {
+  list.add("MESH", options.files.mesh,
+           "Mesh (" + mesh_formats() + "); or a rig alone, which gets a skin");
+  std::string rig("Skeleton and clip (");
+  rig.append(rig_formats).append("); by default those of the mesh's file, or bones along limbs");
+  list.add("RIG", options.files.rig, rig);
+  list.add("-o", options.files.scene, "File of the scene; by default NAME-OF-MESH.yaml")
+      .type_name("FILE");
+  list.add("--shape", options.shape, "A body without a mesh: " + listed(solid_names))
+      .type_name("SHAPE");
+  list.add("--size", options.size, "Its sides along x, y, z in meters")
+      .type_name("X,Y,Z")
+      .show_default();
+  list.add_flag("--force", options.force, "Replace an older scene");
+}
+
+/// The scene's path, in the current directory by default.
+std::string scene_path(const Options& options) {
+  std::filesystem::path path = options.files.scene;
+  const std::string& from = options.shape.empty() ? options.files.mesh : options.shape;
+  if (path.empty()) path = std::filesystem::path(from).stem().replace_extension(".yaml");
+  if (!is_scene(path))
+    throw bad_input("'" + path.string() + "' is no name for a scene",
+                    "give a name that ends in .yaml");
+  if (std::filesystem::exists(path) && !options.force)
+    throw bad_input(Place{path.string()}, "is there already",
+                    "give another name with -o, or --force to replace it");
+  return path.string();
+}
+
+Vec3 size_of(const std::string& text) {
+  Vec3 size = Vec3::Zero();
+  char rest = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &size.x(), &size.y(), &size.z(), &rest);
+  if (read != 3 || !(size.minCoeff() > 0) || !(size.maxCoeff() < 1e6))
+    throw bad_input("--size " + shown(text) + " is no size",
+                    "give three lengths above 0 in meters, as in 0.1,0.1,0.4");
+  return size;
+}
+
+Triangles solid_of(const Options& options) {
+  const auto found = std::find(solid_names.begin(), solid_names.end(), options.shape);
+  if (found == solid_names.end())
+    throw bad_input("unknown shape " + shown(options.shape),
+                    suggestion(options.shape, solid_names));
+  const Vec3 size = size_of(options.size);
+  return refined(solid(static_cast<SolidShape>(found - solid_names.begin()), size),
+                 size.minCoeff() / 4);
+}
+
+/// Writes the mesh of a shape or of a rig alone beside the scene.
+void write_missing_mesh(Options& options) {
+  NewSceneFiles& files = options.files;
+  const bool rig_alone = options.shape.empty() && !holds_mesh(files.mesh);
+  if (options.shape.empty() && !rig_alone) return;
+  if (rig_alone && !files.rig.empty())
+    throw bad_input(Place{files.mesh}, "is no mesh", "give the mesh first, then the rig");
+  const Triangles body = rig_alone ? skin_of_rig(files.mesh) : solid_of(options);
+  if (rig_alone) files.rig = files.mesh;
+  std::filesystem::path path = files.scene;
+  path.replace_extension(".obj");
+  if (std::filesystem::exists(path) && !options.force)
+    throw bad_input(Place{path.string()}, "is there already",
+                    "give another name with -o, or --force to replace it");
+  files.mesh = path.string();
+  write_file(path, obj_text(body));
+}
+
+Exit make(Options options, const Common& common) {
+  if (options.shape.empty() == options.files.mesh.empty())
+    throw bad_input("a scene needs a mesh or a shape",
+                    "give MESH, or --shape; see sinew new --help");
+  options.files.scene = scene_path(options);
+  write_missing_mesh(options);
+  const NewScene scene = new_scene(options.files);
+  if (!scene.mesh.empty()) write_file(scene.mesh, scene.mesh_text);
+  write_file(options.files.scene, scene.text);
+  Results results;
+  results.add("scene", options.files.scene);
+  if (!scene.mesh.empty()) results.add("mesh", scene.mesh);
+  results.add("unit", scene.unit);
+  results.add("up", scene.axes);
+  results.add("bones", scene.bones);
+  results.add("size", scene.size);
+  results.add("run", "sinew run " + options.files.scene);
+  results.print(common.json);
+  return Exit::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return run_command(
+      argc, argv,
+      {"new",
+       "Writes a scene for a mesh, with bones and motion, which runs as it is.",
+       {"sinew new part.stl", "sinew new body.obj walk.bvh -o walk.yaml", "sinew new fox.glb",
+        "sinew new --shape capsule --size 0.1,0.1,0.5"},
+       false},
+      [&](OptionList& list) { declare(list, options); },
+      [&](const Common& common) { return make(options, common); });
+}
