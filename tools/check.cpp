@@ -12,10 +12,10 @@
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
-#include <sinew/scene/warnings.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/steps.h>
+#include <sinew/scene/warnings.h>
 #include <sinew/scene/world.h>
 #include <sinew/settings/read_scene.h>
 #include "command/command.h"

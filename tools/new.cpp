@@ -111,7 +111,7 @@ Exit make(Options options, const Common& common) {
   results.add("bones", scene.bones);
   results.add("size", scene.size);
   results.add("run", "sinew run " + options.files.scene);
-  results.print(common.json);
+  results.print(common);
   return Exit::done;
 }
 

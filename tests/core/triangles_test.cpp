@@ -61,7 +61,7 @@ TEST(Triangles, BoundsHoldAllPointsAndAreEmptyForNone) {
   const Box found = bounds({{1, 5, -3}, {-2, 6, 0}});
   EXPECT_EQ(found.min(), Vec3(-2, 5, -3));
   EXPECT_EQ(found.max(), Vec3(1, 6, 0));
-  EXPECT_TRUE(bounds({}).isEmpty());
+  EXPECT_TRUE(bounds(Points{}).isEmpty());
 }
 
 TEST(PointNormals, PointOutwardsAndWeighFacesByArea) {

@@ -150,13 +150,6 @@ struct Worst {
   }
 };
 
-/// The diagonal of the box around all bones, m.
-double extent_of(const Skeleton& skeleton) {
-  Box box;
-  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
-  return box.diagonal().norm();
-}
-
 Worst worst_of(const Skeleton& skeleton, const Motion& motion, double least_shift,
                const std::function<Gap(const Bone&, const Track&)>& gap_of) {
   Worst worst;
@@ -174,7 +167,7 @@ Worst worst_of(const Skeleton& skeleton, const Motion& motion, double least_shif
 
 double preroll_for(const Skeleton& skeleton, const Motion& motion) {
   constexpr double turn_per_second = pi / 2, sizes_per_second = 0.5;
-  const double size = extent_of(skeleton);
+  const double size = bounds(skeleton).diagonal().norm();
   double most = 0, shift = 0;
   for (const Track& track : motion.tracks) {
     const Bone& bone = skeleton.bones[static_cast<std::size_t>(track.bone)];

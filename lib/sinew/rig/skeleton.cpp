@@ -169,6 +169,12 @@ Skeleton make_skeleton(std::span<const BoneDefinition> bones) {
   return skeleton;
 }
 
+Box bounds(const Skeleton& skeleton) {
+  Box box;
+  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
+  return box;
+}
+
 Skeleton placed(Skeleton skeleton, const Placement& placement) {
   const Mat3& turn = placement.turn;
   for (Bone& bone : skeleton.bones) {

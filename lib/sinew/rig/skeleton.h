@@ -53,6 +53,9 @@ struct Skeleton {
   std::size_t size() const { return bones.size(); }
 };
 
+/// The box around all bones, m.
+Box bounds(const Skeleton& skeleton);
+
 /// The bone of a name that `key` gives. Throws bad_value where there is none.
 int bone_named(const Skeleton& skeleton, const std::string& name, const std::string& key);
 

@@ -14,9 +14,9 @@
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
-#include <sinew/scene/warnings.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+#include <sinew/scene/warnings.h>
 #include <sinew/settings/write_scene.h>
 
 namespace sinew {

@@ -90,6 +90,9 @@ std::string skeleton_text(const NewChoices& choices, const std::filesystem::path
   text += key_text(s, "skeleton", "up");
   if (s.skeleton.forward) text += key_text(s, "skeleton", "forward");
   if (s.skeleton.scale != 1) text += key_text(s, "skeleton", "scale");
+  if (s.skeleton.fit != Fit::none)
+    text += note("The rig lies elsewhere: scaled, rotated and moved into the mesh.") +
+            key_text(s, "skeleton", "fit");
   return text;
 }
 
@@ -111,7 +114,7 @@ std::string clip_text(const NewChoices& choices) {
     text += note("The file also holds: " + listed(others) + '.');
   }
   if (!s.motion.clip.empty()) text += key_text(s, "motion", "clip");
-  if (s.motion.preroll > 0)
+  if (s.motion.preroll.value_or(0) > 0)
     text += note("The clip does not begin at rest: the bones first move to its first pose.") +
             key_text(s, "motion", "preroll");
   return text.empty() ? "" : "\nmotion:\n" + text;

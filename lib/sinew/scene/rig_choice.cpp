@@ -12,7 +12,9 @@
 #include <sinew/mesh/repair.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
+#include <sinew/rig/fit.h>
 #include <sinew/rig/motion.h>
+#include <sinew/rig/motion_checks.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/scene_files.h>
 
@@ -21,7 +23,7 @@ namespace {
 
 constexpr double least_share = 0.5;  // of the bones inside the mesh, for them to belong together
 constexpr double longest_clip = 3;   // s of the scene, for a first picture
-constexpr double preroll = 0.5;      // s
+constexpr double well_inside = 0.8;  // a share that no fit improves
 constexpr int places_per_bone = 5;
 
 struct Axes {
@@ -51,12 +53,6 @@ double share_inside(const Skeleton& skeleton, const Winding& winding) {
   return inside / all;
 }
 
-Box box_of(const Skeleton& skeleton) {
-  Box box;
-  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
-  return box;
-}
-
 struct Placing {
   Axes mesh, rig;
   double scale = 1, share = -1;
@@ -66,7 +62,7 @@ struct Placing {
 std::vector<double> scales_of(const Skeleton& skeleton, const Surface& surface, LengthUnit unit) {
   const double high = bounds(surface.triangles.points).sizes().maxCoeff();
   return {meters(unit), 1,      0.01,
-          0.001,        0.0254, high / std::max(box_of(skeleton).sizes().maxCoeff(), 1e-12)};
+          0.001,        0.0254, high / std::max(bounds(skeleton).sizes().maxCoeff(), 1e-12)};
 }
 
 /// The placing with which most of the bones lies inside; the first one of equals.
@@ -83,7 +79,7 @@ Placing placing_of(const Skeleton& skeleton, const Surface& surface, const BodyO
       axes.up = rig.up, axes.forward = rig.forward;
       const Mat3 turn = now * to_scene(turned).transpose() * to_scene(axes);
       for (const double scale : scales) {
-        const double share = share_inside(placed(skeleton, scale, turn), winding);
+        const double share = share_inside(placed(skeleton, Placement{scale, turn}), winding);
         if (share > best.share + 0.02) best = {mesh, rig, scale, share};
       }
     }
@@ -91,15 +87,17 @@ Placing placing_of(const Skeleton& skeleton, const Surface& surface, const BodyO
   return best;
 }
 
-/// Whether the bones are elsewhere when the clip begins than at rest.
-bool begins_elsewhere(const Skeleton& skeleton, const Motion& motion) {
-  const Pose first = pose_at(skeleton, motion, 0);
-  const double near = 0.005 * box_of(skeleton).diagonal().norm();
-  for (std::size_t b = 0; b < skeleton.size(); ++b) {
-    const Bone& bone = skeleton.bones[b];
-    if ((first[b].carried(bone.tail(), bone) - bone.tail()).norm() > near) return true;
-  }
-  return false;
+/// Brings a rig into the mesh that lies elsewhere or in another pose, with the axes as they are.
+void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& settings,
+                   Placing& placing) {
+  if (placing.share >= well_inside) return;
+  const Skeleton there = placed(skeleton, placement_of(settings.skeleton));
+  const Placement fit = fit_to(surface.triangles, there);
+  const double share = share_inside(placed(there, fit), winding_of(surface));
+  if (share <= placing.share + 0.1) return;
+  settings.skeleton.fit = Fit::mesh;
+  placing.mesh = {settings.body.up, settings.body.forward};
+  placing.share = share;
 }
 
 void choose_clip(const Rig& rig, NewChoices& choices) {
@@ -109,14 +107,15 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
   if (rig.clips.size() > 1) motion.clip = clip.name;
   for (std::size_t i = 1; i < rig.clips.size(); ++i)
     choices.clips.push_back(shown(rig.clips[i].name));
-  if (begins_elsewhere(rig.skeleton, clip.motion)) motion.preroll = preroll;
+  const double preroll = preroll_for(rig.skeleton, clip.motion);
+  if (preroll > 0) motion.preroll = preroll;
   const double played = std::min(clip.duration, longest_clip);
   choices.clip_note =
       "The clip " + shown(clip.name) + " of the file, " + three_digits(clip.duration) + " s long";
   if (played < clip.duration) choices.clip_note += "; solver.duration shows its beginning";
   choices.clip_note += '.';
   choices.settings.solver.duration =
-      std::max(std::round((motion.preroll + played + rest_after) * 100) / 100, rest_after);
+      std::max(std::round((preroll + played + rest_after) * 100) / 100, rest_after);
 }
 
 /// Bends the bones that hold no others, where a rig has no clip.
@@ -147,9 +146,9 @@ Triangles skin_of_rig(const std::string& path) {
   SkeletonOptions axes;
   axes.up = usual_axes[0].up, axes.forward = usual_axes[0].forward;
   Skeleton skeleton = read_rig(path, {}).rig.skeleton;
-  const bool long_rig = box_of(skeleton).sizes().maxCoeff() > longest_rig_in_m;
-  skeleton = placed(std::move(skeleton), long_rig ? 0.01 : 1, to_scene(axes));
-  const double size = box_of(skeleton).sizes().maxCoeff();
+  const bool long_rig = bounds(skeleton).sizes().maxCoeff() > longest_rig_in_m;
+  skeleton = placed(std::move(skeleton), Placement{long_rig ? 0.01 : 1, to_scene(axes)});
+  const double size = bounds(skeleton).sizes().maxCoeff();
   Triangles capsules;
   double thinnest = most_bone * size;
   for (const Bone& bone : skeleton.bones) {
@@ -172,11 +171,13 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   settings.skeleton.file = path;
   settings.skeleton.up = placing.rig.up, settings.skeleton.forward = placing.rig.forward;
   settings.skeleton.scale = placing.scale;
+  fit_if_better(surface, skeleton, settings, placing);
   const bool turned = settings.body.up != placing.mesh.up;
   settings.body.up = placing.mesh.up, settings.body.forward = placing.mesh.forward;
   if (turned) surface = read_body_mesh(settings.body), choices.axes = "the bones of the rig lie so";
   choices.bones = std::to_string(skeleton.size()) + " bones of the rig, " +
                   three_digits(std::round(100 * placing.share)) + " % of them inside the mesh";
+  if (settings.skeleton.fit == Fit::mesh) choices.bones += ", where skeleton.fit brings them";
   if (same) choices.bones = std::to_string(skeleton.size()) + " bones of the file itself";
   if (placing.share < least_share) choices.bones += ": see skeleton.scale, up and forward";
   if (!rig.weights.weights.empty() && placing.share >= least_share)

@@ -102,16 +102,11 @@ void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
                        "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
 }
 
-Box box_of(const Skeleton& skeleton) {
-  Box box;
-  for (const Bone& bone : skeleton.bones) box.extend(bone.head()), box.extend(bone.tail());
-  return box;
-}
-
 /// Where the rig lies, if that is not where the body is, and what helps.
 std::string place_of_rig(const Body& body) {
-  const Box rig = box_of(body.skeleton), flesh = bounds(body.rest);
-  const std::string cure = "; set skeleton.fit to mesh, or give skeleton scale, rotation and offset";
+  const Box rig = bounds(body.skeleton), flesh = bounds(body.rest);
+  const std::string cure =
+      "; set skeleton.fit to mesh, or give skeleton scale, rotation and offset";
   const double ratio = rig.diagonal().norm() / flesh.diagonal().norm();
   if (ratio > 3 || ratio < 1.0 / 3)
     return ": the rig is " + three_digits(ratio) + " times as large as the body" + cure;
@@ -135,26 +130,25 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 /// Angles of 1.57 and the like, all of them small.
 void warn_of_radians(const Setup& setup, Warnings& warnings) {
   constexpr double twelfth = pi / 12, closeness = 0.005;  // as rounded to two or three digits
-  double most = 0;
+  double largest = 0;
   for (const Track& track : setup.motion.tracks)
     for (const Quat& rotation : track.rotation.values)
-      most = std::max(most, degrees(rotation_vector(rotation).norm()));
-  const double parts = std::round(most / twelfth);
-  if (most > 2 * pi || parts < 2 || std::abs(most - parts * twelfth) > closeness * twelfth * parts)
-    return;
-  if (std::abs(most - std::round(most)) < 1e-9) return;  // whole degrees
-  warnings.push_back("the largest rotation of a bone is " + three_digits(most) +
-                     " degrees, which is " + three_digits(degrees(most)) +
+      largest = std::max(largest, degrees(rotation_vector(rotation).norm()));
+  const double parts = std::round(largest / twelfth), off = largest - parts * twelfth;
+  if (largest > 2 * pi || parts < 2 || std::abs(off) > closeness * twelfth * parts) return;
+  if (std::abs(largest - std::round(largest)) < 1e-9) return;  // whole degrees
+  warnings.push_back("the largest rotation of a bone is " + three_digits(largest) +
+                     " degrees, which is " + three_digits(degrees(largest)) +
                      " degrees in radians: angles are in degrees");
 }
 
 /// Sizes that no soft body has: a unit is wrong.
 void warn_of_unit(const Body& body, Warnings& warnings) {
-  constexpr double largest = 30, smallest = 1e-3;  // m
+  constexpr double large = 30, small = 1e-3;  // m
   const double size = bounds(body.rest).diagonal().norm();
-  if (size <= largest && size >= smallest) return;
+  if (size <= large && size >= small) return;
   warnings.push_back("the body is " + three_digits(size) + " m across: if that is not its size, " +
-                     (size > largest ? "set body.unit to mm or cm" : "make body.scale larger"));
+                     (size > large ? "set body.unit to mm or cm" : "make body.scale larger"));
 }
 
 /// By bone: the distance from it, m, beyond which a particle's lever arm is too long.
