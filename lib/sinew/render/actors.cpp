@@ -6,7 +6,7 @@
 #include <vtkArrowSource.h>
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
-#include <vtkClipPolyData.h>
+#include <vtkClipClosedSurface.h>
 #include <vtkDoubleArray.h>
 #include <vtkFeatureEdges.h>
 #include <vtkFloatArray.h>
@@ -14,6 +14,7 @@
 #include <vtkNew.h>
 #include <vtkOpenGLSphereMapper.h>
 #include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -210,18 +211,6 @@ void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness
 
 namespace {
 
-/// The part on the side of the plane at `point` that its normal points to.
-vtkSmartPointer<vtkPolyData> clipped(vtkPolyData& data, const Vec3& point, const Vec3& normal) {
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(point.x(), point.y(), point.z());
-  plane->SetNormal(normal.x(), normal.y(), normal.z());
-  vtkNew<vtkClipPolyData> clip;
-  clip->SetInputData(&data);
-  clip->SetClipFunction(plane);
-  clip->Update();
-  return clip->GetOutput();
-}
-
 /// Points at the same place become one: outlines are edges without a neighbor.
 vtkSmartPointer<vtkPolyData> obstacles_within(const Triangles& obstacles, const Box& space) {
   vtkNew<vtkPolyData> data;
@@ -231,12 +220,20 @@ vtkSmartPointer<vtkPolyData> obstacles_within(const Triangles& obstacles, const 
   clean->SetInputData(data);
   clean->ConvertPolysToLinesOff();
   clean->Update();
-  vtkSmartPointer<vtkPolyData> part = clean->GetOutput();
-  for (int axis = 0; axis < 3; ++axis) {
-    part = clipped(*part, space.min(), Vec3::Unit(axis));
-    part = clipped(*part, space.max(), -Vec3::Unit(axis));
-  }
-  return part;
+  vtkNew<vtkPlaneCollection> sides;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3 origin = sign > 0 ? space.min() : space.max(), normal = sign * Vec3::Unit(axis);
+      vtkNew<vtkPlane> side;
+      side->SetOrigin(origin.x(), origin.y(), origin.z());
+      side->SetNormal(normal.x(), normal.y(), normal.z());
+      sides->AddItem(side);
+    }
+  vtkNew<vtkClipClosedSurface> clip;
+  clip->SetInputConnection(clean->GetOutputPort());
+  clip->SetClippingPlanes(sides);
+  clip->Update();
+  return clip->GetOutput();
 }
 
 }  // namespace

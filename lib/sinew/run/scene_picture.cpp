@@ -22,6 +22,13 @@ struct Scene {
   Triangles obstacles;
 };
 
+bool is_held(const Scene& scene, std::size_t particle) {
+  if (!scene.world) return false;
+  const auto& pins = scene.world->pins;
+  return std::any_of(pins.begin(), pins.end(),
+                     [&](const Pinned& pin) { return pin.particle == particle; });
+}
+
 /// The particle farthest from all bones, which do not hide it.
 std::size_t visible_particle(const Scene& scene) {
   std::size_t best = 0;
@@ -30,7 +37,7 @@ std::size_t visible_particle(const Scene& scene) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Bone& bone : scene.skeleton.bones)
       nearest = std::min(nearest, distance_to(bone, scene.rest[i]));
-    if (nearest > farthest) farthest = nearest, best = i;
+    if (nearest > farthest && !is_held(scene, i)) farthest = nearest, best = i;
   }
   return best;
 }
