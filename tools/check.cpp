@@ -9,7 +9,9 @@
 #include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/physics/rest_stability.h>
 #include <sinew/physics/time_step.h>
+#include <sinew/render/display.h>
 #include <sinew/run/run_folder.h>
+#include <sinew/run/scene_picture.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/rig.h>
@@ -155,8 +157,12 @@ void add_stepper(const StepperChoice& choice, Results& results) {
   results.add("instruction_set", kernel::name_of(choice.instructions));
 }
 
-Exit check(const std::string& scene, const Common& common) {
+Exit check(const std::string& scene, const std::string& picture, const Common& common) {
   refuse_mesh_as_scene(scene);
+  if (!picture.empty()) {
+    refuse_output(picture, {scene}, ".png");
+    ensure_display();
+  }
   const Settings settings = with_fit(read_scene(scene, common.overrides));
   const Surface surface = read_mesh(settings);
   const SceneFiles files = read_files(settings);
@@ -187,6 +193,10 @@ Exit check(const std::string& scene, const Common& common) {
   results.add("memory", bytes_text(needs.memory));
   results.add("particle_steps_per_second", rate);
   results.add("stepping_time", work / rate, "s");
+  if (!picture.empty()) {
+    write_scene_picture(scene_snapshot(setup, skin), {}, picture);
+    results.add("picture", picture);
+  }
   results.add("warnings", warnings.size());
   results.print(common);
   for (const std::string& warning : warnings)
@@ -197,13 +207,18 @@ Exit check(const std::string& scene, const Common& common) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene;
+  std::string scene, picture;
   return run_command(
       argc, argv,
       {"check",
        "Reports what a run needs, and doubtful settings of its scene.",
        {"sinew check configs/box_bend.yaml",
+        "sinew check configs/box_bend.yaml --picture scene.png",
         "sinew check configs/box_bend.yaml --set body.radius=0.005"}},
-      [&](OptionList& list) { list.add("SCENE", scene, "Scene file (YAML)").required(); },
-      [&](const Common& common) { return check(scene, common); });
+      [&](OptionList& list) {
+        list.add("SCENE", scene, "Scene file (YAML)").required();
+        list.add("--picture", picture, "Draw the scene: its bones in its mesh, with axes in meters")
+            .type_name("FILE.png");
+      },
+      [&](const Common& common) { return check(scene, picture, common); });
 }

@@ -10,6 +10,7 @@
 #include <sinew/render/display.h>
 #include <sinew/run/figure_set.h>
 #include <sinew/run/run_record.h>
+#include <sinew/run/scene_picture.h>
 #include "command/child.h"
 #include "command/command.h"
 #include "command/results.h"
@@ -138,6 +139,12 @@ void write_part(FigureSet& pages, const std::vector<int>& part) {
   }
 }
 
+/// Whether the pictures are those of a whole run, which begin with its scene.
+bool tells_all(const Options& options) {
+  const bool body = options.views.size() == 1 && options.views.front() == "body";
+  return !options.no_pictures && body && options.times.empty() && options.other_folder.empty();
+}
+
 Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
   FigureSetOptions figure_set = figure_set_options(options);
   std::vector<ViewPreset> presets;
@@ -171,6 +178,11 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
       pages.sheet();
     }
     if (!options.no_movie) pages.movie(helpers.sources(pages));
+  }
+  if (tells_all(options)) {
+    write_scene_picture(scene_snapshot(run), {options.width, options.height},
+                        (figure_set.folder / "scene.png").string());
+    ++pictures;
   }
   Results results;
   if (!options.no_pictures) results.add("pictures", pictures);

@@ -136,6 +136,66 @@ TEST(Picture, all_moments_have_lines_or_none_has) {
   EXPECT_EQ(differ(7.4), 0);
 }
 
+/// A square of 4 m across the viewer's direction, `away` from the origin towards the viewer.
+Triangles square(const Mat3& view, double away) {
+  const Vec3 right = 2 * view.row(0).transpose(), up = 2 * view.row(1).transpose(),
+             middle = away * view.row(2).transpose();
+  return {{middle - right - up, middle + right - up, middle + right + up, middle - right + up},
+          {{0, 1, 2}, {0, 2, 3}}};
+}
+
+TEST(Picture, obstacles_are_seen_and_seen_through) {
+  Snapshot snapshot;
+  snapshot.particles = {Vec3::Zero()};
+  snapshot.radius = 1;
+  const PictureOptions options{
+      View::particles, {three_quarter_view(), Box(Vec3(-4, -3, -4), Vec3(4, 3, 4))}, 320, 240, 0,
+      Finish::fine};
+  Painter painter({}, {});
+  const auto at = [&](double away, int x) {
+    snapshot.obstacles = away == 0 ? Triangles() : square(options.camera.view, away);
+    const Vec3 far = Vec3::Constant(9);
+    snapshot.obstacle_space = Box(-far, far);
+    const Image image = painter.draw(snapshot, options);
+    return Vec3(image.at(x, 120)[0], image.at(x, 120)[1], image.at(x, 120)[2]);
+  };
+  const int ball = 160, beside = 220;
+  EXPECT_EQ(at(0, beside), Vec3(255, 255, 255));
+  for (const double away : {-2.0, 2.0}) {
+    EXPECT_LT(at(away, beside).x(), 235) << away;
+    EXPECT_GT(at(away, beside).x(), 150) << away;
+  }
+  EXPECT_EQ(at(-2, ball), at(0, ball));  // hidden by the ball
+  EXPECT_GT((at(2, ball) - at(0, ball)).norm(), 10);
+  EXPECT_GT(at(2, ball).x() - at(2, ball).z(), 20);  // the ball's color through it
+}
+
+TEST(Picture, obstacles_end_with_their_space) {
+  Snapshot snapshot;
+  snapshot.radius = 1;
+  snapshot.obstacles = square(view_from({0, -1, 0}), 0);
+  snapshot.obstacle_space = Box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  const Box box = seen(view_from({0, -1, 0}), snapshot);
+  EXPECT_NEAR((box.sizes() - Vec3(2, 2, 0)).norm(), 0, 1e-12);
+  Painter painter({}, {});
+  const PictureOptions options{
+      View::both,  {view_from({0, -1, 0}), Box(Vec3(-4, -3, -4), Vec3(4, 3, 4))}, 320, 240, 0,
+      Finish::fine};
+  EXPECT_NEAR(painted(painter.draw(snapshot, options)), 4 / 48.0, 0.005);
+}
+
+TEST(Picture, held_particles_are_dark) {
+  Snapshot snapshot = two_spheres(three_quarter_view());
+  snapshot.marks = {Mark::held, Mark::none};
+  Painter painter({}, {"value", "", 0, 1});
+  const Image image = painter.draw(snapshot, options_for(snapshot, View::particles));
+  EXPECT_LT(image.at(35, 120)[2], 80);
+  EXPECT_GT(image.at(285, 120)[0], 150);
+  snapshot.marks.pop_back();
+  EXPECT_EQ(error_of([&] { painter.draw(snapshot, options_for(snapshot, View::both)); }).exit(),
+            Exit::bad_input);
+}
+
 TEST(Picture, an_empty_snapshot_is_white) {
   Painter painter({}, {});
   EXPECT_EQ(painted(painter.draw({}, {})), 0);

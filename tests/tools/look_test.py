@@ -147,6 +147,43 @@ class ViewPreset(unittest.TestCase):
             self.assert_one_line(self.render(*words), 2, part)
         self.assert_one_line(sinew("render", self.pictures), 2, "is not the folder of a run")
 
+    def test_the_pictures_of_a_run_begin_with_its_scene(self):
+        self.assertEqual(self.render("--no-movie").returncode, 0)
+        self.assertIn("scene.png", self.names())
+        self.assertEqual(size_of(self.pictures / "scene.png"), (320, 200))
+
+    def test_check_draws_the_scene(self):
+        scene, picture = SOURCE / "configs/box_bend.yaml", self.pictures / "scene.png"
+        done = sinew("check", scene, *SMALL, "--picture", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"picture: {picture}", done.stdout)
+        self.assertEqual(size_of(picture), (1280, 720))
+        self.assert_one_line(sinew("check", scene, *SMALL, "--picture", self.pictures / "scene.vtu"), 2, ".png")
+
+    def test_check_needs_a_display_for_the_picture_only(self):
+        scene, bare = SOURCE / "configs/box_bend.yaml", without("DISPLAY", PATH="/nonexistent")
+        self.assertEqual(sinew("check", scene, *SMALL, env=bare).returncode, 0)
+        done = sinew("check", scene, *SMALL, "--picture", self.pictures / "a.png", env=bare)
+        self.assert_one_line(done, 4, "apt-get install xvfb")
+
+    def test_obstacles_and_held_particles_change_the_pictures(self):
+        body = (f"body: {{mesh: {SOURCE}/data/meshes/box.obj, radius: 0.025}}\n"
+                "skeleton: {bones: [{name: all, head: [0, 0, 0], tail: [0, 0, 0.69]}]}\n"
+                "solver: {duration: 0.05}\noutput: {interval: 0.05}\n")
+        worlds = {"nothing": "", "obstacle": "obstacles: [{name: floor, shape: plane, point: [0, 0, -0.1]}]",
+                  "pins": "pins: [{low: [-1, -1, 0], high: [1, 1, 0.1]}]"}
+        drawn = {"scene.png": set(), "contact_sheet.png": set()}
+        for name, world in worlds.items():
+            scene, run = self.pictures / f"{name}.yaml", self.pictures / name
+            scene.write_text(body + f"world: {{{world}}}\n")
+            for words in (["simulate", "--quiet", scene, "-o", run], ["render", run, "--no-movie", *SIZE]):
+                done = sinew(*words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+            for picture, seen in drawn.items():
+                seen.add((run / "pictures" / picture).read_bytes())
+        for picture, seen in drawn.items():
+            self.assertEqual(len(seen), len(worlds), picture)
+
     def test_a_disk_that_is_full_is_one_line(self):
         few = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
         done = self.render("--no-movie", preexec_fn=few, restore_signals=False,

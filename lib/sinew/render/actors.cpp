@@ -5,16 +5,23 @@
 #include <vtkAppendPolyData.h>
 #include <vtkArrowSource.h>
 #include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkClipClosedSurface.h>
 #include <vtkDoubleArray.h>
+#include <vtkFeatureEdges.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkNew.h>
 #include <vtkOpenGLSphereMapper.h>
+#include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
@@ -25,7 +32,6 @@ namespace {
 
 constexpr Color skin_color{250, 218, 196};
 constexpr Color edge_color{104, 62, 42};
-constexpr Color plain_color{206, 164, 138};
 constexpr std::array<Color, 3> axis_colors{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
 
 vtkNew<vtkPoints> vtk_points(const Points& points) {
@@ -112,12 +118,26 @@ void add_balls(vtkRenderer& renderer, const Points& centers, double radius, cons
   add_actor(renderer, *mapper, color);
 }
 
+Color color_of(const Snapshot& snapshot, std::size_t particle, const ColorScale& scale) {
+  switch (snapshot.marks.empty() ? Mark::none : snapshot.marks[particle]) {
+    case Mark::held:
+      return palette::held;
+    case Mark::muscle:
+      return palette::muscle;
+    case Mark::sample:
+      return palette::sample;
+    case Mark::none:
+      break;
+  }
+  return snapshot.values.empty() ? palette::particle : scale.color(snapshot.values[particle]);
+}
+
 vtkNew<vtkUnsignedCharArray> colors_of(const Snapshot& snapshot, const ColorScale& scale) {
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(static_cast<vtkIdType>(snapshot.particles.size()));
   for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
-    const Color color = snapshot.values.empty() ? plain_color : scale.color(snapshot.values[i]);
+    const Color color = color_of(snapshot, i, scale);
     colors->SetTypedTuple(static_cast<vtkIdType>(i), color.data());
   }
   return colors;
@@ -187,6 +207,54 @@ void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness
   add_balls(renderer, joints, 0.55 * thickness, color);
   for (int k = 0; k < 3; ++k)  // the one along the bone covers it
     add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, axis_colors[k]);
+}
+
+namespace {
+
+/// Points at the same place become one: outlines are edges without a neighbor.
+vtkSmartPointer<vtkPolyData> obstacles_within(const Triangles& obstacles, const Box& space) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtk_points(obstacles.points));
+  data->SetPolys(vtk_cells(obstacles.faces));
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputData(data);
+  clean->ConvertPolysToLinesOff();
+  clean->Update();
+  vtkNew<vtkPlaneCollection> sides;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3 origin = sign > 0 ? space.min() : space.max(), normal = sign * Vec3::Unit(axis);
+      vtkNew<vtkPlane> side;
+      side->SetOrigin(origin.x(), origin.y(), origin.z());
+      side->SetNormal(normal.x(), normal.y(), normal.z());
+      sides->AddItem(side);
+    }
+  vtkNew<vtkClipClosedSurface> clip;
+  clip->SetInputConnection(clean->GetOutputPort());
+  clip->SetClippingPlanes(sides);
+  clip->Update();
+  return clip->GetOutput();
+}
+
+}  // namespace
+
+void add_obstacles(vtkRenderer& renderer, const Snapshot& snapshot, double line) {
+  const auto obstacles = obstacles_within(snapshot.obstacles, snapshot.obstacle_space);
+  if (obstacles->GetNumberOfCells() == 0) return;
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(obstacles);
+  vtkNew<vtkPolyDataMapper> faces;
+  faces->SetInputConnection(normals->GetOutputPort());
+  add_actor(renderer, *faces, palette::obstacle).SetAmbient(0.3);
+  vtkNew<vtkFeatureEdges> outlines;
+  outlines->SetInputData(obstacles);
+  outlines->NonManifoldEdgesOff();
+  outlines->ColoringOff();
+  vtkNew<vtkPolyDataMapper> edges;
+  edges->SetInputConnection(outlines->GetOutputPort());
+  vtkProperty& look = add_actor(renderer, *edges, palette::held);
+  look.LightingOff();
+  look.SetLineWidth(static_cast<float>(line));
 }
 
 namespace {

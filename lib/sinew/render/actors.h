@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The objects in a picture as VTK actors: particles, skin, edges, bones and arrows.
+// The objects in a picture as VTK actors: particles, skin, edges, bones, obstacles and
+// arrows.
 //
 //     add_particles(stage.renderer(), snapshot, scale);
 #pragma once
@@ -34,6 +35,9 @@ void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& ski
 /// Tubes with joints and their axes in red, green and blue, about `thickness` (m) thick.
 void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
                const Color& color);
+
+/// The obstacles within their space, with their outlines `line` rendered pixels wide.
+void add_obstacles(vtkRenderer& renderer, const Snapshot& snapshot, double line);
 
 /// Each arrow in its length, in the color of its value.
 void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);

@@ -32,6 +32,11 @@ Box seen(const Mat3& view, const Snapshot& snapshot) {
   for (const SnapshotArrow& arrow : snapshot.arrows) add(arrow.from + arrow.along, 0);
   for (const SnapshotBone& bone : snapshot.bones)
     add(bone.head, snapshot.radius), add(bone.tail, snapshot.radius);
+  if (snapshot.obstacles.points.empty()) return box;
+  const Box reach = bounds(snapshot.obstacles.points).intersection(snapshot.obstacle_space);
+  if (reach.isEmpty()) return box;
+  for (int corner = 0; corner < 8; ++corner)
+    add(reach.corner(static_cast<Box::CornerType>(corner)), 0);
   return box;
 }
 

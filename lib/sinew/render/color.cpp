@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include <sinew/render/snapshot.h>
-
 namespace sinew {
 namespace {
 
@@ -121,12 +119,6 @@ Color mapped_color(double position, ColorMap map) {
   if (std::isnan(position)) return palette::no_value;
   if (position < 0) return table.front();
   return table[static_cast<int>(std::lround(std::min(position, 1.0) * (steps - 1)))];
-}
-
-double ColorScale::position(double value) const {
-  if (std::isnan(value)) return value;
-  if (!(high > low) || value < low) return 0;
-  return std::min(1.0, (value - low) / (high - low));
 }
 
 }  // namespace sinew

@@ -11,7 +11,7 @@
 namespace sinew {
 namespace {
 
-constexpr Color slate{44, 58, 92}, ivory{250, 244, 230};
+constexpr Color ivory{250, 244, 230};
 
 void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& options) {
   const auto [small, large] = std::minmax(options.width, options.height);
@@ -20,6 +20,8 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
                     "choose 16 to 8192 pixels in both directions");
   if (!snapshot.values.empty() && snapshot.values.size() != snapshot.particles.size())
     throw bad_input("a snapshot has not one value per particle", "give one each, or none");
+  if (!snapshot.marks.empty() && snapshot.marks.size() != snapshot.particles.size())
+    throw bad_input("a snapshot has not one mark per particle", "give one each, or none");
   for (const int point : skin.source)
     if (point >= static_cast<int>(snapshot.surface.points.size()))
       throw bad_input("a snapshot's surface has fewer points than at rest",
@@ -42,10 +44,10 @@ void add_shadows(Exposure& exposure, double radius) {
   }
 }
 
-Image with_shadows(Exposure exposure, double radius) {
-  exposure.coverage = {};  // unused, and large in large pictures
+Exposure with_shadows(Exposure exposure, double radius) {
   add_shadows(exposure, radius);
-  return std::move(exposure.image);
+  exposure.coverage = {};  // unused, and large in large pictures
+  return exposure;
 }
 
 /// Blends `over` into the image where it covers anything.
@@ -58,6 +60,12 @@ void shine_through(Image& image, const Exposure& over, float strength) {
                              (1 - part) * static_cast<float>(image.rgb[c]));
     }
   }
+}
+
+/// What lies behind the picture's objects covers nothing.
+void hide_behind(const DepthImage& objects, Exposure& over) {
+  for (std::size_t i = 0; i < over.coverage.size(); ++i)
+    if (over.depth.depth[i] > objects.depth[i]) over.coverage[i] = 0;
 }
 
 /// Lightened toward white, so that what is drawn over it is visible.
@@ -86,38 +94,56 @@ struct Painter::Sizes {
 Painter::Painter(const Triangles& rest, ColorScale scale)
     : skin_(make_shading(rest)), scale_(std::move(scale)) {}
 
-Image Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones) {
+Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones) {
   add_particles(stage_.renderer(), snapshot, scale_);
   if (skin_and_bones) {
     add_creases(stage_.renderer(), snapshot, skin_,
                 {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
-  Image image = with_shadows(stage_.render(), 2 * sizes.grain);
-  if (!skin_and_bones || snapshot.bones.empty()) return image;
+  Exposure picture = with_shadows(stage_.render(), 2 * sizes.grain);
+  if (!skin_and_bones || snapshot.bones.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
-  shine_through(image, stage_.render(), 0.6F);
-  return image;
+  shine_through(picture.image, stage_.render(), 0.6F);
+  return picture;
 }
 
-Image Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
+Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_);
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, slate);
-  Image image = with_shadows(stage_.render(), 5 * sizes.grain);
-  if (snapshot.bones.empty()) return image;
-  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, slate);
-  shine_through(image, stage_.render(), 0.6F);
-  return image;
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
+  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain);
+  const Snapshot held = marked(snapshot, Mark::held);
+  if (snapshot.bones.empty() && held.particles.empty()) return picture;
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
+  add_particles(stage_.renderer(), held, scale_);
+  shine_through(picture.image, stage_.render(), 0.6F);
+  return picture;
 }
 
-Image Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
+Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  Image image = with_shadows(stage_.render(), 5 * sizes.grain);
-  pale(image);
-  return image;
+  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain);
+  pale(picture.image);
+  return picture;
+}
+
+void Painter::tint_muscles(Exposure& picture, const Snapshot& snapshot) {
+  const Snapshot muscles = marked(snapshot, Mark::muscle);
+  if (muscles.particles.empty()) return;
+  add_particles(stage_.renderer(), muscles, scale_);
+  shine_through(picture.image, stage_.render(), 0.4F);
+}
+
+/// Seen through the obstacles, where they are in front.
+void Painter::put_obstacles(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes) {
+  if (snapshot.obstacles.faces.empty()) return;
+  add_obstacles(stage_.renderer(), snapshot, sizes.line);
+  Exposure over = stage_.render();
+  hide_behind(picture.depth, over);
+  shine_through(picture.image, over, 0.38F);
 }
 
 Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
@@ -126,24 +152,37 @@ Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
   return options.finish == Finish::quick ? with_smooth_edges(image) : image;
 }
 
+Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) {
+  if (view == View::surface) return surface(snapshot, sizes);
+  if (view == View::particles || view == View::both)
+    return particles(snapshot, sizes, view == View::both);
+
+  Exposure picture = pale_skin(snapshot, sizes);
+  if (view == View::plan) tint_muscles(picture, snapshot);
+  if (view == View::plan || view == View::bones)
+    add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, palette::bone);
+  if (view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
+  if (view == View::plan)
+    for (const Mark mark : {Mark::held, Mark::sample})
+      add_particles(stage_.renderer(), marked(snapshot, mark), scale_);
+  Exposure over = stage_.render();
+  add_shadows(over, 2 * sizes.grain);
+  shine_through(picture.image, over, 1);
+  return picture;
+}
+
 Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
   const double pixel =
       meters_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim({options.camera, options.width, options.height, pixel, options.finish, options.tile});
-  const Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel,
-                    options.finish == Finish::fine ? 2.4 : 1.4};
-  if (options.view == View::surface) return surface(snapshot, sizes);
-  if (options.view == View::particles || options.view == View::both)
-    return particles(snapshot, sizes, options.view == View::both);
-
-  Image image = pale_skin(snapshot, sizes);
-  if (options.view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
-  if (options.view == View::bones) add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, slate);
-  Exposure over = stage_.render();
-  add_shadows(over, 2 * sizes.grain);
-  shine_through(image, over, 1);
-  return image;
+  constexpr double least_grain = 4;  // pixels: thinner bones would not be seen in a plan
+  Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel,
+              options.finish == Finish::fine ? 2.4 : 1.4};
+  if (options.view == View::plan) sizes.grain = std::max(sizes.grain, least_grain * pixel);
+  Exposure picture = body(snapshot, sizes, options.view);
+  put_obstacles(picture, snapshot, sizes);
+  return std::move(picture.image);
 }
 
 }  // namespace sinew

@@ -16,10 +16,13 @@ enum class View {
   both,       ///< the particles inside the wireframe of the skin, and the bones
   arrows,     ///< the snapshot's arrows inside a pale skin
   bones,      ///< the bones and their axes inside a pale skin
+  plan,       ///< the bones and marked particles inside a pale skin, muscles as a red tint
 };
 
 /// Whether its colors show values.
-constexpr bool shows_values(View view) { return view != View::surface && view != View::bones; }
+constexpr bool shows_values(View view) {
+  return view == View::particles || view == View::both || view == View::arrows;
+}
 
 struct PictureOptions {
   View view = View::both;
@@ -50,9 +53,12 @@ class Painter {
  private:
   struct Sizes;
   Image drawn(const Snapshot& snapshot, const PictureOptions& options);
-  Image particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
-  Image surface(const Snapshot& snapshot, const Sizes& sizes);
-  Image pale_skin(const Snapshot& snapshot, const Sizes& sizes);
+  Exposure body(const Snapshot& snapshot, const Sizes& sizes, View view);
+  Exposure particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
+  Exposure surface(const Snapshot& snapshot, const Sizes& sizes);
+  Exposure pale_skin(const Snapshot& snapshot, const Sizes& sizes);
+  void tint_muscles(Exposure& picture, const Snapshot& snapshot);
+  void put_obstacles(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
 
   Shading skin_;
   ColorScale scale_;

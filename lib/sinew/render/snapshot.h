@@ -4,6 +4,7 @@
 //     Snapshot snapshot{.caption = "t = 1 s", .particles = points, .radius = 0.01};
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,14 @@ struct SnapshotArrow {
   double value = 0;                                ///< shown in color
 };
 
+/// What a particle is, beside its value.
+enum class Mark : std::uint8_t {
+  none,
+  held,    ///< in place or on a bone, drawn dark
+  muscle,  ///< drawn red
+  sample,  ///< shown for its size
+};
+
 /// One moment. Any part may be empty and is then not drawn.
 struct Snapshot {
   std::string caption;         ///< below the picture, may have several lines
@@ -33,7 +42,13 @@ struct Snapshot {
   Triangles surface;           ///< the same faces in all snapshots of a run
   std::vector<SnapshotBone> bones;
   std::vector<SnapshotArrow> arrows;
+  std::vector<Mark> marks;  ///< one per particle; empty: none
+  Triangles obstacles;      ///< translucent
+  Box obstacle_space;       ///< they are drawn as far as they lie in it, in the scene's axes, m
 };
+
+/// The particles with this mark, without their values.
+Snapshot marked(const Snapshot& snapshot, Mark mark);
 
 /// The values that colors stand for, the same for all pictures of a run.
 struct ColorScale {

@@ -187,16 +187,18 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
           fill_facts(body_meta)};
 }
 
-/// "0.533 s" for the picture of frame 16, else the file name.
+/// "0.533 s" for the picture of frame 16; those without a number have captions of their own.
 std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
   const std::string name = picture.stem().string();
   const auto digits = name.find_first_of("0123456789");
+  if (name == "scene")
+    return "The scene at rest: the bones in the mesh from two sides, with axes in meters";
   if (digits == std::string::npos) return "Over time";
   const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);
   return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
 }
 
-/// The pictures in the folder: the contact sheet, then single moments in order.
+/// The pictures in the folder: the scene, the contact sheet, then single moments in order.
 std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
   std::vector<Picture> pictures;
   std::error_code none;
@@ -204,11 +206,12 @@ std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measur
     if (entry.path().extension() == ".png")
       pictures.push_back(
           {"pictures/" + entry.path().filename().string(), caption_of(entry.path(), measured)});
-  const auto is_sheet = [](const Picture& picture) {
-    return picture.path.find("contact_sheet") != std::string::npos;
+  const auto place = [](const Picture& picture) {
+    if (picture.path == "pictures/scene.png") return 0;
+    return picture.path.find("contact_sheet") != std::string::npos ? 1 : 2;
   };
   std::sort(pictures.begin(), pictures.end(), [&](const Picture& a, const Picture& b) {
-    return is_sheet(a) != is_sheet(b) ? is_sheet(a) : a.path < b.path;
+    return place(a) != place(b) ? place(a) < place(b) : a.path < b.path;
   });
   return pictures;
 }

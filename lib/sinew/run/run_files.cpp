@@ -15,6 +15,7 @@
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+#include <sinew/scene/world.h>
 #include <sinew/settings/read_scene.h>
 
 namespace sinew {
@@ -51,6 +52,14 @@ std::vector<PvdRow> rows_if_there(const RunFolder& folder, const char* series) {
   return there ? rows_of(folder, series) : std::vector<PvdRow>();
 }
 
+std::vector<std::array<int, 3>> triangles_in(const Dataset& data) {
+  std::vector<std::array<int, 3>> faces;
+  for (std::size_t c = 0; c < data.cells(); ++c)
+    faces.push_back(
+        {data.connectivity[3 * c], data.connectivity[3 * c + 1], data.connectivity[3 * c + 2]});
+  return faces;
+}
+
 /// The skin at rest, and the bone of each of its points.
 void read_rest_surface(RunFiles& run) {
   const auto file = run.folder.path / run.surface_rows.front().file;
@@ -67,9 +76,7 @@ void read_rest_surface(RunFiles& run) {
   Triangles& surface = run.surface;
   surface.points = data.points;
   for (std::size_t i = 0; i < moved.size(); ++i) surface.points[i] -= moved[i];
-  for (std::size_t c = 0; c < data.cells(); ++c)
-    surface.faces.push_back(
-        {data.connectivity[3 * c], data.connectivity[3 * c + 1], data.connectivity[3 * c + 2]});
+  surface.faces = triangles_in(data);
 }
 
 double field(const Dataset& data, const char* name) {
@@ -227,6 +234,7 @@ RunFiles open_run(const RunFolder& folder) {
   trim_rows(run);
   run.lbs_rows = thinned(rows_if_there(folder, "skin_lbs"), every);
   run.dqs_rows = thinned(rows_if_there(folder, "skin_dqs"), every);
+  run.obstacle_rows = thinned(rows_if_there(folder, "obstacles"), every);
   read_rest_surface(run);
   return run;
 }
@@ -238,6 +246,25 @@ RunFrame read_frame(const RunFiles& run, std::size_t index) {
   read_surface_points(run, index, frame);
   read_bones(run, index, frame);
   return frame;
+}
+
+Triangles read_obstacles(const RunFiles& run, std::size_t index) {
+  if (index >= run.obstacle_rows.size()) return {};
+  const auto file = run.folder.path / run.obstacle_rows[index].file;
+  Dataset data = read_vtu(file, {});
+  if (data.kind != CellKind::triangle)
+    throw bad_input(Place{file.string()}, "does not hold triangles", "run the scene again");
+  return {std::move(data.points), triangles_in(data)};
+}
+
+std::shared_ptr<const World> world_of_run(const RunFiles& run) {
+  if (run.settings.world.pins.empty() && run.settings.world.muscles.empty()) return nullptr;
+  Settings settings = run.settings;
+  settings.world.obstacles.clear();  // their meshes need not exist any more
+  const BodyFile body = read_body(run.folder.body());
+  const Body bound = make_body(settings, read_rig_files(settings), run.skeleton, body.particles,
+                               body.share.value_or(std::vector<double>()));
+  return world_of(settings, {}, bound).world;
 }
 
 FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {

@@ -7,6 +7,7 @@
 
 #include <deque>
 #include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include <sinew/metrics/rest_body.h>
 #include <sinew/physics/bond_factors.h>
 #include <sinew/physics/material.h>
+#include <sinew/physics/world/world.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/settings/settings.h>
@@ -36,6 +38,7 @@ struct RunFiles {
   std::vector<std::int32_t> surface_bone;  ///< that moves each point most, -1 for none
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< equally many of each
   std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the skinned surfaces; none if not written
+  std::vector<PvdRow> obstacle_rows;       ///< none without obstacles
 
   std::size_t frames_named = 0;  ///< by the longest series
 
@@ -62,6 +65,13 @@ struct RunFrame {
 
 /// Throws bad input, naming the file, where it is damaged or of another body.
 RunFrame read_frame(const RunFiles& run, std::size_t frame);
+
+/// All obstacles of a frame in the scene; empty where none are written. Throws as read_frame does.
+Triangles read_obstacles(const RunFiles& run, std::size_t frame);
+
+/// The held particles and the muscles of a run's body, by id; null for a run without them. Its
+/// obstacles are in the frames.
+std::shared_ptr<const World> world_of_run(const RunFiles& run);
 
 /// The frames of a run in order; the next ones are read while the caller works on the present one.
 class FramesInOrder {

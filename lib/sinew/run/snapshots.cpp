@@ -15,6 +15,7 @@
 #include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
+#include <sinew/run/scene_picture.h>
 
 namespace sinew {
 
@@ -167,17 +168,41 @@ DrawnRun::DrawnRun(const std::string& folder, const std::vector<ViewPreset>& pre
   for (const ViewPreset& preset : presets)
     views_.push_back(
         {preset, DrawnValues(run_, array.empty() ? std::string(preset.array) : array), {}});
+  if (const auto world = world_of_run(run_)) marks_ = written_marks(*world);
   read_overview(view, ahead);
+}
+
+/// Of the particles in the frames.
+std::vector<Mark> DrawnRun::written_marks(const World& world) const {
+  std::vector<Mark> marks(run_.body.particles.size(), Mark::none);
+  for (const Pinned& pin : world.pins) {
+    if (run_.ids.empty()) {
+      marks[pin.particle] = Mark::held;
+      continue;
+    }
+    const auto id = static_cast<std::int32_t>(pin.particle);
+    const auto at = std::lower_bound(run_.ids.begin(), run_.ids.end(), id);
+    if (at != run_.ids.end() && *at == id) marks[at - run_.ids.begin()] = Mark::held;
+  }
+  return marks;
 }
 
 void DrawnRun::read_overview(const Mat3& view, bool ahead) {
   FramesInOrder frames(run_, ahead);
+  Box body;
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
     overview_.angle.push_back(largest_turn(run_, frame));
     for (DrawnView& drawn : views_)
       widen(drawn.range, DrawnValues::range_of(drawn.values.at(i, frame)), i == 0);
+    body.extend(bounds(frame.positions)).extend(bounds(frame.surface_points));
     overview_.frame.extend(seen(view, snapshot_of(run_, std::move(frame), 0)));
+  }
+  overview_.obstacle_space = obstacle_space(body);
+  for (std::size_t i = 0; i < run_.obstacle_rows.size(); ++i) {
+    Snapshot obstacles;
+    add_obstacles(obstacles, i);
+    overview_.frame.extend(seen(view, obstacles));
   }
 }
 
@@ -223,9 +248,11 @@ void DrawnRun::cut_open(Snapshot& snapshot) const {
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (across.dot(rest[i]) > middle) continue;
     snapshot.particles[kept] = snapshot.particles[i];
+    if (!snapshot.marks.empty()) snapshot.marks[kept] = snapshot.marks[i];
     snapshot.values[kept++] = snapshot.values[i];
   }
   snapshot.particles.resize(kept);
+  if (!snapshot.marks.empty()) snapshot.marks.resize(kept);
   snapshot.values.resize(kept);
 }
 
@@ -243,11 +270,18 @@ void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView
   }
 }
 
+void DrawnRun::add_obstacles(Snapshot& snapshot, std::size_t index) const {
+  snapshot.obstacles = read_obstacles(run_, index);
+  snapshot.obstacle_space = overview_.obstacle_space;
+}
+
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
   std::vector<double> values = drawn.values.at(index, frame);
   Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
+  snapshot.marks = marks_;
+  add_obstacles(snapshot, index);
   if (drawn.preset.cut_open) cut_open(snapshot);
   if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);
   return snapshot;

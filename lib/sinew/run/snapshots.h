@@ -69,6 +69,7 @@ struct DrawnView {
 struct RunOverview {
   std::vector<double> angle;  ///< per frame: largest turn of a bone since rest, rad
   Box frame;                  ///< around the body at all times, in the camera's directions
+  Box obstacle_space = {};    ///< around it, m
 };
 
 class DrawnRun {
@@ -95,13 +96,16 @@ class DrawnRun {
 
  private:
   void read_overview(const Mat3& view, bool ahead);
+  std::vector<Mark> written_marks(const World& world) const;
   void cut_open(Snapshot& snapshot) const;
+  void add_obstacles(Snapshot& snapshot, std::size_t index) const;
   void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
 
   RunFiles run_;
   Mat3 view_;
   std::vector<DrawnView> views_;
   RunOverview overview_;
+  std::vector<Mark> marks_;  ///< of the written particles; empty: none
 };
 
 }  // namespace sinew

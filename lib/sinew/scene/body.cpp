@@ -50,9 +50,11 @@ void refuse_mesh_as_scene(const std::string& path) {
                     "make a scene of it and a mesh: sinew new MESH " + path);
 }
 
-void refuse_output(const std::string& output, std::initializer_list<std::string> inputs) {
-  if (std::filesystem::path(output).extension() != ".vtu")
-    throw bad_input("'" + output + "' is no name for a VTU file", "give a name that ends in .vtu");
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
+                   const std::string& extension) {
+  if (std::filesystem::path(output).extension() != extension)
+    throw bad_input("'" + output + "' is no name for a " + extension + " file",
+                    "give a name that ends in " + extension);
   std::error_code missing;
   for (const std::string& input : inputs)
     if (std::filesystem::equivalent(output, input, missing))

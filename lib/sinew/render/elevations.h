@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body from the front and from the side, to one scale, with axes in meters.
+//
+//     write_png(elevations(painter, snapshot, {.width = 1280}), "scene.png");
+#pragma once
+
+#include <vector>
+
+#include <sinew/render/picture.h>
+
+namespace sinew {
+
+/// Round numbers (1, 2 or 5 times a power of ten apart) from the last one below `low` to the first
+/// one above `high`.
+struct Ticks {
+  int mantissa = 1, exponent = 0;  ///< of the step
+  int first = 0, last = 1;         ///< in steps
+
+  double at(int tick) const;
+  double low() const { return at(first); }
+  double high() const { return at(last); }
+};
+
+/// `step`: the least distance between ticks, > 0.
+Ticks ticks_over(double low, double high, double step);
+
+struct ElevationOptions {
+  int width = 1280, height = 720;  ///< pixels
+  Finish finish = Finish::fine;
+};
+
+/// Front (x to the right) and side (y to the right), z up, as View::plan shows them; below them the
+/// caption, and what balls and colors mean. Throws as Painter::draw does.
+Image elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options);
+
+}  // namespace sinew

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/scene_picture.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <sinew/core/text.h>
+#include <sinew/rig/motion.h>
+#include <sinew/scene/rig.h>
+#include <sinew/scene/world.h>
+
+namespace sinew {
+namespace {
+
+/// What a picture shows of a scene.
+struct Scene {
+  const Skeleton& skeleton;
+  const Points& rest;  ///< of the particles, by id
+  double radius;
+  const World* world;
+  const Triangles& surface;
+  Triangles obstacles;
+};
+
+bool is_held(const Scene& scene, std::size_t particle) {
+  if (!scene.world) return false;
+  const auto& pins = scene.world->pins;
+  return std::any_of(pins.begin(), pins.end(),
+                     [&](const Pinned& pin) { return pin.particle == particle; });
+}
+
+/// The particle farthest from all bones, which do not hide it.
+std::size_t visible_particle(const Scene& scene) {
+  std::size_t best = 0;
+  double farthest = -1;
+  for (std::size_t i = 0; i < scene.rest.size(); ++i) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Bone& bone : scene.skeleton.bones)
+      nearest = std::min(nearest, distance_to(bone, scene.rest[i]));
+    if (nearest > farthest && !is_held(scene, i)) farthest = nearest, best = i;
+  }
+  return best;
+}
+
+void add_particles(const Scene& scene, Snapshot& snapshot) {
+  snapshot.radius = scene.radius;
+  if (scene.rest.empty()) return;
+  const auto add = [&](std::size_t i, Mark mark) {
+    snapshot.particles.push_back(scene.rest[i]);
+    snapshot.marks.push_back(mark);
+  };
+  if (scene.world) {
+    for (const Pinned& pin : scene.world->pins) add(pin.particle, Mark::held);
+    for (const std::uint32_t i : scene.world->muscles.active) add(i, Mark::muscle);
+  }
+  add(visible_particle(scene), Mark::sample);
+}
+
+Snapshot snapshot_of(Scene scene) {
+  Snapshot snapshot;
+  snapshot.caption = std::to_string(scene.rest.size()) + " particles, " +
+                     std::to_string(scene.skeleton.size()) + " bones";
+  snapshot.surface = scene.surface;
+  for (const Bone& bone : scene.skeleton.bones) {
+    const RigidFrame& rest = bone.rest;
+    snapshot.bones.push_back({rest.origin, rest.origin + bone.length * bone.axis(), rest.rotation});
+  }
+  add_particles(scene, snapshot);
+  snapshot.obstacles = std::move(scene.obstacles);
+  Box body = bounds(scene.surface.points);
+  for (const SnapshotBone& bone : snapshot.bones) body.extend(bone.head).extend(bone.tail);
+  snapshot.obstacle_space = obstacle_space(body);
+  return snapshot;
+}
+
+Triangles obstacles_at_start(const Setup& setup) {
+  Triangles all;
+  if (!setup.body.world) return all;
+  const Pose pose = pose_at(setup.body.skeleton, setup.motion, 0);
+  const WorldNow now = world_at(*setup.body.world, 0, pose);
+  for (std::size_t k = 0; k < setup.obstacles.size(); ++k) {
+    const RigidFrame& frame = now.obstacles[k].frame;
+    const int first = static_cast<int>(all.points.size());
+    for (const Vec3& point : setup.obstacles[k].points)
+      all.points.push_back(frame.origin + frame.rotation * point);
+    for (const auto& [a, b, c] : setup.obstacles[k].faces)
+      all.faces.push_back({first + a, first + b, first + c});
+  }
+  return all;
+}
+
+}  // namespace
+
+Box obstacle_space(const Box& body) {
+  constexpr double around = 0.15;  // of the diagonal: enough to recognize what a body touches
+  const Vec3 more = Vec3::Constant(around * body.diagonal().norm());
+  return Box(body.min() - more, body.max() + more);
+}
+
+Snapshot scene_snapshot(const Setup& setup, const Triangles& surface) {
+  const Body& body = setup.body;
+  return snapshot_of({body.skeleton, body.rest, body.material.pair.r, body.world.get(), surface,
+                      obstacles_at_start(setup)});
+}
+
+Snapshot scene_snapshot(const RunFiles& run) {
+  const Points rest =
+      positions_of(run.ids.empty() ? run.body.particles : read_body(run.folder.body()).particles);
+  const auto world = world_of_run(run);
+  return snapshot_of({run.skeleton, rest, run.body.particles.radius, world.get(), run.surface,
+                      read_obstacles(run, 0)});
+}
+
+void write_scene_picture(const Snapshot& scene, const ElevationOptions& options,
+                         const std::string& path) {
+  Painter painter(scene.surface, {});
+  write_png(elevations(painter, scene, options), path);
+}
+
+}  // namespace sinew

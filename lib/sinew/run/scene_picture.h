@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A picture of a scene before it is run: the bones in the translucent mesh, the size of a particle,
+// obstacles, held particles and muscles, with axes in meters.
+//
+//     write_scene_picture(scene_snapshot(setup, surface.triangles), {}, "scene.png");
+#pragma once
+
+#include <string>
+
+#include <sinew/render/elevations.h>
+#include <sinew/run/run_files.h>
+#include <sinew/scene/setup.h>
+
+namespace sinew {
+
+/// The part of the obstacles that is drawn: what lies around the body, `body` enlarged (m). Planes
+/// have no end, and what is far away would make the body small.
+Box obstacle_space(const Box& body);
+
+/// The scene at rest, its obstacles where they are at the start.
+Snapshot scene_snapshot(const Setup& setup, const Triangles& surface);
+
+/// The same from the files of its run.
+Snapshot scene_snapshot(const RunFiles& run);
+
+/// Needs a display. Throws not written, and as elevations() does.
+void write_scene_picture(const Snapshot& scene, const ElevationOptions& options,
+                         const std::string& path);
+
+}  // namespace sinew
