@@ -8,13 +8,14 @@ namespace sinew::guess_test {
 TEST(Guess, TakesMetersWhereTheyFit) {
   EXPECT_EQ(guess_unit("a.obj", 1.8).unit, LengthUnit::m);
   EXPECT_EQ(guess_unit("a.stl", 0.3).unit, LengthUnit::m);
-  EXPECT_EQ(guess_unit("a.glb", 180).unit, LengthUnit::m);
+  EXPECT_EQ(guess_unit("a.glb", 30).unit, LengthUnit::m);
 }
 
 TEST(Guess, TakesMillimetersForPartsAndCentimetersForFigures) {
   EXPECT_EQ(guess_unit("a.stl", 120).unit, LengthUnit::mm);
   EXPECT_EQ(guess_unit("a.ply", 1200).unit, LengthUnit::mm);
   EXPECT_EQ(guess_unit("a.obj", 180).unit, LengthUnit::cm);
+  EXPECT_EQ(guess_unit("a.glb", 180).unit, LengthUnit::cm);
 }
 
 TEST(Guess, TakesTheAxisInWhichTheBodyStands) {

@@ -5,6 +5,8 @@
 usage: /usr/bin/python3 new_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import json
+import re
+import struct
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,6 +16,24 @@ from small_run import SOURCE, sinew
 BAR = """v 0 0 0\nv 100 0 0\nv 0 100 0\nv 100 100 0\nv 0 0 500\nv 100 0 500\nv 0 100 500\nv 100 100 500
 f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\n"""
 SHEET = "v 0 0 0\nv .3 0 0\nv .3 .1 0\nv 0 .1 0\nf 1 2 3 4\n"
+
+
+def scaled(glb, factor):
+    """With all of it larger by its root, as exporters write other units."""
+    length = struct.unpack_from("<I", glb, 12)[0]
+    document = json.loads(glb[20:20 + length])
+    for node in document["scenes"][0]["nodes"]:
+        document["nodes"][node]["scale"] = 3 * [factor]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = glb[20 + length:]
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
+def corners_of(obj, smaller):
+    """Moved inward by so much along each axis; `obj` is a box from 0."""
+    corners = [[float(x) for x in line.split()[1:]] for line in obj.splitlines() if line[0] == "v"]
+    return [[x - smaller if x else smaller for x in corner] for corner in corners]
 
 
 class New(unittest.TestCase):
@@ -81,6 +101,27 @@ class New(unittest.TestCase):
         for line in ("method: file", "clip: walk", "also holds: 'wag'"):
             self.assertIn(line, text)
         sinew("check", self.scene, check=0)
+
+    def test_a_rig_in_centimeters_becomes_as_large_as_in_meters(self):
+        small, large = SOURCE / "data/motions/fox.glb", self.folder / "large.glb"
+        large.write_bytes(scaled(small.read_bytes(), 100))
+        radii = []
+        for glb, word in ((small, "glTF is in meters"), (large, "centimeters")):
+            self.assertIn(word, self.make(glb, "--force")["unit"])
+            radii.append(float(re.search(r"radius: (\S+)", self.scene.read_text()).group(1)))
+            bones = json.loads(sinew("check", self.scene, "--json", check=0).stdout)
+            self.assertEqual(bones["warnings"], [])
+        self.assertAlmostEqual(radii[0], radii[1], delta=1e-4)
+
+    def test_pieces_within_each_other_fill_as_one_body(self):
+        bar = self.write("bar.obj", BAR)
+        self.make(bar)
+        alone = self.runs("--set", "solver.duration=0.01")["particles"]
+        twice = BAR + "".join(f"v {x} {y} {z}\n" for x, y, z in corners_of(BAR, 5))
+        twice += "".join("f " + " ".join(str(int(i) + 8) for i in line.split()[1:]) + "\n"
+                         for line in BAR.splitlines() if line[0] == "f")
+        self.make(self.write("twice.obj", twice), "--force")
+        self.assertGreater(self.runs("--set", "solver.duration=0.01")["particles"], 0.8 * alone)
 
     def test_a_rig_of_its_own_axes_lies_in_the_mesh(self):
         made = self.make(SOURCE / "data/meshes/creature.ply", SOURCE / "data/motions/walk.bvh")

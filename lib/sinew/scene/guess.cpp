@@ -38,11 +38,12 @@ bool stands(const Box& box, int axis) {
 
 UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
   const std::string format = format_of(mesh);
-  if (is_gltf(format)) return {LengthUnit::m, "glTF is in meters"};
+  const bool like_figure = longest >= shortest_figure_in_cm && longest <= longest_figure_in_cm;
+  if (is_gltf(format) && !like_figure) return {LengthUnit::m, "glTF is in meters"};
   if (format == ".stl" && longest > longest_stl_in_m)
     return {LengthUnit::mm, long_text(longest) + ", and STL is mostly in millimeters"};
   if (longest <= longest_in_m) return {LengthUnit::m, long_text(longest) + ": meters fit"};
-  if (format != ".stl" && longest >= shortest_figure_in_cm && longest <= longest_figure_in_cm)
+  if (format != ".stl" && like_figure)
     return {LengthUnit::cm, long_text(longest) + ": a figure in centimeters, or another unit"};
   return {LengthUnit::mm, long_text(longest) + ": too long for meters, millimeters are usual"};
 }

@@ -26,6 +26,7 @@ namespace {
 
 // Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
 constexpr double fewest = 3000, most = 10000, most_if_split = 60000;
+constexpr double most_overlap = 0.8;  // of the volume by the faces lies there once
 constexpr double across = 4.5;       // particles across a limb
 constexpr double thin_share = 0.1;   // of the limbs' length is thinner than what counts as thin
 constexpr double most_loose = 0.01;  // of the particles, such as single ones at a tip
@@ -128,6 +129,11 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
   body.radius = three_figures(
       std::clamp(wanted, radius_for_count(volume, most), radius_for_count(volume, fewest)));
   Particles particles = fill_body(choices.settings, surface).particles;
+  const double count = static_cast<double>(particles.size());
+  if (wanted < *body.radius && count < most_overlap * most) {  // pieces lie within each other
+    body.radius = three_figures(std::max(wanted, *body.radius * std::cbrt(count / most)));
+    particles = fill_body(choices.settings, surface).particles;
+  }
   while (loose_share(particles, parts) > most_loose &&
          static_cast<double>(particles.size()) < most_if_split / 2) {
     body.radius = three_figures(0.8 * *body.radius);

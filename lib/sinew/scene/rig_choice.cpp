@@ -166,7 +166,7 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   const SkinnedRig rig = read_rig(path, {});
   const Skeleton& skeleton = rig.rig.skeleton;
   const bool same = path == settings.body.mesh;
-  Placing placing = same ? Placing{usual_axes[0], usual_axes[0], 1, 1}
+  Placing placing = same ? Placing{usual_axes[0], usual_axes[0], meters(settings.body.unit), 1}
                          : placing_of(skeleton, surface, settings.body);
   settings.skeleton.file = path;
   settings.skeleton.up = placing.rig.up, settings.skeleton.forward = placing.rig.forward;
