@@ -13,6 +13,7 @@
 #include <sinew/run/report_input.h>
 #include <sinew/run/run_record.h>
 #include "command/command.h"
+#include "command/progress.h"
 #include "command/results.h"
 
 namespace {
@@ -23,6 +24,7 @@ struct Options {
   std::vector<std::string> folders;
   std::vector<std::string> limits;
   std::string reference, arrays, out;
+  bool movie_follows = false;  ///< as part of sinew run, which draws the movie last
 };
 
 void declare(OptionList& list, Options& options) {
@@ -42,6 +44,7 @@ void declare(OptionList& list, Options& options) {
            "Also write these arrays of every particle and frame, as values.pvd: F, J, "
            "stress, ...; all")
       .type_name("NAMES");
+  list.add_flag("--movie-follows", options.movie_follows, "").group("");
 }
 
 double worst_of(const Measured& measured, const Metric& metric, const MetricSummary& summary) {
@@ -119,7 +122,9 @@ void write_tables(const RunFolder& folder, const Measured& measured) {
 Exit measure_folder(const Options& options, const Common& common) {
   if (!options.out.empty())
     throw bad_input("-o is for the comparison of two runs", "leave it out, or name two runs");
-  const MeasureOptions how = how_to_measure(options, common);
+  StageProgress progress("measuring", progress_style(common.quiet));
+  MeasureOptions how = how_to_measure(options, common);
+  how.progress = [&](std::size_t done, std::size_t of) { progress.at(done, of); };
   Stopwatch watch;
   const RunFiles run = open_run({options.folders.front()});
   if (run.frames() < run.frames_named)
@@ -136,7 +141,9 @@ Exit measure_folder(const Options& options, const Common& common) {
       !reasons.empty())
     say(common, "warning: this run is not to be trusted: at its worst, " + reasons);
   const Exit exit = told(measured.checks);
-  write_file(run.folder.path / "report.html", report_html(report_input(run, std::move(measured))));
+  const MovieLink movie = options.movie_follows ? MovieLink::follows : MovieLink::if_there;
+  write_file(run.folder.path / "report.html",
+             report_html(report_input(run, std::move(measured), movie)));
   return exit;
 }
 

@@ -13,6 +13,7 @@
 #include <sinew/run/scene_picture.h>
 #include "command/child.h"
 #include "command/command.h"
+#include "command/progress.h"
 #include "command/results.h"
 
 namespace {
@@ -26,6 +27,7 @@ struct Options {
   std::vector<int> part;  ///< of the movie's frames, which goes to standard output: K of N
   int width = 1280, height = 720;
   bool no_movie = false, no_pictures = false;
+  bool percents = false;  ///< of the progress, as lines on standard output, for sinew run
 };
 
 std::string help_of_views() {
@@ -57,6 +59,7 @@ void declare_what(OptionList& list, Options& options) {
   list.add_flag("--no-movie", options.no_movie, "Pictures only");
   list.add_flag("--no-pictures", options.no_pictures, "Movie only");
   list.add("--part", options.part).comma_separated().expected(2).group("");
+  list.add_flag("--percents", options.percents, "").group("");
   list.add("-o", options.target, "Folder of the pictures, by default DIR/pictures");
 }
 
@@ -139,6 +142,35 @@ void write_part(FigureSet& pages, const std::vector<int>& part) {
   }
 }
 
+/// Tells what share of the pictures is drawn.
+class Share {
+ public:
+  Share(const Options& options, const Common& common, std::size_t pictures)
+      : lines_(options.percents),
+        pictures_(pictures),
+        progress_("drawing", progress_style(common.quiet)) {}
+
+  void add_one() {
+    const std::size_t before = 100 * drawn_ / pictures_;
+    ++drawn_;
+    if (!lines_) return progress_.at(drawn_, pictures_);
+    if (100 * drawn_ / pictures_ > before)
+      print_out("percent " + std::to_string(100 * drawn_ / pictures_) + '\n');
+  }
+
+ private:
+  bool lines_;
+  std::size_t drawn_ = 0, pictures_;
+  StageProgress progress_;
+};
+
+/// Of one view, frames of the movie too.
+std::size_t pictures_planned(const Options& options, const DrawnRun& run) {
+  const std::size_t moments =
+      options.times.empty() ? run.key_frames().size() : options.times.size();
+  return (options.no_pictures ? 0 : moments) + (options.no_movie ? 0 : run.files().frames());
+}
+
 /// Whether the pictures are those of a whole run, which begin with its scene.
 bool tells_all(const Options& options) {
   const bool body = options.views.size() == 1 && options.views.front() == "body";
@@ -170,6 +202,8 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
   create({figure_set.folder});
   const PicturesLock lock(figure_set.folder);
   Helpers helpers(helpers_for(run, options), words);
+  Share share(options, common, presets.size() * pictures_planned(options, runs.front()));
+  figure_set.drawn = [&] { share.add_one(); };
   int pictures = 0;
   for (std::size_t preset = 0; preset < presets.size(); ++preset) {
     FigureSet pages(shown, preset, figure_set);
@@ -196,6 +230,7 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   Options options;
   About about{"render",
               "Draws pictures and a movie of a run.",

@@ -2,11 +2,13 @@
 // sinew-run: fills, simulates, measures, renders and reports, each by its own program.
 #include <fmt/format.h>
 #include <filesystem>
+#include <optional>
 
 #include <sinew/core/system.h>
 #include <sinew/run/run_folder.h>
 #include "command/child.h"
 #include "command/command.h"
+#include "command/progress.h"
 #include "command/results.h"
 
 namespace {
@@ -36,15 +38,21 @@ Words simulate_words(const Options& options, const Common& common, const std::st
   return words;
 }
 
-Words render_words(const char* without, const Common& common, const std::string& folder) {
+Words picture_words(const Common& common, const std::string& folder) {
   Words words = shared_words(common);
-  words.push_back(without);
-  words.insert(words.end(), {"--", folder});
+  words.insert(words.end(), {"--no-movie", "--", folder});
   return words;
 }
 
-Words measure_words(const Common& common, const std::string& folder) {
+Words movie_words(const Common& common, const std::string& folder) {
   Words words = shared_words(common);
+  words.insert(words.end(), {"--no-pictures", "--percents", "--", folder});
+  return words;
+}
+
+Words measure_words(const Options& options, const Common& common, const std::string& folder) {
+  Words words = shared_words(common);
+  if (!options.no_movie) words.push_back("--movie-follows");
   words.insert(words.end(), {"--", folder});
   return words;
 }
@@ -56,19 +64,21 @@ class Parts {
 
   /// Runs one part. It prints its own error message.
   Exit run(const std::string& command, const char* stage, const Words& words) {
-    Stopwatch watch;
     const ChildEnd end = run_child(command, words);
-    const double seconds = watch.lap();
-    total_ += seconds;
-    times_ += (times_.empty() ? "" : ", ") + std::string(stage) + ' ' + tenths(seconds);
-    const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
-    if (found.is_object()) collect(found);
-    for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
-                             Exit::not_written, Exit::interrupted})
-      if (end.exit == static_cast<int>(known)) return known;
-    throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
-                        (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
-                    "see whether memory ran out; run sinew " + command + " by itself");
+    spend(stage);
+    return exit_of(command, end);
+  }
+
+  /// Waits for a part that was at work beside the others.
+  Exit finish(Helper& part, const std::string& command, const char* stage, const Common& common) {
+    StageProgress progress(stage, progress_style(common.quiet));
+    const ChildEnd end = part.wait([&](const std::string& line) {
+      const bool percent = line.starts_with("percent ");
+      if (percent) progress.at(std::stoul(line.substr(8)), 100);
+      return percent;
+    });
+    spend(stage);
+    return exit_of(command, end);
   }
 
   /// Where what people look at lies.
@@ -84,6 +94,23 @@ class Parts {
   }
 
  private:
+  void spend(const char* stage) {
+    const double seconds = watch_.lap();
+    total_ += seconds;
+    times_ += (times_.empty() ? "" : ", ") + std::string(stage) + ' ' + tenths(seconds);
+  }
+
+  Exit exit_of(const std::string& command, const ChildEnd& end) {
+    const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
+    if (found.is_object()) collect(found);
+    for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
+                             Exit::not_written, Exit::interrupted})
+      if (end.exit == static_cast<int>(known)) return known;
+    throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
+                        (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
+                    "see whether memory ran out; run sinew " + command + " by itself");
+  }
+
   static std::string tenths(double seconds) { return fmt::format("{:.1f}", seconds); }
 
   void collect(const nlohmann::ordered_json& found) {
@@ -97,16 +124,23 @@ class Parts {
 
   Results results_;
   std::string folder_, times_;
+  Stopwatch watch_;
   double total_ = 0;  ///< s
 };
 
-/// The report includes the pictures, so they are made first; it does not wait for the movie.
+/// The report includes the pictures, so they are made first; it does not wait for the movie, which
+/// takes the time that they leave.
 Exit show(const Options& options, const Common& common, const std::string& folder, Parts& parts) {
-  Exit exit = parts.run("render", "pictures", render_words("--no-movie", common, folder));
-  if (exit == Exit::done) exit = parts.run("measure", "measuring", measure_words(common, folder));
+  std::optional<Helper> movie;
+  if (!options.no_movie) {
+    movie.emplace("render", movie_words(common, folder));
+    movie->yield();
+  }
+  Exit exit = parts.run("render", "pictures", picture_words(common, folder));
+  if (exit == Exit::done)
+    exit = parts.run("measure", "measuring", measure_words(options, common, folder));
   if (exit == Exit::done) parts.add_places(!options.no_movie);
-  if (exit == Exit::done && !options.no_movie)
-    exit = parts.run("render", "movie", render_words("--no-pictures", common, folder));
+  if (exit == Exit::done && movie) exit = parts.finish(*movie, "render", "movie", common);
   return exit;
 }
 

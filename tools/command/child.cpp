@@ -3,13 +3,16 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include <sinew/core/error.h>
 
@@ -138,6 +141,7 @@ Helper::Helper(const std::string& command, const std::vector<std::string>& argum
 }
 
 Helper::~Helper() {
+  if (process_ == 0) return;
   ::close(output_);
   ::kill(process_, SIGTERM);
   wait_for(process_);
@@ -151,6 +155,27 @@ bool Helper::read(std::span<std::uint8_t> bytes) {
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
   return true;
+}
+
+void Helper::yield() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), 10); }
+
+ChildEnd Helper::wait(const std::function<bool(const std::string& line)>& taken) {
+  pass_signals_on();
+  child_of_signals = process_;
+  ChildEnd end;
+  std::FILE* lines = ::fdopen(output_, "r");
+  std::string line;
+  for (int c = lines ? std::fgetc(lines) : EOF; c != EOF; c = std::fgetc(lines)) {
+    line += static_cast<char>(c);
+    if (c != '\n') continue;
+    if (!taken(line)) end.output += line;
+    line.clear();
+  }
+  end.output += line;
+  if (lines) std::fclose(lines);
+  end.exit = wait_for(std::exchange(process_, 0));
+  child_of_signals = 0;
+  return end;
 }
 
 }  // namespace sinew

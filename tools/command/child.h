@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +45,12 @@ class Helper {
 
   /// The next bytes of its standard output; false where it ended before.
   bool read(std::span<std::uint8_t> bytes);
+
+  /// It takes the time that other programs leave.
+  void yield();
+  /// Waits for its end, with the lines that it prints until then: those that `taken` takes are not
+  /// among its output. Signals are forwarded to it, as by run_child.
+  ChildEnd wait(const std::function<bool(const std::string& line)>& taken);
 
  private:
   int process_ = 0, output_ = -1;

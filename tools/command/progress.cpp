@@ -37,15 +37,44 @@ std::string progress_text(int frame, int frames, double time, double steps_per_s
   return text;
 }
 
-Progress::Progress(int frames, ProgressStyle style, std::FILE* out)
-    : frames_(frames), style_(style), out_(out) {}
-
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   if (width_ > 0) std::fputc('\n', out_);
 }
 
+void ProgressLine::rewrite(const std::string& line, bool last) {
+  const auto now = Clock::now();
+  if (!last && now - shown_ < between_lines) return;
+  const std::size_t over = width_ > line.size() ? width_ - line.size() : 0;
+  std::fprintf(out_, "\r%s%s", line.c_str(), std::string(over, ' ').c_str());
+  std::fflush(out_);
+  width_ = line.size();
+  shown_ = now;
+}
+
+void ProgressLine::add(const std::string& line) {
+  if (style_ != ProgressStyle::none) std::fprintf(out_, "%s\n", line.c_str());
+}
+
+void StageProgress::at(std::size_t done, std::size_t of) {
+  constexpr auto until_rewritten = std::chrono::seconds(1), between = std::chrono::seconds(10);
+  const auto now = Clock::now();
+  if (done == 0 || now - start_ < until_rewritten) return;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double left = seconds * static_cast<double>(of - done) / static_cast<double>(done);
+  const std::string line =
+      fmt::format("{} {} %{}", stage_, 100 * done / of,
+                  done < of ? "  " + duration_text(left) + " left" : std::string());
+  if (line_.style() == ProgressStyle::rewritten)
+    line_.rewrite(line, done == of);
+  else if (now - told_ >= between)
+    line_.add(line), told_ = now;
+}
+
+Progress::Progress(int frames, ProgressStyle style, std::FILE* out)
+    : frames_(frames), line_(style, out) {}
+
 void Progress::frame(int frame, double time, std::int64_t steps, double waited) {
-  if (style_ == ProgressStyle::none) return;
+  if (line_.style() == ProgressStyle::none) return;
   const auto now = Clock::now();
   if (!std::exchange(begun_, true)) {
     start_ = now;
@@ -60,20 +89,11 @@ void Progress::frame(int frame, double time, std::int64_t steps, double waited) 
   const std::string line =
       progress_text(frame, frames_, time, speed, left, seconds > 0 ? waited / seconds : 0);
   const int tenths = frames_ > 0 ? static_cast<int>(std::int64_t{frame} * 10 / frames_) : 0;
-  if (style_ == ProgressStyle::rewritten) {
-    if (now - shown_ >= between_lines || frame >= frames_) rewrite(line);
-  } else if (tenths > tenths_) {
-    std::fprintf(out_, "%s\n", line.c_str());
-  }
+  if (line_.style() == ProgressStyle::rewritten)
+    line_.rewrite(line, frame >= frames_);
+  else if (tenths > tenths_)
+    line_.add(line);
   tenths_ = std::max(tenths_, tenths);
-}
-
-void Progress::rewrite(const std::string& line) {
-  const std::size_t over = width_ > line.size() ? width_ - line.size() : 0;
-  std::fprintf(out_, "\r%s%s", line.c_str(), std::string(over, ' ').c_str());
-  std::fflush(out_);
-  width_ = line.size();
-  shown_ = Clock::now();
 }
 
 }  // namespace sinew

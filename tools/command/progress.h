@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 namespace sinew {
 
@@ -23,14 +24,50 @@ ProgressStyle progress_style(bool quiet);
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
                           double seconds_left, double share_waited = 0);
 
+/// A line of progress, which a terminal rewrites.
+class ProgressLine {
+ public:
+  ProgressLine(ProgressStyle style, std::FILE* out) : style_(style), out_(out) {}
+  ~ProgressLine();  ///< ends a rewritten line, so that later output begins on a line of its own
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  ProgressStyle style() const { return style_; }
+  /// On a terminal; not if that was done a moment ago, unless it is the last time.
+  void rewrite(const std::string& line, bool last);
+  void add(const std::string& line);  ///< below the others
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  ProgressStyle style_;
+  std::FILE* out_;
+  Clock::time_point shown_;
+  std::size_t width_ = 0;
+};
+
+/// Of drawing or measuring: "measuring 45 %  0:05 left". On a terminal it appears after a second;
+/// otherwise there is a line every ten seconds.
+class StageProgress {
+ public:
+  /// `out` is for tests.
+  StageProgress(std::string stage, ProgressStyle style, std::FILE* out = stderr)
+      : stage_(std::move(stage)), line_(style, out) {}
+
+  void at(std::size_t done, std::size_t of);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string stage_;
+  ProgressLine line_;
+  Clock::time_point start_ = Clock::now(), told_ = start_;
+};
+
 class Progress {
  public:
   /// `frames`: how many there will be after the first. `out` is for tests.
   Progress(int frames, ProgressStyle style, std::FILE* out = stderr);
-  ~Progress();  ///< ends a rewritten line, so that later output begins on a line of its own
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
   /// Reports frame `frame` at `time` (s of the scene) after `steps` steps of this run, which has
   /// `waited` (s) for frames to be written. The first call starts the clock.
   void frame(int frame, double time, std::int64_t steps, double waited = 0);
@@ -38,17 +75,13 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void rewrite(const std::string& line);
-
   int frames_;
-  ProgressStyle style_;
-  std::FILE* out_;
+  ProgressLine line_;
   bool begun_ = false;
-  Clock::time_point start_, shown_;
+  Clock::time_point start_;
   int first_frame_ = 0;
   std::int64_t first_steps_ = 0;
   int tenths_ = 0;
-  std::size_t width_ = 0;
 };
 
 }  // namespace sinew

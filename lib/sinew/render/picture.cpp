@@ -32,10 +32,10 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
 std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
 
 /// Darkens the hollows, but never to black.
-void add_shadows(Exposure& exposure, double radius) {
+void add_shadows(Exposure& exposure, double radius, Sampled sampled) {
   constexpr float strength = 1.1F, least = 0.3F;
   std::vector<std::uint8_t>& rgb = exposure.image.rgb;
-  const std::vector<float> hidden = occlusion(exposure.depth, radius);
+  const std::vector<float> hidden = occlusion(exposure.depth, radius, sampled);
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     if (hidden[i] == 0) continue;
     const float light = std::max(least, 1 - strength * hidden[i]);
@@ -44,8 +44,8 @@ void add_shadows(Exposure& exposure, double radius) {
   }
 }
 
-Exposure with_shadows(Exposure exposure, double radius) {
-  add_shadows(exposure, radius);
+Exposure with_shadows(Exposure exposure, double radius, Sampled sampled) {
+  add_shadows(exposure, radius, sampled);
   exposure.coverage = {};  // unused, and large in large pictures
   return exposure;
 }
@@ -89,6 +89,7 @@ struct Painter::Sizes {
   double pixel;  ///< m
   double grain;  ///< unit of shadows and bones: a particle's radius, m
   double line;   ///< width of the skin's edges, in rendered pixels
+  Sampled shadows;
 };
 
 Painter::Painter(const Triangles& rest, ColorScale scale)
@@ -101,7 +102,7 @@ Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool s
                 {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
-  Exposure picture = with_shadows(stage_.render(), 2 * sizes.grain);
+  Exposure picture = with_shadows(stage_.render(), 2 * sizes.grain, sizes.shadows);
   if (!skin_and_bones || snapshot.bones.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   shine_through(picture.image, stage_.render(), 0.6F);
@@ -113,7 +114,7 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
-  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain);
+  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows);
   const Snapshot held = marked(snapshot, Mark::held);
   if (snapshot.bones.empty() && held.particles.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
@@ -125,7 +126,7 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
 Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain);
+  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows);
   pale(picture.image);
   return picture;
 }
@@ -166,7 +167,7 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
     for (const Mark mark : {Mark::held, Mark::sample})
       add_particles(stage_.renderer(), marked(snapshot, mark), scale_);
   Exposure over = stage_.render();
-  add_shadows(over, 2 * sizes.grain);
+  add_shadows(over, 2 * sizes.grain, sizes.shadows);
   shine_through(picture.image, over, 1);
   return picture;
 }
@@ -177,8 +178,9 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim({options.camera, options.width, options.height, pixel, options.finish, options.tile});
   constexpr double least_grain = 4;  // pixels: thinner bones would not be seen in a plan
-  Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel,
-              options.finish == Finish::fine ? 2.4 : 1.4};
+  const bool fine = options.finish == Finish::fine;
+  Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel, fine ? 2.4 : 1.4,
+              fine ? Sampled::every_pixel : Sampled::every_second};
   if (options.view == View::plan) sizes.grain = std::max(sizes.grain, least_grain * pixel);
   Exposure picture = body(snapshot, sizes, options.view);
   put_obstacles(picture, snapshot, sizes);

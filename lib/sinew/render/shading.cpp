@@ -202,14 +202,15 @@ std::vector<float> blurred(const std::vector<float>& values, const DepthImage& i
 
 }  // namespace
 
-std::vector<float> occlusion(const DepthImage& image, double radius) {
+std::vector<float> occlusion(const DepthImage& image, double radius, Sampled sampled) {
   const Discs discs = make_discs(radius, image.pixel);
   std::vector<float> result(image.depth.size());
+  const int step = sampled == Sampled::every_second ? 2 : 1;
   parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-      for (int x = 0; x < image.width; ++x)
+      for (int x = step == 2 ? y % 2 : 0; x < image.width; x += step)
         result[static_cast<std::size_t>(y) * image.width + x] =
-            hidden(image, discs, static_cast<float>(radius), x, y);
+            static_cast<float>(step) * hidden(image, discs, static_cast<float>(radius), x, y);
   });
   return blurred(result, image);
 }

@@ -119,6 +119,7 @@ int FigureSet::pictures() {
   for (const std::size_t frame : frames) {
     const std::vector<Snapshot> moment = snapshots(frame);
     write_png(figure(panels(moment), options), place(name() + '_' + numbered(frame) + ".png"));
+    options_.drawn();
   }
   return static_cast<int>(frames.size());
 }
@@ -173,6 +174,7 @@ void FigureSet::movie(std::span<const FrameSource> others) {
   for (std::size_t frame = 0; frame < movie_frames(); ++frame) {
     const std::size_t share = frame % (others.size() + 1);
     playback.add(share == 0 ? movie_frame(frame) : others[share - 1](frame));
+    options_.drawn();
   }
   playback.finish();
 }

@@ -27,6 +27,7 @@ struct FigureSetOptions {
   ColorMap colors = ColorMap::indigo;
   std::optional<std::array<double, 2>> range;  ///< of the colors; by default the run's own
   std::vector<double> times;                   ///< s; empty: the run's key frames
+  std::function<void()> drawn = [] {};         ///< called after each picture and frame of a movie
 };
 
 /// Throws bad input where pictures of this size take more than `available` bytes.

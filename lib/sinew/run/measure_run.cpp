@@ -191,6 +191,7 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
     const FrameState state = measured_frame(frames.next());
     measure_one(measured, course, rest, run, state, how);
     values.add(rest, state);
+    if (how.progress) how.progress(i + 1, run.frames());
   }
   values.close();
   return course;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,7 @@ struct MeasureOptions {
   std::vector<std::string_view> arrays;  ///< to be written as the series "values"
   bool ahead = true;                     ///< read the next frame while one is measured
   bool playback = true;                  ///< make one
+  std::function<void(std::size_t done, std::size_t of)> progress = {};  ///< after each frame
 };
 
 /// The body of a run at rest.

@@ -222,7 +222,7 @@ std::string title_of(const RunFolder& folder) {
 
 }  // namespace
 
-ReportInput report_input(const RunFiles& run, Measured measured) {
+ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie) {
   ReportInput input;
   input.title = title_of(run.folder);
   input.version = version();
@@ -239,7 +239,7 @@ ReportInput report_input(const RunFiles& run, Measured measured) {
   input.checks = std::move(measured.checks);
   input.playback = std::move(measured.playback);
   input.curves = law_curves(run);
-  if (std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
+  if (movie == MovieLink::follows || std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;
   return input;

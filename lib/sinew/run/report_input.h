@@ -15,7 +15,9 @@ namespace sinew {
 /// The forces of a scene as curves: between two particles, and of a bone on a particle.
 std::vector<LawCurve> law_curves(const RunFiles& run);
 
+enum class MovieLink { if_there, follows };  ///< follows: it is drawn after the report is written
+
 /// Throws Error (bad input) where run.json is not the record of a run.
-ReportInput report_input(const RunFiles& run, Measured measured);
+ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie);
 
 }  // namespace sinew

@@ -23,8 +23,10 @@ std::string pictures(const ReportInput& input) {
   std::string figures;
   if (!input.movie.empty())
     figures +=
-        element("figure", "<video controls preload=\"metadata\" src=\"" + link_to(input.movie) +
-                              "\"></video>" + element("figcaption", "The whole run"));
+        element("figure",
+                "<video controls preload=\"metadata\" onerror=\"this.parentNode.hidden "
+                "= true\" src=\"" +
+                    link_to(input.movie) + "\"></video>" + element("figcaption", "The whole run"));
   for (const Picture& picture : input.pictures)
     figures += element("figure", "<img loading=\"lazy\" src=\"" + link_to(picture.path) +
                                      "\" alt=\"" + escaped(picture.caption) + "\">" +
