@@ -226,6 +226,20 @@ TEST(Progress, QuietSaysNothing) {
   EXPECT_EQ(content(file), "");
 }
 
+TEST(Progress, OfALongStageTellsTheTimeLeft) {
+  const TempFolder folder;
+  const auto file = folder.path() / "err";
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  {
+    StageProgress progress("measuring", ProgressStyle::rewritten, out);
+    progress.at(1, 4);  // too early to be shown
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    progress.at(2, 4), progress.at(4, 4);
+  }
+  std::fclose(out);
+  EXPECT_EQ(content(file), "\rmeasuring 50 %  0:02 left\rmeasuring 100 %          \n");
+}
+
 TEST(Tables, SettingsAreMarkdown) {
   const Ran ran = run(std::string(TABLES) + " settings");
   EXPECT_EQ(ran.exit, 0);

@@ -7,11 +7,32 @@ usage: run_test.py BIN SOURCE      folder of the programs, folder of the project
 import csv
 import json
 import os
+import pty
 import struct
 import sys
 import unittest
 
-from small_run import SERIES, SOURCE, SmallRun, sinew
+from small_run import BIN, SERIES, SOURCE, SmallRun, sinew
+
+
+def on_a_terminal(words, variables):
+    """What a terminal shows of a command."""
+    pid, terminal = pty.fork()
+    if pid == 0:
+        kept = {key: value for key, value in os.environ.items() if key not in ("NO_COLOR", "TERM")}
+        os.execve(words[0], [str(word) for word in words], kept | variables)
+    shown = b""
+    while True:
+        try:
+            part = os.read(terminal, 4096)
+        except OSError:  # the end of a terminal
+            break
+        if not part:
+            break
+        shown += part
+    os.waitpid(pid, 0)
+    os.close(terminal)
+    return shown.decode()
 
 
 class Commands(SmallRun):
@@ -336,7 +357,30 @@ class Commands(SmallRun):
             help_text = sinew(command, "--help", check=0).stdout
             self.assertIn("Examples:", help_text)
             self.assertIn("--threads", help_text)
+            self.assertLessEqual(len(help_text.splitlines()), 50)  # a screen
             self.assertIn("sinew 0.", sinew(command, "--version", check=0).stdout)
+
+    def test_the_end_of_a_run_reads_as_in_the_readme(self):
+        block = (SOURCE / "README.md").read_text().partition("```\nstatus:")[2].partition("```")[0]
+        keys = [line.partition(":")[0] for line in ("status:" + block).splitlines()]
+        box = self.folder / "box.yaml"
+        box.write_text((SOURCE / "configs/box_bend.yaml").read_text().replace("../data", str(SOURCE / "data")))
+        shown = sinew("run", box, "-o", self.out, "--set", "solver.duration=0.1", check=0).stdout.splitlines()
+        self.assertLessEqual(len(shown), 12)
+        self.assertEqual([line.partition(":")[0] for line in shown], keys)
+
+    def test_the_keys_of_scenes_are_a_help_of_their_own(self):
+        self.assertIn("young_modulus", sinew("run", "--help-settings", check=0).stdout)
+        self.assertNotIn("young_modulus", sinew("run", "--help", check=0).stdout)
+        self.assert_one_line(sinew("measure", self.out, "--help-settings"), 2, "unknown option")
+
+    def test_colors_are_for_terminals_alone(self):
+        for variables, colors in ({"TERM": "xterm"}, True), ({"TERM": "xterm", "NO_COLOR": "1"}, False), \
+                                 ({"TERM": "dumb"}, False):
+            shown = on_a_terminal([BIN / "sinew", "info", "no/such.obj"], variables)
+            self.assertIn("no/such.obj", shown)
+            self.assertEqual("\033[" in shown, colors, shown)
+        self.assertNotIn("\033[", sinew("info", "no/such.obj").stderr)
 
 
 if __name__ == "__main__":

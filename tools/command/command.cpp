@@ -12,11 +12,14 @@
 #include <sinew/core/text.h>
 #include "command/results.h"
 #include "command/settings_list.h"
+#include "command/terminal.h"
 
 namespace sinew {
 namespace {
 
 constexpr int most_threads = 1024;
+
+struct HelpOfSettings {};  ///< thrown where it is asked for
 
 /// The variables that options are parsed into.
 struct Given {
@@ -27,7 +30,8 @@ struct Given {
 std::string help_footer(const About& about) {
   std::string text = "\nExamples:\n";
   for (const std::string& example : about.examples) text += "  " + example + '\n';
-  if (about.takes_scene) text += "\nSettings of a scene, for --set too:\n" + settings_help();
+  if (about.takes_scene)
+    text += "\nKeys of a scene, for --set too: sinew " + about.name + " --help-settings\n";
   return text;
 }
 
@@ -41,10 +45,13 @@ void declare_common(CLI::App& app, const About& about, Given& given) {
   list.add("--threads", given.common.threads, "Threads to use; 0: one per core")
       .type_name("N")
       .range(0, most_threads);
-  if (about.takes_scene)
-    list.add("--set", given.sets, "Use this value instead of the scene's; may be repeated")
-        .type_name("SECTION.KEY=VALUE")
-        .repeatable();
+  if (!about.takes_scene) return;
+  app.add_flag_callback(
+         "--help-settings", [] { throw HelpOfSettings(); }, "Show the keys of a scene and exit")
+      ->trigger_on_parse();
+  list.add("--set", given.sets, "Use this value instead of the scene's; may be repeated")
+      .type_name("SECTION.KEY=VALUE")
+      .repeatable();
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -74,6 +81,9 @@ bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
   } catch (const CLI::Success& asked) {
     const bool version_asked = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
     print_out(version_asked ? std::string(asked.what()) + '\n' : app.help());
+    return false;
+  } catch (const HelpOfSettings&) {
+    print_out(settings_help());
     return false;
   } catch (const CLI::ExtrasError&) {
     throw unknown_option(app, see_help);
@@ -105,7 +115,8 @@ int tell(Exit exit, std::string message) {
   std::replace_if(
       message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; },
       ' ');  // names from files may contain control characters
-  std::fprintf(stderr, "sinew: %s\n", message.c_str());
+  std::fprintf(stderr, "%s %s\n", in_color(TextColor::red, "sinew:", stderr).c_str(),
+               message.c_str());
   return static_cast<int>(exit);
 }
 
@@ -133,7 +144,15 @@ int run_command(int argc, char** argv, const About& about,
 }
 
 void say(const Common& common, const std::string& line) {
-  if (!common.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+  if (common.quiet) return;
+  const std::string word = "warning:";
+  const std::size_t at = line.find(word);
+  const bool warns = at == 0 || line.starts_with("sinew: " + word);
+  const std::string shown_line = warns ? line.substr(0, at) +
+                                             in_color(TextColor::yellow, word, stderr) +
+                                             line.substr(at + word.size())
+                                       : line;
+  std::fprintf(stderr, "%s\n", shown_line.c_str());
 }
 
 }  // namespace sinew

@@ -20,7 +20,7 @@ struct About {
   std::string name;                   ///< "fill"; the program is sinew-fill
   std::string purpose;                ///< one line
   std::vector<std::string> examples;  ///< complete command lines
-  bool takes_scene = true;            ///< has --set, and --help ends with the list of settings
+  bool takes_scene = true;            ///< has --set and --help-settings
 };
 
 /// The options of every command.

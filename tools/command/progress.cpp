@@ -2,7 +2,6 @@
 #include "command/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,7 +9,6 @@
 namespace sinew {
 namespace {
 
-constexpr auto between_lines = std::chrono::milliseconds(100);  // often enough for a terminal
 constexpr double worth_telling = 0.05;  // share of the time that the simulation waits for writing
 
 std::string duration_text(double seconds) {
@@ -22,11 +20,6 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-ProgressStyle progress_style(bool quiet) {
-  if (quiet) return ProgressStyle::none;
-  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::rewritten : ProgressStyle::lines;
-}
-
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
                           double seconds_left, double share_waited) {
   std::string text = fmt::format("frame {}/{}  time {:.4g} s", frame, frames, time);
@@ -35,24 +28,6 @@ std::string progress_text(int frame, int frames, double time, double steps_per_s
   if (share_waited > worth_telling)
     text += fmt::format("  {:.0f} % spent waiting for the disk", 100 * share_waited);
   return text;
-}
-
-ProgressLine::~ProgressLine() {
-  if (width_ > 0) std::fputc('\n', out_);
-}
-
-void ProgressLine::rewrite(const std::string& line, bool last) {
-  const auto now = Clock::now();
-  if (!last && now - shown_ < between_lines) return;
-  const std::size_t over = width_ > line.size() ? width_ - line.size() : 0;
-  std::fprintf(out_, "\r%s%s", line.c_str(), std::string(over, ' ').c_str());
-  std::fflush(out_);
-  width_ = line.size();
-  shown_ = now;
-}
-
-void ProgressLine::add(const std::string& line) {
-  if (style_ != ProgressStyle::none) std::fprintf(out_, "%s\n", line.c_str());
 }
 
 void StageProgress::at(std::size_t done, std::size_t of) {

@@ -11,40 +11,14 @@
 #include <string>
 #include <utility>
 
+#include "command/terminal.h"
+
 namespace sinew {
-
-enum class ProgressStyle { none, lines, rewritten };
-
-/// One line rewritten on a terminal, otherwise one line per tenth of the run; nothing when quiet.
-/// No colors and no escape sequences, so NO_COLOR and plain terminals are respected.
-ProgressStyle progress_style(bool quiet);
 
 /// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts
 /// (0, negative) and waits below a twentieth are left out.
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
                           double seconds_left, double share_waited = 0);
-
-/// A line of progress, which a terminal rewrites.
-class ProgressLine {
- public:
-  ProgressLine(ProgressStyle style, std::FILE* out) : style_(style), out_(out) {}
-  ~ProgressLine();  ///< ends a rewritten line, so that later output begins on a line of its own
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  ProgressStyle style() const { return style_; }
-  /// On a terminal; not if that was done a moment ago, unless it is the last time.
-  void rewrite(const std::string& line, bool last);
-  void add(const std::string& line);  ///< below the others
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  ProgressStyle style_;
-  std::FILE* out_;
-  Clock::time_point shown_;
-  std::size_t width_ = 0;
-};
 
 /// Of drawing or measuring: "measuring 45 %  0:05 left". On a terminal it appears after a second;
 /// otherwise there is a line every ten seconds.

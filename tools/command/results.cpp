@@ -10,6 +10,7 @@
 #include <sinew/core/text.h>
 
 #include "command/command.h"
+#include "command/terminal.h"
 
 namespace sinew {
 namespace {
@@ -62,7 +63,10 @@ std::string Results::text(bool briefly) const {
   const bool in_words = briefly && !headlines().empty();
   std::string text;
   if (in_words) {
-    for (const std::string& line : headlines()) text += line + '\n';
+    for (const std::string& line : headlines()) {
+      const std::size_t key = line.find(": ") + 1;
+      text += in_color(TextColor::bold, line.substr(0, key), stdout) + line.substr(key) + '\n';
+    }
     return text;
   }
   for (const Entry& one : entries_)
