@@ -167,7 +167,8 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   const Surface surface = read_mesh(settings);
   const SceneFiles files = read_files(settings);
   const Filling filling = fill_body(settings, surface);
-  const Setup setup = set_up(settings, files, filling.particles, filling.share);
+  const Setup setup =
+      set_up(settings, files, filling.particles, {filling.share, filling.stiffness});
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);

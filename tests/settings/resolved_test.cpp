@@ -75,6 +75,10 @@ class Chance {
       drawn.bones.push_back(owner(bone_fields()));
       drawn.bones.back().limits = owner(limit_fields());
     }
+    for (int i = 0; i < below(3); ++i) {
+      drawn.bodies.push_back(owner(part_fields()));
+      drawn.bodies.back().young_modulus.reset();
+    }
     for (int i = 0; i < below(3); ++i) drawn.bound.push_back(owner(bound_fields()));
     for (int i = 0; i < below(3); ++i) {
       drawn.tracks.push_back(owner(track_fields()));
@@ -151,6 +155,9 @@ void expect_same(const Settings& one, const Settings& other) {
     expect_same(bone_fields(), one.bones[i], other.bones[i]);
   for (std::size_t i = 0; i < one.bones.size(); ++i)
     expect_same(limit_fields(), one.bones[i].limits, other.bones[i].limits);
+  ASSERT_EQ(one.bodies.size(), other.bodies.size());
+  for (std::size_t i = 0; i < one.bodies.size(); ++i)
+    expect_same(part_fields(), one.bodies[i], other.bodies[i]);
   ASSERT_EQ(one.bound.size(), other.bound.size());
   for (std::size_t i = 0; i < one.bound.size(); ++i)
     expect_same(bound_fields(), one.bound[i], other.bound[i]);

@@ -67,6 +67,7 @@ std::vector<Group> groups() {
   std::vector<Group> all;
   for (const std::string_view section : sections()) {
     if (Group group = section_group(section); !group.rows.empty()) all.push_back(std::move(group));
+    if (section == "body") all.push_back(entries("bodies[]", part_fields()));
     if (section == "skeleton") {
       all.push_back(entries("skeleton.bones[]", bone_fields()));
       all.push_back(entries("skeleton.bones[].limits", limit_fields()));

@@ -50,6 +50,13 @@ struct BodyOptions {
   double clearance = 0;
 };
 
+/// A further mesh that the body consists of. Of `body` the keys that place and repair the mesh
+/// count.
+struct PartOptions {
+  BodyOptions body;
+  std::optional<double> young_modulus;  ///< Pa; by default the material's
+};
+
 enum class MaterialModel { paper, bonded, bonded_volume };
 enum class MaterialPresetName { none, fat, muscle, skin, silicone, rubber_foam, clay };
 enum class Cohesion { all, initial_neighbors };

@@ -93,10 +93,10 @@ void check_weights(const std::vector<double>& weights) {
                          " of a bone is not between 0 and 1");
 }
 
-void check_shares(const std::vector<double>& shares) {
-  for (const double share : shares)
-    if (!(share >= 0) || !std::isfinite(share))
-      throw no_body_file("the share " + std::to_string(share) + " of a particle is none");
+void check_values(const std::vector<double>& values, const std::string& name) {
+  for (const double value : values)
+    if (!(value >= 0) || !std::isfinite(value))
+      throw no_body_file("the " + name + ' ' + std::to_string(value) + " of a particle is none");
 }
 
 BodyFile body_of(const Dataset& data) {
@@ -107,7 +107,10 @@ BodyFile body_of(const Dataset& data) {
   body.neighbors = integers(data.point_columns, "neighbors");
   body.component = integers(data.point_columns, "component");
   if (find(data.point_columns, "share")) body.share = numbers(data.point_columns, "share");
-  if (body.share) check_shares(*body.share);
+  if (body.share) check_values(*body.share, "share");
+  if (find(data.point_columns, "stiffness"))
+    body.stiffness = numbers(data.point_columns, "stiffness");
+  if (body.stiffness) check_values(*body.stiffness, "stiffness");
   if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
   if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
   if (body.weight) check_weights(*body.weight);
@@ -131,6 +134,7 @@ Dataset body_dataset(BodyFile body) {
   data.point_columns.push_back(column("neighbors", std::move(body.neighbors)));
   data.point_columns.push_back(column("component", std::move(body.component)));
   if (body.share) data.point_columns.push_back(column("share", std::move(*body.share)));
+  if (body.stiffness) data.point_columns.push_back(column("stiffness", std::move(*body.stiffness)));
   if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
   if (body.weight) data.point_columns.push_back(column("weight", std::move(*body.weight)));
   data.meta = std::move(body.meta);

@@ -60,6 +60,7 @@ struct BodyFile {
   std::vector<std::int32_t> neighbors;            ///< touching particles of each
   std::vector<std::int32_t> component;            ///< connected component of each, from 0
   std::optional<std::vector<double>> share;       ///< of the body, as Filling::share
+  std::optional<std::vector<double>> stiffness;   ///< of each material over the body's
   std::optional<std::vector<std::int32_t>> bone;  ///< of each, once bound
   std::optional<std::vector<double>> weight;      ///< of that bone in it, once bound
   std::string meta;                               ///< UTF-8 JSON, or empty

@@ -29,6 +29,40 @@ Triangles caps_of(std::span<const Loop> loops, const Points& points) {
   return caps;
 }
 
+namespace {
+
+void append(Triangles& all, const Triangles& more) {
+  const int first = static_cast<int>(all.points.size());
+  all.points.insert(all.points.end(), more.points.begin(), more.points.end());
+  for (const auto& [a, b, c] : more.faces) all.faces.push_back({first + a, first + b, first + c});
+}
+
+void append(Surface& all, const Surface& part) {
+  all.first_face.push_back(all.triangles.faces.size());
+  append(all.triangles, part.triangles);
+  append(all.caps, part.caps);
+  all.turned.insert(all.turned.end(), part.turned.begin(), part.turned.end());
+  for (const int component : part.component) all.component.push_back(all.components + component);
+  all.components += part.components;
+  all.border.holes += part.border.holes;
+  all.border.edges += part.border.edges;
+  all.border.crowded_edges += part.border.crowded_edges;
+  all.border.length += part.border.length;
+  for (const NamedCount& row : cleaning_counts())
+    all.cleaning.*row.count += part.cleaning.*row.count;
+  all.seconds_reading += part.seconds_reading;
+  all.seconds_cleaning += part.seconds_cleaning;
+}
+
+}  // namespace
+
+Surface joined(std::vector<Surface> parts) {
+  if (parts.size() == 1) return std::move(parts.front());
+  Surface all;
+  for (const Surface& part : parts) append(all, part);
+  return all;
+}
+
 std::vector<double> component_volumes(const Surface& surface) {
   std::vector<double> sums(surface.components);
   const Points& points = surface.triangles.points;

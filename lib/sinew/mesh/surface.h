@@ -67,10 +67,14 @@ struct Surface {
   Triangles caps;
   Border border;
   CleaningCounts cleaning;
+  std::vector<std::size_t> first_face = {};  ///< of each of several joined meshes; empty: one mesh
   double seconds_reading = 0, seconds_cleaning = 0;
 
   bool closed() const { return caps.faces.empty(); }
 };
+
+/// Several meshes as one, in their order, with the sums of their counts.
+Surface joined(std::vector<Surface> parts);
 
 /// The volume that each component encloses, m^3; negative for cavities. For open surfaces it does
 /// not include the volume behind their caps.

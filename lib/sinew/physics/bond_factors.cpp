@@ -56,9 +56,11 @@ Tensor inside() {
 /// Bonds of the particles, and what those at the surface ask for.
 class SurfaceBonds {
  public:
-  SurfaceBonds(const Points& rest, const Material& material, const std::vector<double>& share)
+  SurfaceBonds(const Points& rest, const Material& material, const std::vector<double>& share,
+               const std::vector<double>& stiffness)
       : rest_(rest),
         share_(share),
+        stiffness_(stiffness),
         r_(material.pair.r),
         second_(material.packing().second),
         near_(neighbors_within(rest, second_neighbor_range * r_)) {}
@@ -100,8 +102,16 @@ class SurfaceBonds {
   }
   bool is_touched(std::size_t i) const {
     const auto around = near_.of(i);
-    return at_surface(i) || std::any_of(around.begin(), around.end(),
-                                        [&](std::uint32_t j) { return at_surface(j); });
+    return is_special(i) || std::any_of(around.begin(), around.end(),
+                                        [&](std::uint32_t j) { return is_special(j); });
+  }
+  bool is_special(std::size_t i) const {
+    return at_surface(i) || (!stiffness_.empty() && stiffness_[i] != 1);
+  }
+  /// Of the material between two particles.
+  double stiffness_between(std::size_t i, std::size_t j) const {
+    if (stiffness_.empty()) return 1;
+    return 2 / (1 / stiffness_[i] + 1 / stiffness_[j]);
   }
   double relative_stiffness(double length) const {
     return length < rest_neighbor_range(r_) ? 1 : second_;
@@ -151,7 +161,7 @@ class SurfaceBonds {
     for (const std::uint32_t j : near_.of(i)) {
       const double mean = (asked(i, j) + asked(j, static_cast<std::uint32_t>(i))) / 2;
       *neighbor++ = j;
-      *factor = std::clamp(mean, least_factor, most_factor);
+      *factor = std::clamp(mean, least_factor, most_factor) * stiffness_between(i, j);
       const Vec3 X = rest_[j] - rest_[i];
       sum += *factor++ * relative_stiffness(X.norm()) / X.squaredNorm() * X * X.transpose();
     }
@@ -159,7 +169,7 @@ class SurfaceBonds {
   }
 
   const Points& rest_;
-  const std::vector<double>& share_;
+  const std::vector<double>&share_, &stiffness_;
   double r_, second_;
   NeighborLists near_;
   std::vector<std::uint32_t> first_;  ///< by particle, its first in asked_
@@ -182,9 +192,9 @@ BondFactors::Row BondFactors::of(std::uint32_t id) const {
 }
 
 BondFactors bond_factors(const Points& rest, const Material& material,
-                         const std::vector<double>& share) {
+                         const std::vector<double>& share, const std::vector<double>& stiffness) {
   if (material.bond.second <= 0) return {};
-  return SurfaceBonds(rest, material, share).factors();
+  return SurfaceBonds(rest, material, share, stiffness).factors();
 }
 
 }  // namespace sinew

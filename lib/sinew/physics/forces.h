@@ -49,7 +49,8 @@ struct Body {
   Mat3 lattice = Mat3::Identity();   ///< columns: the packing's axes
   /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
   std::vector<double> share = {};
-  BondFactors factors = {};                 ///< on the stiffness of bonds near the surface
+  std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
+  BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
   std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
 };
 

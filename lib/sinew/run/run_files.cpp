@@ -208,6 +208,7 @@ void keep_written(RunFiles& run) {
   if (run.body.bone) keep(run.ids, *run.body.bone);
   if (run.body.weight) keep(run.ids, *run.body.weight);
   if (run.body.share) keep(run.ids, *run.body.share);
+  if (run.body.stiffness) keep(run.ids, *run.body.stiffness);
 }
 
 }  // namespace
@@ -263,7 +264,7 @@ std::shared_ptr<const World> world_of_run(const RunFiles& run) {
   settings.world.obstacles.clear();  // their meshes need not exist any more
   const BodyFile body = read_body(run.folder.body());
   const Body bound = make_body(settings, read_rig_files(settings), run.skeleton, body.particles,
-                               body.share.value_or(std::vector<double>()));
+                               local_material(body));
   return world_of(settings, {}, bound).world;
 }
 
@@ -320,9 +321,9 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton,
 
 RestInput measured_body(const RunFiles& run) {
   Points rest = positions_of(run.body.particles);
-  const std::vector<double> share = run.body.share.value_or(std::vector<double>());
-  RestInput input =
-      measured_body(run.material, run.skeleton, bond_factors(rest, run.material, share));
+  const LocalMaterial local = local_material(run.body);
+  RestInput input = measured_body(run.material, run.skeleton,
+                                  bond_factors(rest, run.material, local.share, local.stiffness));
   input.law.has_muscles = !run.settings.world.muscles.empty();
   if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.positions = std::move(rest);

@@ -8,11 +8,13 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
+#include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/mesh/read_surface.h>
+#include <sinew/mesh/winding.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 
@@ -64,8 +66,62 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
 
 Mat3 lattice_axes(const BodyOptions& body) { return rotation_of(body.lattice_rotation); }
 
+namespace {
+
+std::string path_of_part(std::size_t part, const char* key) {
+  return "bodies[" + std::to_string(part) + "]." + key;
+}
+
+/// Closed, lest it is unknown which particles lie in it.
+Surface read_part(const Settings& settings, std::size_t part) {
+  const std::string key = path_of_part(part, "mesh");
+  Surface surface = with_context(settings, key.c_str(),
+                                 [&] { return read_body_mesh(settings.bodies[part].body); });
+  if (!surface.closed())
+    throw bad_input(settings.place(key), "one of several bodies has holes in its mesh",
+                    "set close_holes: true for it");
+  return surface;
+}
+
+std::vector<Corners> corners_of(const Triangles& surface, std::size_t first, std::size_t end) {
+  std::vector<Corners> faces;
+  for (std::size_t f = first; f < end; ++f) {
+    const auto& [a, b, c] = surface.faces[f];
+    faces.push_back({surface.points[a], surface.points[b], surface.points[c]});
+  }
+  return faces;
+}
+
+}  // namespace
+
 Surface read_mesh(const Settings& settings) {
-  return with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });
+  std::vector<Surface> parts;
+  parts.push_back(
+      with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); }));
+  for (std::size_t part = 0; part < settings.bodies.size(); ++part)
+    parts.push_back(read_part(settings, part));
+  return joined(std::move(parts));
+}
+
+std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,
+                                 const Points& rest) {
+  std::vector<double> stiffness;
+  for (std::size_t part = 0; part < settings.bodies.size(); ++part) {
+    const double relative =
+        settings.bodies[part].young_modulus.value_or(settings.material.young_modulus) /
+        settings.material.young_modulus;
+    if (stiffness.empty() && relative == 1) continue;
+    stiffness.resize(rest.size(), 1);
+    const std::size_t first = surface.first_face[part + 1];
+    const std::size_t end = part + 2 < surface.first_face.size() ? surface.first_face[part + 2]
+                                                                 : surface.triangles.faces.size();
+    const Winding winding(corners_of(surface.triangles, first, end));
+    parallel_for(rest.size(), 1024, [&](std::size_t begin, std::size_t last) {
+      for (std::size_t i = begin; i < last; ++i)
+        if (winding.around(rest[i]).value_or(0) > 0) stiffness[i] = relative;
+    });
+  }
+  return stiffness;
 }
 
 /// Whether the forces depend on how much of the body is around each particle.
@@ -87,8 +143,10 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.thickness = body.thickness;
   options.shares = needs_shares(settings);
   options.verify = verify;
-  return with_context(settings, body.radius ? "body.radius" : "body.count",
-                      [&] { return pack(surface, options); });
+  Filling filling = with_context(settings, body.radius ? "body.radius" : "body.count",
+                                 [&] { return pack(surface, options); });
+  filling.stiffness = stiffness_of(settings, surface, positions_of(filling.particles));
+  return filling;
 }
 
 nlohmann::ordered_json json_of(const ReportValue& value) {
@@ -116,6 +174,7 @@ BodyFile body_file(Filling filling, const std::string& origin) {
   body.neighbors = std::move(filling.neighbors);
   body.component = std::move(filling.component);
   if (!filling.share.empty()) body.share = std::move(filling.share);
+  if (!filling.stiffness.empty()) body.stiffness = std::move(filling.stiffness);
   body.meta = meta.dump();
   return body;
 }
@@ -127,6 +186,14 @@ std::string origin_of(const Settings& settings) {
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');
+  for (std::size_t part = 0; part < settings.bodies.size(); ++part) {
+    const PartOptions& options = settings.bodies[part];
+    hash.add(with_context(settings, path_of_part(part, "mesh").c_str(),
+                          [&] { return read_file(options.body.mesh, largest_mesh); }));
+    for (const auto& field : part_fields())
+      if (field.name != "mesh") hash.add(scene_text(field.get(options), "") + '\n');
+    if (options.young_modulus) hash.add(number_text(settings.material.young_modulus));
+  }
   if (needs_shares(settings)) hash.add("shares of 24 lattices\n");
   return hash_text(hash.value());
 }

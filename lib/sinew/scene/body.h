@@ -41,8 +41,13 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
 /// The axes of the packing, as columns.
 Mat3 lattice_axes(const BodyOptions& body);
 
-/// Reads the mesh that a scene names. Errors name the scene's line.
+/// Reads the meshes that a scene names, as one surface. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);
+
+/// Of the material around each place of `rest` (m), over the body's: the last of the scene's bodies
+/// in which it lies; empty: the same throughout.
+std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,
+                                 const Points& rest);
 
 /// Fills it as the scene specifies. Errors name the scene's line. `verify`: checks every site
 /// against CGAL.

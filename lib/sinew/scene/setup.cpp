@@ -137,27 +137,33 @@ Material material_of(const Settings& settings, const Particles& particles) {
                                            lattice_axes(settings.body), settings.body.packing});
 }
 
+LocalMaterial local_material(const BodyFile& body) {
+  const auto given = [](const auto& values) { return values.value_or(std::vector<double>()); };
+  return {given(body.share), given(body.stiffness)};
+}
+
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
-               const Particles& particles, std::vector<double> share) {
+               const Particles& particles, LocalMaterial local) {
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = std::move(skeleton);
   body.binding = bind_scene(settings, files, body.skeleton, body.rest, particles.radius);
   body.material = material_of(settings, particles);
   body.lattice = lattice_axes(settings.body);
-  body.share = std::move(share);
-  body.factors = bond_factors(body.rest, body.material, body.share);
+  body.share = std::move(local.share);
+  body.stiffness = std::move(local.stiffness);
+  body.factors = bond_factors(body.rest, body.material, body.share, body.stiffness);
   set_damping_ratio(settings.material, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   return body;
 }
 
 Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
-             std::vector<double> share) {
+             LocalMaterial local) {
   Setup setup;
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings, files);
-  setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(share));
+  setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(local));
   SceneWorld around = world_of(settings, files.obstacles, setup.body);
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);
@@ -185,8 +191,7 @@ ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   ready.body =
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
   ready.seconds_filling = watch.lap();
-  ready.setup = set_up(settings, files, ready.body.particles,
-                       ready.body.share.value_or(std::vector<double>()));
+  ready.setup = set_up(settings, files, ready.body.particles, local_material(ready.body));
   ready.body.bone = bones_of_particles(ready.setup.body);
   ready.body.weight = weights_of_particles(ready.setup.body);
   ready.seconds_binding = watch.lap();

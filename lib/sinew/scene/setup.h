@@ -31,9 +31,15 @@ Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skel
 /// Of a scene's particles; a damping ratio apart.
 Material material_of(const Settings& settings, const Particles& particles);
 
-/// The particles on the bones, without a world. `share` as in Body. Errors name the scene's line.
+/// What differs from particle to particle, as in Body.
+struct LocalMaterial {
+  std::vector<double> share = {}, stiffness = {};
+};
+LocalMaterial local_material(const BodyFile& body);
+
+/// The particles on the bones, without a world. Errors name the scene's line.
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
-               const Particles& particles, std::vector<double> share = {});
+               const Particles& particles, LocalMaterial local = {});
 
 struct Setup {
   Body body;
@@ -47,10 +53,9 @@ struct Setup {
   int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };
 
-/// Binds the particles to the bones and chooses the step. `share` as in Body. Errors name the
-/// scene's line.
+/// Binds the particles to the bones and chooses the step. Errors name the scene's line.
 Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
-             std::vector<double> share = {});
+             LocalMaterial local = {});
 
 /// A scene filled, bound and ready to be stepped.
 struct ReadyScene {

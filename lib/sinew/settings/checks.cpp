@@ -57,7 +57,23 @@ void check_isotropy(const Settings& settings) {
                     "give one between, or set material.isotropic to true");
 }
 
+/// Each of several bodies may be as stiff as it likes where bonds have factors of their own.
+void check_bodies(const Settings& settings) {
+  for (std::size_t i = 0; i < settings.bodies.size(); ++i) {
+    if (!settings.bodies[i].young_modulus) continue;
+    const Place place = settings.place("bodies[" + std::to_string(i) + "].young_modulus");
+    if (settings.material.model != MaterialModel::bonded ||
+        !is_isotropic(settings.material, settings.body.packing))
+      throw bad_input(place, "only isotropic bonded bodies differ in stiffness",
+                      "set material.model to bonded, and body.packing to fcc, or remove it");
+    if (settings.material.k1)
+      throw bad_input(place, "bodies differ in stiffness, but material.k1 gives that of all",
+                      "give material.young_modulus instead of k1");
+  }
+}
+
 void check_material(const Settings& settings) {
+  check_bodies(settings);
   const MaterialOptions& material = settings.material;
   if (!(material.a < material.b))
     throw bad_input(place_of(settings, "material.a", "material.b"),

@@ -105,6 +105,17 @@ YamlNode section_of(const YamlNode& scene, std::string_view name, Settings& sett
   return section;
 }
 
+constexpr std::string_view list_of_bodies = "bodies";
+
+/// Further bodies, if the scene has any.
+void read_bodies(const YamlNode& scene, Settings& settings) {
+  if (scene.find(list_of_bodies) == nullptr) return;
+  const auto items = list_below(scene, "", list_of_bodies, settings.places);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    read_fields(items[i], path_of_entry("", list_of_bodies, i), part_fields(), "",
+                settings.bodies.emplace_back(), settings.places);
+}
+
 Settings read_settings(const YamlNode& scene, const std::string& file,
                        std::span<const std::string_view> known) {
   Settings settings;
@@ -112,7 +123,10 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
   if (scene.kind == Kind::empty)
     throw bad_input({file}, "there is no scene in this file",
                     "write its sections: " + listed(known));
-  check_keys(scene, "", known);
+  std::vector<std::string_view> keys(known.begin(), known.end());
+  keys.push_back(list_of_bodies);
+  check_keys(scene, "", keys);
+  read_bodies(scene, settings);
   for (const std::string_view name : known) {
     const YamlNode section = section_of(scene, name, settings);
     const auto rows = rows_of(name);

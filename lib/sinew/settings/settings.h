@@ -136,6 +136,7 @@ struct OutputSettings {
 
 struct Settings {
   BodyOptions body;
+  std::vector<PartOptions> bodies;  ///< list bodies: in addition to body.mesh
   MaterialOptions material;
   SkeletonOptions skeleton;
   std::vector<BoneDefinition> bones;  ///< section skeleton

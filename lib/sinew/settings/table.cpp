@@ -10,38 +10,46 @@ using namespace rows;
 
 std::vector<std::string_view> axes() { return {"x", "y", "z", "-x", "-y", "-z"}; }
 
-std::vector<Field<Settings>> make_body() {
-  using S = Settings;
+/// Which mesh, where it is, and how it is repaired; Owner has a member `body`.
+template <class S>
+std::vector<Field<S>> rows_of_mesh(std::string_view section) {
   return {
       required(path(field<S>(
-          "body", "mesh", SINEW_AT(S, body.mesh), "",
+          section, "mesh", SINEW_AT(S, body.mesh), "",
           "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB), relative to the scene file"))),
-      choice<S>("body", "unit", SINEW_AT(S, body.unit), {"m", "dm", "cm", "mm", "um", "in", "ft"},
+      choice<S>(section, "unit", SINEW_AT(S, body.unit), {"m", "dm", "cm", "mm", "um", "in", "ft"},
                 "unit of the mesh's lengths"),
-      field<S>("body", "scale", SINEW_AT(S, body.scale), "",
+      field<S>(section, "scale", SINEW_AT(S, body.scale), "",
                "factor on the mesh's lengths, in addition to the unit", positive),
-      choice<S>("body", "up", SINEW_AT(S, body.up), axes(),
+      choice<S>(section, "up", SINEW_AT(S, body.up), axes(),
                 "axis of the mesh that becomes the scene's z"),
-      choice<S>("body", "forward", SINEW_AT(S, body.forward), axes(),
+      choice<S>(section, "forward", SINEW_AT(S, body.forward), axes(),
                 "axis of the mesh that becomes the scene's x; auto: the axis after up, in the "
                 "order x, y, z, x"),
-      field<S>("body", "rotation", SINEW_AT(S, body.rotation), "degrees",
+      field<S>(section, "rotation", SINEW_AT(S, body.rotation), "degrees",
                "rotation of the mesh about the scene's x, then y, then z axis, after up and "
                "forward"),
-      field<S>("body", "offset", SINEW_AT(S, body.offset), "m",
+      field<S>(section, "offset", SINEW_AT(S, body.offset), "m",
                "displacement of the mesh, after scale and rotation"),
-      field<S>("body", "weld", SINEW_AT(S, body.weld), "m",
+      field<S>(section, "weld", SINEW_AT(S, body.weld), "m",
                "merges points of the mesh closer than this; 0 merges identical points only",
                not_negative),
+      field<S>(section, "close_holes", SINEW_AT(S, body.close_holes), "",
+               "closes the holes of the mesh with new faces before any other step"),
+      field<S>(
+          section, "wrap", SINEW_AT(S, body.wrap), "m",
+          "replaces the mesh by a closed surface around it, which ignores gaps narrower than this",
+          positive, "none"),
+  };
+}
+
+std::vector<Field<Settings>> make_body() {
+  using S = Settings;
+  std::vector<Field<S>> rows = rows_of_mesh<S>("body");
+  const std::vector<Field<S>> others = {
       choice<S>("body", "rule", SINEW_AT(S, body.rule), {"union", "hollow"},
                 "union: inside is where the winding number exceeds 0.5; hollow: every second "
                 "nested closed shell is a cavity"),
-      field<S>("body", "close_holes", SINEW_AT(S, body.close_holes), "",
-               "closes the holes of the mesh with new faces before any other step"),
-      field<S>(
-          "body", "wrap", SINEW_AT(S, body.wrap), "m",
-          "replaces the mesh by a closed surface around it, which ignores gaps narrower than this",
-          positive, "none"),
       field<S>("body", "thickness", SINEW_AT(S, body.thickness), "m",
                "fills a layer of this thickness along the surface instead of its inside", positive,
                "none"),
@@ -61,6 +69,16 @@ std::vector<Field<Settings>> make_body() {
       field<S>("body", "clearance", SINEW_AT(S, body.clearance), "m",
                "least distance of that part from the surface", not_negative),
   };
+  rows.insert(rows.end(), others.begin(), others.end());
+  return rows;
+}
+
+std::vector<Field<PartOptions>> make_part() {
+  std::vector<Field<PartOptions>> rows = rows_of_mesh<PartOptions>("");
+  rows.push_back(field<PartOptions>("", "young_modulus", SINEW_AT(PartOptions, young_modulus), "Pa",
+                                    "Young's modulus of this body; auto: material.young_modulus",
+                                    positive));
+  return rows;
 }
 
 std::vector<Field<Settings>> make_material() {
@@ -321,6 +339,11 @@ std::string Range::text() const {
 
 std::span<const Field<Settings>> settings_table() {
   static const auto table = make_settings();
+  return table;
+}
+
+std::span<const Field<PartOptions>> part_fields() {
+  static const auto table = make_part();
   return table;
 }
 

@@ -55,6 +55,7 @@ struct Field {
 };
 
 std::span<const Field<Settings>> settings_table();
+std::span<const Field<PartOptions>> part_fields();       ///< bodies[]
 std::span<const Field<BoneDefinition>> bone_fields();    ///< skeleton.bones[]
 std::span<const Field<LimitDefinition>> limit_fields();  ///< skeleton.bones[].limits
 std::span<const Field<TrackDefinition>> track_fields();  ///< motion.tracks[] (and its list `keys`)

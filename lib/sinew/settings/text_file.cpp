@@ -157,9 +157,12 @@ void open_paths_from_here(Settings& settings, const fs::path& folder) {
       continue;
     row.set(settings, seen_from("", folder / *path).string());
   }
-  for (ObstacleSettings& obstacle : settings.world.obstacles)
-    if (!obstacle.mesh.empty() && !fs::path(obstacle.mesh).is_absolute())
-      obstacle.mesh = seen_from("", folder / obstacle.mesh).string();
+  const auto open = [&](std::string& mesh) {
+    if (!mesh.empty() && !fs::path(mesh).is_absolute())
+      mesh = seen_from("", folder / mesh).string();
+  };
+  for (PartOptions& part : settings.bodies) open(part.body.mesh);
+  for (ObstacleSettings& obstacle : settings.world.obstacles) open(obstacle.mesh);
 }
 
 }  // namespace sinew

@@ -221,6 +221,7 @@ std::vector<std::string> homes_of(std::string_view name) {
   search(settings_table(), "");
   search(bone_fields(), "skeleton.bones");
   search(limit_fields(), "skeleton.bones[].limits");
+  search(part_fields(), "bodies");
   search(bound_fields(), "binding.explicit");
   search(track_fields(), "motion.tracks");
   search(key_fields(), "motion.tracks[].keys");

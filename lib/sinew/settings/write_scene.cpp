@@ -39,6 +39,16 @@ std::string bound_text(const Settings& settings) {
   return text;
 }
 
+std::string bodies_text(const Settings& settings, const std::filesystem::path& folder) {
+  if (settings.bodies.empty()) return "";
+  std::string text = "\nbodies:\n";
+  for (PartOptions part : settings.bodies) {
+    part.body.mesh = path_in(folder, part.body.mesh);
+    text += entry_text(part_fields(), part, 2, text.ends_with(":\n"));
+  }
+  return text;
+}
+
 /// Whether a key with a default must be left out because the other key of its pair is given.
 bool is_replaced(const Settings& settings, const Field<Settings>& row) {
   const std::string name = std::string(row.section) + '.' + std::string(row.name);
@@ -74,6 +84,7 @@ std::string resolved_scene(const Settings& settings, const std::filesystem::path
   std::string text = "# Every setting of this run. SI units, angles in degrees.\n";
   for (const std::string_view section : sections()) {
     text += '\n' + std::string(section) + ":\n" + section_text(settings, section, folder);
+    if (section == "body") text += bodies_text(settings, folder);
     if (section == "skeleton") text += bones_text(settings);
     if (section == "motion") text += tracks_text(settings);
     if (section == "world") text += world_text(settings, folder);

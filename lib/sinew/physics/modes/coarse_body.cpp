@@ -93,25 +93,30 @@ Body coarse_body(const Body& body, int times) {
   const double unit = std::numbers::sqrt2 * larger * body.material.pair.r;
   const Vec3 center = middle_of(body.rest);
   // A particle is spread over its own volume, lest cells hold now two, now four.
-  Shares all;
+  Shares all, stiffness;
   const std::vector<FccSite> parts = nearest_steps();
   for (std::size_t i = 0; i < body.rest.size(); ++i) {
     const Vec3 at = body.lattice.transpose() * (body.rest[i] - center) / unit;
     const double share = (body.share.empty() ? 1 : body.share[i]) / (larger * larger * larger) /
                          static_cast<double>(parts.size());
-    for (const FccSite& part : parts)
-      all[nearest_fcc_site(at + 0.5 / larger * Vec3(part[0], part[1], part[2]))] += share;
+    for (const FccSite& part : parts) {
+      const FccSite site = nearest_fcc_site(at + 0.5 / larger * Vec3(part[0], part[1], part[2]));
+      all[site] += share;
+      if (!body.stiffness.empty()) stiffness[site] += share * body.stiffness[i];
+    }
   }
+  for (auto& [site, sum] : stiffness) sum /= all[site];
   Body coarse;
   coarse.lattice = body.lattice;
   coarse.material = enlarged(body.material, larger);
   for (const auto& [site, share] : kept(std::move(all))) {
     coarse.rest.emplace_back(center + unit * (body.lattice * Vec3(site[0], site[1], site[2])));
     coarse.share.push_back(share);
+    if (!stiffness.empty()) coarse.stiffness.push_back(stiffness[site]);
   }
   coarse.material.mass = body.material.mass * static_cast<double>(body.rest.size()) /
                          static_cast<double>(coarse.rest.size());
-  coarse.factors = bond_factors(coarse.rest, coarse.material, coarse.share);
+  coarse.factors = bond_factors(coarse.rest, coarse.material, coarse.share, coarse.stiffness);
   return coarse;
 }
 

@@ -48,8 +48,9 @@ Body part_of(const Body& body, const std::vector<std::size_t>& places) {
   for (const std::size_t i : places) {
     part.rest.push_back(body.rest[i]);
     if (!body.share.empty()) part.share.push_back(body.share[i]);
+    if (!body.stiffness.empty()) part.stiffness.push_back(body.stiffness[i]);
   }
-  part.factors = bond_factors(part.rest, part.material, part.share);
+  part.factors = bond_factors(part.rest, part.material, part.share, part.stiffness);
   return part;
 }
 
