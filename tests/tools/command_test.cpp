@@ -110,13 +110,21 @@ TEST_F(CommandTest, WrongUseIsOneLineWithAHint) {
   }
 }
 
-TEST_F(CommandTest, HelpShowsOptionsExamplesAndEverySetting) {
+TEST_F(CommandTest, HelpShowsOptionsAndExamples) {
   const Ran ran = sample("--help");
   EXPECT_EQ(ran.exit, 0);
   for (const char* part : {"Reads a scene.", "--threads", "--set", "--json", "--quiet", "--version",
-                           "sinew sample scene.yaml", "young_modulus", "skeleton.bones[]"})
+                           "sinew sample scene.yaml", "--help-settings"})
     EXPECT_TRUE(holds(ran.out, part)) << part;
   EXPECT_EQ(ran.err, "");
+}
+
+TEST_F(CommandTest, HelpOfSettingsHasThemAll) {
+  const Ran ran = sample("--help-settings");
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_EQ(ran.out, settings_help());
+  for (const char* part : {"young_modulus", "skeleton.bones[]", "bodies[]"})
+    EXPECT_TRUE(holds(ran.out, part)) << part;
 }
 
 TEST_F(CommandTest, VersionIsThatOfTheProject) {
