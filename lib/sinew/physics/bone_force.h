@@ -61,6 +61,7 @@ struct BonePull {
 struct HeldParticle {
   Vec3 rest, position, velocity;  ///< m, m, m/s
   double radius;                  ///< m
+  std::size_t id = 0;             ///< in the written order
 };
 
 /// The pull, including the weight, of the bone at `pose` (at rest `bone`) through `influence`.

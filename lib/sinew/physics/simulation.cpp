@@ -67,6 +67,12 @@ void Simulation::follow(StepPlan plan) {
   set_step(plan_.step(0));
 }
 
+void Simulation::play(Motion motion) {
+  motion_ = std::make_shared<const Motion>(std::move(motion));
+  cursor_ = PoseCursor(body_->skeleton, *motion_);
+  evaluated_ = false;
+}
+
 void Simulation::set_step(double step) {
   stepping_.step = step;
   std::visit([&](auto& stepper) { stepper.set_step(step); }, stepper_);

@@ -37,6 +37,9 @@ class Simulation {
   /// From the start on, steps are of the sizes in the plan. Call it before the first step.
   void follow(StepPlan plan);
 
+  /// From now on the bones move so; at the present moment the pose should be the same.
+  void play(Motion motion);
+
   /// Advances by one step. Throws Error (unstable) that names step, particle, cause and a cure when
   /// a value is not finite or a particle moves over 0.25 r relative to its bone in the step (one
   /// without a bone: relative to its previous motion). The particles stay where they were before

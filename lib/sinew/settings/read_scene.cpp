@@ -142,16 +142,21 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
 
 }  // namespace
 
-Settings read_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
-  const std::string file = path.string();
-  YamlNode scene = parse_yaml(read_text(path), file);
+Settings scene_from_text(const std::string& text, const std::string& name,
+                         const std::filesystem::path& folder,
+                         std::span<const Override> overrides) {
+  YamlNode scene = parse_yaml(text, name);
   for (const Override& given : overrides) apply_override(given, scene);
-  Settings settings = read_settings(scene, file, sections());
+  Settings settings = read_settings(scene, name, sections());
   apply_preset(settings);
   check_together(settings);
-  open_paths_from_here(settings, path.parent_path());
+  open_paths_from_here(settings, folder);
   read_rig_files(settings);
   return settings;
+}
+
+Settings read_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
+  return scene_from_text(read_text(path), path.string(), path.parent_path(), overrides);
 }
 
 Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides) {

@@ -37,6 +37,11 @@ void apply_override(const Override& given, YamlNode& scene);
 /// "--set KEY=VALUE: ...".
 Settings read_scene(const std::filesystem::path& path, std::span<const Override> overrides = {});
 
+/// The same of a scene's text; its paths are relative to `folder`, and errors call it `name`.
+Settings scene_from_text(const std::string& text, const std::string& name,
+                         const std::filesystem::path& folder,
+                         std::span<const Override> overrides = {});
+
 /// The settings of a body alone: a mesh to be filled, with overrides for the sections body and
 /// material; all else has its defaults. Throws bad input as read_scene() does.
 Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides);

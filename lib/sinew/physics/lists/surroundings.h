@@ -78,6 +78,7 @@ class Surroundings {
   double mass_;
   bool any_, everywhere_;
   bool pins_on_bones_;
+  std::vector<std::int32_t> id_;       ///< in the kernel's order; empty without surroundings
   std::vector<std::uint32_t> pin_;     ///< by particle in the kernel's order; empty without pins
   std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
   std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces

@@ -56,8 +56,11 @@ void CellStepper::find_world_forces(const Pose& pose) {
   around_.resize(particles_.size());
   forces_.world = muscle_;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const HeldParticle particle{
-        {}, particles_.position(i), particles_.velocity(i), particles_.radius};
+    const HeldParticle particle{{},
+                                particles_.position(i),
+                                particles_.velocity(i),
+                                particles_.radius,
+                                static_cast<std::size_t>(particles_.id[i])};
     around_[i] = world_on(particle, particles_.mass, world, now, forces_.total(i) + weight,
                           stepping_.step, reactions_);
     forces_.world[i] += around_[i].force();

@@ -43,6 +43,7 @@ struct Swirl {
 struct Grain {
   double mass;    ///< kg
   double volume;  ///< of the body at rest, m^3
+  std::size_t id = 0;
 };
 
 /// A force of one's own. It is called from several threads at once.

@@ -35,7 +35,7 @@ class Gatherer {
   }
 
   void add_fields() {
-    const Grain grain = {mass_, volume_per_particle(particle_.radius)};
+    const Grain grain = {mass_, volume_per_particle(particle_.radius), particle_.id};
     for (std::size_t k = 0; k < world_.fields.size(); ++k)
       on.field += field_force(world_.fields[k], now_.scales[k], particle_.position, grain);
   }

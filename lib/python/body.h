@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles as Python has them, between filling and simulating.
+#pragma once
+
+#include <vector>
+
+#include <sinew/sinew.h>
+
+namespace sinew::python {
+
+struct FilledBody {
+  Points points;                                   ///< at rest, m
+  double radius = 0, mass = 0;                     ///< of each particle, m and kg
+  std::vector<std::int32_t> component, neighbors;  ///< as in Filling; empty: made in Python
+  LocalMaterial local = {};
+
+  Particles particles() const { return particles_at(points, radius, mass); }
+};
+
+}  // namespace sinew::python

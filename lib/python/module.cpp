@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The module sinew._sinew; sinew/__init__.py adds what is easier in Python.
+#include "arrays.h"
+
+namespace {
+
+namespace py = pybind11;
+
+/// Errors of the library become sinew.Error, with the exit code that the commands end with.
+void bind_errors(py::module_& module) {
+  static py::exception<sinew::Error> error(module, "Error");
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const sinew::Error& caught) {
+      py::object value = py::reinterpret_borrow<py::object>(error)(caught.what());
+      value.attr("exit_code") = static_cast<int>(caught.exit());
+      PyErr_SetObject(error.ptr(), value.ptr());
+    }
+  });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_sinew, module) {
+  module.doc() = "Elastic bodies bent by a skeleton.";
+  module.attr("__version__") = sinew::version();
+  bind_errors(module);
+  sinew::python::bind_scenes(module);
+  sinew::python::bind_simulation(module);
+  sinew::python::bind_runs(module);
+}

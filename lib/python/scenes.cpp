@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes, and bodies filled with particles.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.h"
+#include "body.h"
+
+namespace sinew::python {
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;  // a path and YAML
+
+std::vector<Override> overrides_of(const Values& values) {
+  std::vector<Override> overrides;
+  for (const auto& [path, value] : values) overrides.push_back(parse_override(path + '=' + value));
+  return overrides;
+}
+
+FilledBody body_of_filling(Filling filling) {
+  FilledBody body;
+  body.points = positions_of(filling.particles);
+  body.radius = filling.particles.radius;
+  body.mass = filling.particles.mass;
+  body.component = std::move(filling.component);
+  body.neighbors = std::move(filling.neighbors);
+  body.local = {std::move(filling.share), std::move(filling.stiffness)};
+  return body;
+}
+
+FilledBody fill(const std::filesystem::path& mesh, const Values& values) {
+  const py::gil_scoped_release release;
+  const Settings settings = settings_of_mesh(mesh, overrides_of(values));
+  return body_of_filling(fill_body(settings, read_mesh(settings)));
+}
+
+FilledBody fill_scene(const Settings& scene) {
+  const py::gil_scoped_release release;
+  return body_of_filling(fill_body(scene, read_mesh(scene)));
+}
+
+FilledBody body_of_points(const GivenPoints& given, double radius, std::optional<double> mass,
+                          double density) {
+  FilledBody body;
+  body.points = points_of(given, "the points of a body");
+  if (body.points.empty()) throw bad_input("a body needs particles", "give at least one point");
+  if (!(radius > 0)) throw bad_input("the radius is not above 0", "give it in meters");
+  body.radius = radius;
+  body.mass = mass.value_or(density * volume_per_particle(radius));
+  if (!(body.mass > 0)) throw bad_input("the mass is not above 0", "give it in kilograms");
+  return body;
+}
+
+void bind_body(py::module_& module) {
+  using B = FilledBody;
+  const auto view = [](auto B::*member) {
+    return [member](const py::object& self) { return view_of(self.cast<B&>().*member, self); };
+  };
+  py::class_<B, std::shared_ptr<B>>(module, "Body")
+      .def(py::init(&body_of_points), py::arg("points"), py::arg("radius"),
+           py::arg("mass") = std::nullopt, py::arg("density") = 1000.0)
+      .def_property_readonly("points", view(&B::points))
+      .def_property_readonly("component", view(&B::component))
+      .def_property_readonly("neighbors", view(&B::neighbors))
+      .def_readonly("radius", &B::radius)
+      .def_readonly("mass", &B::mass)
+      .def("__len__", [](const B& body) { return body.points.size(); });
+}
+
+}  // namespace
+
+void bind_scenes(py::module_& module) {
+  bind_body(module);
+  py::class_<Settings>(module, "Scene")
+      .def_property_readonly("duration", [](const Settings& s) { return s.solver.duration; })
+      .def_property_readonly("interval", [](const Settings& s) { return s.output.interval; })
+      .def("__str__",
+           [](const Settings& s) { return resolved_scene(s, std::filesystem::current_path()); });
+  module.def("_fill", &fill);
+  module.def("_fill_scene", &fill_scene);
+  module.def("_read_scene", [](const std::filesystem::path& path, const Values& values) {
+    return read_scene(path, overrides_of(values));
+  });
+  module.def("_scene_of_text", [](const std::string& text, const std::filesystem::path& folder) {
+    return scene_from_text(text, "scene", folder);
+  });
+}
+
+}  // namespace sinew::python

@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package: the same bits as the commands, no copies, no leaks, errors with a cure.
+
+usage: python_test.py BIN SOURCE      folder of the programs, folder of the project; PYTHONPATH names the package's
+"""
+import gc
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import meshio
+import numpy
+import sinew
+
+from small_run import SOURCE, SmallRun
+from small_run import sinew as command
+
+BAR = {
+    "material": {"model": "bonded"},
+    "skeleton": {"bones": [{"name": "low", "head": [0, 0, 0], "tail": [0, 0, 0.1]},
+                           {"name": "high", "parent": "low", "tail": [0, 0, 0.2]}]},
+    "motion": {"tracks": [{"bone": "high", "keys": [{"time": 0}]}]},
+}
+
+
+def grid(nx, ny, nz, spacing):
+    """A face-centered cubic packing of particles whose diameter is `spacing`."""
+    side = spacing * 2 ** 0.5
+    cells = numpy.stack(numpy.meshgrid(range(nx), range(ny), range(nz), indexing="ij"), -1).reshape(-1, 1, 3)
+    corners = numpy.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
+    return side * (cells + corners).reshape(-1, 3)
+
+
+class Scenes(SmallRun):
+    def test_fill_is_as_the_command(self):
+        body = sinew.fill(SOURCE / "data/meshes/arm.ply", radius=0.01)
+        command("fill", SOURCE / "data/meshes/arm.ply", "--radius", "0.01", "-o", self.folder / "arm.vtu", check=0)
+        filled = meshio.read(self.folder / "arm.vtu")
+        numpy.testing.assert_array_equal(body.points, filled.points)
+        numpy.testing.assert_array_equal(body.component, filled.point_data["component"])
+        self.assertEqual(body.mass, filled.point_data["mass"][0])
+        self.assertEqual(len(body), len(body.points))
+        small = sinew.fill(SOURCE / "data/meshes/arm.ply", count=500, unit="cm", packing="hcp")
+        self.assertAlmostEqual(len(small) / 500, 1, delta=0.1)
+
+    def test_steps_are_as_the_commands(self):
+        self.simulate("--set", "output.double_precision=true")
+        simulation = sinew.Simulation(sinew.read_scene(self.scene))
+        end = meshio.read(sorted((self.out / "particles").glob("*.vtu"))[-1])
+        simulation.run_until(0.4)
+        numpy.testing.assert_array_equal(simulation.positions, end.points)
+        numpy.testing.assert_array_equal(simulation.velocities, end.point_data["velocity"])
+        surface = meshio.read(sorted((self.out / "surface").glob("*.vtu"))[-1])
+        numpy.testing.assert_array_equal(simulation.surface, surface.points)
+        numpy.testing.assert_array_equal(simulation.faces, surface.cells_dict["triangle"])
+
+    def test_runs_and_metrics_are_as_the_files(self):
+        run = sinew.simulate(sinew.read_scene(self.scene, {"body.radius": 0.04}), self.out)
+        self.assertEqual(len(run), 13)
+        self.assertAlmostEqual(run[-1].time, 0.4)
+        numpy.testing.assert_allclose(run.times, [run[i].time for i in range(13)])
+        moved = numpy.linalg.norm(run[6].positions - run.rest, axis=1)
+        numpy.testing.assert_allclose(moved, run[6].displacement, atol=1e-6)
+        command("measure", self.out, check=0)
+        columns = sinew.measure(self.out)
+        table = numpy.genfromtxt(self.out / "metrics.csv", delimiter=",", names=True)
+        for name in ("time", "volume_error", "kinetic_energy"):
+            numpy.testing.assert_allclose(columns[name], table[name], rtol=1e-12)
+        with self.assertRaises(IndexError):
+            run[13]
+
+    def test_errors_are_those_of_the_commands(self):
+        for cause, part in ((lambda: sinew.read_scene("none.yaml"), "none.yaml"),
+                            (lambda: sinew.read_scene(self.scene, {"body.radus": 1}), "radius"),
+                            (lambda: sinew.fill("none.obj", radius=1), "none.obj"),
+                            (lambda: sinew.open_run(self.folder), "run"),
+                            (lambda: sinew.Body([[0, 0]], 1), "(n, 3)"),
+                            (lambda: sinew.Body([], 1), "(n, 3)"),
+                            (lambda: sinew.Body([[0, 0, 0]], -1), "radius")):
+            with self.assertRaises(sinew.Error) as raised:
+                cause()
+            self.assertIn(part, str(raised.exception))
+            self.assertEqual(raised.exception.exit_code, 2)
+
+
+class Examples(SmallRun):
+    def example(self, name, *words, before=()):
+        done = subprocess.run([*before, sys.executable, SOURCE / "lib/examples" / name, *map(str, words)],
+                              capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_a_chart_of_a_run(self):
+        self.simulate()
+        self.example("chart.py", self.out, self.folder / "chart.png")
+        self.assertGreater((self.folder / "chart.png").stat().st_size, 5000)
+
+    def test_a_study_of_parameters(self):
+        rows = self.example("parameter_study.py", self.scene).splitlines()[1:]
+        far = [float(row.split()[1]) for row in rows]
+        self.assertEqual(len(far), 3)
+        self.assertTrue(all(distance > 0 for distance in far))
+
+    def test_a_force_of_ones_own(self):
+        words = self.example("own_force.py", SOURCE / "data/meshes/tentacle.ply").split()
+        self.assertGreater(float(words[3]), 0.01)  # downwind
+
+    def test_a_picture_by_vtk(self):
+        self.example("vtk_scene.py", self.scene, self.folder / "pose.png", before=["xvfb-run", "-a"])
+        self.assertGreater((self.folder / "pose.png").stat().st_size, 5000)
+
+
+class Made(unittest.TestCase):
+    """Bodies and scenes made in Python."""
+
+    def setUp(self):
+        self.body = sinew.Body(grid(3, 3, 10, 0.02) - [0.04, 0.04, 0], 0.01)
+        self.scene = sinew.make_scene(BAR, self.body)
+
+    def test_a_pose_moves_the_body(self):
+        simulation = sinew.Simulation(self.scene, self.body)
+        self.assertEqual(simulation.bones, ["low", "high"])
+        half = numpy.radians(45) / 2
+        simulation.set_pose({"high": (numpy.cos(half), 0, numpy.sin(half), 0)}, over=0.5)
+        simulation.run_until(1)
+        top = self.body.points[:, 2] > 0.22
+        expected = (self.body.points[top] - [0, 0, 0.1]) @ numpy.array([[1, 0, -1], [0, 2 ** 0.5, 0], [1, 0, 1]]) \
+            / 2 ** 0.5 + [0, 0, 0.1]
+        self.assertLess(abs(simulation.positions[top] - expected).max(), 0.01)
+        with self.assertRaises(sinew.Error) as raised:
+            simulation.set_pose({"none": (1, 0, 0, 0)})
+        self.assertIn("simulation.bones", str(raised.exception))
+
+    def test_forces_of_ones_own_accelerate(self):
+        """Newton's second law for the first step, and a body that is pushed alike moves as in gravity."""
+        pushed = sinew.Simulation(self.scene, self.body, own_forces=True)
+        fallen = sinew.Simulation(sinew.make_scene(BAR | {"solver": {"gravity": [0, 0, -2]}}, self.body), self.body)
+        pushed.set_forces(numpy.full((len(self.body), 3), (0, 0, -2)) * self.body.mass)
+        for simulation in (pushed, fallen):
+            simulation.step(50)
+        numpy.testing.assert_allclose(pushed.positions, fallen.positions, atol=1e-9)
+        forces = numpy.zeros((len(self.body), 3))
+        forces[7] = (0.1, 0, 0)
+        other = sinew.Simulation(self.scene, self.body, own_forces=True)
+        other.set_forces(forces)
+        other.step()
+        moved = numpy.abs(other.positions - self.body.points).max(1)
+        self.assertEqual(numpy.argmax(moved), 7)
+        for bad in (numpy.zeros((3, 3)), numpy.full((len(self.body), 3), numpy.nan)):
+            with self.assertRaises(sinew.Error):
+                other.set_forces(bad)
+
+    def test_positions_are_a_view(self):
+        simulation = sinew.Simulation(self.scene, self.body)
+        first = simulation.positions
+        simulation.step(3)
+        self.assertEqual(first.ctypes.data, simulation.positions.ctypes.data)
+        self.assertFalse(first.flags.writeable)
+        self.assertEqual(self.body.points.ctypes.data, self.body.points.ctypes.data)
+        del simulation
+        gc.collect()
+        self.assertTrue(numpy.isfinite(first).all())  # the view keeps its owner
+
+    def test_other_threads_go_on(self):
+        counted = 0
+        simulation = sinew.Simulation(self.scene, self.body)
+        worker = threading.Thread(target=simulation.step, args=(3000,))
+        worker.start()
+        while worker.is_alive():
+            counted += 1
+            time.sleep(0)
+        self.assertGreater(counted, 100)
+
+    def test_simulations_leak_nothing(self):
+        def used():
+            gc.collect()
+            return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for _ in range(30):
+            sinew.Simulation(self.scene, self.body).step()
+        before = used()
+        for _ in range(200):
+            sinew.Simulation(self.scene, self.body).step()
+        self.assertLess(used() - before, 2000)  # kB; 200 bodies of 360 particles have 60,000
+
+    def test_ctrl_c_stops_stepping(self):
+        code = ("import sinew, sys; sys.path.insert(0, sys.argv[1]); import numpy\n"
+                "body = sinew.Body(numpy.load(sys.argv[2]), 0.01)\n"
+                "scene = sinew.make_scene(eval(sys.argv[3]), body)\n"
+                "simulation = sinew.Simulation(scene, body)\n"
+                "print('ready', flush=True)\n"
+                "try:\n  simulation.step(10**9)\n"
+                "except KeyboardInterrupt:\n  print('stopped', simulation.steps > 0)\n")
+        points = os.path.join(os.environ.get("TMPDIR", "/tmp"), f"points{os.getpid()}.npy")
+        numpy.save(points, self.body.points)
+        child = subprocess.Popen([sys.executable, "-c", code, ".", points, repr(BAR)], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(child.stdout.readline(), "ready\n")
+        time.sleep(0.5)
+        child.send_signal(signal.SIGINT)
+        self.assertEqual(child.communicate(timeout=20)[0], "stopped True\n")
+        os.remove(points)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["python_test", "-v", *sys.argv[3:]])
