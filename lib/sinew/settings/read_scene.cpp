@@ -143,8 +143,7 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
 }  // namespace
 
 Settings scene_from_text(const std::string& text, const std::string& name,
-                         const std::filesystem::path& folder,
-                         std::span<const Override> overrides) {
+                         const std::filesystem::path& folder, std::span<const Override> overrides) {
   YamlNode scene = parse_yaml(text, name);
   for (const Override& given : overrides) apply_override(given, scene);
   Settings settings = read_settings(scene, name, sections());
