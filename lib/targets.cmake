@@ -58,9 +58,10 @@ function(sinew_library room)
     target_sources(sinew_${room} PRIVATE $<TARGET_OBJECTS:sinew_${room}_cgal>)
     target_link_libraries(sinew_${room} PRIVATE $<LINK_ONLY:CGAL::CGAL>)
   endif()
-  install(TARGETS sinew_${room} EXPORT sinew ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS sinew_${room} EXPORT sinew ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    COMPONENT libsinew-dev)
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${room}
-    FILES_MATCHING PATTERN "*.h")
+    COMPONENT libsinew-dev FILES_MATCHING PATTERN "*.h")
 endfunction()
 
 # sinew_umbrella(ROOMS): sinew::sinew, which brings all of them, with <sinew/sinew.h>.
@@ -70,18 +71,21 @@ function(sinew_umbrella)
   set_target_properties(sinew_all PROPERTIES EXPORT_NAME sinew)
   list(TRANSFORM ARGN PREPEND sinew_ OUTPUT_VARIABLE rooms)
   target_link_libraries(sinew_all INTERFACE ${rooms})
-  install(TARGETS sinew_all EXPORT sinew)
-  install(FILES lib/sinew/sinew.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew)
+  install(TARGETS sinew_all EXPORT sinew COMPONENT libsinew-dev)
+  install(FILES lib/sinew/sinew.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew COMPONENT libsinew-dev)
+  add_custom_target(sinew_all_rooms DEPENDS ${rooms})
 endfunction()
 
 function(sinew_install_package)
   include(CMakePackageConfigHelpers)
   set(place ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
-  install(EXPORT sinew NAMESPACE sinew:: DESTINATION ${place} FILE sinew-targets.cmake)
+  install(EXPORT sinew NAMESPACE sinew:: DESTINATION ${place} FILE sinew-targets.cmake
+    COMPONENT libsinew-dev)
   configure_package_config_file(lib/sinew-config.cmake.in ${PROJECT_BINARY_DIR}/sinew-config.cmake
     INSTALL_DESTINATION ${place})
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/sinew-config-version.cmake
     COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/sinew-config.cmake
-    ${PROJECT_BINARY_DIR}/sinew-config-version.cmake DESTINATION ${place})
+    ${PROJECT_BINARY_DIR}/sinew-config-version.cmake DESTINATION ${place}
+    COMPONENT libsinew-dev)
 endfunction()

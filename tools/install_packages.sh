@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install_packages.sh build|test|bench ...: installs with apt-get the missing Debian packages for
-# building, testing or the benchmarks.
+# install_packages.sh build|test|package|bench ...: installs with apt-get the missing Debian packages for
+# building, testing, making packages or the benchmarks.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
   libdeflate-dev liblz4-dev libexpat1-dev libcli11-dev nlohmann-json3-dev libfmt-dev libx11-dev xvfb ffmpeg
   libjs-chart.js libjs-three)
 test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-matplotlib python3-meshio python3-numpy python3-vtk9 xauth lammps paraview procps chromium clang-format clang-tidy)
+package=(pybind11-dev python3-dev dpkg-dev file help2man)
 bench=(libbenchmark-dev libgtest-dev python3 lammps)
 
 wanted=()
@@ -15,8 +16,9 @@ for list in "$@"; do
   case $list in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
-    *) echo "install_packages.sh: '$list' is none of build, test, bench" >&2; exit 2 ;;
+    *) echo "install_packages.sh: '$list' is none of build, test, package, bench" >&2; exit 2 ;;
   esac
 done
 

@@ -54,6 +54,7 @@ std::string sections_markdown() {
 
 std::string table_named(const std::string& name) {
   if (name == "settings") return settings_markdown();
+  if (name == "manual") return settings_manual();
   if (name == "arrays") return arrays_markdown();
   if (name == "metrics") return metrics_markdown();
   if (name == "bones") return bones_markdown();

@@ -20,6 +20,7 @@ namespace {
 constexpr int most_threads = 1024;
 
 struct HelpOfSettings {};  ///< thrown where it is asked for
+struct Completions {};     ///< the same
 
 /// The variables that options are parsed into.
 struct Given {
@@ -45,6 +46,9 @@ void declare_common(CLI::App& app, const About& about, Given& given) {
   list.add("--threads", given.common.threads, "Threads to use; 0: one per core")
       .type_name("N")
       .range(0, most_threads);
+  app.add_flag_callback("--completions", [] { throw Completions(); })
+      ->trigger_on_parse()
+      ->group("");
   if (!about.takes_scene) return;
   app.add_flag_callback(
          "--help-settings", [] { throw HelpOfSettings(); }, "Show the keys of a scene and exit")
@@ -81,6 +85,10 @@ bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
   } catch (const CLI::Success& asked) {
     const bool version_asked = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
     print_out(version_asked ? std::string(asked.what()) + '\n' : app.help());
+    return false;
+  } catch (const Completions&) {  // for the shells' scripts in tools/packaging
+    for (const std::string& name : option_names(app)) print_out(name + '\n');
+    for (const std::string& key : setting_keys()) print_out(key + "=\n");
     return false;
   } catch (const HelpOfSettings&) {
     print_out(settings_help());

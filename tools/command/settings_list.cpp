@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include <sinew/core/system.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 #include <sinew/settings/values.h>
@@ -96,6 +97,52 @@ std::string settings_help() {
     }
   }
   return text;
+}
+
+namespace {
+
+/// As roff prints it.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\\' || c == '-') out += '\\';
+    if ((c == '.' || c == '\'') && out.empty()) out += "\\&";
+    out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string settings_manual() {
+  std::string text =
+      ".TH SINEW\\-SCENE 5 \"\" \"sinew " + version() +
+      "\" \"File Formats\"\n.SH NAME\n"
+      "sinew\\-scene \\- a body, its bones and their motion, for sinew(1)\n.SH DESCRIPTION\n"
+      "A scene is a YAML file. Lengths are in meters, times in seconds, all other quantities in SI "
+      "units, and angles in degrees; z points up. Paths are relative to the file. Only the mesh, "
+      "the radius (or the count) and the bones are required.\n.SH EXAMPLE\n.nf\n"
+      "body: {mesh: part.stl, unit: mm, count: 20000}\nskeleton:\n  bones:\n"
+      "    \\- {name: lower, head: [0, 0, 0], tail: [0, 0, 0.1]}\n"
+      "    \\- {name: upper, parent: lower, tail: [0, 0, 0.2]}\nmotion:\n  tracks:\n"
+      "    \\- {bone: upper, keys: [{time: 0}, {time: 1, axis: [0, 1, 0], angle: 90}]}\n.fi\n"
+      ".SH KEYS\n";
+  for (const Group& group : groups()) {
+    text += ".SS " + roff(group.title) + '\n';
+    for (const Line& row : group.rows) {
+      text += ".TP\n\\fB" + roff(row.name) + "\\fR  " + roff(row.standard) +
+              (row.unit.empty() ? "" : "  [" + roff(row.unit) + ']') + '\n' + roff(row.help);
+      text += row.values.empty() ? "\n" : "\n.br\n" + roff(row.values) + '\n';
+    }
+  }
+  return text + ".SH SEE ALSO\nsinew(1), sinew\\-run(1), sinew\\-new(1), sinew\\-check(1)\n";
+}
+
+std::vector<std::string> setting_keys() {
+  std::vector<std::string> keys;
+  for (const auto& row : settings_table())
+    keys.push_back(std::string(row.section) + '.' + std::string(row.name));
+  return keys;
 }
 
 std::string settings_markdown() {

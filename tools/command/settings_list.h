@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -29,5 +30,11 @@ std::string settings_help();
 
 /// A Markdown table for each section, for configs/README.md.
 std::string settings_markdown();
+
+/// The same as a manual page, sinew-scene(5).
+std::string settings_manual();
+
+/// "body.mesh", ...: the keys that --set takes.
+std::vector<std::string> setting_keys();
 
 }  // namespace sinew
