@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -67,6 +68,7 @@ struct Surface {
   Triangles caps;
   Border border;
   CleaningCounts cleaning;
+  std::string warning;  ///< of the reader; "": none
   double seconds_reading = 0, seconds_cleaning = 0;
 
   bool closed() const { return caps.faces.empty(); }

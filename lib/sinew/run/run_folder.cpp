@@ -33,7 +33,8 @@ bool written_by_a_run(const fs::path& relative) {
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/\\.?((compare_)?(body|surface|particles|section|strain|forces|bones)"
-      "_([0-9]{6,}|sheet)\\.png|(contact_sheet|scene)\\.png|(movie|(compare_)?(body|surface|particles|"
+      "_([0-9]{6,}|sheet)\\.png|(contact_sheet|scene)\\.png|(movie|(compare_)?(body|surface|"
+      "particles|"
       "section|strain|forces|bones))\\.mp4)(\\.tmp)?");
   return std::regex_match(relative.generic_string(), ours);
 }

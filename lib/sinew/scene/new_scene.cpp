@@ -27,10 +27,10 @@ namespace {
 // Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
 constexpr double fewest = 3000, most = 10000, most_if_split = 60000;
 constexpr double most_overlap = 0.8;  // of the volume by the faces lies there once
-constexpr double across = 4.5;       // particles across a limb
-constexpr double thin_share = 0.1;   // of the limbs' length is thinner than what counts as thin
-constexpr double most_loose = 0.01;  // of the particles, such as single ones at a tip
-constexpr double pictures = 24;      // per second
+constexpr double across = 4.5;        // particles across a limb
+constexpr double thin_share = 0.1;    // of the limbs' length is thinner than what counts as thin
+constexpr double most_loose = 0.01;   // of the particles, such as single ones at a tip
+constexpr double pictures = 24;       // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;

@@ -13,9 +13,9 @@ std::vector<std::string_view> axes() { return {"x", "y", "z", "-x", "-y", "-z"};
 std::vector<Field<Settings>> make_body() {
   using S = Settings;
   return {
-      required(path(field<S>(
-          "body", "mesh", SINEW_AT(S, body.mesh), "",
-          "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB), relative to the scene file"))),
+      required(path(field<S>("body", "mesh", SINEW_AT(S, body.mesh), "",
+                             "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB, VTP, VTU, VTK, "
+                             "VTI), relative to the scene file"))),
       choice<S>("body", "unit", SINEW_AT(S, body.unit), {"m", "dm", "cm", "mm", "um", "in", "ft"},
                 "unit of the mesh's lengths"),
       field<S>("body", "scale", SINEW_AT(S, body.scale), "",
