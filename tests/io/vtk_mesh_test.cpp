@@ -184,8 +184,14 @@ TEST_F(VtkMesh, ErrorsNameTheCure) {
   expect_refused("a.vtk", tetrahedra("42\n42"), "Extract Surface");
   expect_refused("a.vtk", tetrahedra("1\n1"), "surface or a volume");
   expect_refused("a.vtk", tetrahedra("10"), "number");
+  expect_refused(
+      "a.vtk",
+      legacy("DATASET POLYDATA\nPOINTS 5 float\n" + unit_points + "\nPOLYGONS 1 3\n2 0 1\n"),
+      "too few");
   expect_refused("a.vtu", image(4, ball), "rename it to .vti");
   expect_refused("a.vtp", xml("RectilinearGrid", ">"), "not read");
+  const std::string nan = grid_piece("0 0 0 1 0 0 0 1 0 0 0 nan", 4, "0 1 2 3", "4", "10", 1);
+  expect_refused("a.vtu", xml("UnstructuredGrid", '>' + nan), "finite");
   expect_refused("a.vti", image(4, [](const Vec3&) { return 1.0; }), "subtract a level");
   expect_refused("a.vti", image(4, [](const Vec3& at) { return at.x() < 0 ? NAN : 1.0; }),
                  "finite");

@@ -162,7 +162,9 @@ void add_polygon(const Checked& cells, std::size_t cell, std::vector<Ids>& polyg
   if (type == 22 || type == 34) return polygons.push_back(picked(cells, cell, {0, 3, 1, 4, 2, 5}));
   if (type == 23 || type == 28)
     return polygons.push_back(picked(cells, cell, {0, 4, 1, 5, 2, 6, 3, 7}));
-  if (type == vtk_polygon) polygons.emplace_back(points.begin(), points.end());
+  if (type != vtk_polygon) return;
+  picked(cells, cell, {0, 1, 2});  // it must have them
+  polygons.emplace_back(points.begin(), points.end());
 }
 
 struct Face {

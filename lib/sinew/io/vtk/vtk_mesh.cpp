@@ -86,6 +86,8 @@ void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
     const XmlElement* places = array_of(file, piece, "Piece/Points", "");
     if (places == nullptr) throw vtu_refused("its points are missing");
     const Points points = file.arrays.points(*places, count);
+    for (const Vec3& point : points)
+      if (!point.allFinite()) throw vtu_refused("a point is not finite");
     grid.points.insert(grid.points.end(), points.begin(), points.end());
   }
   const auto add = [&](const char* group, const char* number, int type) {
