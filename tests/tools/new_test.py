@@ -21,9 +21,18 @@ ROOT hips
 {
   OFFSET 0 100 0
   CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-  JOINT thigh
+  JOINT thighL
   {
-    OFFSET 10 0 0
+    OFFSET 10 -10 0
+    CHANNELS 3 Zrotation Xrotation Yrotation
+    End Site
+    {
+      OFFSET 0 -80 0
+    }
+  }
+  JOINT thighR
+  {
+    OFFSET -10 -10 0
     CHANNELS 3 Zrotation Xrotation Yrotation
     End Site
     {
@@ -43,8 +52,8 @@ ROOT hips
 MOTION
 Frames: 2
 Frame Time: 0.1
-0 100 0 0 0 0 0 0 0 0 0 0
-0 100 0 0 0 0 0 20 0 0 20 0
+0 100 0 0 0 0 0 0 0 0 0 0 0 0 0
+0 100 0 0 0 0 0 20 0 0 20 0 0 0 0
 """
 
 

@@ -145,6 +145,12 @@ bool too_coarse(const Particles& particles, std::size_t parts) {
          static_cast<double>(within) < least_within * static_cast<double>(particles.size());
 }
 
+/// By the thickness of limbs, within what a first picture needs and takes.
+double usual_radius(double inner, double volume) {
+  return three_figures(
+      std::clamp(inner / across, radius_for_count(volume, most), radius_for_count(volume, fewest)));
+}
+
 /// Makes particles smaller where they are too large for the body.
 void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
@@ -155,13 +161,11 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
   const std::size_t parts =
       static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
   choices.thickness = 2 * inner;
-  const double wanted = inner / across;
-  body.radius = three_figures(
-      std::clamp(wanted, radius_for_count(volume, most), radius_for_count(volume, fewest)));
+  body.radius = usual_radius(inner, volume);
   Particles particles = fill_body(choices.settings, surface).particles;
-  const double count = static_cast<double>(particles.size());
-  if (wanted < *body.radius && count < most_overlap * most) {  // pieces lie within each other
-    body.radius = three_figures(std::max(wanted, *body.radius * std::cbrt(count / most)));
+  const double filled = static_cast<double>(particles.size()) * volume_per_particle(*body.radius);
+  if (filled > 0 && filled < most_overlap * volume) {  // pieces lie within each other
+    body.radius = usual_radius(inner, filled);
     particles = fill_body(choices.settings, surface).particles;
   }
   while (too_coarse(particles, parts) &&
