@@ -173,7 +173,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);
   const double speed = farthest_carried(setup, settings.output.interval);
-  auto warnings = warnings_of(setup, skin, speed);
+  auto warnings = warnings_of(setup, surface, speed);
   warn_of_stiffness(setup.body, warnings);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());

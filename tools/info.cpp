@@ -187,6 +187,7 @@ DefectsFile drawing_of(const Surface& surface, const Defects& defects) {
 
 std::vector<std::string> mesh_warnings(const Surface& surface, double ambiguous, double inside) {
   std::vector<std::string> warnings;
+  if (!surface.warning.empty()) warnings.push_back(surface.warning);
   const double size = bounds(surface.triangles.points).sizes().maxCoeff();
   if (const auto odd = size_warning(size)) warnings.push_back(*odd);
   if (ambiguous > most_ambiguous)

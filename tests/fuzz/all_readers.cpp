@@ -8,7 +8,8 @@ std::vector<Target> tried_targets() {
           {"gltf", gltf}, {"obj", obj},
           {"off", off},   {"ply", ply},
           {"pvd", pvd},   {"scene", scene},
-          {"stl", stl},   {"vtu", vtu}};
+          {"stl", stl},   {"vtk", vtk},
+          {"vtu", vtu}};
 }
 
 }  // namespace sinew::fuzz

@@ -124,6 +124,46 @@ def gltf_binary():
     return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
+def vtk_array(name, kind, values, components=1):
+    return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">' +
+            " ".join("%g" % value for value in values) + "</DataArray>")
+
+
+def vtk_xml(kind, head, within):
+    return (f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64"><{kind}{head}>'
+            f"{within}</{kind}></VTKFile>\n").encode()
+
+
+def vtk_files():
+    """Of each kind of grid, legacy and XML."""
+    flat = [x for point in POINTS for x in point]
+    corners = [corner for face in FACES for corner in face]
+    text = "# vtk DataFile Version {}\nseed\n{}\nDATASET {}\n"
+    places = " ".join(map(str, flat))
+    distances = [abs(i % 3 - 1) + abs(i // 3 % 3 - 1) + abs(i // 9 - 1) - 0.6 for i in range(27)]
+    extent = '"0 2 0 2 0 2"'
+    polygons = "".join("3 %d %d %d\n" % face for face in FACES)
+    yield "polygons.vtk", (text.format("3.0", "ASCII", "POLYDATA") + f"POINTS 4 float\n{places}\nMETADATA\n\n"
+                           f"POLYGONS 4 16\n{polygons}TRIANGLE_STRIPS 1 5\n4 0 1 2 3\nPOINT_DATA 4\n").encode()
+    yield "cells.vtk", (text.format("5.1", "ASCII", "UNSTRUCTURED_GRID") + f"POINTS 4 double\n{places}\nCELLS 2 4\n"
+                        "OFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nCELL_TYPES 1\n10\n").encode()
+    yield "binary.vtk", (text.format("4.2", "BINARY", "UNSTRUCTURED_GRID") + "POINTS 4 float\n").encode() + struct.pack(
+        ">12f", *flat) + b"\nCELLS 1 5\n" + struct.pack(">5i", 4, 0, 1, 2, 3) + b"\nCELL_TYPES 1\n" + struct.pack(">i", 10)
+    image = text.format("3.0", "ASCII", "STRUCTURED_POINTS") + "DIMENSIONS 3 3 3\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 27\n"
+    values = " ".join("%g" % value for value in distances)
+    yield "image.vtk", f"{image}SCALARS d float 1\nLOOKUP_TABLE default\n{values}\n".encode()
+    yield "field.vtk", f"{image}FIELD FieldData 1\nd 1 27 double\n{values}\n".encode()
+    points = "<Points>" + vtk_array("p", "Float32", flat, 3) + "</Points>"
+    yield "a.vtp", vtk_xml("PolyData", "", '<Piece NumberOfPoints="4" NumberOfPolys="4">' + points + "<Polys>" + vtk_array(
+        "connectivity", "Int64", corners) + vtk_array("offsets", "Int64", [3, 6, 9, 12]) + "</Polys></Piece>")
+    piece = ('<Piece NumberOfPoints="4" NumberOfCells="1">' + points + "<Cells>" + vtk_array(
+        "connectivity", "Int64", range(4)) + vtk_array("offsets", "Int64", [4]) + vtk_array("types", "UInt8", [10]) + "</Cells></Piece>")
+    yield "a.vtu", vtk_xml("UnstructuredGrid", "", piece)
+    yield "pieces.vtu", vtk_xml("UnstructuredGrid", "", 2 * piece)
+    yield "a.vti", vtk_xml("ImageData", f' WholeExtent={extent} Origin="0 0 0" Spacing="1 2 3"', f"<Piece Extent={extent}>"
+                           '<PointData Scalars="d">' + vtk_array("d", "Float64", distances) + "</PointData></Piece>")
+
+
 def run_files(binaries, put):
     """What runs of a few particles leave."""
     with tempfile.TemporaryDirectory() as temporary:
@@ -170,6 +210,8 @@ def main():
         put("ply", form, ply(form))
     put("gltf", "embedded.gltf", gltf_text())
     put("gltf", "binary.glb", gltf_binary())
+    for name, content in vtk_files():
+        put("vtk", name, content)
     for name, text in SCENES.items():
         put("scene", name, text.encode())
     run_files(binaries, put)

@@ -19,6 +19,7 @@ void ply(std::string_view bytes);
 void pvd(std::string_view bytes);
 void scene(std::string_view bytes);
 void stl(std::string_view bytes);
+void vtk(std::string_view bytes);
 void vtu(std::string_view bytes);
 
 /// A reader by its name, which is that of its corpus too.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged OBJ, OFF, STL and PLY files, from good ones of a tetrahedron."""
+"""Damaged OBJ, OFF, STL, PLY and VTK files, from good ones of a tetrahedron."""
 import math
 import struct
 
@@ -23,6 +23,13 @@ PLY = PLY_HEAD + LINES.encode() + "".join("3 %d %d %d\n" % face for face in FACE
 PLY_BINARY = (PLY_HEAD.replace(b"ascii", b"binary_little_endian") +
               b"".join(struct.pack("<3f", *point) for point in POINTS) +
               b"".join(struct.pack("<B3i", 3, *face) for face in FACES))
+VTK_HEAD = b"# vtk DataFile Version 3.0\nseed\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+VTK = VTK_HEAD + LINES.encode() + b"CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"
+VTK_BINARY = (VTK_HEAD.replace(b"ASCII", b"BINARY") + b"".join(struct.pack(">3f", *point) for point in POINTS) +
+              b"\nCELLS 1 5\n" + struct.pack(">5i", 4, 0, 1, 2, 3) + b"\nCELL_TYPES 1\n" + struct.pack(">i", 10))
+VTI = (b'<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian"><ImageData WholeExtent="0 2 0 2 0 2" Origin="0 0 0" '
+       b'Spacing="1 1 1"><Piece Extent="0 2 0 2 0 2"><PointData Scalars="d"><DataArray type="Float32" Name="d" format="ascii">' +
+       b"1 " * 13 + b"-1 " + b"1 " * 13 + b"</DataArray></PointData></Piece></ImageData></VTKFile>\n")
 
 
 def obj():
@@ -118,3 +125,34 @@ def ply():
     files["endless_head"] = PLY.replace(b"end_header", b"comment " + b"x" * 5_000_000)
     files["many_properties"] = PLY.replace(b"element face", b"property float w\n" * 200_000 + b"element face")
     return PLY, files
+
+
+def vtk():
+    files = dict(FOREIGN) | NOT_FILES | {f"binary_{n}": t for n, t in cut_short(VTK_BINARY, 6).items()}
+    files |= {f"text_{n}": t for n, t in cut_short(VTK, 6).items()}
+    changes = {"magic": ("# vtk", "# vtx"), "version": ("3.0", "three"), "coding": ("ASCII", "EBCDIC"), "no_dataset": ("DATASET", "DATABASE"),
+               "kind": ("UNSTRUCTURED_GRID", "STRUCTURED_GRID"), "unknown_kind": ("UNSTRUCTURED_GRID", "GRID"), "points_huge": ("POINTS 4", "POINTS 1000000000000"),
+               "points_negative": ("POINTS 4", "POINTS -4"), "points_fraction": ("POINTS 4", "POINTS 4.5"), "points_word": ("POINTS 4", "POINTS four"),
+               "one_more": ("POINTS 4", "POINTS 5"), "one_less": ("POINTS 4", "POINTS 3"), "type": ("float", "quad"), "nan": ("0 0 0\n", "nan 0 0\n"),
+               "infinite": ("0 0 0\n", "0 inf 0\n"), "too_large": ("0 0 0\n", "0 0 1e999\n"), "cells_huge": ("CELLS 1 5", "CELLS 1000000000000 5"),
+               "size_huge": ("CELLS 1 5", "CELLS 1 5000000000000"), "size_more": ("CELLS 1 5", "CELLS 1 6"), "size_less": ("CELLS 1 5", "CELLS 1 4"),
+               "cell_of_more": ("\n4 0", "\n5 0"), "cell_of_less": ("\n4 0", "\n3 0"), "cell_negative": ("\n4 0", "\n-4 0"), "beyond": ("0 1 2 3", "0 1 2 4"),
+               "before": ("0 1 2 3", "0 1 2 -1"), "half": ("0 1 2 3", "0 1 2 1.5"), "no_types": ("CELL_TYPES 1\n10\n", ""), "two_types": ("CELL_TYPES 1\n10", "CELL_TYPES 2\n10 10"),
+               "polyhedron": ("1\n10\n", "1\n42\n"), "vertex": ("1\n10\n", "1\n1\n"), "unknown_cell": ("1\n10\n", "1\n9999\n"), "word": ("CELLS 1 5", "SHELLS 1 5"),
+               "version_five": ("3.0", "5.1"), "no_points": (VTK[VTK.index(b"POINTS"):VTK.index(b"CELLS")], "")}
+    for name, (old, new) in changes.items():
+        files[name] = replaced(VTK, old, new)
+    return VTK, files
+
+
+def vti():
+    files = dict(FOREIGN) | NOT_FILES | cut_short(VTI)
+    changes = {"extent_huge": ('WholeExtent="0 2 0 2 0 2"', 'WholeExtent="0 9999 0 9999 0 9999"'), "extent_larger": ('WholeExtent="0 2', 'WholeExtent="0 3'),
+               "extent_turned": ('WholeExtent="0 2', 'WholeExtent="2 0'), "extent_words": ('WholeExtent="0 2', 'WholeExtent="a 2'), "flat": ('WholeExtent="0 2', 'WholeExtent="0 0'),
+               "no_extent": ("WholeExtent", "Extent"), "spacing": ('Spacing="1 1 1"', 'Spacing="1 nan 1"'), "no_piece": ("Piece", "Peace"), "no_array": ("DataArray", "Data"),
+               "one_sign": ("-1", "1"), "nan": ("-1", "nan"), "word": ("-1", "minus"), "other_grid": ('type="ImageData"', 'type="PolyData"'),
+               "compressor": ("<VTKFile", '<VTKFile compressor="vtkLZMADataCompressor"'), "big_endian": ("LittleEndian", "BigEndian"), "string": ("Float32", "String"),
+               "three_components": ('Name="d"', 'Name="d" NumberOfComponents="3"')}
+    for name, (old, new) in changes.items():
+        files[name] = VTI.replace(old.encode(), new.encode())
+    return VTI, files

@@ -156,7 +156,7 @@ def record(bench):
         bench.part_of_run("run.json", content, "measure run", "simulate few.yaml -o run --resume")
 
 
-FORMATS = {name: (lambda bench, name=name: meshes(bench, name)) for name in ("obj", "off", "stl", "ply")}
+FORMATS = {name: (lambda bench, name=name: meshes(bench, name)) for name in ("obj", "off", "stl", "ply", "vtk", "vti")}
 FORMATS |= {"bvh": bvh, "gltf": gltf, "scene": scene, "vtu": vtu, "pvd": pvd, "checkpoint": checkpoint, "record": record}
 
 

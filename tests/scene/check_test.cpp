@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <sinew/settings/read_scene.h>
+#include <algorithm>
 
 #include "settings/temp_folder.h"
 
@@ -31,23 +32,48 @@ std::string bar(const std::vector<double>& heights) {
   return text + faces;
 }
 
-std::vector<std::string> warnings_with(const std::vector<double>& heights,
-                                       const std::string& keys) {
+const std::string two_bones =
+    "{name: lower, head: [0, 0, 0], tail: [0, 0, 0.1]}, "
+    "{name: upper, parent: lower, tail: [0, 0, 0.2]}";
+
+struct Scene {
+  std::string mesh, keys = {}, body = "radius: 0.004", bones = two_bones;
+};
+
+std::vector<std::string> warnings_of(const Scene& scene) {
   const TempFolder folder;
-  folder.write("bar.obj", bar(heights));
-  const auto scene = folder.write("scene.yaml",
-                                  "body: {mesh: bar.obj, radius: 0.004}\n"
-                                  "skeleton:\n"
-                                  "  bones:\n"
-                                  "    - {name: lower, head: [0, 0, 0], tail: [0, 0, 0.1]}\n"
-                                  "    - {name: upper, parent: lower, tail: [0, 0, 0.2]}\n" +
-                                      keys);
-  const ReadyScene ready = prepare(read_scene(scene));
-  return warnings_of(ready.setup, ready.surface.triangles, 0);
+  folder.write("bar.obj", scene.mesh);
+  const auto path =
+      folder.write("scene.yaml", "body: {mesh: bar.obj, " + scene.body + "}\nskeleton: {bones: [" +
+                                     scene.bones + "]}\n" + scene.keys);
+  const ReadyScene ready = prepare(read_scene(path));
+  return sinew::warnings_of(ready.setup, ready.surface, 0);
 }
 
-const std::string bending =
-    "motion: {tracks: [{bone: upper, keys: [{time: 0}, {time: 1, axis: [0, 1, 0], angle: 9}]}]}\n";
+std::vector<std::string> warnings_with(const std::vector<double>& heights,
+                                       const std::string& keys) {
+  return warnings_of({bar(heights), keys});
+}
+
+const std::vector<double> fine = {0, 0.05, 0.1, 0.15, 0.2};
+
+bool told(const std::vector<std::string>& warnings, const std::string& part) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+    return warning.find(part) != std::string::npos;
+  });
+}
+
+void expect_one(const std::vector<std::string>& warnings, const std::string& part) {
+  EXPECT_EQ(warnings.size(), 1u) << part;
+  EXPECT_TRUE(told(warnings, part)) << (warnings.empty() ? "" : warnings[0]);
+}
+
+std::string bend_by(const std::string& angle) {
+  return "motion: {tracks: [{bone: upper, keys: [{time: 0}, {time: 1, axis: [0, 1, 0], angle: " +
+         angle + "}]}]}\n";
+}
+
+const std::string bending = bend_by("9");
 
 TEST(SceneWarnings, TellOfASurfaceThatCannotBend) {
   const auto warnings = warnings_with({0, 0.2}, bending);
@@ -59,6 +85,101 @@ TEST(SceneWarnings, TellOfASurfaceThatCannotBend) {
 TEST(SceneWarnings, AreSilentWhereItBendsOrNothingMoves) {
   EXPECT_EQ(warnings_with({0, 0.05, 0.1, 0.15, 0.2}, bending), std::vector<std::string>{});
   EXPECT_EQ(warnings_with({0, 0.2}, ""), std::vector<std::string>{});
+}
+
+TEST(SceneWarnings, TellOfAnglesInRadians) {
+  for (const char* angle : {"1.57", "0.785", "3.14159", "-2.0944"})
+    expect_one(warnings_with(fine, bend_by(angle)), "in radians");
+  for (const char* angle : {"90", "4.96", "2", "1.4"})
+    EXPECT_EQ(warnings_with(fine, bend_by(angle)), std::vector<std::string>{}) << angle;
+}
+
+TEST(SceneWarnings, TellOfAUnitThatNoBodyHas) {
+  const std::string bones = "{name: lower, head: [0, 0, 0], tail: [0, 0, 200]}";
+  expect_one(warnings_of({bar(fine), "", "radius: 4, scale: 1000", bones}), "body.unit");
+  const std::string small = "{name: lower, head: [0, 0, 0], tail: [0, 0, 2e-4]}";
+  expect_one(warnings_of({bar(fine), "", "radius: 4e-6, scale: 1e-3", small}), "body.scale");
+}
+
+TEST(SceneWarnings, TellOfBonesThatNothingFollows) {
+  expect_one(warnings_of({bar(fine), "", "radius: 0.004",
+                          two_bones + ", {name: hat, head: [0.1, 0, 0.6], tail: [0.1, 0, 0.7]}"}),
+             "no particle follows 1 of 3 bones ('hat')");
+}
+
+TEST(SceneWarnings, TellOfARigOfAnotherSizeOrBesideTheBody) {
+  const std::string large =
+      "{name: lower, head: [0, 0, 0], tail: [0, 0, 10]}, {name: upper, parent: lower, tail: [0, 0, "
+      "20]}";
+  EXPECT_TRUE(
+      told(warnings_of({bar(fine), "", "radius: 0.004", large}), "times as large as the body"));
+  const std::string beside =
+      "{name: lower, head: [1, 0, 0], tail: [1, 0, 0.1]}, {name: hat, parent: lower, tail: [1.1, "
+      "0, "
+      "0.1]}";
+  EXPECT_TRUE(told(warnings_of({bar(fine), "", "radius: 0.004", beside}), "beside the body"));
+}
+
+TEST(SceneWarnings, TellOfABodyOfOneOrTwoLayers) {
+  expect_one(warnings_of({bar(fine), "", "radius: 0.015"}), "one or two layers");
+  EXPECT_EQ(warnings_of({bar(fine), "", "radius: 0.007"}), std::vector<std::string>{});
+}
+
+/// Boxes of these corners, each closed.
+std::string boxes(const std::vector<std::array<Vec3, 2>>& all) {
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (int corner = 0; corner < 8; ++corner) {
+      text += 'v';
+      for (int k = 0; k < 3; ++k) text += ' ' + std::to_string(all[i][corner >> k & 1][k]);
+      text += '\n';
+    }
+    for (const auto& face : {std::array{0, 2, 3, 1},
+                             {4, 5, 7, 6},
+                             {0, 1, 5, 4},
+                             {2, 6, 7, 3},
+                             {0, 4, 6, 2},
+                             {1, 3, 7, 5}}) {
+      text += 'f';
+      for (const int corner : face) text += ' ' + std::to_string(8 * i + corner + 1);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+/// Two legs on a base, with a gap between them.
+Scene legs(double gap, const std::string& keys) {
+  Scene scene;
+  scene.mesh = boxes({{Vec3(-0.05, -0.02, 0), Vec3(0.05, 0.02, 0.04)},
+                      {Vec3(-0.05, -0.02, 0.02), Vec3(-gap / 2, 0.02, 0.2)},
+                      {Vec3(gap / 2, -0.02, 0.02), Vec3(0.05, 0.02, 0.2)}});
+  scene.bones =
+      "{name: base, head: [-0.04, 0, 0.02], tail: [0.04, 0, 0.02]}, "
+      "{name: left, parent: base, head: [-0.03, 0, 0.05], tail: [-0.03, 0, 0.2]}, "
+      "{name: right, parent: base, head: [0.03, 0, 0.05], tail: [0.03, 0, 0.2]}";
+  scene.body = "radius: 0.004, lattice_origin: [0.0028, 0, 0]";  // no plane of sites in the gap
+  scene.keys = keys;
+  return scene;
+}
+
+const std::string closing =
+    "motion: {tracks: [{bone: left, keys: [{time: 0}, {time: 1, axis: [0, 1, 0], angle: 12}]}]}\n";
+
+TEST(SceneWarnings, TellOfLegsThatTouchAcrossAGap) {
+  const std::string across = "'left' and 'right' touch across a gap";
+  EXPECT_TRUE(told(warnings_of(legs(0.003, "")), across));
+  EXPECT_FALSE(told(warnings_of(legs(0.02, "")), across));
+  EXPECT_FALSE(told(warnings_of(legs(-0.002, "")), across));  // the legs are one
+}
+
+TEST(SceneWarnings, TellOfLegsThatMeetAndStick) {
+  const std::string advice = "initial_neighbors, or material.model to bonded";
+  EXPECT_TRUE(told(warnings_of(legs(0.02, closing)), advice));
+  EXPECT_FALSE(told(warnings_of(legs(0.06, closing)), advice));
+  for (const char* material : {"cohesion: initial_neighbors", "model: bonded"})
+    EXPECT_FALSE(told(warnings_of(legs(0.02, closing + "material: {" + material + "}\n")), advice))
+        << material;
 }
 
 }  // namespace sinew::check_test

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include <sinew/core/vector.h>
@@ -33,6 +34,7 @@ Points point_normals(const Triangles& surface);
 struct PolygonSoup {
   Points points;                           ///< n x 3, m
   std::vector<std::vector<int>> polygons;  ///< any number of corners each, indices into points
+  std::string warning = {};                ///< about what was made of the file; "": nothing to say
 };
 
 }  // namespace sinew

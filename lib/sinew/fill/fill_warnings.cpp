@@ -125,6 +125,7 @@ std::optional<std::string> size_warning(double longest) {
 
 Warnings warnings_of(const FillReport& report, const Surface& surface) {
   Warnings warnings;
+  if (!surface.warning.empty()) warnings.push_back(surface.warning);
   if (const auto odd = size_warning(report.box_size.maxCoeff())) warnings.push_back(*odd);
   warn_of_missed_count(report, warnings);
   warn_of_holes(report, warnings);

@@ -122,7 +122,7 @@ std::uint64_t components_of(const XmlElement& array, const VtuArrays& file) {
 }  // namespace
 
 Error vtu_refused(const std::string& what) {
-  return bad_input(what, "use a VTU file as sinew writes them");
+  return bad_input(what, "write it again, with ParaView for example");
 }
 
 std::string quoted(std::string_view text) { return '\'' + std::string(text.substr(0, 60)) + '\''; }

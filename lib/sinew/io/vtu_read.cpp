@@ -4,90 +4,35 @@
 #include <optional>
 
 #include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/io/vtk/vtk_xml.h>
 #include <sinew/io/vtu.h>
 #include <sinew/io/vtu_array.h>
-#include <sinew/io/xml.h>
 
 namespace sinew {
 namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;  // bytes
-constexpr std::string_view in_grid = "VTKFile/UnstructuredGrid/";
-constexpr std::string_view appended_path = "VTKFile/AppendedData";
 
 using Names = std::initializer_list<const char*>;
 
-/// The attributes of the file, and its arrays still encoded.
-struct VtuFile {
-  std::vector<XmlElement> elements;
-  VtuArrays arrays;
+/// The elements of the file, whose grid is to be one piece.
+struct VtuFile : VtkXmlFile {
+  explicit VtuFile(std::string_view text) : VtkXmlFile(vtk_xml_file(text)) {
+    if (type != "UnstructuredGrid")
+      throw vtu_refused("it holds " + shown(type) + ", not an UnstructuredGrid");
+  }
 
-  /// Those in a group of the grid, such as "Piece/PointData".
   std::vector<const XmlElement*> group(const std::string& name) const {
-    const std::string numbers = std::string(in_grid) + name + "/DataArray";
-    const std::string words = std::string(in_grid) + name + "/Array";
-    std::vector<const XmlElement*> found;
-    for (const XmlElement& element : elements)
-      if (element.path == numbers || element.path == words) found.push_back(&element);
-    return found;
+    return arrays_in(elements, name);
   }
 };
 
-void check_start_and_end(std::string_view text) {
-  if (!text.starts_with('<') || text.substr(0, 4096).find("<VTKFile") == text.npos)
-    throw vtu_refused("it is not a VTK XML file");
-  // An interrupted writer leaves a file without its last tag.
-  if (!text.substr(0, text.find_last_not_of(" \t\r\n") + 1).ends_with("</VTKFile>"))
-    throw vtu_refused("it is cut short");
-}
-
-void check_root(const XmlElement& root) {
-  if (root.path != "VTKFile") throw vtu_refused("it is not a VTK XML file");
-  if (const auto type = root.attribute("type"); type != "UnstructuredGrid")
-    throw vtu_refused("it holds " + quoted(type) + ", not an UnstructuredGrid");
-  if (root.attribute("byte_order") == "BigEndian")
-    throw vtu_refused("it is of a big-endian machine");
-}
-
-Coding coding_of(const XmlElement& root) {
-  const auto compressor = root.attribute("compressor");
-  const auto header = root.attribute("header_type");
-  Coding coding;
-  coding.word = header == "UInt64" ? 8 : 4;
-  if (!header.empty() && header != "UInt64" && header != "UInt32")
-    throw vtu_refused("its header_type is " + quoted(header));
-  if (compressor.empty())
-    coding.encoding = Encoding::none;
-  else if (compressor == "vtkZLibDataCompressor")
-    coding.encoding = Encoding::zlib;
-  else if (compressor == "vtkLZ4DataCompressor")
-    coding.encoding = Encoding::lz4;
-  else
-    throw vtu_refused("it is compressed by " + quoted(compressor) + ", not by ZLib or LZ4");
-  return coding;
-}
-
-VtuFile file_of(std::string_view text) {
-  check_start_and_end(text);
-  VtuFile file{xml_elements(text, appended_path), {}};
-  check_root(file.elements.front());
-  VtuArrays& arrays = file.arrays;
-  arrays.within = arrays.behind = coding_of(file.elements.front());
-  arrays.most = text.size() * most_expansion;
-  const XmlElement& last = file.elements.back();
-  if (last.path != appended_path) return file;
-  arrays.behind.base64 = last.attribute("encoding") != "raw";
-  const auto mark = last.text.find('_');
-  if (mark != last.text.npos) arrays.appended = last.text.substr(mark + 1);
-  return file;
-}
-
 const XmlElement& piece_of(const VtuFile& file) {
-  const std::string path = std::string(in_grid) + "Piece";
-  const auto is_piece = [&](const XmlElement& element) { return element.path == path; };
-  const auto pieces = std::count_if(file.elements.begin(), file.elements.end(), is_piece);
-  if (pieces != 1) throw vtu_refused("it has " + std::to_string(pieces) + " pieces, not one");
-  return *std::find_if(file.elements.begin(), file.elements.end(), is_piece);
+  const auto pieces = file.pieces();
+  if (pieces.size() != 1)
+    throw vtu_refused("it has " + std::to_string(pieces.size()) + " pieces, not one");
+  return pieces.front().front();
 }
 
 /// The integers of one of the arrays that make up the cells.
@@ -175,7 +120,7 @@ Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
 Dataset read_text(std::string_view text, const std::optional<Names>& names,
                   const std::filesystem::path& path) {
   try {
-    return dataset_of(file_of(text), names);
+    return dataset_of(VtuFile(text), names);
   } catch (const Error& error) {
     throw error.with_context({path.string()});
   }

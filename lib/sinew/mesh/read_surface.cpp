@@ -92,9 +92,11 @@ Surface wrapped(const Surface& surface, double alpha, FillRule rule) {
 Surface prepare(PolygonSoup soup, const BodyOptions& body) {
   check_soup(soup);
   place(soup, body);
+  const std::string warning = std::move(soup.warning);
   Surface surface = clean(soup, {body.weld, body.rule});
   if (body.close_holes) surface = without_holes(surface, body.rule);
   if (body.wrap) surface = wrapped(surface, *body.wrap, body.rule);
+  surface.warning = warning;
   return surface;
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -68,6 +69,7 @@ struct Surface {
   Border border;
   CleaningCounts cleaning;
   std::vector<std::size_t> first_face = {};  ///< of each of several joined meshes; empty: one mesh
+  std::string warning;                       ///< of the reader; "": none
   double seconds_reading = 0, seconds_cleaning = 0;
 
   bool closed() const { return caps.faces.empty(); }

@@ -93,4 +93,12 @@ std::optional<int> Winding::around(const Vec3& point) const {
   return std::nullopt;
 }
 
+Winding winding_of(const Surface& surface) {
+  std::vector<Corners> faces;
+  for (const Triangles* part : {&surface.triangles, &surface.caps})
+    for (const auto& [a, b, c] : part->faces)
+      faces.push_back({part->points[a], part->points[b], part->points[c]});
+  return Winding(std::move(faces));
+}
+
 }  // namespace sinew

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <sinew/core/vector.h>
+#include <sinew/mesh/surface.h>
 
 namespace sinew {
 
@@ -38,5 +39,8 @@ class Winding {
   std::vector<Node> nodes_;
   double near_ = 0;
 };
+
+/// Of a surface with its caps.
+Winding winding_of(const Surface& surface);
 
 }  // namespace sinew

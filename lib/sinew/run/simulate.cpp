@@ -245,7 +245,7 @@ std::string fit_text(const SkeletonOptions& fitted) {
          list(fitted.rotation) + " degrees, offset " + list(fitted.offset) + " m";
 }
 
-void say_what_is_doubtful(const Settings& scene, const Setup& setup, const Triangles& surface,
+void say_what_is_doubtful(const Settings& scene, const Setup& setup, const Surface& surface,
                           const SimulateOptions& options) {
   say(options, "step " + three_digits(setup.steps.step) + " s, " +
                    three_digits(setup.steps.factor()) + " of the stability limit " +
@@ -279,7 +279,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   log.spend("filling", ready.seconds_filling);
   log.spend("binding", ready.seconds_binding);
   log.describe(scene, ready.setup);
-  say_what_is_doubtful(scene, ready.setup, ready.surface.triangles, options);
+  say_what_is_doubtful(scene, ready.setup, ready.surface, options);
   if (options.before_stepping) options.before_stepping();
   const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
   return {exit, false, log.record().dump()};

@@ -13,6 +13,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/geometry.h>
+#include <sinew/io/vtk/vtk_mesh.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/settings/row.h>
@@ -24,15 +25,21 @@ namespace {
 
 PolygonSoup read_gltf_file(const std::string& path) { return read_gltf(path); }
 
+PolygonSoup read_vtk_file(const std::string& path) { return read_vtk_mesh(path); }
+
 /// In addition to those of the room mesh, which does not depend on io.
-constexpr std::array<MeshFormat, 2> gltf_formats = {
-    {{"glTF", ".gltf", read_gltf_file}, {"GLB", ".glb", read_gltf_file}}};
+constexpr std::array<MeshFormat, 6> formats_of_io = {{{"glTF", ".gltf", read_gltf_file},
+                                                      {"GLB", ".glb", read_gltf_file},
+                                                      {"VTP", ".vtp", read_vtk_file},
+                                                      {"VTU", ".vtu", read_vtk_file},
+                                                      {"VTK", ".vtk", read_vtk_file},
+                                                      {"VTI", ".vti", read_vtk_file}}};
 
 }  // namespace
 
-std::string mesh_formats() { return mesh_format_names(gltf_formats); }
+std::string mesh_formats() { return mesh_format_names(formats_of_io); }
 
-Surface read_body_mesh(const BodyOptions& body) { return read_surface(body, gltf_formats); }
+Surface read_body_mesh(const BodyOptions& body) { return read_surface(body, formats_of_io); }
 
 namespace {
 
@@ -45,7 +52,7 @@ bool is_scene(const std::filesystem::path& path) {
 }
 
 void refuse_mesh_as_scene(const std::string& path) {
-  if (names_mesh(path, gltf_formats))
+  if (names_mesh(path, formats_of_io))
     throw bad_input({path}, "this is a mesh, not a scene", "make a scene of it: sinew new " + path);
   if (lower(std::filesystem::path(path).extension().string()) == ".bvh")
     throw bad_input({path}, "this is a rig, not a scene",

@@ -21,7 +21,7 @@ namespace sinew {
 // The mesh of a scene or of the command line, ready to be filled: read by the room for its format,
 // repaired if requested, cleaned.
 
-/// The formats, as help texts list them: "OBJ, OFF, STL, PLY, glTF, GLB".
+/// The formats, as help texts list them: "OBJ, OFF, STL, PLY, glTF, GLB, VTP, VTU, VTK, VTI".
 std::string mesh_formats();
 
 /// Reads body.mesh with the options of the section body. Throws Error (bad input) that names the

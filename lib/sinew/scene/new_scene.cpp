@@ -18,6 +18,7 @@
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/curve_skeleton.h>
 #include <sinew/mesh/refine.h>
+#include <sinew/mesh/winding.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/scene/body.h>
 
@@ -30,6 +31,8 @@ constexpr double most_overlap = 0.8;  // of the volume by the faces lies there o
 constexpr double across = 4.5;        // particles across a limb
 constexpr double thin_share = 0.1;    // of the limbs' length is thinner than what counts as thin
 constexpr double most_loose = 0.01;   // of the particles, such as single ones at a tip
+constexpr double least_within = 0.1;  // of the particles, with neighbors on all sides
+constexpr double least_inside = 0.5;  // of the limbs' length, in the body
 constexpr double pictures = 24;       // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
@@ -64,11 +67,27 @@ Surface read_guessing(NewChoices& choices) {
   return layer_along(surface, choices);
 }
 
-/// The limbs by the curves of the skin, or along the longest axis of its points.
-std::vector<Limb> limbs_in(const Surface& surface) {
+/// The share of the limbs' length that lies in the body.
+double share_inside(const std::vector<Limb>& limbs, const Surface& surface) {
+  const Winding winding = winding_of(surface);
+  double inside = 0, all = 0;
+  for (const Limb& limb : limbs)
+    for (std::size_t i = 1; i < limb.line.size(); ++i) {
+      const double length = (limb.line[i] - limb.line[i - 1]).norm();
+      const Vec3 middle = (limb.line[i] + limb.line[i - 1]) / 2;
+      all += length;
+      if (winding.around(middle).value_or(1) != 0) inside += length;
+    }
+  return all > 0 ? inside / all : 0;
+}
+
+/// The limbs by the curves of the skin, or along the longest axis of its points: of hollow bodies,
+/// such as a cup, the curves lie in the hollow.
+std::vector<Limb> limbs_in(const Surface& surface, NewChoices& choices) {
   try {
     std::vector<Limb> limbs = limbs_of(curve_skeleton(surface.triangles));
-    if (!limbs.empty()) return limbs;
+    choices.hollow = !limbs.empty() && share_inside(limbs, surface) < least_inside;
+    if (!limbs.empty() && !choices.hollow) return limbs;
   } catch (const Error&) {  // no closed surface can be made of the mesh
   }
   return axis_limbs(surface.triangles.points);
@@ -100,9 +119,7 @@ double three_figures(double value) {
 }
 
 /// The share of the particles that do not belong to the `parts` largest groups that touch.
-double loose_share(const Particles& particles, std::size_t parts) {
-  const NeighborLists touching =
-      neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
+double loose_share(const Particles& particles, const NeighborLists& touching, std::size_t parts) {
   const int count = static_cast<int>(particles.size());
   UnionFind groups(particles.size());
   for (int i = 0; i < count; ++i)
@@ -116,33 +133,51 @@ double loose_share(const Particles& particles, std::size_t parts) {
   return 1 - static_cast<double>(held) / static_cast<double>(particles.size());
 }
 
-/// Makes particles smaller where parts of the body do not hold together.
+/// Whether the particles are too large: parts of the body do not hold together, or it is one or two
+/// layers thick.
+bool too_coarse(const Particles& particles, std::size_t parts) {
+  constexpr std::size_t complete = 12;  // neighbors, of a particle within
+  const NeighborLists touching =
+      neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) within += touching.of(i).size() == complete;
+  return loose_share(particles, touching, parts) > most_loose ||
+         static_cast<double>(within) < least_within * static_cast<double>(particles.size());
+}
+
+/// By the thickness of limbs, within what a first picture needs and takes.
+double usual_radius(double inner, double volume) {
+  return three_figures(
+      std::clamp(inner / across, radius_for_count(volume, most), radius_for_count(volume, fewest)));
+}
+
+/// Makes particles smaller where they are too large for the body.
 void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
   const double area_of = area(surface.triangles);
   const double volume = volume_inside(surface);
-  const double inner = std::min(thin_inner(limbs), 2 * volume / area_of);
+  const double mean = 2 * volume / area_of;  // of a rod its radius, of a sheet its thickness
+  const double inner = choices.hollow ? mean / 2 : std::min(thin_inner(limbs), mean);
   const std::size_t parts =
       static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
   choices.thickness = 2 * inner;
-  const double wanted = inner / across;
-  body.radius = three_figures(
-      std::clamp(wanted, radius_for_count(volume, most), radius_for_count(volume, fewest)));
+  body.radius = usual_radius(inner, volume);
   Particles particles = fill_body(choices.settings, surface).particles;
-  const double count = static_cast<double>(particles.size());
-  if (wanted < *body.radius && count < most_overlap * most) {  // pieces lie within each other
-    body.radius = three_figures(std::max(wanted, *body.radius * std::cbrt(count / most)));
+  const double filled = static_cast<double>(particles.size()) * volume_per_particle(*body.radius);
+  if (filled > 0 && filled < most_overlap * volume) {  // pieces lie within each other
+    body.radius = usual_radius(inner, filled);
     particles = fill_body(choices.settings, surface).particles;
   }
-  while (loose_share(particles, parts) > most_loose &&
+  while (too_coarse(particles, parts) &&
          static_cast<double>(particles.size()) < most_if_split / 2) {
     body.radius = three_figures(0.8 * *body.radius);
     particles = fill_body(choices.settings, surface).particles;
   }
   choices.particles = particles.size();
   choices.size = "About " + std::to_string(choices.particles) + " particles, " +
-                 three_digits(inner / *body.radius) + " across limbs that are " +
-                 three_digits(2 * inner) + " m thick";
+                 three_digits(inner / *body.radius) + " across " +
+                 (choices.hollow ? "walls" : "limbs") + " that are " + three_digits(2 * inner) +
+                 " m thick";
 }
 
 void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
@@ -161,6 +196,7 @@ void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
   choices.bones +=
       tips == 0 ? "the rings" : std::to_string(tips) + (tips == 1 ? " limb" : " limbs");
   choices.bones += " of the mesh";
+  if (choices.hollow) choices.bones += ", which is hollow: along its longest axis";
   double last = 0;
   for (const TrackDefinition& track : choices.settings.tracks)
     last = std::max(last, *track.keys.back().time);
@@ -199,11 +235,11 @@ void choose_material(const Surface& surface, NewChoices& choices) {
   choices.settings.material.young_modulus = three_figures(usual_modulus * share * share);
 }
 
-void choose_binding(BindingOptions& binding) {
+void choose_binding(BindingOptions& binding, bool hollow) {
   binding.joint_zone = 0.7;
   binding.stiffness = binding.twist_stiffness = 6.4;
   binding.axial_stiffness = 2.56;
-  if (binding.method == BindMethod::nearest) binding.method = BindMethod::inside;
+  if (binding.method == BindMethod::nearest && !hollow) binding.method = BindMethod::inside;
 }
 
 }  // namespace
@@ -216,12 +252,15 @@ NewScene new_scene(const NewSceneFiles& files) {
   Surface surface = read_guessing(choices);
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
   if (!rig.empty()) surface = use_rig(rig, std::move(surface), choices);
-  const std::vector<Limb> limbs = limbs_in(surface);
+  const std::vector<Limb> limbs = limbs_in(surface, choices);
   choices.box = bounds(surface.triangles.points);
   choose_radius(surface, limbs, choices);
-  if (rig.empty()) use_limbs(limbs, choices);
+  if (rig.empty())
+    use_limbs(limbs, choices);
+  else
+    choices.hollow = false;
   choose_material(surface, choices);
-  choose_binding(settings.binding);
+  choose_binding(settings.binding, choices.hollow);
   NewScene made;
   refine_mesh(files.scene, surface, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());

@@ -135,10 +135,13 @@ std::string motion_text(const NewChoices& choices) {
 std::string binding_text(const NewChoices& choices) {
   const Settings& s = choices.settings;
   std::string text = "\nbinding:\n";
-  text +=
-      note(s.binding.method == BindMethod::file
-               ? "Particles follow the bones that the file's weights give to the skin near them."
-               : "Particles follow the bone that is nearest inside the body, not across a gap.");
+  const char* follow =
+      "Particles follow the bone that is nearest inside the body, not across a gap.";
+  if (s.binding.method == BindMethod::file)
+    follow = "Particles follow the bones that the file's weights give to the skin near them.";
+  else if (choices.hollow)
+    follow = "Particles follow the bone that is nearest: the bones lie in the hollow.";
+  text += note(follow);
   text += key_text(s, "binding", "method");
   if (s.binding.joint_zone > 0)
     text += note("Around a joint both bones pull, so that it bends in an arc.") +

@@ -33,14 +33,6 @@ struct Axes {
 
 constexpr std::array<Axes, 2> usual_axes = {{{Axis::y, Axis::z}, {Axis::z, std::nullopt}}};
 
-Winding winding_of(const Surface& surface) {
-  std::vector<std::array<Vec3, 3>> faces;
-  for (const Triangles* part : {&surface.triangles, &surface.caps})
-    for (const auto& [a, b, c] : part->faces)
-      faces.push_back({part->points[a], part->points[b], part->points[c]});
-  return Winding(std::move(faces));
-}
-
 /// Of the bones' length.
 double share_inside(const Skeleton& skeleton, const Winding& winding) {
   double inside = 0, all = 0;
@@ -137,6 +129,11 @@ void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
   choices.settings.solver.duration = 1.25 + rest_after;
 }
 
+Vec3 nearest_on(const Bone& bone, const Vec3& point) {
+  const double along = bone.axis().dot(point - bone.head());
+  return bone.head() + std::clamp(along, 0.0, bone.length) * bone.axis();
+}
+
 constexpr double longest_rig_in_m = 20;  // of a rig; longer ones are in cm
 constexpr double thick_bone = 0.2, least_bone = 0.015, most_bone = 0.05;  // of its length, the rig
 
@@ -155,6 +152,10 @@ Triangles skin_of_rig(const std::string& path) {
     const double radius = std::clamp(thick_bone * bone.length, least_bone * size, most_bone * size);
     thinnest = std::min(thinnest, radius);
     append(capsule_between(bone.head(), bone.tail(), radius), capsules);
+    if (bone.parent == no_bone) continue;
+    const Vec3 from = nearest_on(skeleton.bones[bone.parent], bone.head());  // they may lie apart
+    if ((from - bone.head()).norm() > 1e-6 * size)
+      append(capsule_between(from, bone.head(), radius), capsules);
   }
   return wrap(capsules, thinnest);
 }

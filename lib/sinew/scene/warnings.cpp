@@ -129,13 +129,13 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 
 /// Angles of 1.57 and the like, all of them small.
 void warn_of_radians(const Setup& setup, Warnings& warnings) {
-  constexpr double twelfth = pi / 12, closeness = 0.005;  // as rounded to two or three digits
+  constexpr double twelfth = pi / 12, rounding = 0.005;  // of numbers with two decimals
   double largest = 0;
   for (const Track& track : setup.motion.tracks)
     for (const Quat& rotation : track.rotation.values)
       largest = std::max(largest, degrees(rotation_vector(rotation).norm()));
   const double parts = std::round(largest / twelfth), off = largest - parts * twelfth;
-  if (largest > 2 * pi || parts < 2 || std::abs(off) > closeness * twelfth * parts) return;
+  if (largest > 2 * pi || parts < 2 || std::abs(off) > rounding) return;
   if (std::abs(largest - std::round(largest)) < 1e-9) return;  // whole degrees
   warnings.push_back("the largest rotation of a bone is " + three_digits(largest) +
                      " degrees, which is " + three_digits(degrees(largest)) +
@@ -247,7 +247,7 @@ void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surface,
+std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
                                      double bone_speed) {
   Warnings warnings = setup.file_warnings;
   if (setup.body.material.model == MaterialModel::paper)
@@ -264,7 +264,8 @@ std::vector<std::string> warnings_of(const Setup& setup, const Triangles& surfac
   warn_of_far_particles(setup.body, warnings);
   warn_of_unreached(setup.body.binding, warnings);
   warn_of_overlaps(setup, warnings);
-  warn_of_coarse_surface(setup, surface, warnings);
+  warn_of_coarse_surface(setup, surface.triangles, warnings);
+  warn_of_contacts(setup, surface, warnings);
   return warnings;
 }
 

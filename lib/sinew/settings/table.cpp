@@ -14,9 +14,9 @@ std::vector<std::string_view> axes() { return {"x", "y", "z", "-x", "-y", "-z"};
 template <class S>
 std::vector<Field<S>> rows_of_mesh(std::string_view section) {
   return {
-      required(path(field<S>(
-          section, "mesh", SINEW_AT(S, body.mesh), "",
-          "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB), relative to the scene file"))),
+      required(path(field<S>(section, "mesh", SINEW_AT(S, body.mesh), "",
+                             "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB, VTP, VTU, VTK, "
+                             "VTI), relative to the scene file"))),
       choice<S>(section, "unit", SINEW_AT(S, body.unit), {"m", "dm", "cm", "mm", "um", "in", "ft"},
                 "unit of the mesh's lengths"),
       field<S>(section, "scale", SINEW_AT(S, body.scale), "",

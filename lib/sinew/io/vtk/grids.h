@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The grids of VTK's files, and the surfaces that they have: the cells of polygons and of
+// unstructured grids, and images whose values change their sign at the surface.
+//
+//     soup.polygons = surface_of(cells, soup.points.size());
+//     const PolygonSoup other = zero_level({{64, 64, 64}, origin, axes, distances});
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+
+namespace sinew {
+
+// Cells.
+
+struct VtkCells {
+  std::vector<int> types;          ///< VTK's numbers, one per cell
+  std::vector<std::int64_t> ends;  ///< of each cell's points, in `points`
+  std::vector<std::int64_t> points;
+};
+
+// VTK's numbers of cells that polygons of a vtkPolyData have.
+inline constexpr int vtk_strip = 6, vtk_polygon = 7;
+
+/// Of grids with volume cells the outer faces: those of one cell only. Of others the cells that are
+/// surfaces. The nodes at the middle of sides of quadratic cells become corners. Throws bad input
+/// for cells of other kinds, damaged ones, and where there is neither.
+std::vector<std::vector<int>> surface_of(const VtkCells& cells, std::size_t points);
+
+// Images.
+
+struct LevelSet {
+  std::array<int, 3> size{};        ///< samples along each axis
+  Vec3 origin = Vec3::Zero();       ///< of the first one
+  Mat3 axes = Mat3::Identity();     ///< columns: from one sample to the next along each axis
+  std::vector<double> values = {};  ///< the first axis varies fastest
+};
+
+/// Quadrilaterals around what has the sign that fewer samples of the image's border have (where
+/// that is none at all, the other sign): one corner in each cell through which the surface passes,
+/// moved to the zero level of the trilinear interpolation, as in dual contouring. Where the inside
+/// reaches the border, the surface is closed along it, with a warning. Throws bad input for images
+/// of fewer than two samples along an axis, values that are not finite, and where none is inside.
+PolygonSoup zero_level(const LevelSet& image);
+
+// Legacy files (.vtk), as text or binary, of versions up to 5.
+
+/// As read_vtk_mesh() has it. Counts are checked against the file's length before anything is
+/// allocated. Throws bad input.
+PolygonSoup legacy_surface(std::string_view text);
+
+}  // namespace sinew

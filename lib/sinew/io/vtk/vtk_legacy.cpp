@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/vtk/grids.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+Error damaged(const std::string& what) { return bad_input(what, "write the file again"); }
+
+/// Numbers of a binary file, the first byte the highest.
+template <class Number>
+void convert(std::string_view bytes, std::vector<double>& to) {
+  for (double& number : to) {
+    std::array<char, sizeof(Number)> own;
+    std::memcpy(own.data(), bytes.data(), own.size());
+    bytes.remove_prefix(own.size());
+    std::reverse(own.begin(), own.end());
+    number = static_cast<double>(std::bit_cast<Number>(own));
+  }
+}
+
+/// A type of numbers: VTK's name, bytes, and what reads them.
+struct NumberType {
+  std::string_view name;
+  std::size_t size;
+  void (*convert)(std::string_view bytes, std::vector<double>& to);
+};
+
+template <class Number>
+constexpr NumberType number_type(std::string_view name) {
+  return {name, sizeof(Number), convert<Number>};
+}
+
+const NumberType& type_named(std::string_view name) {
+  static constexpr std::array types = {
+      number_type<signed char>("char"),
+      number_type<unsigned char>("unsigned_char"),
+      number_type<std::int16_t>("short"),
+      number_type<std::uint16_t>("unsigned_short"),
+      number_type<std::int32_t>("int"),
+      number_type<std::uint32_t>("unsigned_int"),
+      number_type<std::int64_t>("long"),
+      number_type<std::uint64_t>("unsigned_long"),
+      number_type<std::int64_t>("vtktypeint64"),
+      number_type<std::uint64_t>("vtktypeuint64"),
+      number_type<std::int32_t>("vtkidtype"),  // VTK writes them as int
+      number_type<float>("float"),
+      number_type<double>("double")};
+  const auto* found = std::find_if(
+      types.begin(), types.end(), [&](const NumberType& type) { return type.name == lower(name); });
+  if (found == types.end()) throw damaged("it has numbers of the type " + shown(name));
+  return *found;
+}
+
+/// The parts of the file one after the other.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : rest_(text) {}
+
+  /// The rest of the line, which ends it.
+  std::string_view line() {
+    const std::size_t end = rest_.find('\n');
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  /// The next word, "" at the end of the file.
+  std::string_view word() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+
+  double number() {
+    const std::string_view text = word();
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+      throw damaged(shown(text) + " is in the place of a number");
+    return number;
+  }
+
+  /// Every value takes a byte or more.
+  std::uint64_t count() {
+    const double count = number();
+    if (!(count >= 0) || count != std::floor(count) || count > static_cast<double>(rest_.size()))
+      throw damaged("it gives a number of " + number_text(count) + ", which its size cannot hold");
+    return static_cast<std::uint64_t>(count);
+  }
+
+  /// `rows` times `columns` of them, after the line in which the last word stands.
+  std::vector<double> numbers(std::string_view type_name, std::uint64_t rows,
+                              std::uint64_t columns = 1) {
+    const NumberType& type = type_named(type_name);
+    const std::size_t least = binary ? type.size : 2;  // in text a digit and a blank
+    if (columns > 0 && rows > (rest_.size() + 1) / columns / least)
+      throw damaged("it is cut short: " + std::to_string(rows) + " times " +
+                    std::to_string(columns) + " numbers are missing");
+    std::vector<double> values(rows * columns);
+    if (!binary) {
+      for (double& value : values) value = number();
+      return values;
+    }
+    line();
+    if (rest_.size() < values.size() * type.size) throw damaged("it is cut short");
+    type.convert(rest_, values);
+    rest_.remove_prefix(values.size() * type.size);
+    return values;
+  }
+
+  /// Up to the next empty line.
+  void skip_metadata() {
+    line();
+    while (!at_end() && !line().empty()) {
+    }
+  }
+
+  bool at_end() const { return rest_.find_first_not_of(" \t\r\n") == rest_.npos; }
+
+  bool binary = false;
+
+ private:
+  std::string_view rest_;
+};
+
+std::vector<std::int64_t> as_integers(const std::vector<double>& numbers) {
+  std::vector<std::int64_t> integers;
+  integers.reserve(numbers.size());
+  for (const double number : numbers) {
+    if (!(std::abs(number) < 1e15) || number != std::floor(number))
+      throw damaged(number_text(number) + " is in the place of a whole number");
+    integers.push_back(static_cast<std::int64_t>(number));
+  }
+  return integers;
+}
+
+/// What is read of a file: a grid, or an image.
+struct Content {
+  Points points;
+  VtkCells cells;
+  std::vector<std::int64_t> types;
+  std::optional<LevelSet> image;
+  bool has_values = false;
+};
+
+void add_cell(const std::int64_t* begin, const std::int64_t* end, int type, VtkCells& cells) {
+  cells.points.insert(cells.points.end(), begin, end);
+  cells.ends.push_back(static_cast<std::int64_t>(cells.points.size()));
+  if (type >= 0) cells.types.push_back(type);
+}
+
+/// Each cell as its number of points and these.
+void read_counted_cells(Reader& in, std::uint64_t count, std::uint64_t size, int type,
+                        VtkCells& cells) {
+  const auto numbers = as_integers(in.numbers("int", size));
+  std::size_t at = 0;
+  for (std::uint64_t cell = 0; cell < count; ++cell) {
+    const std::int64_t points = at < numbers.size() ? numbers[at] : -1;
+    if (points < 0 || points >= static_cast<std::int64_t>(numbers.size() - at))
+      throw damaged("cell " + std::to_string(cell) + " ends outside of the list of points");
+    const std::int64_t* begin = numbers.data() + at + 1;
+    add_cell(begin, begin + points, type, cells);
+    at += static_cast<std::size_t>(points) + 1;
+  }
+}
+
+/// Version 5: where each begins, and the end of the last; then all their points.
+void read_offset_cells(Reader& in, std::uint64_t count, std::uint64_t size, int type,
+                       VtkCells& cells) {
+  const auto array = [&](const char* name, std::uint64_t length) {
+    if (in.word() != name) throw damaged("its cells have no " + std::string(name));
+    const std::string_view of = in.word();
+    return as_integers(in.numbers(of, length));
+  };
+  const auto offsets = array("OFFSETS", count);
+  const auto points = array("CONNECTIVITY", size);
+  for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {
+    if (offsets[i] < 0 || offsets[i + 1] < offsets[i] ||
+        offsets[i + 1] > static_cast<std::int64_t>(points.size()))
+      throw damaged("cell " + std::to_string(i) + " ends outside of the list of points");
+    add_cell(points.data() + offsets[i], points.data() + offsets[i + 1], type, cells);
+  }
+}
+
+/// `type`: of all of them, or -1 where CELL_TYPES says.
+void read_cells(Reader& in, double version, int type, VtkCells& cells) {
+  const std::uint64_t count = in.count(), size = in.count();
+  if (version >= 5)
+    read_offset_cells(in, count, size, type, cells);
+  else
+    read_counted_cells(in, count, size, type, cells);
+}
+
+void read_points(Reader& in, Points& points) {
+  const std::uint64_t count = in.count();
+  const auto numbers = in.numbers(in.word(), count, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    points.emplace_back(&numbers[3 * i]);
+    if (!points.back().allFinite()) throw damaged("point " + std::to_string(i) + " is not finite");
+  }
+}
+
+/// Arrays of any number; the first of `rows` single values gives the image its own.
+void read_field(Reader& in, std::uint64_t rows, Content& content) {
+  in.word();  // its name
+  const std::uint64_t arrays = in.count();
+  for (std::uint64_t i = 0; i < arrays; ++i) {
+    if (in.word() == "METADATA") in.skip_metadata(), in.word();
+    const std::uint64_t columns = in.count(), count = in.count();
+    const std::string_view type = in.word();
+    if (type == "string") throw bad_input("it has arrays of texts", "write it without them");
+    auto values = in.numbers(type, count, columns);
+    if (!content.image || content.has_values || columns != 1 || count != rows) continue;
+    content.image->values = std::move(values);
+    content.has_values = true;
+  }
+}
+
+void read_scalars(Reader& in, std::uint64_t rows, Content& content) {
+  in.word();  // its name
+  const std::string_view type = in.word();
+  Reader after = in;
+  const std::string_view columns = after.word();
+  if (columns != "LOOKUP_TABLE") {
+    if (columns != "1") throw damaged("its scalars have several components");
+    in.word();
+  }
+  if (in.word() != "LOOKUP_TABLE") throw damaged("its scalars have no LOOKUP_TABLE");
+  in.word();
+  content.image->values = in.numbers(type, rows);
+  content.has_values = true;
+}
+
+Vec3 read_vector(Reader& in) {
+  Vec3 vector;
+  for (double& number : vector) number = in.number();
+  return vector;
+}
+
+void read_dimensions(Reader& in, LevelSet& image) {
+  for (int& size : image.size) {
+    const std::uint64_t count = in.count();
+    if (count > 1'000'000'000) throw damaged("its dimensions are too large");
+    size = static_cast<int>(count);
+  }
+}
+
+/// What follows the points of an image: the values at them. False: what does not concern it.
+bool read_of_image(Reader& in, std::string_view keyword, std::uint64_t rows, Content& content) {
+  LevelSet& image = *content.image;
+  if (keyword == "DIMENSIONS")
+    read_dimensions(in, image);
+  else if (keyword == "SPACING" || keyword == "ASPECT_RATIO")
+    image.axes = read_vector(in).asDiagonal();
+  else if (keyword == "ORIGIN")
+    image.origin = read_vector(in);
+  else if (keyword == "SCALARS")
+    read_scalars(in, rows, content);
+  else
+    return false;
+  return true;
+}
+
+/// What defines the cells. False: a keyword that is not known.
+bool read_of_grid(Reader& in, std::string_view keyword, double version, Content& content) {
+  VtkCells unused;
+  if (keyword == "POINTS")
+    read_points(in, content.points);
+  else if (keyword == "POLYGONS")
+    read_cells(in, version, vtk_polygon, content.cells);
+  else if (keyword == "TRIANGLE_STRIPS")
+    read_cells(in, version, vtk_strip, content.cells);
+  else if (keyword == "VERTICES" || keyword == "LINES")
+    read_cells(in, version, 0, unused);
+  else if (keyword == "CELLS")
+    read_cells(in, version, -1, content.cells);
+  else if (keyword == "CELL_TYPES")
+    content.types = as_integers(in.numbers("int", in.count()));
+  else
+    return false;
+  return true;
+}
+
+bool is_image(std::string_view dataset) {
+  if (dataset == "STRUCTURED_POINTS") return true;
+  if (dataset == "POLYDATA" || dataset == "UNSTRUCTURED_GRID") return false;
+  throw bad_input("it holds " + shown(dataset) + ", which is not read",
+                  "save its surface as .vtp: in ParaView, Extract Surface");
+}
+
+Content content_of(Reader& in, double version, bool image) {
+  Content content;
+  if (image) content.image.emplace();
+  std::uint64_t rows = 0;
+  while (!in.at_end() && !content.has_values) {
+    const std::string_view keyword = in.word();
+    if (keyword == "METADATA") {
+      in.skip_metadata();
+    } else if (keyword == "FIELD") {
+      read_field(in, rows, content);
+    } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+      if (!image) break;
+      rows = in.count();
+      if (keyword == "CELL_DATA") break;
+    } else if (!(image ? read_of_image(in, keyword, rows, content)
+                       : read_of_grid(in, keyword, version, content))) {
+      throw damaged("it has an unknown word " + shown(keyword));
+    }
+  }
+  return content;
+}
+
+PolygonSoup surface_of(Content content) {
+  if (!content.image) {
+    VtkCells& cells = content.cells;
+    for (const std::int64_t type : content.types) cells.types.push_back(static_cast<int>(type));
+    PolygonSoup soup{std::move(content.points), {}, {}};
+    soup.polygons = surface_of(cells, soup.points.size());
+    return soup;
+  }
+  const LevelSet& image = *content.image;
+  if (!content.has_values)
+    throw bad_input("the image has no scalars at its points",
+                    "store the level set as the first scalars of its points");
+  const double samples = double(image.size[0]) * image.size[1] * image.size[2];
+  if (samples != static_cast<double>(image.values.size()))
+    throw damaged("the image has " + std::to_string(image.values.size()) + " values of " +
+                  number_text(samples));
+  return zero_level(image);
+}
+
+}  // namespace
+
+PolygonSoup legacy_surface(std::string_view text) {
+  Reader in(text);
+  constexpr std::string_view begin = "# vtk DataFile Version ";
+  const std::string_view first = in.line();
+  if (!first.starts_with(begin)) throw damaged("it is no legacy VTK file");
+  const double version = Reader(first.substr(begin.size())).number();
+  in.line();  // the title
+  const std::string_view coding = in.word();
+  if (coding != "ASCII" && coding != "BINARY")
+    throw damaged("it is neither ASCII nor BINARY, but " + shown(coding));
+  in.binary = coding == "BINARY";
+  std::string_view keyword = in.word();
+  if (keyword == "DATASET") return surface_of(content_of(in, version, is_image(in.word())));
+  throw damaged("it has " + shown(keyword) + " in the place of DATASET");
+}
+
+}  // namespace sinew

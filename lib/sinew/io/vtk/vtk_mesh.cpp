@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/vtk/vtk_mesh.h>
+
+#include <array>
+#include <cmath>
+#include <locale>
+#include <map>
+#include <new>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/io/vtk/grids.h>
+#include <sinew/io/vtk/vtk_xml.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::uint64_t largest_mesh = std::uint64_t{16} << 30;  // bytes
+
+using PieceElements = std::span<const XmlElement>;
+
+/// Of the only array in a group, or the one of that name; none: nullptr.
+const XmlElement* array_of(const VtkXmlFile& file, PieceElements piece, const std::string& group,
+                           std::string_view name) {
+  for (const XmlElement* array : file.arrays_in(piece, group))
+    if (array->attribute("Name") == name || name.empty()) return array;
+  return nullptr;
+}
+
+std::vector<std::int64_t> integers_of(const VtkXmlFile& file, PieceElements piece,
+                                      const std::string& group, const char* name,
+                                      std::uint64_t count) {
+  const XmlElement* array = array_of(file, piece, group, name);
+  if (array == nullptr) throw vtu_refused("its " + group + " have no " + std::string(name));
+  const Column column = file.arrays.column(*array, count);
+  if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&column.values))
+    return {integers->begin(), integers->end()};
+  throw vtu_refused("array " + quoted(name) + " does not hold integers of 32 bits");
+}
+
+/// Their surface, and the points.
+PolygonSoup soup_of(Points points, const VtkCells& cells) {
+  PolygonSoup soup{std::move(points), {}, {}};
+  soup.polygons = surface_of(cells, soup.points.size());
+  return soup;
+}
+
+/// All pieces of a grid as one.
+struct Grid {
+  Points points;
+  VtkCells cells;
+};
+
+/// Adds the cells of one group of a piece, whose points begin at `first`; `type`: of all of them,
+/// or -1 where the file says.
+void add_cells(const VtkXmlFile& file, PieceElements piece, const std::string& group,
+               std::uint64_t count, int type, std::size_t first, VtkCells& cells) {
+  if (count == 0) return;
+  const auto ends = integers_of(file, piece, group, "offsets", count);
+  if (ends.back() < 0) throw vtu_refused("its offsets are below 0");
+  const auto points =
+      integers_of(file, piece, group, "connectivity", static_cast<std::uint64_t>(ends.back()));
+  const auto begin = static_cast<std::int64_t>(cells.points.size());
+  for (const std::int64_t id : points)
+    cells.points.push_back(id < 0 ? id : id + static_cast<std::int64_t>(first));
+  for (const std::int64_t end : ends) cells.ends.push_back(begin + end);
+  if (type >= 0)
+    cells.types.insert(cells.types.end(), count, type);
+  else
+    for (const std::int64_t one : integers_of(file, piece, group, "types", count))
+      cells.types.push_back(static_cast<int>(one));
+}
+
+std::uint64_t count_if_any(const VtkXmlFile& file, const XmlElement& piece, const char* name) {
+  return piece.attribute(name).empty() ? 0 : file.arrays.count(piece, name);
+}
+
+void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
+  const std::uint64_t count = file.arrays.count(piece.front(), "NumberOfPoints");
+  const std::size_t first = grid.points.size();
+  if (count > 0) {
+    const XmlElement* places = array_of(file, piece, "Piece/Points", "");
+    if (places == nullptr) throw vtu_refused("its points are missing");
+    const Points points = file.arrays.points(*places, count);
+    for (const Vec3& point : points)
+      if (!point.allFinite()) throw vtu_refused("a point is not finite");
+    grid.points.insert(grid.points.end(), points.begin(), points.end());
+  }
+  const auto add = [&](const char* group, const char* number, int type) {
+    add_cells(file, piece, std::string("Piece/") + group, count_if_any(file, piece.front(), number),
+              type, first, grid.cells);
+  };
+  if (file.type == "UnstructuredGrid") return add("Cells", "NumberOfCells", -1);
+  add("Polys", "NumberOfPolys", vtk_polygon);
+  add("Strips", "NumberOfStrips", vtk_strip);
+}
+
+/// Pieces have points of their own where they meet: volume cells on both sides share a face.
+void join_equal_points(Grid& grid) {
+  std::map<std::array<double, 3>, std::int64_t> places;
+  std::vector<std::int64_t> first(grid.points.size());
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const Vec3& p = grid.points[i];
+    first[i] = places.emplace(std::array{p.x(), p.y(), p.z()}, i).first->second;
+  }
+  for (std::int64_t& id : grid.cells.points)
+    if (id >= 0 && id < static_cast<std::int64_t>(first.size()))
+      id = first[static_cast<std::size_t>(id)];
+}
+
+PolygonSoup surface_of_grid(const VtkXmlFile& file) {
+  Grid grid;
+  const auto pieces = file.pieces();
+  for (const PieceElements piece : pieces) add_piece(file, piece, grid);
+  if (pieces.size() > 1) join_equal_points(grid);
+  return soup_of(std::move(grid.points), grid.cells);
+}
+
+/// The numbers of an attribute; as many as `initial` has, which stay where there are none.
+template <std::size_t count>
+std::array<double, count> numbers_of(const XmlElement& element, const char* attribute,
+                                     std::array<double, count> initial) {
+  const auto text = element.attribute(attribute);
+  if (text.empty()) return initial;
+  std::istringstream words{std::string(text)};
+  words.imbue(std::locale::classic());
+  for (double& number : initial)
+    if (!(words >> number) || !std::isfinite(number))
+      throw vtu_refused(std::string(attribute) + " is " + quoted(text));
+  return initial;
+}
+
+/// Samples along each axis and in all; throws where the file cannot hold them.
+std::uint64_t read_extent(const VtkXmlFile& file, LevelSet& image) {
+  const auto extent = numbers_of<6>(file.grid(), "WholeExtent", {0, -1, 0, -1, 0, -1});
+  double all = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double size = extent[2 * k + 1] - extent[2 * k] + 1;
+    all *= size;
+    if (!(size >= 1) || !(all <= static_cast<double>(file.arrays.most)) || size > 1e9)
+      throw vtu_refused("its WholeExtent is " + quoted(file.grid().attribute("WholeExtent")) +
+                        ", which its size cannot hold");
+    image.size[k] = static_cast<int>(size);
+  }
+  const auto origin = numbers_of<3>(file.grid(), "Origin", {0, 0, 0});
+  const auto spacing = numbers_of<3>(file.grid(), "Spacing", {1, 1, 1});
+  const auto turn = numbers_of<9>(file.grid(), "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  for (int row = 0; row < 3; ++row)
+    for (int k = 0; k < 3; ++k) image.axes(row, k) = turn[3 * row + k] * spacing[k];
+  image.origin = Vec3(origin.data()) + image.axes * Vec3(extent[0], extent[2], extent[4]);
+  return static_cast<std::uint64_t>(all);
+}
+
+/// Of the active scalars, or the first array of one component.
+const XmlElement& scalars_of(const VtkXmlFile& file, PieceElements piece) {
+  std::string_view active;
+  for (const XmlElement& element : piece)
+    if (element.path == "VTKFile/ImageData/Piece/PointData") active = element.attribute("Scalars");
+  const XmlElement* named = array_of(file, piece, "Piece/PointData", active);
+  if (named != nullptr && !active.empty()) return *named;
+  for (const XmlElement* array : file.arrays_in(piece, "Piece/PointData")) {
+    const auto components = array->attribute("NumberOfComponents");
+    if (components.empty() || components == "1") return *array;
+  }
+  throw bad_input("the image has no scalars at its points",
+                  "store the level set as point data; in ParaView, Cell Data to Point Data");
+}
+
+PolygonSoup surface_of_image(const VtkXmlFile& file) {
+  const auto pieces = file.pieces();
+  if (pieces.size() != 1)
+    throw vtu_refused("the image has " + std::to_string(pieces.size()) + " pieces, not one");
+  LevelSet image;
+  const std::uint64_t count = read_extent(file, image);
+  const Column scalars = file.arrays.column(scalars_of(file, pieces.front()), count);
+  if (scalars.components != 1) throw vtu_refused("the image's scalars have several components");
+  std::visit([&](const auto& values) { image.values.assign(values.begin(), values.end()); },
+             scalars.values);
+  return zero_level(image);
+}
+
+PolygonSoup xml_surface(std::string_view text, const std::string& extension) {
+  const VtkXmlFile file = vtk_xml_file(text);
+  const std::map<std::string, std::string> extensions = {
+      {"PolyData", ".vtp"}, {"UnstructuredGrid", ".vtu"}, {"ImageData", ".vti"}};
+  const auto own = extensions.find(file.type);
+  if (own == extensions.end())
+    throw bad_input("it holds " + shown(file.type) + ", which is not read",
+                    "save its surface as .vtp: in ParaView, Extract Surface");
+  if (own->second != extension)
+    throw bad_input("the extension is not the content's: it holds " + file.type,
+                    "rename it to " + own->second);
+  return file.type == "ImageData" ? surface_of_image(file) : surface_of_grid(file);
+}
+
+PolygonSoup surface_in(std::string_view text, const std::string& extension) {
+  if (text.empty()) throw bad_input("the file is empty", "export the mesh again");
+  return extension == ".vtk" ? legacy_surface(text) : xml_surface(text, extension);
+}
+
+}  // namespace
+
+PolygonSoup read_vtk_mesh(const std::filesystem::path& path) {
+  try {
+    const std::string text = read_file(path, largest_mesh);
+    try {
+      return surface_in(text, lower(path.extension().string()));
+    } catch (const Error& error) {
+      throw error.with_context({path.string()});
+    }
+  } catch (const std::bad_alloc&) {
+    throw bad_input({path.string()}, "it takes more memory than there is", "make it smaller");
+  }
+}
+
+}  // namespace sinew
