@@ -87,6 +87,7 @@ TEST(Playback, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_EQ(json["particles"].get<std::string>().size(), (3 * n * 3 * 2 + 2) / 3 * 4);
   EXPECT_EQ(json["snapshots"].size(), 3u);
   EXPECT_EQ(json["boneNames"], (std::vector<std::string>{"lower", "upper"}));
+  EXPECT_EQ(json["boneColor"], (std::vector<int>{0, 1}));
   for (const auto& field : json["fields"]) {
     EXPECT_EQ(field["levels"].get<std::string>().size(), (3 * n + 2) / 3 * 4) << field["name"];
     EXPECT_LE(field["low"], field["high"]) << field["name"];

@@ -194,7 +194,10 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
       thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_snapshots(playback)));
   playback.points = std::move(skin.points);
   playback.faces = std::move(skin.faces);
-  for (const MeasuredBone& bone : rest.bones) playback.bone_names.push_back(bone.name);
+  for (const MeasuredBone& bone : rest.bones) {
+    playback.bone_color.push_back(static_cast<int>(playback.bone_color.size()));
+    playback.bone_names.push_back(bone.name);
+  }
   return playback;
 }
 

@@ -53,6 +53,7 @@ struct Playback {
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
   std::vector<std::string> bone_names;
+  std::vector<int> bone_color;  ///< number of the color of each: of two runs, that of its name
   std::vector<PlaybackFrame> frames;
 
   bool wants(std::size_t frame) const;

@@ -10,14 +10,15 @@ function fillFields(playback) {
 
 const mostNames = 12; // bones named beside the view; more would take too much space
 
-/** The legend of bone colors. */
+/** The legend of bone colors. Two runs have one entry for bones of the same name. */
 function fillBoneNames(playback) {
-  const names = playback.boneNames.slice(0, mostNames).map((name, b) => {
+  const all = new Map(playback.boneNames.map((name, b) => [name, playback.boneColor[b]]));
+  const names = [...all].slice(0, mostNames).map(([name, color]) => {
     const dot = element("i");
-    dot.style.background = palette[b % palette.length];
+    dot.style.background = palette[color % palette.length];
     return element("span", {}, [dot, name]);
   });
-  const more = playback.boneNames.length - names.length;
+  const more = all.size - names.length;
   if (more > 0) names.push(element("span", { textContent: `and ${more} more` }));
   byId("bone-names").append(...names);
 }
