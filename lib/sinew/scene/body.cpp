@@ -12,6 +12,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/geometry.h>
+#include <sinew/io/gltf/look.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
@@ -22,9 +23,14 @@ namespace {
 
 PolygonSoup read_gltf_file(const std::string& path) { return read_gltf(path); }
 
+PolygonSoup read_gltf_look_file(const std::string& path, PolygonLook& look) {
+  return read_gltf_look(path, look);
+}
+
 /// In addition to those of the room mesh, which does not depend on io.
 constexpr std::array<MeshFormat, 2> gltf_formats = {
-    {{"glTF", ".gltf", read_gltf_file}, {"GLB", ".glb", read_gltf_file}}};
+    {{"glTF", ".gltf", read_gltf_file, nullptr, read_gltf_look_file},
+     {"GLB", ".glb", read_gltf_file, nullptr, read_gltf_look_file}}};
 
 }  // namespace
 
@@ -63,6 +69,10 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
 }
 
 Mat3 lattice_axes(const BodyOptions& body) { return rotation_of(body.lattice_rotation); }
+
+SurfaceLook look_of_mesh(const Settings& settings, const Triangles& surface) {
+  return look_of(settings.body, surface, gltf_formats);
+}
 
 Surface read_mesh(const Settings& settings) {
   return with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); });

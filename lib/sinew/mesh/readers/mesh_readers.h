@@ -35,19 +35,10 @@ MeshFile open_mesh(const std::string& path);
 // in a file is checked against its length. The result has faces of three corners or more, corners
 // that exist and finite coordinates.
 
-/// What an OBJ file says beside the shape.
-struct ObjLook {
-  std::vector<std::array<double, 2>> coordinates;  ///< of its `vt` lines
-  std::vector<std::vector<int>> corners;  ///< per polygon: coordinates of each, -1 for none
-  std::vector<int> part;                  ///< per polygon, -1 before the first
-  std::vector<SurfaceLook::Part> parts;   ///< of its `o`, `g` and `usemtl` lines
-  std::vector<std::string> libraries;     ///< of its `mtllib` lines
-};
-
 /// Wavefront OBJ: `v` and `f` lines with indices of either sign, continued lines joined; with
 /// `look`, what else describes the surface.
 PolygonSoup read_obj(const MeshFile& file);
-PolygonSoup read_obj(const MeshFile& file, ObjLook& look);
+PolygonSoup read_obj(const MeshFile& file, PolygonLook& look);
 
 /// Geomview OFF (also with colors, normals, texture coordinates; text only).
 PolygonSoup read_off(const MeshFile& file);
