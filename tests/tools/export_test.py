@@ -271,7 +271,10 @@ class FromObj(unittest.TestCase):
     def test_glb_has_the_coordinates_normals_and_materials_of_an_obj(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            text, count, expected = "", 0, {}
+            text, count, expected = "mtllib crate.mtl\n", 0, {}
+            (folder / "crate.mtl").write_text("# of a crate\nnewmtl checked\nKd 1 1 1\nmap_Kd -s 1 1 1 check.png\n"
+                                              "newmtl red\nKa 0 0 0\nKd 1 0 0.5\nd 0.25\n")
+            (folder / "check.png").write_bytes(png())
             for axis, sign, corners in box():
                 normal = [0, 0, 0]
                 normal[axis] = 2 * sign - 1
@@ -295,6 +298,12 @@ class FromObj(unittest.TestCase):
                     self.assertEqual(material, "red" if is_red else "checked")
                     seen.add(key)
             self.assertEqual(seen, set(expected))
+            materials = {one["name"]: one for one in glb.json["materials"]}
+            self.assertEqual(materials["red"]["pbrMetallicRoughness"]["baseColorFactor"], [1, 0, 0.5, 0.25])
+            self.assertEqual(materials["red"]["alphaMode"], "BLEND")
+            texture = materials["checked"]["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+            image = glb.json["images"][glb.json["textures"][texture]["source"]]
+            self.assertEqual(glb.view(image["bufferView"]), png())
 
 
 if __name__ == "__main__":

@@ -32,6 +32,13 @@ struct SurfaceLook {
     int components = 2;
     std::vector<float> values;
   };
+  /// Described in one of the libraries.
+  struct Material {
+    std::string name;
+    std::array<double, 3> color{1, 1, 1};  ///< red, green, blue
+    double opacity = 1;
+    std::string image;  ///< path of the texture over the color, or empty
+  };
   using Corners = std::array<int, 3>;  ///< of a face, -1 for none
 
   std::vector<std::array<double, 2>> coordinates;  ///< u to the right, v up
@@ -44,6 +51,7 @@ struct SurfaceLook {
   std::vector<Layer> layers = {};
   std::vector<Corners> layer_corners = {};  ///< per face: elements of all layers
   GltfMaterials gltf = {};
+  std::vector<Material> materials = {};
 };
 
 /// The same of polygons.

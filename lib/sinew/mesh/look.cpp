@@ -126,7 +126,11 @@ SurfaceLook look_of(const BodyOptions& body, const Triangles& surface,
   for (Vec3& normal : look.normals) normal = placement_of(body).turn * normal;
   for (const auto& [a, b, c] : surface.faces)
     add_face({surface.points[a], surface.points[b], surface.points[c]}, polygons, file, look);
-  for (std::string& library : look.libraries) library = (path.parent_path() / library).string();
+  for (std::string& library : look.libraries) {
+    library = (path.parent_path() / library).string();
+    for (SurfaceLook::Material& material : read_mtl(library))
+      look.materials.push_back(std::move(material));
+  }
   return look;
 }
 

@@ -20,15 +20,6 @@ std::optional<std::string> text_of(const OrderedJson& object, const char* key) {
   return object[key].get<std::string>();
 }
 
-/// Of the formats that glTF and its extensions allow, by the first bytes; none for others.
-const char* image_type(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG")) return "image/png";
-  if (bytes.starts_with("\xff\xd8")) return "image/jpeg";
-  if (bytes.starts_with("\xabKTX 20")) return "image/ktx2";
-  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
-  return nullptr;
-}
-
 std::optional<std::string> bytes_of_view(const OrderedJson& image, const CheckedGltf& gltf) {
   if (!image["bufferView"].is_number_unsigned()) return {};
   const auto index = image["bufferView"].get<std::size_t>();
@@ -67,7 +58,7 @@ void take_images(OrderedJson& json, const std::filesystem::path& folder, const C
   if (!json.contains("images")) return;
   for (OrderedJson& image : json["images"]) {
     auto bytes = bytes_of(image, folder, gltf);
-    const char* type = bytes ? image_type(*bytes) : nullptr;
+    const char* type = bytes ? gltf_image_type(*bytes) : nullptr;
     if (!type) {
       if (image.is_object() && image.contains("bufferView")) image = {{"uri", "data:,"}};
       continue;
@@ -91,7 +82,49 @@ OrderedJson extensions_of_looks(const OrderedJson& used) {
   return kept;
 }
 
+/// The number of a texture that shows this file; none where it is no image that glTF allows.
+std::optional<int> add_texture(OrderedJson& json, std::vector<std::string>& images,
+                               const std::filesystem::path& file) {
+  std::string bytes;
+  try {
+    bytes = read_file(file);
+  } catch (const Error&) {
+    return {};
+  }
+  const std::string_view type = gltf_image_type(bytes) ? gltf_image_type(bytes) : "";
+  if (type != "image/png" && type != "image/jpeg") return {};
+  json["images"].push_back(
+      {{"name", file.stem().string()}, {"mimeType", type}, {"bufferView", images.size()}});
+  json["textures"].push_back({{"source", json["images"].size() - 1}});
+  images.push_back(std::move(bytes));
+  return static_cast<int>(json["textures"].size()) - 1;
+}
+
 }  // namespace
+
+const char* gltf_image_type(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return "image/png";
+  if (bytes.starts_with("\xff\xd8")) return "image/jpeg";
+  if (bytes.starts_with("\xabKTX 20")) return "image/ktx2";
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
+  return nullptr;
+}
+
+int add_material(GltfMaterials& materials, const SurfaceLook::Material& material) {
+  OrderedJson json =
+      materials.json.empty() ? OrderedJson::object() : OrderedJson::parse(materials.json);
+  const auto& [red, green, blue] = material.color;
+  OrderedJson surface = {{"baseColorFactor", {red, green, blue, material.opacity}},
+                         {"metallicFactor", 0}};
+  if (!material.image.empty())
+    if (const auto texture = add_texture(json, materials.images, material.image))
+      surface["baseColorTexture"] = {{"index", *texture}};
+  OrderedJson added = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
+  if (material.opacity < 1) added["alphaMode"] = "BLEND";
+  json["materials"].push_back(std::move(added));
+  materials.json = json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return static_cast<int>(json["materials"].size()) - 1;
+}
 
 GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGltf& gltf) {
   const GltfContainer container = gltf_container(read_gltf_file(path), path.extension());

@@ -9,6 +9,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/io/gltf/document.h>
+#include <sinew/io/gltf/materials.h>
 #include <sinew/io/gltf/split_surface.h>
 #include <sinew/io/point_cache.h>
 
@@ -205,43 +206,41 @@ OrderedJson targets_of(Moments& moments, Contents& contents) {
   return targets;
 }
 
-/// Those of the mesh's file; others that its faces name follow.
-class Materials {
- public:
-  explicit Materials(const GltfMaterials& given)
-      : json_(given.json.empty() ? OrderedJson::object() : OrderedJson::parse(given.json)) {}
-
-  /// The number of a patch's material, -1 for none.
-  int number_of(const SplitSurface::Patch& patch) {
-    if (patch.gltf_material >= 0 || patch.material.empty()) return patch.gltf_material;
-    OrderedJson& materials = json_["materials"];
-    materials.push_back({{"name", patch.material}});
-    return static_cast<int>(materials.size()) - 1;
+/// Those of the mesh's file for the patches that they are named by; others that these name are
+/// added.
+GltfMaterials materials_of(SplitSurface& surface, const SurfaceLook& look) {
+  GltfMaterials materials = look.gltf;
+  for (SplitSurface::Patch& patch : surface.patches) {
+    if (patch.gltf_material >= 0 || patch.material.empty()) continue;
+    SurfaceLook::Material material;
+    material.name = patch.material;
+    for (const SurfaceLook::Material& described : look.materials)
+      if (described.name == patch.material) material = described;
+    patch.gltf_material = add_material(materials, material);
   }
+  return materials;
+}
 
-  void put_into(OrderedJson& json, const GltfMaterials& given, Contents& contents) {
-    std::vector<std::size_t> views;
-    for (const std::string& image : given.images) views.push_back(contents.add_view(image.size()));
-    if (json_.contains("images"))
-      for (OrderedJson& image : json_["images"])
-        if (image.is_object() && image.contains("bufferView"))
-          image["bufferView"] = views[image["bufferView"].get<std::size_t>()];
-    json.update(json_);
-  }
-
- private:
-  OrderedJson json_;
-};
+void put_into(OrderedJson& json, const GltfMaterials& materials, Contents& contents) {
+  std::vector<std::size_t> views;
+  for (const std::string& image : materials.images)
+    views.push_back(contents.add_view(image.size()));
+  if (materials.json.empty()) return;
+  OrderedJson own = OrderedJson::parse(materials.json);
+  if (own.contains("images"))
+    for (OrderedJson& image : own["images"])
+      if (image.is_object() && image.contains("bufferView"))
+        image["bufferView"] = views[image["bufferView"].get<std::size_t>()];
+  json.update(own);
+}
 
 /// The faces of each material, on the same vertices.
-OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Materials& materials,
-                          Contents& contents) {
+OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Contents& contents) {
   OrderedJson primitives = OrderedJson::array();
   for (const SplitSurface::Patch& patch : surface.patches) {
     primitives.push_back(
         {{"indices", contents.add(GltfNumber::uint32, "SCALAR", patch.corners.size())}});
-    if (const int material = materials.number_of(patch); material >= 0)
-      primitives.back()["material"] = material;
+    if (patch.gltf_material >= 0) primitives.back()["material"] = patch.gltf_material;
   }
   const OrderedJson attributes = attributes_of(moments, surface, contents);
   const OrderedJson targets = targets_of(moments, contents);
@@ -253,19 +252,18 @@ OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Materia
 }
 
 /// The file's JSON; declares the data in the order in which write_data() writes it.
-OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMaterials& given,
+OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMaterials& materials,
                      double interval, Contents& contents) {
-  Materials materials(given);
   OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = listed({{"nodes", listed(0)}});
   json["nodes"] = listed({{"name", "surface"}, {"mesh", 0}});
-  OrderedJson mesh = {{"primitives", primitives_of(moments, surface, materials, contents)}};
+  OrderedJson mesh = {{"primitives", primitives_of(moments, surface, contents)}};
   // Weights default to 0, but VTK counts them.
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
   json["meshes"] = listed(mesh);
   if (moments.targets() > 0)
     json["animations"] = listed(animation_of(moments.times(interval), moments.targets(), contents));
-  materials.put_into(json, given, contents);
+  put_into(json, materials, contents);
   contents.put_into(json);
   return json;
 }
@@ -292,7 +290,7 @@ void write_image(NewFile& file, const std::string& image) {
 }
 
 void write_data(NewFile& file, Moments& moments, const SplitSurface& surface,
-                const GltfMaterials& given, double interval) {
+                const GltfMaterials& materials, double interval) {
   for (const SplitSurface::Patch& patch : surface.patches) write(file, patch.corners);
   write(file, moments.first());
   write(file, moments.first_normals());
@@ -307,7 +305,7 @@ void write_data(NewFile& file, Moments& moments, const SplitSurface& surface,
     write(file, moments.times(interval));
     write(file, moments.weights());
   }
-  for (const std::string& image : given.images) write_image(file, image);
+  for (const std::string& image : materials.images) write_image(file, image);
 }
 
 std::string chunk(std::size_t size, const char* kind) {
@@ -320,10 +318,11 @@ void write_moving_surface(const std::filesystem::path& path,
                           const std::vector<std::array<int, 3>>& faces,
                           const std::filesystem::path& cache, double interval,
                           const SurfaceLook& look) {
-  const SplitSurface surface = split_surface(faces, CachedPoints(cache).points(), look);
+  SplitSurface surface = split_surface(faces, CachedPoints(cache).points(), look);
+  const GltfMaterials materials = materials_of(surface, look);
   Moments moments(cache, surface);
   Contents contents;
-  std::string json = describe(moments, surface, look.gltf, interval, contents).dump();
+  std::string json = describe(moments, surface, materials, interval, contents).dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + contents.bytes();
   const std::string head = "glTF" + little_endian(2) +
@@ -331,7 +330,7 @@ void write_moving_surface(const std::filesystem::path& path,
                            chunk(json.size(), "JSON") + json + chunk(contents.bytes(), "BIN\0");
   NewFile file(path);
   file.write(head.data(), head.size());
-  write_data(file, moments, surface, look.gltf, interval);
+  write_data(file, moments, surface, materials, interval);
   file.finish();
 }
 
