@@ -17,6 +17,7 @@
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/scene_picture.h>
+#include <sinew/run/world_shown.h>
 
 namespace sinew {
 
@@ -156,19 +157,10 @@ std::vector<std::size_t> spread_over(std::size_t frames) {
   return chosen;
 }
 
-/// Of a particle in the frames; -1 where they do not contain it.
-std::ptrdiff_t place_of(const RunFiles& run, std::size_t particle) {
-  if (run.ids.empty())
-    return particle < run.body.particles.size() ? static_cast<std::ptrdiff_t>(particle) : -1;
-  const auto at = std::lower_bound(run.ids.begin(), run.ids.end(), particle);
-  if (at == run.ids.end() || static_cast<std::size_t>(*at) != particle) return -1;
-  return at - run.ids.begin();
-}
-
 std::vector<std::size_t> traced_places(const RunFiles& run, const std::vector<int>& ids) {
   std::vector<std::size_t> places;
   for (const int id : ids) {
-    const std::ptrdiff_t place = id < 0 ? -1 : place_of(run, static_cast<std::size_t>(id));
+    const std::ptrdiff_t place = id < 0 ? -1 : place_in_frames(run, static_cast<std::size_t>(id));
     const auto last =
         run.ids.empty() ? run.body.particles.size() - 1 : static_cast<std::size_t>(run.ids.back());
     const std::size_t first = run.ids.empty() ? 0 : static_cast<std::size_t>(run.ids.front());
@@ -193,7 +185,10 @@ DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
     : run_(open_run({folder})), options_(std::move(options)) {
   for (const ViewPreset& preset : options_.presets) views_.push_back(applied(preset));
   select_bones();
-  if (const auto world = world_of_run(run_)) marks_ = written_marks(*world);
+  for (const std::size_t held : held_in_frames(run_)) {
+    marks_.resize(run_.body.particles.size(), Mark::none);
+    marks_[held] = Mark::held;
+  }
   read_overview();
 }
 
@@ -222,15 +217,6 @@ bool DrawnRun::is_selected(std::size_t particle) const {
   if (selected_.empty()) return true;
   const std::int32_t bone = (*run_.body.bone)[particle];
   return bone >= 0 && selected_[static_cast<std::size_t>(bone)];
-}
-
-/// Of the particles in the frames.
-std::vector<Mark> DrawnRun::written_marks(const World& world) const {
-  std::vector<Mark> marks(run_.body.particles.size(), Mark::none);
-  for (const Pinned& pin : world.pins)
-    if (const std::ptrdiff_t place = place_of(run_, pin.particle); place >= 0)
-      marks[static_cast<std::size_t>(place)] = Mark::held;
-  return marks;
 }
 
 DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,

@@ -119,7 +119,6 @@ class DrawnRun {
   void show_selected(Snapshot& snapshot) const;
   void add_traces(Snapshot& snapshot, std::size_t index) const;
   void add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
-  std::vector<Mark> written_marks(const World& world) const;
   void cut_open(Snapshot& snapshot) const;
   void add_obstacles(Snapshot& snapshot, std::size_t index) const;
   void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;

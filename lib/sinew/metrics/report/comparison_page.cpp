@@ -163,6 +163,7 @@ PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3
   append_moved(frame.particles, other.particles, shift);
   append_moved(frame.surface, other.surface, shift);
   append_moved(frame.bones, other.bones, shift);
+  append_moved(frame.obstacles, other.obstacles, shift);
   return frame;
 }
 
@@ -192,6 +193,8 @@ void join_shape(Playback& playback, const Playback& second,
   for (const int bone : second.bone) playback.bone.push_back(bone < 0 ? -1 : bone + bones);
   for (const auto& [a, b, c] : second.faces)
     playback.faces.push_back({a + points, b + points, c + points});
+  for (const std::uint32_t held : second.held)
+    playback.held.push_back(held + static_cast<std::uint32_t>(playback.particles.size()));
   playback.particles.insert(playback.particles.end(), second.particles.begin(),
                             second.particles.end());
   playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());

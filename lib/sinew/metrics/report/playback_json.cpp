@@ -39,6 +39,19 @@ void quantize(std::vector<std::uint16_t>& out, const std::vector<float>& places,
   }
 }
 
+/// Of each frame; null where they are as in the frame before.
+Json obstacles_of(const Playback& playback, const Cube& cube) {
+  Json frames = Json::array();
+  const std::vector<float>* before = nullptr;
+  for (const PlaybackFrame& frame : playback.frames) {
+    std::vector<std::uint16_t> all;
+    quantize(all, frame.obstacles, cube);
+    frames.push_back(before && *before == frame.obstacles ? Json() : Json(base64_of(all)));
+    before = &frame.obstacles;
+  }
+  return frames;
+}
+
 std::string places_of(const Playback& playback, const Cube& cube,
                       const std::vector<float> PlaybackFrame::*places) {
   std::vector<std::uint16_t> all;
@@ -149,6 +162,8 @@ std::string playback_json(const Playback& playback) {
                      {"surface", places_of(playback, cube, &PlaybackFrame::surface)},
                      {"corners", corners_of(playback)},
                      {"bones", places_of(playback, cube, &PlaybackFrame::bones)},
+                     {"held", base64_of(playback.held)},
+                     {"obstacles", obstacles_of(playback, cube)},
                      {"fields", fields_of(playback)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

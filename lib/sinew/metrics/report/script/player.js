@@ -60,6 +60,7 @@ function makePlayer(view) {
     byId("clock").textContent = `${time.toFixed(3)} s · frame ${frame}`;
     view.spheres.visible = byId("show-particles").checked;
     view.skin.visible = byId("show-surface").checked;
+    view.obstacles.visible = byId("show-obstacles").checked;
     for (const bone of view.bones) bone.visible = byId("show-bones").checked;
     showScale(playback, field());
     showSnapshot(view, { snapshot: player.snapshot, field: field(), cut: byId("cut").checked });
@@ -89,11 +90,13 @@ function play(player, playback) {
 
 function connect(player, view) {
   const { playback } = view;
+  byId("has-held").hidden = playback.held.length === 0;
+  byId("has-obstacles").hidden = playback.obstacles.every((corners) => corners.length === 0);
   byId("time").max = playback.snapshots.length - 1;
   byId("time").addEventListener("input", () => player.go(Number(byId("time").value)));
   byId("play").addEventListener("click", () => play(player, playback));
   byId("reset").addEventListener("click", () => aim(view));
-  for (const id of ["field", "show-particles", "show-surface", "show-bones", "cut"])
+  for (const id of ["field", "show-particles", "show-surface", "show-bones", "show-obstacles", "cut"])
     byId(id).addEventListener("change", player.show);
   marked.go = (time) => player.go(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
   showWorst(playback, player.go);

@@ -45,12 +45,15 @@ function addParts(view) {
   view.spheres = makeSpheres(playback.balls);
   view.skin = makeSkin(playback, counts.points);
   view.skin.visible = false;
+  view.obstacles = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({ color: 0x80868e,
+    side: THREE.DoubleSide, transparent: true, opacity: 0.4, depthWrite: false }));
+  view.obstacles.frustumCulled = false;
   view.bones = playback.boneColor.map(makeBone);
   const sun = new THREE.DirectionalLight(0xffffff, 0.75);
   sun.position.set(0.35, 0.55, 0.8);
   view.camera.add(sun);
   scene.add(view.camera, new THREE.AmbientLight(0xffffff, 0.5), view.skin, view.spheres,
-    ...view.bones);
+    view.obstacles, ...view.bones);
 }
 
 function makeSkin(playback, points) {
@@ -134,6 +137,14 @@ function placeSkin(view, snapshot) {
   geometry.computeVertexNormals();
 }
 
+function placeObstacles(view, snapshot) {
+  const corners = view.playback.obstacles[snapshot], geometry = view.obstacles.geometry;
+  if (geometry.attributes.position?.array === corners) return;
+  geometry.setAttribute("position", new THREE.BufferAttribute(corners, 3));
+  geometry.deleteAttribute("normal");
+  geometry.computeVertexNormals();
+}
+
 function placeBones(view, snapshot) {
   const ends = snapshotOf(view.playback.bones, 2 * view.counts.bones, snapshot);
   view.bones.forEach((bone, b) => {
@@ -154,12 +165,15 @@ function tint(view, snapshot, field) {
       : boneColors[view.playback.boneColor[view.playback.bone[i]] % boneColors.length] ?? noColor;
     for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = color[k] / 255;
   }
+  for (const i of view.playback.held)
+    for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = heldColor[k] / 255;
   tints.needsUpdate = true;
 }
 
 function showSnapshot(view, { snapshot, field, cut }) {
   placeParticles(view, snapshot, cut);
   placeSkin(view, snapshot);
+  placeObstacles(view, snapshot);
   placeBones(view, snapshot);
   tint(view, snapshot, field);
   view.draw();
