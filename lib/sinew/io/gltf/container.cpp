@@ -110,7 +110,7 @@ bool stays_below(const fs::path& path) {
 }
 
 std::string file_bytes(const std::string& uri, std::size_t size, const fs::path& folder) {
-  const fs::path file = gltf_file_of(uri, folder, "a buffer");
+  const fs::path file = gltf_file_of(uri, folder);
   std::string bytes = read_head(file, size);
   if (bytes.size() < size) throw too_short(size, bytes.size()).with_context({file.string()});
   return bytes;
@@ -130,14 +130,13 @@ std::string bytes_of(const GltfBuffer& buffer, const std::optional<std::string>&
 
 }  // namespace
 
-fs::path gltf_file_of(const std::string& uri, const fs::path& folder, const char* what) {
+fs::path gltf_file_of(const std::string& uri, const fs::path& folder) {
   const std::string name = without_percents(uri);
   const fs::path below = fs::path(name).lexically_normal();
   const bool scheme = uri.find(':') < uri.find('/');
   if (scheme || name.find('\0') != std::string::npos || !stays_below(below))
-    throw bad_input(
-        std::string(what) + " is to be found at " + shown(uri) + ", outside the file's own folder",
-        "put its file beside it and export it so");
+    throw bad_input("a buffer is to be found at " + shown(uri) + ", outside the file's own folder",
+                    "put the .bin file beside it and export it so");
   return folder / below;
 }
 

@@ -46,7 +46,7 @@ std::optional<std::string> bytes_of(const OrderedJson& image, const std::filesys
   if (!uri) return {};
   if (uri->starts_with("data:")) return decoded(*uri);
   try {
-    return read_file(gltf_file_of(*uri, folder, "an image"));
+    return read_file(gltf_file_of(*uri, folder));
   } catch (const Error&) {
     return {};
   }
