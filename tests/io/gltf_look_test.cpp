@@ -142,8 +142,10 @@ TEST_F(GltfLook, KeepsExtensionsOfMaterialsAlone) {
   EXPECT_EQ(kept["extensionsUsed"], (Json{"KHR_materials_unlit"}));
   EXPECT_EQ(kept["materials"], gltf_.json["materials"]);
   EXPECT_FALSE(kept.contains("textures"));
-  gltf_.json["materials"] = 5;
-  EXPECT_TRUE(look().gltf.json.empty());
+  for (const Json& none : {Json(5), Json::array()}) {
+    gltf_.json["materials"] = none;
+    EXPECT_TRUE(look().gltf.json.empty());
+  }
 }
 
 }  // namespace sinew::gltf_look_test

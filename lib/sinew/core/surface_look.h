@@ -54,6 +54,12 @@ struct SurfaceLook {
   std::vector<Material> materials = {};
 };
 
+/// A vector of any size made one of length 1; zero stays zero.
+inline Vec3 direction_of(const Vec3& vector) {
+  const double largest = vector.cwiseAbs().maxCoeff();
+  return largest > 0 ? Vec3((vector / largest).normalized()) : Vec3(Vec3::Zero());
+}
+
 /// The same of polygons.
 struct PolygonLook {
   using Corners = std::vector<std::vector<int>>;  ///< per polygon and corner, -1 for none

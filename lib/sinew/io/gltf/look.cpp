@@ -119,7 +119,7 @@ class LookReader {
   /// Zero where there is none, or none with a direction.
   static Vec3 normal_of(const std::vector<double>& normals, std::size_t at, const Mat3& turn) {
     if (normals.empty()) return Vec3::Zero();
-    const Vec3 normal = (turn * Vec3(normals.data() + 3 * at)).stableNormalized();
+    const Vec3 normal = direction_of(turn * Vec3(normals.data() + 3 * at));
     return normal.allFinite() ? normal : Vec3::Zero();
   }
 

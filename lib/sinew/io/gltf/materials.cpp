@@ -129,7 +129,9 @@ int add_material(GltfMaterials& materials, const SurfaceLook::Material& material
 GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGltf& gltf) {
   const GltfContainer container = gltf_container(read_gltf_file(path), path.extension());
   const OrderedJson file = OrderedJson::parse(container.json, nullptr, false);
-  if (!file.is_object() || !file.contains("materials") || !file["materials"].is_array()) return {};
+  if (!file.is_object() || !file.contains("materials") || !file["materials"].is_array() ||
+      file["materials"].empty())
+    return {};
   OrderedJson json = OrderedJson::object();
   for (const char* key : {"materials", "textures", "samplers", "images"})
     if (file.contains(key) && file[key].is_array() && !file[key].empty()) json[key] = file[key];

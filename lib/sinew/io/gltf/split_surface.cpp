@@ -130,7 +130,7 @@ Points MovedNormals::means(const std::vector<float>& places) const {
       const Vec3 across = (b - a).cross(c - a);
       for (std::size_t k = i; k < i + 3; ++k) means[surface_.smooth[patch.corners[k]]] += across;
     }
-  for (Vec3& mean : means) mean = mean.stableNormalized();
+  for (Vec3& mean : means) mean = direction_of(mean);
   return means;
 }
 

@@ -74,7 +74,7 @@ class ObjReader {
     if (keyword == "vn") {
       Vec3 normal;
       for (double& part : normal) part = finite(words);
-      look.normals.push_back(normal.stableNormalized());
+      look.normals.push_back(direction_of(normal));
     }
     if (keyword == "mtllib") look.libraries.push_back(after(keyword, line));
     SurfaceLook::Part part = look.parts.empty() ? SurfaceLook::Part() : look.parts.back();
