@@ -195,7 +195,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   results.add("particle_steps_per_second", rate);
   results.add("stepping_time", work / rate, "s");
   if (!picture.empty()) {
-    write_scene_picture(scene_snapshot(setup, skin), {}, picture);
+    write_scene_picture(scene_snapshot(setup, skin), {}, {}, picture);
     results.add("picture", picture);
   }
   results.add("warnings", warnings.size());

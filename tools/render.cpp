@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-render: pictures and a movie of a run, without ParaView.
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,11 @@ using namespace sinew;
 
 struct Options {
   std::string folder, other_folder, target, array, camera = "three_quarter", colors = "indigo";
+  std::string background = "white";
+  std::vector<std::string> bones;
+  std::vector<int> traced;
+  double orbit = 0;  ///< degrees
+  bool axes = false;
   std::vector<std::string> views{"body"};
   std::vector<double> times, range;
   std::vector<int> part;  ///< of the movie's frames, which goes to standard output: K of N
@@ -45,6 +51,12 @@ std::string help_of_colormap() {
   return text;
 }
 
+std::string help_of_colors() {
+  std::string text;
+  for (const NamedColor& named : named_colors()) (text += text.empty() ? "" : ", ") += named.name;
+  return text;
+}
+
 void declare_what(OptionList& list, Options& options) {
   list.add("DIR", options.folder, "Folder of the run").required();
   list.add("--view", options.views, help_of_views()).comma_separated().type_name("NAMES");
@@ -56,6 +68,14 @@ void declare_what(OptionList& list, Options& options) {
   list.add("--array", options.array,
            "Array shown in color: displacement, velocity, force_pair, strain, J, ...")
       .type_name("NAME");
+  list.add(
+          "--bones", options.bones,
+          "Bones by name: these alone are drawn; particles of other bones are gray, without arrows")
+      .comma_separated()
+      .type_name("NAME,NAME,...");
+  list.add("--trace", options.traced, "Particles by id, whose paths up to each moment are drawn")
+      .comma_separated()
+      .type_name("ID,ID,...");
   list.add_flag("--no-movie", options.no_movie, "Pictures only");
   list.add_flag("--no-pictures", options.no_pictures, "Movie only");
   list.add("--part", options.part).comma_separated().expected(2).group("");
@@ -72,12 +92,30 @@ void declare_how(OptionList& list, Options& options) {
            "three_quarter, front, back, left, right, top, or the direction toward the viewer")
       .type_name("NAME or X,Y,Z")
       .show_default();
+  list.add("--orbit", options.orbit,
+           "Angle by which the camera turns in the movie about the body's upright axis, degrees")
+      .type_name("DEGREES");
+  list.add("--background", options.background,
+           help_of_colors() + ", #rrggbb, or transparent (pictures only)")
+      .type_name("COLOR")
+      .show_default();
+  list.add_flag("--axes", options.axes, "The directions of X, Y and Z in a corner");
   list.add("--width", options.width, "Width of pictures and movie, pixels")
       .range(64, 8192)
       .show_default();
   list.add("--height", options.height, "Height of pictures and movie, pixels")
       .range(64, 8192)
       .show_default();
+}
+
+void check_movie(const Options& options, const Backdrop& backdrop) {
+  if (backdrop.transparent && !options.no_movie)
+    throw bad_input("a movie has no transparent background",
+                    "add --no-movie, or name a color: --background white");
+  if (!std::isfinite(options.orbit))
+    throw bad_input("an orbit needs a number of degrees", "give one: --orbit 360");
+  if (options.orbit != 0 && options.no_movie)
+    throw bad_input("the camera orbits in the movie alone", "leave out --no-movie or --orbit");
 }
 
 FigureSetOptions figure_set_options(const Options& options) {
@@ -87,6 +125,10 @@ FigureSetOptions figure_set_options(const Options& options) {
   figure_set.view = view_named(options.camera);
   figure_set.colors = color_map_named(options.colors);
   figure_set.times = options.times;
+  figure_set.backdrop = backdrop_named(options.background);
+  figure_set.axes = options.axes;
+  figure_set.orbit = radians(options.orbit);
+  check_movie(options, figure_set.backdrop);
   if (options.range.empty()) return figure_set;
   if (options.range.size() != 2 || !(options.range[0] < options.range[1]))
     throw bad_input("a range of colors needs two numbers, the lower one first",
@@ -179,21 +221,20 @@ bool tells_all(const Options& options) {
 
 Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
   FigureSetOptions figure_set = figure_set_options(options);
-  std::vector<ViewPreset> presets;
-  for (const std::string& view : options.views) presets.push_back(view_preset_named(view));
+  DrawnRunOptions what{{}, options.array, figure_set.view, options.bones, options.traced};
+  for (const std::string& view : options.views) what.presets.push_back(view_preset_named(view));
+  what.ahead = common.threads != 1;
   ensure_display();
   Stopwatch watch;
   std::deque<DrawnRun> runs;
   std::vector<const DrawnRun*> shown;
   for (const std::string& folder : {options.folder, options.other_folder})
-    if (!folder.empty())
-      shown.push_back(
-          &runs.emplace_back(folder, presets, options.array, figure_set.view, common.threads != 1));
+    if (!folder.empty()) shown.push_back(&runs.emplace_back(folder, what));
   const RunFiles& run = runs.front().files();
   figure_set.folder =
       options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
   if (!options.part.empty()) {
-    for (std::size_t preset = 0; preset < presets.size(); ++preset) {
+    for (std::size_t preset = 0; preset < options.views.size(); ++preset) {
       FigureSet pages(shown, preset, figure_set);
       write_part(pages, options.part);
     }
@@ -205,7 +246,7 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
   Share share(options, common, presets.size() * pictures_planned(options, runs.front()));
   figure_set.drawn = [&] { share.add_one(); };
   int pictures = 0;
-  for (std::size_t preset = 0; preset < presets.size(); ++preset) {
+  for (std::size_t preset = 0; preset < options.views.size(); ++preset) {
     FigureSet pages(shown, preset, figure_set);
     if (!options.no_pictures) {
       pictures += pages.pictures() + 1;
@@ -214,7 +255,7 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
     if (!options.no_movie) pages.movie(helpers.sources(pages));
   }
   if (tells_all(options)) {
-    write_scene_picture(scene_snapshot(run), {options.width, options.height},
+    write_scene_picture(scene_snapshot(run), {options.width, options.height}, figure_set.backdrop,
                         (figure_set.folder / "scene.png").string());
     ++pictures;
   }
@@ -237,6 +278,8 @@ int main(int argc, char** argv) {
               {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080",
                "sinew render out/box_bend --view strain,section --times 0,0.5,1 --no-movie",
                "sinew render out/box_bend --view forces --camera front --colormap inferno",
+               "sinew render out/box_bend --view bonds --array force --axes --background black",
+               "sinew render out/box_bend --orbit 360 --trace 0,100 --bones upper",
                "sinew render out/paper --compare out/bonded"}};
   about.takes_scene = false;
   return run_command(

@@ -110,14 +110,34 @@ def gltf_parts():
                        "min": [0, 0, 0], "max": [1, 1, 1]}]}
 
 
+def gltf_looks():
+    """With normals, texture coordinates, colors, a material and its image."""
+    data, document = gltf_parts()
+    png = b"\x89PNG\r\n\x1a\n"
+    attributes = document["meshes"][0]["primitives"][0]["attributes"]
+    for name, parts in (("NORMAL", 3), ("TEXCOORD_0", 2), ("TEXCOORD_1", 2), ("COLOR_0", 3)):
+        document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 16 * parts})
+        attributes[name] = len(document["accessors"])
+        document["accessors"].append({"bufferView": attributes[name], "componentType": 5126, "count": 4,
+                                      "type": f"VEC{parts}"})
+        data += struct.pack(f"<{4 * parts}f", *(i / 8 for i in range(4 * parts)))
+    document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(png)})
+    document["meshes"][0]["primitives"][0]["material"] = 0
+    document |= {"materials": [{"name": "red", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+                 "textures": [{"source": 0}], "extensionsUsed": ["KHR_materials_unlit"],
+                 "images": [{"bufferView": len(document["bufferViews"]) - 1, "mimeType": "image/png"},
+                            {"uri": "data:image/png;base64," + base64.b64encode(png).decode()}],
+                 "buffers": [{"byteLength": len(data) + len(png)}]}
+    return data + png, document
+
+
 def gltf_text():
     data, document = gltf_parts()
     document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     return json.dumps(document, indent=1).encode()
 
 
-def gltf_binary():
-    data, document = gltf_parts()
+def gltf_binary(data, document):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
@@ -209,7 +229,8 @@ def main():
     for form in ("ascii", "binary_little_endian", "binary_big_endian"):
         put("ply", form, ply(form))
     put("gltf", "embedded.gltf", gltf_text())
-    put("gltf", "binary.glb", gltf_binary())
+    put("gltf", "binary.glb", gltf_binary(*gltf_parts()))
+    put("gltf", "looks.glb", gltf_binary(*gltf_looks()))
     for name, content in vtk_files():
         put("vtk", name, content)
     for name, text in SCENES.items():

@@ -12,7 +12,16 @@ void mesh(std::string_view bytes, PolygonSoup (*read)(const MeshFile&)) {
 
 }  // namespace
 
-void obj(std::string_view bytes) { mesh(bytes, read_obj); }
+void obj(std::string_view bytes) {
+  mesh(bytes, read_obj);
+  expect_sound_or_refused([&] {
+    PolygonLook look;
+    const PolygonSoup soup = read_obj({"fuzz.obj", std::string(bytes)}, look);
+    require_sound(soup);
+    require_sound(soup, look);
+  });
+  read_mtl(file_of(bytes, "fuzz.mtl").string());
+}
 void off(std::string_view bytes) { mesh(bytes, read_off); }
 void ply(std::string_view bytes) { mesh(bytes, read_ply); }
 void stl(std::string_view bytes) { mesh(bytes, read_stl); }

@@ -66,6 +66,46 @@ TEST(Look, IsThatOfThePolygonInTheSamePlace) {
   EXPECT_TRUE(look_of(body, read_surface(body).triangles).part.empty());
 }
 
+TEST(Look, HasTheNormalsOfAnObjTurnedIntoTheScene) {
+  const Folder folder;
+  BodyOptions body;
+  body.mesh = folder.file("a.obj",
+                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 -3\nvn 0 nan 0\n"
+                          "f 1//1 3//1 2//-2\nf 1//2 2//2 4//2\nf 2//1 3//9 4//1\nf 1 4 3\n");
+  body.up = Axis::y;
+  body.forward = Axis::z;
+  const Triangles surface = read_surface(body).triangles;
+  const SurfaceLook look = look_of(body, surface);
+  const Vec3 below = placement_of(body).turn * Vec3(0, 0, -1);
+  int with = 0;
+  for (const auto& corners : look.normal_corners) {
+    with += corners[0] == 0;
+    EXPECT_EQ(corners[0] < 0, corners[2] < 0);  // whole or none
+  }
+  EXPECT_EQ(with, 1);
+  EXPECT_LT((look.normals.at(0) - below).norm(), 1e-12);
+  EXPECT_TRUE(look.normals.at(1).isZero(0));
+}
+
+TEST(Look, HasTheMaterialsOfTheLibrary) {
+  const Folder folder;
+  BodyOptions body;
+  folder.file("a.mtl",
+              "Kd 9 9 9\nnewmtl  two words \nKd 0.5 nan 7\nTr 0.25\nmap_Kd sub\\my image.png\n"
+              "newmtl bare\nmap_Kd -bm 1 b.png\nd x\n");
+  body.mesh = folder.file(
+      "a.obj", "mtllib a.mtl\nmtllib missing.mtl\n" + mesh_files::obj(shapes::sphere(1, 1)));
+  const SurfaceLook look = look_of(body, read_surface(body).triangles);
+  ASSERT_EQ(look.materials.size(), 2U);
+  const auto& [name, color, opacity, image] = look.materials[0];
+  EXPECT_EQ(name, "two words");
+  EXPECT_EQ(color, (std::array{0.5, 1.0, 1.0}));
+  EXPECT_EQ(opacity, 0.75);
+  EXPECT_TRUE(image.ends_with("/sub/my image.png")) << image;
+  EXPECT_TRUE(look.materials[1].image.ends_with("/b.png"));
+  EXPECT_EQ(look.materials[1].opacity, 1);
+}
+
 TEST(Read, TakesTextAndBinaryStl) {
   const Folder folder;
   const auto soup = shapes::torus(1, 0.25, 8, 6);

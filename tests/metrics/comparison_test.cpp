@@ -169,8 +169,8 @@ TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
   const std::size_t n = one.particles.size();
   ASSERT_EQ(both.frames.size(), 2u);
   EXPECT_EQ(both.particles.size(), 2 * n);
-  EXPECT_EQ(both.bone_names,
-            (std::vector<std::string>{"a: lower", "a: upper", "b: lower", "b: upper"}));
+  EXPECT_EQ(both.bone_names, (std::vector<std::string>{"lower", "upper", "lower", "upper"}));
+  EXPECT_EQ(both.bone_color, (std::vector<int>{0, 1, 0, 1}));
   EXPECT_EQ(both.bone[n], one.bone[0] + 2);
   for (const PlaybackFrame& frame : both.frames) {
     ASSERT_EQ(frame.particles.size(), 6 * n);
@@ -190,6 +190,33 @@ TEST(SideBySide, PutsTheSecondBesideTheFirstAndKeepsBothWhole) {
         EXPECT_EQ(values.size(), 2 * n);
       }
   }
+}
+
+TEST(SideBySide, ColorsBonesByTheirNames) {
+  const Playback one = playback_of(rest_body(box_input()));
+  Playback other = one;
+  other.bone_names = {"hand", "lower"};
+  const Playback both = side_by_side(one, other, {"a: ", "b: "});
+  EXPECT_EQ(both.bone_names, (std::vector<std::string>{"lower", "a: upper", "b: hand", "lower"}));
+  EXPECT_EQ(both.bone_color, (std::vector<int>{0, 1, 2, 0}));
+}
+
+TEST(SideBySide, ColorsBothByOneScaleThatHoldsBoth) {
+  Playback one = playback_of(rest_body(box_input())), other = one;
+  const std::size_t n = one.particles.size();
+  other.particles.resize(1);  // a thousandth of all: not outermost for all that
+  other.bone.resize(1);
+  other.balls.front().count = 1;
+  for (PlaybackFrame& frame : one.frames) frame.values[0].assign(n, 0.25F);
+  for (PlaybackFrame& frame : other.frames) {
+    frame.values.assign(playback_fields().size(), {7.0F});
+    frame.particles.resize(3);
+  }
+  const auto json = nlohmann::json::parse(playback_json(side_by_side(one, other, {"a: ", "b: "})));
+  const auto& displacement = json["fields"][0];
+  EXPECT_EQ(displacement["name"], "displacement");
+  EXPECT_EQ(displacement["low"], 0.25);
+  EXPECT_EQ(displacement["high"], 7);
 }
 
 TEST(SideBySide, DrawsBothWithBallsOfTheirOwnSize) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/report/playback.h>
 
+#include <sinew/metrics/report/comparison_page.h>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -87,6 +89,7 @@ TEST(Playback, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_EQ(json["particles"].get<std::string>().size(), (3 * n * 3 * 2 + 2) / 3 * 4);
   EXPECT_EQ(json["snapshots"].size(), 3u);
   EXPECT_EQ(json["boneNames"], (std::vector<std::string>{"lower", "upper"}));
+  EXPECT_EQ(json["boneColor"], (std::vector<int>{0, 1}));
   for (const auto& field : json["fields"]) {
     EXPECT_EQ(field["levels"].get<std::string>().size(), (3 * n + 2) / 3 * 4) << field["name"];
     EXPECT_LE(field["low"], field["high"]) << field["name"];
@@ -135,6 +138,46 @@ TEST(ThinSurface, KeepsShapeWithFewerPoints) {
   for (const auto i : thin.points) coarse.points.push_back(grid.points[i]);
   EXPECT_NEAR(area(coarse), 1, 0.2);
   for (const auto& [a, b, c] : thin.faces) EXPECT_TRUE(a != b && b != c && c != a);
+}
+
+TEST(Playback, CutsObstaclesToTheirSpace) {
+  const Triangles square{{{-9, -9, 0.5}, {9, -9, 0.5}, {9, 9, 0.5}, {-9, 9, 0.5}},
+                         {{0, 1, 2}, {0, 2, 3}}};
+  const Box space(Vec3(-1, -2, 0), Vec3(2, 2, 1));
+  const auto area_of = [&](const Triangles& surface) {
+    const Points corners = cut_to(space, surface);
+    double sum = 0;
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      sum += (corners[i + 1] - corners[i]).cross(corners[i + 2] - corners[i]).z() / 2;
+      for (std::size_t k = i; k < i + 3; ++k) EXPECT_LE(space.exteriorDistance(corners[k]), 1e-12);
+    }
+    return sum;
+  };
+  EXPECT_NEAR(area_of(square), 12, 1e-12);
+  EXPECT_EQ(area_of({{{0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}}, {{0, 1, 2}}}), 0.5);
+  EXPECT_EQ(area_of({{{3, 0, 0.5}, {4, 0, 0.5}, {3, 1, 0.5}}, {{0, 1, 2}}}), 0);
+}
+
+TEST(Playback, WritesObstaclesOnceWhileTheyStandStill) {
+  const RestBody body = rest_body(box_input());
+  Playback playback = whole_playback(body, 3);
+  playback.held = {0, 2};
+  const Triangles one{{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}};
+  Triangles moved = one;
+  for (Vec3& point : moved.points) point.z() += 0.01;
+  const Box space(Vec3::Constant(-1), Vec3::Constant(1));
+  for (const std::size_t frame : {0, 1}) add_obstacles(playback, frame, space, one);
+  add_obstacles(playback, 2, space, moved);
+  const auto json = nlohmann::json::parse(playback_json(playback));
+  EXPECT_EQ(json["obstacles"][0].get<std::string>().size(), 24U);  // 9 numbers of 2 bytes
+  EXPECT_TRUE(json["obstacles"][1].is_null());
+  EXPECT_TRUE(json["obstacles"][2].is_string());
+  EXPECT_EQ(json["held"], "AAAAAAIAAAA=");
+  const Playback both = side_by_side(playback, playback, {"a: ", "b: "});
+  EXPECT_EQ(both.held.size(), 4U);
+  EXPECT_EQ(both.held[3], 2 + playback.particles.size());
+  EXPECT_EQ(both.frames[0].obstacles.size(), 18U);
+  EXPECT_GT(both.frames[0].obstacles[9], playback.frames[0].obstacles[0]);  // beside
 }
 
 }  // namespace sinew::test::playback_test

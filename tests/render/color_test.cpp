@@ -59,4 +59,18 @@ TEST(ColorScale, places_values_between_low_and_high) {
   EXPECT_DOUBLE_EQ((ColorScale{"flat", "", 2, 2}).position(2), 0);
 }
 
+TEST(Color, is_read_from_six_hexadecimal_digits) {
+  EXPECT_EQ(hex_color("#f5A00c"), (Color{245, 160, 12}));
+  for (const char* text :
+       {"", "#", "f5a00c", "#f5a00", "#f5a00cc", "#f5a00g", "#+5a00c", "#-5a00c"})
+    EXPECT_FALSE(hex_color(text)) << text;
+}
+
+TEST(Color, ink_is_read_on_its_background) {
+  for (const NamedColor& named : named_colors()) {
+    const Paper paper = paper_of(named.color);
+    EXPECT_GT(std::abs(oklab(paper.ink)[0] - oklab(paper.background)[0]), 0.28) << named.name;
+  }
+}
+
 }  // namespace sinew::color_test

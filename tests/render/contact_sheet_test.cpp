@@ -28,7 +28,7 @@ TEST(ContactSheet, has_a_surface_above_particles_for_each_snapshot) {
   Painter painter(snapshots[0].surface, synthetic_scale());
   SheetOptions options;
   options.width = 800, options.row_height = 200;
-  const Image sheet = contact_sheet(painter, snapshots, options);
+  const Image sheet = contact_sheet(surface_above_particles(painter, snapshots), options);
   const int margin = 800 / 32;
   EXPECT_LE(sheet.width, 800);
   EXPECT_EQ(groups(sheet, margin, 200), 3);
@@ -41,9 +41,9 @@ TEST(ContactSheet, has_a_surface_above_particles_for_each_snapshot) {
 TEST(ContactSheet, captions_and_color_scale_stand_below) {
   std::vector<Snapshot> snapshots = bending();
   Painter painter(snapshots[0].surface, synthetic_scale());
-  const Image with = contact_sheet(painter, snapshots, {});
+  const Image with = contact_sheet(surface_above_particles(painter, snapshots), {});
   for (Snapshot& snapshot : snapshots) snapshot.caption.clear();
-  const Image without = contact_sheet(painter, snapshots, {});
+  const Image without = contact_sheet(surface_above_particles(painter, snapshots), {});
   EXPECT_EQ(with.width, without.width);
   EXPECT_GT(with.height, without.height + 40);
   const Color high = mapped_color(1);
@@ -56,7 +56,8 @@ TEST(ContactSheet, captions_and_color_scale_stand_below) {
 
 TEST(ContactSheet, without_snapshots_is_an_error) {
   Painter painter({}, {});
-  EXPECT_EQ(error_of([&] { contact_sheet(painter, {}, {}); }).exit(), Exit::bad_input);
+  EXPECT_EQ(error_of([&] { contact_sheet(surface_above_particles(painter, {}), {}); }).exit(),
+            Exit::bad_input);
 }
 
 TEST(ContactSheet, has_a_row_for_each_way_of_looking) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/render/image.h>
 
+#include <sinew/core/file.h>
 #include <sinew/render/text.h>
 #include "helpers.h"
 
@@ -71,6 +72,38 @@ TEST(Text, color_bar_runs_from_low_to_high) {
   };
   EXPECT_EQ(color(10), mapped_color(0));
   EXPECT_EQ(color(189), mapped_color(1));
+}
+
+TEST(Image, is_cut_out_of_white_and_black) {
+  const auto drawn_on = [](const Color& background) {  // nothing, half of a red, all of it
+    Image image(3, 1, background);
+    for (int c = 0; c < 3; ++c) {
+      const int red = c == 0 ? 200 : 20;
+      image.at(1, 0)[c] = static_cast<std::uint8_t>((red + background[c]) / 2);
+      image.at(2, 0)[c] = static_cast<std::uint8_t>(red);
+    }
+    return image;
+  };
+  const Image image = cut_out(drawn_on({255, 255, 255}), drawn_on({0, 0, 0}));
+  EXPECT_EQ(image.alpha[0], 0);
+  EXPECT_NEAR(image.alpha[1], 128, 1);
+  EXPECT_EQ(image.alpha[2], 255);
+  for (const int x : {1, 2}) {
+    EXPECT_NEAR(image.at(x, 0)[0], 200, 2);
+    EXPECT_NEAR(image.at(x, 0)[1], 20, 2);
+  }
+  EXPECT_EQ(error_of([] { cut_out(Image(3, 1), Image(1, 3)); }).exit(), Exit::bad_input);
+}
+
+TEST(Image, a_png_has_transparency_where_the_image_has_it) {
+  const Folder folder;
+  Image image(4, 4);
+  write_png(image, folder.file("opaque.png"));
+  image.alpha.assign(16, 100);
+  write_png(image, folder.file("glass.png"));
+  const auto color_type = [&](const char* name) { return read_file(folder.file(name)).at(25); };
+  EXPECT_EQ(color_type("opaque.png"), 2);  // RGB
+  EXPECT_EQ(color_type("glass.png"), 6);   // RGBA
 }
 
 }  // namespace sinew::image_test

@@ -218,4 +218,61 @@ TEST(Picture, refuses_what_cannot_be_drawn) {
   EXPECT_TRUE(refused());
 }
 
+/// Two balls along the picture with a line of each end of the colors above and below them.
+Snapshot with_lines(const Mat3& view) {
+  Snapshot snapshot = two_spheres(view);
+  snapshot.values.clear();
+  const Vec3 right = 10 * view.row(0).transpose(), up = 2 * view.row(1).transpose();
+  snapshot.lines = {{up, up + right, 0}, {-up, right - up, 1}};
+  return snapshot;
+}
+
+TEST(Picture, lines_show_their_values) {
+  const Snapshot snapshot = with_lines(three_quarter_view());
+  Painter painter({}, {"strain", "", 0, 1});
+  const PictureOptions options{
+      View::lines, {three_quarter_view(), Box(Vec3(-1, -3, -9), Vec3(11, 3, 9))}, 240, 120, 0,
+      Finish::fine};
+  const Image image = painter.draw(snapshot, options);
+  EXPECT_EQ(painted(image, 0, 30, 240, 60), 0);  // no particles
+  const auto color_in_row = [&](int middle) {
+    Vec3 darkest(255, 255, 255);
+    for (int y = middle - 3; y <= middle + 3; ++y) {
+      const Vec3 color(image.at(120, y)[0], image.at(120, y)[1], image.at(120, y)[2]);
+      if (color.sum() < darkest.sum()) darkest = color;
+    }
+    return darkest;
+  };
+  const Vec3 low = color_in_row(20), high = color_in_row(100);
+  EXPECT_GT(low.z(), low.x() + 40);
+  EXPECT_GT(high.x(), high.z() + 40);
+}
+
+TEST(Picture, traces_are_drawn_over_the_body_up_to_their_particle) {
+  Snapshot snapshot = synthetic_snapshot(0, 0);
+  Painter painter(snapshot.surface, synthetic_scale());
+  const PictureOptions options = options_for(snapshot, View::surface);
+  const Image without = painter.draw(snapshot, options);
+  const Vec3 center = bounds(snapshot.surface.points).center();
+  snapshot.traces = {{{center, center, center + Vec3(0, 0, 0.1)}, ""}};
+  const Image with = painter.draw(snapshot, options);
+  int red = 0, changed = 0;
+  for (std::size_t i = 0; i < with.rgb.size(); i += 3) {
+    const bool here = with.rgb[i] != without.rgb[i] || with.rgb[i + 1] != without.rgb[i + 1];
+    changed += here;
+    red += here && with.rgb[i] > with.rgb[i + 1] + 60;
+  }
+  EXPECT_GT(red, 40);
+  EXPECT_GT(red, changed * 4 / 5);
+  snapshot.traces[0].label = "2964";
+  EXPECT_GT(differing(painter.draw(snapshot, options), with), 1e-4);
+}
+
+TEST(Picture, a_camera_sees_the_whole_of_a_trace) {
+  Snapshot snapshot;
+  snapshot.traces = {{{{-1, 0, 0}, {5, 0, 0}}, "1"}};
+  const Box box = seen(view_from({0, -1, 0}), snapshot);
+  EXPECT_NEAR(box.sizes().x(), 6, 1e-12);
+}
+
 }  // namespace sinew::picture_test

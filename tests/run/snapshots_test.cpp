@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <sinew/run/figure_set.h>
 #include <sinew/run/simulate.h>
 #include <sinew/settings/read_scene.h>
@@ -15,7 +17,7 @@ namespace sinew::snapshots_test {
 const std::string source = SINEW_SOURCE_DIR;
 
 /// The box at a coarse radius; its upper bone stretches by half in a tenth of a second.
-std::string stretching_scene() {
+std::string stretching_scene(bool bonds = false) {
   return "body: {mesh: " + source + R"(/data/meshes/box.obj, radius: 0.03}
 skeleton:
   bones:
@@ -25,8 +27,8 @@ motion:
   tracks:
     - {bone: upper, keys: [{time: 0}, {time: 0.1, stretch: 1.5}]}
 solver: {duration: 0.1}
-output: {interval: 0.05}
-)";
+output: {interval: 0.05, bonds: )" +
+         (bonds ? "true}\nmaterial: {model: bonded}\n" : "false}\n");
 }
 
 TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
@@ -50,6 +52,85 @@ TEST(FigureSet, RefusesPicturesThatExceedTheMemory) {
   EXPECT_NO_THROW(check_memory(1280, 720, 1e9));
   test::expect_bad_input([] { check_memory(8192, 8192, 1e9); },
                          {"8192 x 8192 pixels", "2.7 GB", "1.0 GB are free", "--width"});
+}
+
+/// The bending box with its bonds.
+RunFolder bending_run(const TempFolder& folder, bool bonds) {
+  const std::string scene = stretching_scene(bonds);
+  const RunFolder run{folder.path() / "run"};
+  EXPECT_EQ(simulate(read_scene(folder.write("scene.yaml", scene).string()), run).exit, Exit::done);
+  return run;
+}
+
+DrawnRunOptions drawn_as(const char* view) {
+  DrawnRunOptions options;
+  options.presets = {view_preset_named(view)};
+  return options;
+}
+
+TEST(DrawnRun, TracesPickedParticlesUpToTheMoment) {
+  const TempFolder folder;
+  const RunFolder at = bending_run(folder, false);
+  DrawnRunOptions options = drawn_as("body");
+  options.traced = {0, 40};
+  const DrawnRun run(at.path.string(), options);
+  const Snapshot snapshot = run.snapshot(1, run.view_presets().front());
+  ASSERT_EQ(snapshot.traces.size(), 2U);
+  EXPECT_EQ(snapshot.traces[1].label, "40");
+  for (std::size_t frame = 0; frame < 2; ++frame)
+    EXPECT_EQ(snapshot.traces[1].path.at(frame), read_frame(run.files(), frame).positions[40]);
+  EXPECT_EQ(snapshot.traces[1].path.size(), 2U);
+  const int count = static_cast<int>(run.files().body.particles.size());
+  options.traced = {count};
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), options); },
+                         {"no particle " + std::to_string(count),
+                          "from 0 to " + std::to_string(count - 1), "--trace"});
+}
+
+TEST(DrawnRun, DrawsSelectedBonesAndGraysTheParticlesOfOthers) {
+  const TempFolder folder;
+  const RunFolder at = bending_run(folder, false);
+  DrawnRunOptions options = drawn_as("body");
+  options.bones = {"upper"};
+  const DrawnRun run(at.path.string(), options);
+  const Snapshot snapshot = run.snapshot(2, run.view_presets().front());
+  ASSERT_EQ(snapshot.bones.size(), 1U);
+  EXPECT_NEAR((snapshot.bones[0].tail - snapshot.bones[0].head).norm(), 1.5 * 0.34648, 1e-6);
+  const auto& bones = *run.files().body.bone;
+  int colored = 0;
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    EXPECT_EQ(std::isnan(snapshot.values[i]), bones[i] != 1) << i;
+    colored += bones[i] == 1;
+  }
+  EXPECT_GT(colored, 0);
+  options.bones = {"uper"};
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), options); },
+                         {"'uper'", "did you mean upper?"});
+}
+
+TEST(DrawnRun, DrawsWrittenBonds) {
+  const TempFolder folder;
+  const RunFolder at = bending_run(folder, true);
+  const DrawnRun run(at.path.string(), drawn_as("bonds"));
+  const DrawnView& view = run.view_presets().front();
+  const Snapshot snapshot = run.snapshot(2, view);
+  EXPECT_EQ(view.name(), "strain");
+  const Dataset file = read_vtu(at.path / "bonds/bonds_000002.vtu");
+  ASSERT_EQ(snapshot.lines.size(), file.cells());
+  const std::vector<double>& strain = numbers(file.cell_columns, "strain");
+  for (std::size_t k = 0; k < file.cells(); ++k) {
+    const SnapshotLine& line = snapshot.lines[k];
+    EXPECT_EQ(line.value, strain[k]);
+    EXPECT_EQ(line.to, file.points[file.connectivity[2 * k + 1]]);
+  }
+  EXPECT_GT(view.range.high, 0.05);  // the bar is pulled
+}
+
+TEST(DrawnRun, SaysHowBondsAreWritten) {
+  const TempFolder folder;
+  const RunFolder at = bending_run(folder, false);
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), drawn_as("bonds")); },
+                         {"has not written its bonds", "--set output.bonds=true"});
 }
 
 }  // namespace sinew::snapshots_test

@@ -100,6 +100,44 @@ class ViewPreset(unittest.TestCase):
             drawn.add((self.pictures / "body_000004.png").read_bytes())
         self.assertEqual(len(drawn), len(ways))
 
+    def test_background_axes_bones_and_traces_change_the_picture(self):
+        ways = [[], ["--background", "black"], ["--background", "#102030"], ["--background", "transparent"],
+                ["--axes"], ["--bones", "upper"], ["--trace", "0,50"]]
+        drawn = set()
+        for way in ways:
+            done = self.render("--times", "0.2", "--no-movie", *way)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawn.add((self.pictures / "body_000004.png").read_bytes())
+            self.assertEqual((self.pictures / "body_000004.png").read_bytes()[25],
+                             6 if "transparent" in way else 2)  # RGBA, RGB
+        self.assertEqual(len(drawn), len(ways))
+
+    def test_bonds_are_drawn_where_they_are_written(self):
+        words = ["-o", self.pictures, *SIZE, "--view", "bonds", "--times", "0,0.2", "--no-movie"]
+        self.assert_one_line(sinew("render", self.run_folder, *words), 2, "--set output.bonds=true")
+        run = self.pictures / "run"
+        done = sinew("simulate", "--quiet", SOURCE / "configs/box_bend.yaml", "-o", run, *SMALL, "--set",
+                     "output.bonds=true", "--set", "material.model=bonded")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for array in ("strain", "length", "force"):
+            done = sinew("render", run, *words, "--array", array)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_camera_orbits_in_the_movie(self):
+        frames = {}
+        for orbit in ([], ["--orbit", "90"]):
+            done = self.render("--view", "bones", "--no-pictures", *orbit)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            raw = subprocess.run(["ffmpeg", "-loglevel", "error", "-i", self.pictures / "bones.mp4", "-f",
+                                  "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True, check=True).stdout
+            size = 320 * 200 * 3
+            frames[bool(orbit)] = [raw[i:i + size] for i in range(0, len(raw), size)]
+        self.assertEqual(len(frames[True]), 5)
+        difference = lambda one, other: sum(abs(a - b) for a, b in zip(one, other))
+        turned, still = frames[True], frames[False]
+        self.assertGreater(difference(turned[0], turned[1]), 2 * difference(still[0], still[1]))
+        self.assertGreater(difference(turned[-1], still[-1]), 100000)
+
     def test_two_runs_side_by_side(self):
         done = self.render("--compare", self.bonded, "--times", "0.2")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -143,6 +181,13 @@ class ViewPreset(unittest.TestCase):
                             (["--array", "displacment"], "did you mean displacement?"),
                             (["--range", "1,0"], "--range 0,0.5"),
                             (["--camera", "0,0,0"], "--camera 1,-2,0.5"),
+                            (["--bones", "uper"], "did you mean upper?"),
+                            (["--trace", "100000"], "give ids of them, which lie from 0 to"),
+                            (["--background", "blak"], "did you mean black?"),
+                            (["--background", "#12"], "six hexadecimal digits"),
+                            (["--background", "transparent"], "add --no-movie"),
+                            (["--orbit", "90", "--no-movie"], "leave out --no-movie"),
+                            (["--orbit", "nan"], "--orbit 360"),
                             (["--camera", "frnt"], "did you mean front?")]:
             self.assert_one_line(self.render(*words), 2, part)
         self.assert_one_line(sinew("render", self.pictures), 2, "is not the folder of a run")

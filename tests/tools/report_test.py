@@ -4,10 +4,12 @@
 
 usage: report_test.py RUN_DIR [PICTURE_DIR]     needs chromium; with PICTURE_DIR it leaves screenshots there
 """
+import base64
 import html
 import json
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -68,6 +70,7 @@ setTimeout(() => visit().catch((error) => { states.error = String(error); }).the
 """
 # A browser that only dumps its page paints too seldom: the page's frames come by the clock.
 FRAMES = "<script>window.requestAnimationFrame = (job) => setTimeout(() => job(performance.now()), 16);</script>"
+PLAYBACK = re.compile(r'(?<=id="playback">).*?(?=</script>)', re.DOTALL)
 DATA = re.compile(r'(?<=id="data">).*?(?=</script>)', re.DOTALL)
 
 
@@ -191,6 +194,17 @@ class Report(unittest.TestCase):
         middle, colored = self.states["middle"], self.states["colored"]
         self.assertNotEqual(middle["tints"], colored["tints"])
         self.assertEqual(middle["places"], colored["places"])
+
+    def test_particles_have_the_color_of_their_bones_name(self):
+        packed = json.loads(PLAYBACK.search((RUN / "report.html").read_text())[0])
+        bones = [bone for bone, in struct.iter_unpack("<h", base64.b64decode(packed["bone"]))]
+        tints, colors = self.states["start"]["tints"], {}
+        if self.states["start"]["field"] is None:
+            for i, bone in enumerate(bones):
+                name = packed["boneNames"][bone] if bone >= 0 else None
+                colors.setdefault(name, set()).add(tuple(tints[3 * i:3 * i + 3]))
+        self.assertTrue(all(len(some) == 1 for some in colors.values()), colors)
+        self.assertEqual(self.states["start"]["legend"], list(dict.fromkeys(packed["boneNames"])))
 
     def test_cutting_takes_about_half_away(self):
         xs = self.states["cut"]["places"][::3]

@@ -50,9 +50,19 @@ std::string part_lines(const SurfaceLook::Part& before, const SurfaceLook::Part&
   return text;
 }
 
-std::string corner_text(int point, int coordinates) {
-  const std::string text = std::to_string(point + 1);
-  return coordinates < 0 ? text : text + '/' + std::to_string(coordinates + 1);
+/// "7", "7/1", "7//3" or "7/1/3"
+std::string corner_text(int point, int coordinates, int normal) {
+  std::string text = std::to_string(point + 1);
+  if (coordinates >= 0 || normal >= 0) text += '/';
+  if (coordinates >= 0) text += std::to_string(coordinates + 1);
+  if (normal >= 0) text += '/' + std::to_string(normal + 1);
+  return text;
+}
+
+std::string point_line(const char* keyword, const Vec3& point) {
+  std::string text = keyword;
+  for (const double coordinate : point) text += ' ' + number_text(coordinate);
+  return text + '\n';
 }
 
 }  // namespace
@@ -62,21 +72,20 @@ void write_obj(const std::filesystem::path& path, const Triangles& surface,
   NewFile file(path);
   std::string text = "# surface at rest, m\n";
   for (const std::string& library : look.libraries) text += "mtllib " + library + '\n';
-  for (const Vec3& point : surface.points) {
-    text += "v " + number_text(point.x());
-    text += ' ' + number_text(point.y());
-    text += ' ' + number_text(point.z()) + '\n';
-  }
+  for (const Vec3& point : surface.points) text += point_line("v", point);
   for (const auto& [u, v] : look.coordinates)
     text += "vt " + number_text(u) + ' ' + number_text(v) + '\n';
-  constexpr std::array<int, 3> none{-1, -1, -1};
+  for (const Vec3& normal : look.normals) text += point_line("vn", normal);
+  constexpr SurfaceLook::Corners none{-1, -1, -1};
   SurfaceLook::Part before;
   for (std::size_t i = 0; i < surface.faces.size(); ++i) {
     const int part = look.part.empty() ? -1 : look.part[i];
     if (part >= 0) text += part_lines(std::exchange(before, look.parts[part]), look.parts[part]);
     const auto& coordinates = look.corners.empty() ? none : look.corners[i];
+    const auto& normals = look.normal_corners.empty() ? none : look.normal_corners[i];
     text += 'f';
-    for (int k = 0; k < 3; ++k) text += ' ' + corner_text(surface.faces[i][k], coordinates[k]);
+    for (int k = 0; k < 3; ++k)
+      text += ' ' + corner_text(surface.faces[i][k], coordinates[k], normals[k]);
     text += '\n';
   }
   file.write(text.data(), text.size());

@@ -68,37 +68,69 @@ class PolygonsByPlace {
   std::unordered_map<Place3, std::vector<std::size_t>, PlaceHash> at_;
 };
 
+/// Those of a face; none where one of them does not exist.
+SurfaceLook::Corners picked(const PolygonLook::Corners& all, int polygon,
+                            const std::array<std::size_t, 3>& corners, std::size_t there) {
+  SurfaceLook::Corners picked{-1, -1, -1};
+  if (polygon < 0 || all.empty()) return picked;
+  for (int k = 0; k < 3; ++k) {
+    picked[k] = all[static_cast<std::size_t>(polygon)][corners[k]];
+    if (picked[k] < 0 || static_cast<std::size_t>(picked[k]) >= there) return {-1, -1, -1};
+  }
+  return picked;
+}
+
+std::size_t elements(const std::vector<SurfaceLook::Layer>& layers) {
+  if (layers.empty()) return 0;
+  return layers.front().values.size() / static_cast<std::size_t>(layers.front().components);
+}
+
+/// Adds the face at these places to the look.
 void add_face(const std::array<Vec3, 3>& places, const PolygonsByPlace& polygons,
-              const ObjLook& file, SurfaceLook& look) {
+              const PolygonLook& file, SurfaceLook& look) {
   std::array<std::size_t, 3> corners{};
-  std::array<int, 3> coordinates{-1, -1, -1};
   const int polygon = polygons.find(places, corners);
-  if (polygon >= 0)
-    for (int k = 0; k < 3; ++k) coordinates[k] = file.corners[polygon][corners[k]];
-  const bool whole = std::all_of(coordinates.begin(), coordinates.end(), [&](int index) {
-    return index >= 0 && index < static_cast<int>(file.coordinates.size());
-  });
-  look.corners.push_back(whole ? coordinates : std::array<int, 3>{-1, -1, -1});
-  look.part.push_back(polygon < 0 ? -1 : file.part[polygon]);
+  look.corners.push_back(picked(file.corners, polygon, corners, look.coordinates.size()));
+  look.normal_corners.push_back(picked(file.normal_corners, polygon, corners, look.normals.size()));
+  look.layer_corners.push_back(picked(file.layer_corners, polygon, corners, elements(look.layers)));
+  look.part.push_back(polygon < 0 ? -1 : file.look.part[static_cast<std::size_t>(polygon)]);
+}
+
+PolygonSoup read_obj_look(const std::string& path, PolygonLook& look) {
+  return read_obj(open_mesh(path), look);
+}
+
+/// The reader of a path's look; none where its format has none.
+auto reader_of(const std::filesystem::path& path, std::span<const MeshFormat> more) {
+  const std::string extension = lower(path.extension().string());
+  PolygonSoup (*reader)(const std::string&, PolygonLook&) = nullptr;
+  if (extension == ".obj") reader = read_obj_look;
+  for (const MeshFormat& format : more)
+    if (format.extension == extension) reader = format.read_look;
+  return reader;
 }
 
 }  // namespace
 
-SurfaceLook look_of(const BodyOptions& body, const Triangles& surface) {
+SurfaceLook look_of(const BodyOptions& body, const Triangles& surface,
+                    std::span<const MeshFormat> more) {
   const std::filesystem::path path = body.mesh;
-  if (lower(path.extension().string()) != ".obj") return {};
-  const MeshFile mesh = open_mesh(body.mesh);
-  ObjLook file;
-  PolygonSoup soup = read_obj(mesh, file);
+  const auto reader = reader_of(path, more);
+  if (!reader) return {};
+  PolygonLook file;
+  PolygonSoup soup = reader(body.mesh, file);
   place(soup, body);
-  SurfaceLook look;
   const PolygonsByPlace polygons(soup);
+  SurfaceLook look = file.look;
+  look.part.clear();
+  for (Vec3& normal : look.normals) normal = placement_of(body).turn * normal;
   for (const auto& [a, b, c] : surface.faces)
     add_face({surface.points[a], surface.points[b], surface.points[c]}, polygons, file, look);
-  look.coordinates = std::move(file.coordinates);
-  look.parts = std::move(file.parts);
-  for (const std::string& library : file.libraries)
-    look.libraries.push_back((path.parent_path() / library).string());
+  for (std::string& library : look.libraries) {
+    library = (path.parent_path() / library).string();
+    for (SurfaceLook::Material& material : read_mtl(library))
+      look.materials.push_back(std::move(material));
+  }
   return look;
 }
 

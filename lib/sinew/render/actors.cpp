@@ -32,7 +32,6 @@ namespace {
 
 constexpr Color skin_color{250, 218, 196};
 constexpr Color edge_color{104, 62, 42};
-constexpr std::array<Color, 3> axis_colors{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};
 
 vtkNew<vtkPoints> vtk_points(const Points& points) {
   vtkNew<vtkPoints> out;
@@ -72,7 +71,7 @@ vtkNew<vtkPolyData> net(const Points& points, const std::vector<Shading::Edge>& 
   return data;
 }
 
-void add_lines(vtkRenderer& renderer, const Points& points, const std::vector<Shading::Edge>& edges,
+void add_edges(vtkRenderer& renderer, const Points& points, const std::vector<Shading::Edge>& edges,
                double opacity, double width) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(net(points, edges));
@@ -90,17 +89,21 @@ Points lifted(const Triangles& surface, double by) {
   return points;
 }
 
-void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const Color& color) {
-  std::vector<Shading::Edge> pairs;
-  for (int i = 0; i + 1 < static_cast<int>(ends.size()); i += 2) pairs.push_back({i, i + 1});
+void add_tubes(vtkRenderer& renderer, vtkPolyData* lines, double radius, const Color& color) {
   vtkNew<vtkTubeFilter> tubes;
-  tubes->SetInputData(net(ends, pairs));
+  tubes->SetInputData(lines);
   tubes->SetRadius(radius);
   tubes->SetNumberOfSides(20);
   tubes->CappingOn();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(tubes->GetOutputPort());
   add_actor(renderer, *mapper, color);
+}
+
+void add_tubes(vtkRenderer& renderer, const Points& ends, double radius, const Color& color) {
+  std::vector<Shading::Edge> pairs;
+  for (int i = 0; i + 1 < static_cast<int>(ends.size()); i += 2) pairs.push_back({i, i + 1});
+  add_tubes(renderer, net(ends, pairs), radius, color);
 }
 
 void add_balls(vtkRenderer& renderer, const Points& centers, double radius, const Color& color) {
@@ -184,12 +187,12 @@ void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& ski
              const LineStyle& style) {
   constexpr double wide_enough = 7;  // pixels between lines: closer ones would gray the skin
   if (skin.mean_line < wide_enough * style.pixel) return;
-  add_lines(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
+  add_edges(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
 }
 
 void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
                  const LineStyle& style) {
-  add_lines(renderer, lifted(snapshot.surface, style.lift), skin.creases, 0.8, style.width);
+  add_edges(renderer, lifted(snapshot.surface, style.lift), skin.creases, 0.8, style.width);
 }
 
 void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
@@ -206,7 +209,7 @@ void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness
   add_tubes(renderer, tubes, 0.3 * thickness, color);
   add_balls(renderer, joints, 0.55 * thickness, color);
   for (int k = 0; k < 3; ++k)  // the one along the bone covers it
-    add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, axis_colors[k]);
+    add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, palette::axes[k]);
 }
 
 namespace {
@@ -298,6 +301,65 @@ void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScal
   actor->GetProperty()->SetAmbient(0.3);
   actor->GetProperty()->SetDiffuse(0.75);
   renderer.AddActor(actor);
+}
+
+namespace {
+
+vtkNew<vtkPolyData> data_of(const std::vector<SnapshotLine>& lines, const ColorScale& scale) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  for (const SnapshotLine& line : lines) {
+    cells->InsertNextCell(2);
+    for (const Vec3& end : {line.from, line.to}) {
+      cells->InsertCellPoint(points->InsertNextPoint(end.data()));
+      colors->InsertNextTypedTuple(scale.color(line.value).data());
+    }
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  data->GetPointData()->SetScalars(colors);
+  return data;
+}
+
+/// Without the steps at which it stands still, which have no direction.
+vtkNew<vtkPolyData> polyline(const Points& path) {
+  vtkNew<vtkPoints> points;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (i == 0 || path[i] != path[i - 1]) points->InsertNextPoint(path[i].data());
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(static_cast<int>(points->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) cells->InsertCellPoint(i);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  return data;
+}
+
+}  // namespace
+
+void add_lines(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
+               double width) {
+  if (snapshot.lines.empty()) return;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data_of(snapshot.lines, scale));
+  vtkProperty& look = add_actor(renderer, *mapper, palette::paper);
+  look.LightingOff();
+  look.SetLineWidth(static_cast<float>(width));
+}
+
+void add_traces(vtkRenderer& renderer, const Snapshot& snapshot, double thickness) {
+  for (std::size_t k = 0; k < snapshot.traces.size(); ++k) {
+    const Points& path = snapshot.traces[k].path;
+    if (path.empty()) continue;
+    const Color& color = palette::traces[k % palette::traces.size()];
+    add_balls(renderer, {path.back()}, snapshot.radius, color);
+    const auto line = polyline(path);
+    if (line->GetNumberOfPoints() < 2) continue;
+    add_tubes(renderer, line, thickness / 2, color);
+  }
 }
 
 }  // namespace sinew

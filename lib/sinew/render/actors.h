@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The objects in a picture as VTK actors: particles, skin, edges, bones, obstacles and
-// arrows.
+// The objects in a picture as VTK actors: particles, skin, edges, bones, obstacles,
+// arrows, lines and traces.
 //
 //     add_particles(stage.renderer(), snapshot, scale);
 #pragma once
@@ -38,6 +38,13 @@ void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness
 
 /// The obstacles within their space, with their outlines `line` rendered pixels wide.
 void add_obstacles(vtkRenderer& renderer, const Snapshot& snapshot, double line);
+
+/// The snapshot's lines in the colors of their values, `width` rendered pixels wide.
+void add_lines(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
+               double width);
+
+/// The traces as tubes about `thickness` (m) thick, each with its particle at the end.
+void add_traces(vtkRenderer& renderer, const Snapshot& snapshot, double thickness);
 
 /// Each arrow in its length, in the color of its value.
 void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);

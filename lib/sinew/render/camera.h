@@ -27,6 +27,20 @@ struct Camera {
 /// snapshot. Throws bad input for positions that are not finite.
 Box seen(const Mat3& view, const Snapshot& snapshot);
 
+/// The upright cylinder about `axis` (a point on it) that holds everything of snapshots: what a
+/// camera has to show that turns about it.
+struct Cylinder {
+  Vec3 axis = Vec3::Zero();
+  double radius = 0, low = 0, high = 0;  ///< low and high above the axis' point, m
+
+  void extend(const Snapshot& snapshot);  ///< throws as seen() does
+  void extend(const Cylinder& other);
+};
+
+/// `camera` moved about the cylinder's axis by `angle` (rad; counterclockwise seen from above). All
+/// of the cylinder is in the picture, at every angle at the same place and scale.
+Camera orbiting(const Cylinder& cylinder, const Mat3& view, double angle);
+
 /// Meters per pixel at which `frame` just fits into a picture.
 double meters_per_pixel(const Box& frame, int width, int height);
 

@@ -2,6 +2,7 @@
 #include <sinew/render/color.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -104,6 +105,38 @@ const ColorTable& table_of(ColorMap map) {
 }
 
 }  // namespace
+
+Paper paper_of(const Color& background) {
+  constexpr double middle = 0.6;  // of the lightness
+  constexpr Color light_ink{236, 239, 243};
+  return {background, oklab(background)[0] > middle ? palette::ink : light_ink};
+}
+
+std::span<const NamedColor> named_colors() {
+  static constexpr std::array<NamedColor, 12> colors = {{{"white", {255, 255, 255}},
+                                                         {"black", {0, 0, 0}},
+                                                         {"gray", {128, 128, 128}},
+                                                         {"lightgray", {211, 211, 211}},
+                                                         {"darkgray", {64, 64, 64}},
+                                                         {"slate", {82, 87, 110}},
+                                                         {"navy", {0, 0, 84}},
+                                                         {"beige", {245, 245, 220}},
+                                                         {"red", {255, 0, 0}},
+                                                         {"green", {0, 128, 0}},
+                                                         {"blue", {0, 0, 255}},
+                                                         {"yellow", {255, 255, 0}}}};
+  return colors;
+}
+
+std::optional<Color> hex_color(std::string_view text) {
+  if (text.size() != 7 || text.front() != '#') return {};
+  std::uint32_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data() + 1, end, value, 16);
+  if (failed != std::errc() || stop != end) return {};
+  const auto part = [&](int shift) { return static_cast<std::uint8_t>(value >> shift); };
+  return Color{part(16), part(8), part(0)};
+}
 
 Vec3 oklab(const Color& color) {
   Vec3 rgb;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -26,7 +27,29 @@ inline constexpr Color sample{236, 120, 12};
 inline constexpr Color muscle{206, 44, 48};
 inline constexpr Color obstacle{128, 134, 142};
 inline constexpr Color bone{44, 58, 92};
+inline constexpr std::array<Color, 3> axes{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};  // x y z
+inline constexpr std::array<Color, 6> traces{
+    {{214, 39, 40}, {31, 119, 180}, {255, 127, 14}, {148, 53, 189}, {44, 160, 44}, {227, 74, 180}}};
 }  // namespace palette
+
+/// What a picture is drawn on, and the color of the text on it.
+struct Paper {
+  Color background = palette::paper;
+  Color ink = palette::ink;
+};
+
+/// Ink that is read on this background: dark or light.
+Paper paper_of(const Color& background);
+
+/// A color that pages know by a name, as "white".
+struct NamedColor {
+  std::string_view name;
+  Color color;
+};
+std::span<const NamedColor> named_colors();
+
+/// The color of "#rrggbb", in hexadecimal digits; none for other text.
+std::optional<Color> hex_color(std::string_view text);
 
 enum class ColorMap {
   indigo,  ///< indigo, teal, green, yellow; the darkest is light enough to see shading on it

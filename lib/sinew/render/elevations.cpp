@@ -70,6 +70,7 @@ Plan plan_of(const Snapshot& snapshot, const ElevationOptions& options) {
     across += elevation.ticks.high() - elevation.ticks.low();
   }
   plan.words.size = std::max(9, std::min(options.height / 36, options.width / 60));
+  plan.words.color = options.paper.ink;
   const int line = line_height(plan.words), axis = 5 * plan.words.size;
   plan.top = 2 * line;
   plan.legend = options.height - 3 * line;
@@ -176,10 +177,11 @@ void draw_legend(Image& image, const Snapshot& snapshot, const Plan& plan) {
 
 Image elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options) {
   const Plan plan = plan_of(snapshot, options);
-  Image image(options.width, options.height);
+  Image image(options.width, options.height, options.paper.background);
   for (const Elevation& elevation : plan.elevations) {
     const PictureOptions picture{
-        View::plan, camera_of(elevation, plan), elevation.width, plan.height, 0, options.finish};
+        View::plan,   camera_of(elevation, plan), elevation.width, plan.height, 0, options.finish,
+        options.paper};
     paste(image, painter.draw(snapshot, picture), elevation.x, plan.top);
     draw_axes(image, elevation, plan);
   }

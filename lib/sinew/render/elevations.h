@@ -27,6 +27,7 @@ Ticks ticks_over(double low, double high, double step);
 struct ElevationOptions {
   int width = 1280, height = 720;  ///< pixels
   Finish finish = Finish::fine;
+  Paper paper = {};
 };
 
 /// Front (x to the right) and side (y to the right), z up, as View::plan shows them; below them the

@@ -6,6 +6,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/render/text.h>
+#include <sinew/render/tripod.h>
 
 namespace sinew {
 
@@ -23,6 +24,7 @@ Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options)
   Layout layout;
   const int count = static_cast<int>(panels.size());
   layout.words.size = std::max(11, options.height / 32);
+  layout.words.color = options.paper.ink;
   layout.margin = options.height / 30;
   const bool titled = std::any_of(panels.begin(), panels.end(),
                                   [](const Panel& panel) { return !panel.title.empty(); });
@@ -35,20 +37,29 @@ Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options)
 
 }  // namespace
 
+Image drawn_on(const Backdrop& backdrop, const std::function<Image(const Paper&)>& draw) {
+  if (!backdrop.transparent) return draw(backdrop.paper);
+  const Color& ink = backdrop.paper.ink;
+  return cut_out(draw({{255, 255, 255}, ink}), draw({{0, 0, 0}, ink}));
+}
+
 Image figure(const std::vector<Panel>& panels, const FigureOptions& options) {
   if (panels.empty()) throw bad_input("a figure needs panels", "give at least one");
   const Layout layout = layout_of(panels, options);
-  Image image(options.width, options.height);
+  Image image(options.width, options.height, options.paper.background);
   int x = layout.margin;
   for (const Panel& panel : panels) {
-    const PictureOptions picture{panel.view, options.camera, layout.wide, layout.high,
-                                 4,          options.finish};
+    const PictureOptions picture{panel.view, options.camera, layout.wide,  layout.high,
+                                 4,          options.finish, options.paper};
     paste(image, panel.painter->draw(*panel.snapshot, picture), x, layout.top);
     TextStyle title = layout.words;
     title.align = Align::center;
     write_text(image, panel.title, x + layout.wide / 2, layout.margin / 2, title);
     x += layout.wide + layout.margin;
   }
+  if (options.axes)
+    draw_tripod(image, options.camera.view, layout.margin, layout.top + layout.high,
+                tripod_size(layout.wide, layout.high));
   write_text(image, panels.front().snapshot->caption, 2 * layout.margin, layout.foot, layout.words);
   if (std::none_of(panels.begin(), panels.end(),
                    [](const Panel& panel) { return shows_values(panel.view); }))
@@ -129,6 +140,7 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.columns = columns_of(rows, options.view);
   layout.margin = std::max(12, options.width / 32);
   layout.text.size = std::max(11, options.width / 64);
+  layout.text.color = options.paper.ink;
   lay_columns(layout, options);
   int y = 0;
   for (const SheetRow& row : rows) {
@@ -139,8 +151,8 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.captions = y + layout.margin / 2;
   layout.bar = layout.captions + caption_lines(*rows.front().snapshots) * line_height(layout.text) +
                layout.margin / 2;
-  layout.height =
-      layout.bar + (show_values(rows) ? color_bar_height(layout.text) + layout.margin / 2 : 0);
+  const bool has_foot = options.axes || show_values(rows);
+  layout.height = layout.bar + (has_foot ? color_bar_height(layout.text) + layout.margin / 2 : 0);
   return layout;
 }
 
@@ -149,8 +161,13 @@ void draw_row(Image& sheet, const SheetRow& row, int y, const SheetLayout& layou
   write_text(sheet, row.title, layout.margin, y - line_height(layout.text), layout.text);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const Column& column = layout.columns[i];
-    const PictureOptions panel{
-        row.view, {options.view, column.frame}, column.width, layout.row_height, 1, options.finish};
+    const PictureOptions panel{row.view,
+                               {options.view, column.frame},
+                               column.width,
+                               layout.row_height,
+                               1,
+                               options.finish,
+                               options.paper};
     paste(sheet, row.painter->draw((*row.snapshots)[i], panel), column.x, y);
   }
 }
@@ -177,9 +194,12 @@ void check(const std::vector<SheetRow>& rows) {
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
   check(rows);
   const SheetLayout layout = layout_of(rows, options);
-  Image sheet(layout.width, layout.height);
+  Image sheet(layout.width, layout.height, options.paper.background);
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);
+  if (options.axes)
+    draw_tripod(sheet, options.view, layout.margin / 2, layout.height,
+                (layout.height - layout.bar) * 10 / 28);
   write_captions(sheet, *rows.front().snapshots, layout);
   if (!show_values(rows)) return sheet;
   TextStyle words = layout.text;
@@ -190,11 +210,9 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& optio
   return sheet;
 }
 
-Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots,
-                    const SheetOptions& options) {
-  return contact_sheet(
-      {{&painter, &snapshots, View::surface, ""}, {&painter, &snapshots, View::particles, ""}},
-      options);
+std::vector<SheetRow> surface_above_particles(Painter& painter,
+                                              const std::vector<Snapshot>& snapshots) {
+  return {{&painter, &snapshots, View::surface, ""}, {&painter, &snapshots, View::particles, ""}};
 }
 
 }  // namespace sinew

@@ -5,6 +5,10 @@
 //     write_png(figure({{&painter, &snapshot}}, {.camera = camera}), "bent.png");
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include <sinew/render/picture.h>
 
 namespace sinew {
@@ -21,11 +25,22 @@ struct FigureOptions {
   Camera camera;  ///< the same for all panels, and for all frames of a movie
   int width = 1280, height = 720;
   Finish finish = Finish::fine;
+  Paper paper = {};
+  bool axes = false;  ///< the scene's axes in a corner of the first panel
 };
 
 /// The caption is that of the first panel's snapshot, the color scale that of its painter: all
 /// panels share it. Throws bad input without panels, and as Painter::draw does.
 Image figure(const std::vector<Panel>& panels, const FigureOptions& options);
+
+/// What pictures are drawn on; nothing where `transparent`, with the ink of `paper`.
+struct Backdrop {
+  Paper paper;
+  bool transparent = false;
+};
+
+/// What `draw` draws on that background; twice for a transparent one, which it has to cut out.
+Image drawn_on(const Backdrop& backdrop, const std::function<Image(const Paper&)>& draw);
 
 // A contact sheet: a run in one picture, moments from left to right, views below each other.
 
@@ -42,6 +57,8 @@ struct SheetOptions {
   int width = 1600;      ///< at most, pixels
   int row_height = 560;  ///< at most, pixels
   Finish finish = Finish::fine;
+  Paper paper = {};
+  bool axes = false;  ///< the scene's axes in the corner below the panels
 };
 
 /// All panels to one scale; below them the captions of the first row's snapshots and the color
@@ -50,7 +67,7 @@ struct SheetOptions {
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
 /// As in the paper's figure 4: the surface above, the particles below, over time.
-Image contact_sheet(Painter& painter, const std::vector<Snapshot>& snapshots,
-                    const SheetOptions& options);
+std::vector<SheetRow> surface_above_particles(Painter& painter,
+                                              const std::vector<Snapshot>& snapshots);
 
 }  // namespace sinew

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 
@@ -105,15 +106,37 @@ void fill(Image& image, int x, int y, int width, int height, const Color& color)
       std::copy(color.begin(), color.end(), image.at(column, row));
 }
 
+Image cut_out(const Image& on_white, const Image& on_black) {
+  if (on_white.width != on_black.width || on_white.height != on_black.height)
+    throw bad_input("images to be cut out differ in size", "draw both alike");
+  Image image = on_black;
+  image.alpha.resize(image.rgb.size() / 3);
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    int difference = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) difference += on_white.rgb[c] - on_black.rgb[c];
+    const int alpha = std::clamp(255 - (difference + 1) / 3, 0, 255);
+    image.alpha[i] = static_cast<std::uint8_t>(alpha);
+    for (std::size_t c = 3 * i; alpha > 0 && c < 3 * i + 3; ++c)
+      image.rgb[c] =
+          static_cast<std::uint8_t>(std::min(255, (255 * on_black.rgb[c] + alpha / 2) / alpha));
+  }
+  return image;
+}
+
 namespace {
 
 /// VTK counts rows from below.
 void copy_flipped(const Image& image, vtkImageData& out) {
   out.SetDimensions(image.width, image.height, 1);
-  out.AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < image.height; ++y)
-    std::copy_n(image.at(0, y), 3 * image.width,
-                static_cast<std::uint8_t*>(out.GetScalarPointer(0, image.height - 1 - y, 0)));
+  const int parts = image.alpha.empty() ? 3 : 4;
+  out.AllocateScalars(VTK_UNSIGNED_CHAR, parts);
+  for (int y = 0; y < image.height; ++y) {
+    auto* to = static_cast<std::uint8_t*>(out.GetScalarPointer(0, image.height - 1 - y, 0));
+    for (int x = 0; x < image.width; ++x, to += parts) {
+      std::copy_n(image.at(x, y), 3, to);
+      if (parts == 4) to[3] = image.alpha[static_cast<std::size_t>(y) * image.width + x];
+    }
+  }
 }
 
 }  // namespace

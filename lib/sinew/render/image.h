@@ -13,7 +13,8 @@ namespace sinew {
 
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel, rows from the top, each from the left
+  std::vector<std::uint8_t> rgb;    ///< 3 bytes a pixel, rows from the top, each from the left
+  std::vector<std::uint8_t> alpha;  ///< opacity of each pixel; empty: all are opaque
 
   Image() = default;
   Image(int columns, int rows, const Color& color = palette::paper);
@@ -34,6 +35,10 @@ void paste(Image& image, const Image& part, int x, int y);
 
 /// Fills a rectangle, clipped at the borders.
 void fill(Image& image, int x, int y, int width, int height, const Color& color);
+
+/// The picture without its background, from drawings of it on white and on black: of what covers
+/// a pixel in part, both differ in part. Throws bad input for images of different sizes.
+Image cut_out(const Image& on_white, const Image& on_black);
 
 /// Writes `path` atomically. Throws not written.
 void write_png(const Image& image, const std::string& path);

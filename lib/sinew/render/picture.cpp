@@ -7,6 +7,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/render/actors.h>
+#include <sinew/render/text.h>
 
 namespace sinew {
 namespace {
@@ -28,36 +29,51 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
                       "draw one run at a time");
 }
 
-/// Of a value of 0 to 255.
-std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
+std::uint8_t byte_of(float value) {
+  return static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
+}
+
+/// What the background leaves of a pixel's part (0 .. 255) that is covered by `share`.
+float shown_through(const Exposure& exposure, std::size_t part, float share) {
+  return (1 - share) * static_cast<float>(exposure.background[part]);
+}
 
 /// Darkens the hollows, but never to black.
 void add_shadows(Exposure& exposure, double radius, Sampled sampled) {
   constexpr float strength = 1.1F, least = 0.3F;
-  std::vector<std::uint8_t>& rgb = exposure.image.rgb;
   const std::vector<float> hidden = occlusion(exposure.depth, radius, sampled);
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     if (hidden[i] == 0) continue;
     const float light = std::max(least, 1 - strength * hidden[i]);
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      rgb[c] = byte_of(light * static_cast<float>(rgb[c]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::uint8_t& part = exposure.image.rgb[3 * i + c];
+      const float behind = shown_through(exposure, c, exposure.coverage[i]);
+      part = byte_of(light * (static_cast<float>(part) - behind) + behind);
+    }
   }
 }
 
 Exposure with_shadows(Exposure exposure, double radius, Sampled sampled) {
   add_shadows(exposure, radius, sampled);
-  exposure.coverage = {};  // unused, and large in large pictures
+  return exposure;
+}
+
+/// For pictures whose coverage is not used again: it is large in large ones.
+Exposure only_seen(Exposure exposure) {
+  exposure.coverage = {};
   return exposure;
 }
 
 /// Blends `over` into the image where it covers anything.
 void shine_through(Image& image, const Exposure& over, float strength) {
   for (std::size_t i = 0; i < over.coverage.size(); ++i) {
-    if (over.coverage[i] == 0) continue;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-      const float part = strength * over.coverage[i];
-      image.rgb[c] = byte_of(part * static_cast<float>(over.image.rgb[c]) +
-                             (1 - part) * static_cast<float>(image.rgb[c]));
+    const float covered = over.coverage[i];
+    if (covered == 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::uint8_t& part = image.rgb[3 * i + c];
+      const float own =
+          static_cast<float>(over.image.rgb[3 * i + c]) - shown_through(over, c, covered);
+      part = byte_of(strength * own + (1 - strength * covered) * static_cast<float>(part));
     }
   }
 }
@@ -69,9 +85,39 @@ void hide_behind(const DepthImage& objects, Exposure& over) {
 }
 
 /// Lightened toward white, so that what is drawn over it is visible.
-void pale(Image& image) {
+void pale(Exposure& picture) {
   constexpr float left = 0.45F;
-  for (std::uint8_t& part : image.rgb) part = byte_of(255 - left * static_cast<float>(255 - part));
+  for (std::size_t i = 0; i < picture.coverage.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::uint8_t& part = picture.image.rgb[3 * i + c];
+      const float share = picture.coverage[i];
+      const float toward = share * 255 + shown_through(picture, c, share);
+      part = byte_of(left * static_cast<float>(part) + (1 - left) * toward);
+    }
+}
+
+/// With a rim in the background's color: it is read on any other.
+void write_rimmed(Image& image, const std::string& text, int x, int y, const Paper& paper) {
+  TextStyle words{std::max(11, image.height / 28), paper.background};
+  y -= words.size / 2;
+  for (int dx = -2; dx <= 2; ++dx)
+    for (int dy = -2; dy <= 2; ++dy) write_text(image, text, x + dx, y + dy, words);
+  words.color = paper.ink;
+  write_text(image, text, x, y, words);
+}
+
+/// The labels of the traces, to the right of their particles.
+void write_labels(Image& image, const Snapshot& snapshot, const PictureOptions& options,
+                  double pixel) {
+  if (options.camera.frame.isEmpty()) return;
+  const Vec3 center = options.camera.frame.center();
+  for (const SnapshotTrace& trace : snapshot.traces) {
+    if (trace.path.empty()) continue;
+    const Vec3 at = (options.camera.view * trace.path.back() - center) / pixel;
+    write_rimmed(image, trace.label,
+                 image.width / 2 + static_cast<int>(at.x() + snapshot.radius / pixel) + 4,
+                 image.height / 2 - static_cast<int>(at.y()), options.paper);
+  }
 }
 
 }  // namespace
@@ -102,7 +148,7 @@ Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool s
                 {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
-  Exposure picture = with_shadows(stage_.render(), 2 * sizes.grain, sizes.shadows);
+  Exposure picture = only_seen(with_shadows(stage_.render(), 2 * sizes.grain, sizes.shadows));
   if (!skin_and_bones || snapshot.bones.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   shine_through(picture.image, stage_.render(), 0.6F);
@@ -114,7 +160,7 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
-  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows);
+  Exposure picture = only_seen(with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows));
   const Snapshot held = marked(snapshot, Mark::held);
   if (snapshot.bones.empty() && held.particles.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
@@ -127,8 +173,8 @@ Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows);
-  pale(picture.image);
-  return picture;
+  pale(picture);
+  return only_seen(std::move(picture));
 }
 
 void Painter::tint_muscles(Exposure& picture, const Snapshot& snapshot) {
@@ -147,6 +193,14 @@ void Painter::put_obstacles(Exposure& picture, const Snapshot& snapshot, const S
   shine_through(picture.image, over, 0.38F);
 }
 
+/// Nothing hides them: they often lie within the body.
+void Painter::put_traces(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes) {
+  if (snapshot.traces.empty()) return;
+  constexpr double least = 3;  // pixels
+  add_traces(stage_.renderer(), snapshot, std::max(0.5 * sizes.grain, least * sizes.pixel));
+  shine_through(picture.image, stage_.render(), 1);
+}
+
 Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
   check(snapshot, skin_, options);
   const Image image = drawn(snapshot, options);
@@ -163,6 +217,7 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
   if (view == View::plan || view == View::bones)
     add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, palette::bone);
   if (view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
+  if (view == View::lines) add_lines(stage_.renderer(), snapshot, scale_, sizes.line);
   if (view == View::plan)
     for (const Mark mark : {Mark::held, Mark::sample})
       add_particles(stage_.renderer(), marked(snapshot, mark), scale_);
@@ -176,7 +231,8 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
   const double pixel =
       meters_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
                        std::max(1, options.height - 2 * options.margin));
-  stage_.aim({options.camera, options.width, options.height, pixel, options.finish, options.tile});
+  stage_.aim({options.camera, options.width, options.height, pixel, options.finish,
+              options.paper.background, options.tile});
   constexpr double least_grain = 4;  // pixels: thinner bones would not be seen in a plan
   const bool fine = options.finish == Finish::fine;
   Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel, fine ? 2.4 : 1.4,
@@ -184,6 +240,8 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
   if (options.view == View::plan) sizes.grain = std::max(sizes.grain, least_grain * pixel);
   Exposure picture = body(snapshot, sizes, options.view);
   put_obstacles(picture, snapshot, sizes);
+  put_traces(picture, snapshot, sizes);
+  write_labels(picture.image, snapshot, options, pixel);
   return std::move(picture.image);
 }
 

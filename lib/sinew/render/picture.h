@@ -15,13 +15,15 @@ enum class View {
   particles,  ///< spheres of their true size, colored by their values
   both,       ///< the particles inside the wireframe of the skin, and the bones
   arrows,     ///< the snapshot's arrows inside a pale skin
+  lines,      ///< the snapshot's lines inside a pale skin
   bones,      ///< the bones and their axes inside a pale skin
   plan,       ///< the bones and marked particles inside a pale skin, muscles as a red tint
 };
 
 /// Whether its colors show values.
 constexpr bool shows_values(View view) {
-  return view == View::particles || view == View::both || view == View::arrows;
+  return view == View::particles || view == View::both || view == View::arrows ||
+         view == View::lines;
 }
 
 struct PictureOptions {
@@ -30,6 +32,7 @@ struct PictureOptions {
   int width = 960, height = 720;  ///< pixels
   int margin = 24;                ///< pixels around the camera's frame, at least
   Finish finish = Finish::fine;
+  Paper paper = {};
   int tile = Shot().tile;  ///< see Shot
 };
 
@@ -58,6 +61,7 @@ class Painter {
   Exposure surface(const Snapshot& snapshot, const Sizes& sizes);
   Exposure pale_skin(const Snapshot& snapshot, const Sizes& sizes);
   void tint_muscles(Exposure& picture, const Snapshot& snapshot);
+  void put_traces(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
   void put_obstacles(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
 
   Shading skin_;

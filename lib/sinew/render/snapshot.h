@@ -25,6 +25,18 @@ struct SnapshotArrow {
   double value = 0;                                ///< shown in color
 };
 
+/// A line between two points, such as a bond of two particles.
+struct SnapshotLine {
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< m
+  double value = 0;                             ///< shown in color
+};
+
+/// The path of a picked particle up to this moment.
+struct SnapshotTrace {
+  Points path;        ///< n x 3, m; ends where the particle is
+  std::string label;  ///< beside it
+};
+
 /// What a particle is, beside its value.
 enum class Mark : std::uint8_t {
   none,
@@ -42,9 +54,11 @@ struct Snapshot {
   Triangles surface;           ///< the same faces in all snapshots of a run
   std::vector<SnapshotBone> bones;
   std::vector<SnapshotArrow> arrows;
-  std::vector<Mark> marks;  ///< one per particle; empty: none
-  Triangles obstacles;      ///< translucent
-  Box obstacle_space;       ///< they are drawn as far as they lie in it, in the scene's axes, m
+  std::vector<SnapshotLine> lines;
+  std::vector<SnapshotTrace> traces;  ///< over everything else
+  std::vector<Mark> marks;            ///< one per particle; empty: none
+  Triangles obstacles;                ///< translucent
+  Box obstacle_space;  ///< they are drawn as far as they lie in it, in the scene's axes, m
 };
 
 /// The particles with this mark, without their values.

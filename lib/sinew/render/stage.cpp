@@ -161,7 +161,6 @@ Stage::Stage() : parts_(std::make_unique<Parts>()) {
   if (!parts_->window->SupportsOpenGL())
     throw Error(Exit::not_written,
                 "the display has no OpenGL 3.2; unset DISPLAY to draw without a screen");
-  parts_->renderer->SetBackground(1, 1, 1);
 }
 
 Stage::~Stage() = default;
@@ -170,6 +169,8 @@ void Stage::aim(const Shot& shot) {
   parts_->shot = shot;
   parts_->times = shot.finish == Finish::fine ? 2 : 1;
   light(*parts_->renderer, shot.finish);
+  const auto& [red, green, blue] = shot.background;
+  parts_->renderer->SetBackground(red / 255.0, green / 255.0, blue / 255.0);
   parts_->box = filled(shot.camera.frame, shot.width, shot.height, shot.pixel);
 }
 
@@ -178,6 +179,7 @@ vtkRenderer& Stage::renderer() { return *parts_->renderer; }
 Exposure Stage::render() {
   const Shot& shot = parts_->shot;
   Exposure exposure = unexposed(shot.width, shot.height, shot.pixel);
+  exposure.background = shot.background;
   for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / parts_->times))
     parts_->expose(tile, exposure);
   parts_->renderer->RemoveAllViewProps();

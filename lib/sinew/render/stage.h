@@ -28,13 +28,15 @@ struct Shot {
   int width = 960, height = 720;
   double pixel = 1;
   Finish finish = Finish::fine;
+  Color background = palette::paper;
   int tile = 2560;  ///< rendered pixels: larger pictures are drawn in tiles, which take less memory
 };
 
 struct Exposure {
   Image image;
   DepthImage depth;
-  std::vector<float> coverage;  ///< covered part of each pixel, 0 .. 1
+  std::vector<float> coverage;        ///< covered part of each pixel, 0 .. 1
+  Color background = palette::paper;  ///< which is the rest of it
 };
 
 class Stage {

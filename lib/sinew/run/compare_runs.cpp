@@ -15,6 +15,7 @@
 #include <sinew/metrics/report/comparison_page.h>
 #include <sinew/metrics/table.h>
 #include <sinew/run/run_files.h>
+#include <sinew/run/world_shown.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 
@@ -138,6 +139,8 @@ void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, co
     add_snapshot(first, k, one);
     add_snapshot(second, k, other);
   }
+  show_world(first.playback, first.run, [&](std::size_t pair) { return pairs[pair][0]; });
+  show_world(second.playback, second.run, [&](std::size_t pair) { return pairs[pair][1]; });
 }
 
 ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::size_t which) {

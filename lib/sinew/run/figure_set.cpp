@@ -50,8 +50,7 @@ FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset,
 }
 
 ColorScale FigureSet::scale() const {
-  const DrawnValues& values = drawn(0).values;
-  ColorScale scale{values.name(), values.unit(), drawn(0).range.low, drawn(0).range.high,
+  ColorScale scale{drawn(0).name(), drawn(0).unit(), drawn(0).range.low, drawn(0).range.high,
                    options_.colors};
   for (std::size_t run = 1; run < runs_.size(); ++run) {
     scale.low = std::min(scale.low, drawn(run).range.low);
@@ -94,7 +93,18 @@ FigureOptions FigureSet::figure_options(Finish finish) const {
   figure.width = options_.width;
   figure.height = options_.height;
   figure.finish = finish;
+  figure.paper = options_.backdrop.paper;
+  figure.axes = options_.axes;
   return figure;
+}
+
+/// It turns evenly from the first frame to the last.
+Camera FigureSet::movie_camera(std::size_t frame) const {
+  const double turned = options_.orbit * static_cast<double>(frame) /
+                        static_cast<double>(std::max<std::size_t>(2, movie_frames()) - 1);
+  Cylinder around = runs_.front()->overview().around;
+  for (const DrawnRun* run : runs_) around.extend(run->overview().around);
+  return orbiting(around, options_.view, turned);
 }
 
 std::vector<Panel> FigureSet::panels(const std::vector<Snapshot>& snapshots) {
@@ -118,7 +128,11 @@ int FigureSet::pictures() {
   options.camera.frame = frame_of(frames);
   for (const std::size_t frame : frames) {
     const std::vector<Snapshot> moment = snapshots(frame);
-    write_png(figure(panels(moment), options), place(name() + '_' + numbered(frame) + ".png"));
+    const auto on = [&](const Paper& paper) {
+      options.paper = paper;
+      return figure(panels(moment), options);
+    };
+    write_png(drawn_on(options_.backdrop, on), place(name() + '_' + numbered(frame) + ".png"));
     options_.drawn();
   }
   return static_cast<int>(frames.size());
@@ -133,17 +147,23 @@ void FigureSet::sheet() {
   }
   SheetOptions sheet;
   sheet.view = options_.view;
+  sheet.axes = options_.axes;
+  const auto write = [&](const std::vector<SheetRow>& rows, const std::string& file) {
+    const auto on = [&](const Paper& paper) {
+      sheet.paper = paper;
+      return contact_sheet(rows, sheet);
+    };
+    write_png(drawn_on(options_.backdrop, on), place(file));
+  };
   // Several moments need more space.
   sheet.width = std::min(largest_picture, options_.width * 5 / 4);
   sheet.row_height = options_.height * 7 / 9;
-  if (of_body()) {
-    write_png(contact_sheet(painters_[0], over_time[0], sheet), place("contact_sheet.png"));
-    return;
-  }
+  if (of_body())
+    return write(surface_above_particles(painters_[0], over_time[0]), "contact_sheet.png");
   std::vector<SheetRow> rows;
   for (std::size_t run = 0; run < runs_.size(); ++run)
     rows.push_back({&painters_[run], &over_time[run], drawn(run).preset.view, title(run)});
-  write_png(contact_sheet(rows, sheet), place(name() + "_sheet.png"));
+  write(rows, name() + "_sheet.png");
 }
 
 std::size_t FigureSet::movie_frames() const { return runs_.front()->files().frames(); }
@@ -161,6 +181,7 @@ Image FigureSet::movie_frame(std::size_t frame) {
   FigureOptions options = figure_options(Finish::quick);
   options.width = movie_options().width;
   options.height = movie_options().height;
+  if (options_.orbit != 0) options.camera = movie_camera(frame);
   const std::vector<Snapshot> moment = snapshots(frame);
   std::vector<Panel> side_by_side = panels(moment);
   if (of_body())

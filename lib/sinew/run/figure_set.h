@@ -25,6 +25,9 @@ struct FigureSetOptions {
   int width = 1280, height = 720;
   Mat3 view = three_quarter_view();
   ColorMap colors = ColorMap::indigo;
+  Backdrop backdrop;
+  bool axes = false;  ///< the scene's, in a corner
+  double orbit = 0;   ///< of the camera over the movie, about the body's upright axis, rad
   std::optional<std::array<double, 2>> range;  ///< of the colors; by default the run's own
   std::vector<double> times;                   ///< s; empty: the run's key frames
   std::function<void()> drawn = [] {};         ///< called after each picture and frame of a movie
@@ -58,6 +61,7 @@ class FigureSet {
   std::vector<std::size_t> moments() const;
   std::vector<Snapshot> snapshots(std::size_t frame) const;
   Box frame_of(const std::vector<std::size_t>& frames) const;
+  Camera movie_camera(std::size_t frame) const;
   std::vector<Panel> panels(const std::vector<Snapshot>& snapshots);
   FigureOptions figure_options(Finish finish) const;
   std::string title(std::size_t run) const;

@@ -172,8 +172,9 @@ void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const do
 }
 
 void FrameWriter::begin_export(std::size_t kept, SurfaceLook look) {
-  for (std::string& library : look.libraries) library = path_in(folder_, library);
-  write_obj(folder_ / "surface.obj", surface_, look);
+  look_ = std::move(look);
+  for (std::string& library : look_.libraries) library = path_in(folder_, library);
+  write_obj(folder_ / "surface.obj", surface_, look_);
   export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", skin_.rest.size(), kept);
 }
 
@@ -312,7 +313,8 @@ void FrameWriter::close() {
   checksums_->add("bones.csv");
   if (!export_) return;
   export_->close();
-  write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_);
+  write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_,
+                       look_);
   for (const char* name : {"surface.obj", "surface.pc2", "surface.glb"}) checksums_->add(name);
 }
 

@@ -114,6 +114,7 @@ class FrameWriter {
   BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not requested
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
+  SurfaceLook look_;                      ///< of the exported surface
   std::vector<std::string_view> arrays_;  ///< additional ones
   std::optional<RestBody> measured_;      ///< which these and bonds are computed from, if any
   std::optional<Series> bond_series_;     ///< where the scene requests it

@@ -16,6 +16,7 @@
 #include <sinew/metrics/table.h>
 #include <sinew/run/report_input.h>
 #include <sinew/run/run_files.h>
+#include <sinew/run/world_shown.h>
 
 namespace sinew {
 
@@ -219,7 +220,9 @@ Measured measure_run(const RunFiles& run, const MeasureOptions& how) {
   add_worst_particles(measured.summary, course.worst_particles);
   for (const Limit& limit : how.limits)
     measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
-  if (how.playback) add_worst_frames(measured, rest, run);
+  if (!how.playback) return measured;
+  add_worst_frames(measured, rest, run);
+  show_world(measured.playback, run, [](std::size_t frame) { return frame; });
   return measured;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <sinew/render/elevations.h>
+#include <sinew/render/figure.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/setup.h>
 
@@ -23,8 +24,9 @@ Snapshot scene_snapshot(const Setup& setup, const Triangles& surface);
 /// The same from the files of its run.
 Snapshot scene_snapshot(const RunFiles& run);
 
-/// Needs a display. Throws not written, and as elevations() does.
+/// On `backdrop`, not on the paper of `options`. Needs a display. Throws not written, and as
+/// elevations() does.
 void write_scene_picture(const Snapshot& scene, const ElevationOptions& options,
-                         const std::string& path);
+                         const Backdrop& backdrop, const std::string& path);
 
 }  // namespace sinew

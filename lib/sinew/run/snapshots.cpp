@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string_view>
 
 #include <sinew/core/arrays.h>
@@ -16,6 +17,7 @@
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/scene_picture.h>
+#include <sinew/run/world_shown.h>
 
 namespace sinew {
 
@@ -155,6 +157,23 @@ std::vector<std::size_t> spread_over(std::size_t frames) {
   return chosen;
 }
 
+std::vector<std::size_t> traced_places(const RunFiles& run, const std::vector<int>& ids) {
+  std::vector<std::size_t> places;
+  for (const int id : ids) {
+    const std::ptrdiff_t place = id < 0 ? -1 : place_in_frames(run, static_cast<std::size_t>(id));
+    const auto last =
+        run.ids.empty() ? run.body.particles.size() - 1 : static_cast<std::size_t>(run.ids.back());
+    const std::size_t first = run.ids.empty() ? 0 : static_cast<std::size_t>(run.ids.front());
+    if (place < 0)
+      throw bad_input(Place{run.folder.path.string()},
+                      "the frames have no particle " + std::to_string(id),
+                      "give ids of them, which lie from " + std::to_string(first) + " to " +
+                          std::to_string(last) + ": --trace " + std::to_string(last));
+    places.push_back(static_cast<std::size_t>(place));
+  }
+  return places;
+}
+
 void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool first) {
   range.low = first ? other.low : std::min(range.low, other.low);
   range.high = first ? other.high : std::max(range.high, other.high);
@@ -162,47 +181,76 @@ void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool firs
 
 }  // namespace
 
-DrawnRun::DrawnRun(const std::string& folder, const std::vector<ViewPreset>& presets,
-                   const std::string& array, const Mat3& view, bool ahead)
-    : run_(open_run({folder})), view_(view) {
-  for (const ViewPreset& preset : presets)
-    views_.push_back(
-        {preset, DrawnValues(run_, array.empty() ? std::string(preset.array) : array), {}});
-  if (const auto world = world_of_run(run_)) marks_ = written_marks(*world);
-  read_overview(view, ahead);
-}
-
-/// Of the particles in the frames.
-std::vector<Mark> DrawnRun::written_marks(const World& world) const {
-  std::vector<Mark> marks(run_.body.particles.size(), Mark::none);
-  for (const Pinned& pin : world.pins) {
-    if (run_.ids.empty()) {
-      marks[pin.particle] = Mark::held;
-      continue;
-    }
-    const auto id = static_cast<std::int32_t>(pin.particle);
-    const auto at = std::lower_bound(run_.ids.begin(), run_.ids.end(), id);
-    if (at != run_.ids.end() && *at == id) marks[at - run_.ids.begin()] = Mark::held;
+DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
+    : run_(open_run({folder})), options_(std::move(options)) {
+  for (const ViewPreset& preset : options_.presets) views_.push_back(applied(preset));
+  select_bones();
+  for (const std::size_t held : held_in_frames(run_)) {
+    marks_.resize(run_.body.particles.size(), Mark::none);
+    marks_[held] = Mark::held;
   }
-  return marks;
+  read_overview();
 }
 
-void DrawnRun::read_overview(const Mat3& view, bool ahead) {
-  FramesInOrder frames(run_, ahead);
+DrawnView DrawnRun::applied(const ViewPreset& preset) const {
+  const std::string array = options_.array.empty() ? std::string(preset.array) : options_.array;
+  if (preset.view == View::lines)
+    return {preset, DrawnValues(run_, "displacement"), DrawnBonds(run_, array)};
+  return {preset, DrawnValues(run_, array), {}};
+}
+
+void DrawnRun::select_bones() {
+  if (options_.bones.empty()) return;
+  selected_.resize(run_.skeleton.size());
+  std::vector<std::string_view> names;
+  for (const Bone& bone : run_.skeleton.bones) names.push_back(bone.name);
+  for (const std::string& name : options_.bones) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw bad_input(Place{run_.folder.path.string()}, "there is no bone " + shown(name),
+                      suggestion(name, names));
+    selected_[static_cast<std::size_t>(found - names.begin())] = true;
+  }
+}
+
+bool DrawnRun::is_selected(std::size_t particle) const {
+  if (selected_.empty()) return true;
+  const std::int32_t bone = (*run_.body.bone)[particle];
+  return bone >= 0 && selected_[static_cast<std::size_t>(bone)];
+}
+
+DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
+                                      const DrawnView& drawn) const {
+  if (!drawn.bonds) return DrawnValues::range_of(drawn.values.at(index, frame));
+  std::vector<double> values;
+  for (const DrawnBond& bond : drawn.bonds->at(index)) values.push_back(bond.line.value);
+  return DrawnValues::range_of(std::move(values));
+}
+
+void DrawnRun::read_overview() {
+  const std::vector<std::size_t> traced = traced_places(run_, options_.traced);
+  overview_.paths.resize(traced.size());
+  overview_.around.axis = bounds(positions_of(run_.body.particles)).center();
+  FramesInOrder frames(run_, options_.ahead);
   Box body;
+  const auto extend = [this](const Snapshot& snapshot) {
+    overview_.frame.extend(seen(options_.view, snapshot));
+    overview_.around.extend(snapshot);
+  };
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
     overview_.angle.push_back(largest_turn(run_, frame));
-    for (DrawnView& drawn : views_)
-      widen(drawn.range, DrawnValues::range_of(drawn.values.at(i, frame)), i == 0);
+    for (DrawnView& drawn : views_) widen(drawn.range, range_in(i, frame, drawn), i == 0);
+    for (std::size_t k = 0; k < traced.size(); ++k)
+      overview_.paths[k].push_back(frame.positions[traced[k]]);
     body.extend(bounds(frame.positions)).extend(bounds(frame.surface_points));
-    overview_.frame.extend(seen(view, snapshot_of(run_, std::move(frame), 0)));
+    extend(snapshot_of(run_, std::move(frame), 0));
   }
   overview_.obstacle_space = obstacle_space(body);
   for (std::size_t i = 0; i < run_.obstacle_rows.size(); ++i) {
     Snapshot obstacles;
     add_obstacles(obstacles, i);
-    overview_.frame.extend(seen(view, obstacles));
+    extend(obstacles);
   }
 }
 
@@ -238,7 +286,7 @@ std::vector<std::size_t> DrawnRun::key_frames() const {
 /// the same particles are seen at all times.
 void DrawnRun::cut_open(Snapshot& snapshot) const {
   const Points rest = positions_of(run_.body.particles);
-  const Vec3 back = view_.row(2);
+  const Vec3 back = options_.view.row(2);
   Vec3 across = Vec3::UnitY();
   for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
     if (std::abs(axis.dot(back)) > std::abs(across.dot(back))) across = axis;
@@ -264,7 +312,7 @@ void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView
   const std::size_t stride = std::max<std::size_t>(1, vectors.size() / most_arrows);
   for (std::size_t i = 0; i < vectors.size(); i += stride) {
     const double force = vectors[i].norm();
-    if (!(force > shortest_arrow * strongest)) continue;
+    if (!(force > shortest_arrow * strongest) || !is_selected(i)) continue;
     const double length = longest_arrow * size * std::min(1.0, force / strongest);
     snapshot.arrows.push_back({snapshot.particles[i], length / force * vectors[i], force});
   }
@@ -275,13 +323,44 @@ void DrawnRun::add_obstacles(Snapshot& snapshot, std::size_t index) const {
   snapshot.obstacle_space = overview_.obstacle_space;
 }
 
+/// Gray is what has no value.
+void DrawnRun::show_selected(Snapshot& snapshot) const {
+  if (selected_.empty()) return;
+  std::vector<SnapshotBone> bones;
+  for (std::size_t b = 0; b < snapshot.bones.size(); ++b)
+    if (selected_[b]) bones.push_back(snapshot.bones[b]);
+  snapshot.bones = std::move(bones);
+  for (std::size_t i = 0; i < snapshot.values.size(); ++i)
+    if (!is_selected(i)) snapshot.values[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+void DrawnRun::add_traces(Snapshot& snapshot, std::size_t index) const {
+  for (std::size_t k = 0; k < overview_.paths.size(); ++k) {
+    const auto begin = overview_.paths[k].begin();
+    snapshot.traces.push_back({Points(begin, begin + static_cast<std::ptrdiff_t>(index) + 1),
+                               std::to_string(options_.traced[k])});
+  }
+}
+
+void DrawnRun::add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const {
+  for (const DrawnBond& bond : drawn.bonds->at(index)) {
+    snapshot.lines.push_back(bond.line);
+    if (!is_selected(static_cast<std::size_t>(bond.ends[0])) &&
+        !is_selected(static_cast<std::size_t>(bond.ends[1])))
+      snapshot.lines.back().value = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
   std::vector<double> values = drawn.values.at(index, frame);
   Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
   snapshot.marks = marks_;
+  show_selected(snapshot);
   add_obstacles(snapshot, index);
+  add_traces(snapshot, index);
+  if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);
   if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);
   return snapshot;

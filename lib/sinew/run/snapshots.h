@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The frames of a run as snapshots to be drawn, with the values that color the particles.
 //
-//     const DrawnRun run("out/bend", {view_preset_named("body")}, "", three_quarter_view(), true);
+//     const DrawnRun run("out/bend", {.presets = {view_preset_named("body")}});
 //     const Snapshot last = run.snapshot(run.files().frames() - 1, run.view_presets().front());
 #pragma once
 
@@ -12,6 +12,7 @@
 
 #include <sinew/metrics/rest_body.h>
 #include <sinew/render/snapshot.h>
+#include <sinew/run/drawn_bonds.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/view_presets.h>
 
@@ -63,21 +64,35 @@ Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& 
 struct DrawnView {
   ViewPreset preset;
   DrawnValues values;
-  DrawnValues::Range range;  ///< over all frames
+  std::optional<DrawnBonds> bonds;  ///< where the preset's view is of lines: colored instead
+  DrawnValues::Range range = {};    ///< of what is colored, over all frames
+
+  const std::string& name() const { return bonds ? bonds->name() : values.name(); }
+  const std::string& unit() const { return bonds ? bonds->unit() : values.unit(); }
 };
 
 struct RunOverview {
   std::vector<double> angle;  ///< per frame: largest turn of a bone since rest, rad
   Box frame;                  ///< around the body at all times, in the camera's directions
+  Cylinder around;            ///< the upright axis through its middle at rest, at all times
   Box obstacle_space = {};    ///< around it, m
+  std::vector<Points> paths;  ///< of the traced particles, one point per frame, m
+};
+
+struct DrawnRunOptions {
+  std::vector<ViewPreset> presets;
+  std::string array;  ///< shown in color instead of each preset's own, or empty
+  Mat3 view = three_quarter_view();
+  std::vector<std::string> bones;  ///< by name: these alone are drawn; the particles of others are
+                                   ///< gray, without arrows; empty: all
+  std::vector<int> traced;         ///< ids of the particles whose paths are drawn
+  bool ahead = true;               ///< reads frames in another thread
 };
 
 class DrawnRun {
  public:
-  /// Reads all frames once. `array`: shown in color instead of each preset's own, or empty. Throws
-  /// bad input.
-  DrawnRun(const std::string& folder, const std::vector<ViewPreset>& presets,
-           const std::string& array, const Mat3& view, bool ahead);
+  /// Reads all frames once. Throws bad input, also for bones and particles that the run lacks.
+  DrawnRun(const std::string& folder, DrawnRunOptions options);
   DrawnRun(const DrawnRun&) = delete;
   DrawnRun& operator=(const DrawnRun&) = delete;
 
@@ -95,17 +110,25 @@ class DrawnRun {
   Snapshot snapshot(std::size_t index, const DrawnView& drawn) const;
 
  private:
-  void read_overview(const Mat3& view, bool ahead);
-  std::vector<Mark> written_marks(const World& world) const;
+  DrawnView applied(const ViewPreset& preset) const;
+  void select_bones();
+  void read_overview();
+  DrawnValues::Range range_in(std::size_t index, const RunFrame& frame,
+                              const DrawnView& drawn) const;
+  bool is_selected(std::size_t particle) const;
+  void show_selected(Snapshot& snapshot) const;
+  void add_traces(Snapshot& snapshot, std::size_t index) const;
+  void add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
   void cut_open(Snapshot& snapshot) const;
   void add_obstacles(Snapshot& snapshot, std::size_t index) const;
   void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
 
   RunFiles run_;
-  Mat3 view_;
+  DrawnRunOptions options_;
   std::vector<DrawnView> views_;
   RunOverview overview_;
-  std::vector<Mark> marks_;  ///< of the written particles; empty: none
+  std::vector<bool> selected_;  ///< bones; empty: all
+  std::vector<Mark> marks_;     ///< of the written particles; empty: none
 };
 
 }  // namespace sinew

@@ -12,13 +12,14 @@
 namespace sinew {
 namespace {
 
-constexpr std::array<ViewPreset, 7> all_view_presets = {{
+constexpr std::array<ViewPreset, 8> all_view_presets = {{
     {"body", View::both, false, "displacement", "particles within the skin's edges, and the bones"},
     {"surface", View::surface, false, "displacement", "the skin, the bones shining through"},
     {"particles", View::particles, false, "displacement", "spheres of their true size"},
     {"section", View::both, true, "displacement", "the body cut open along its middle"},
     {"strain", View::particles, false, "strain", "particles by their equivalent strain"},
     {"forces", View::arrows, false, "force_pair", "arrows of a force within the pale skin"},
+    {"bonds", View::lines, false, "strain", "the bonds as lines within the pale skin"},
     {"bones", View::bones, false, "displacement", "the bones and their axes in the pale skin"},
 }};
 
@@ -61,6 +62,15 @@ const ViewPreset& view_preset_named(const std::string& name) {
 
 ColorMap color_map_named(const std::string& name) {
   return entry_named(color_maps(), name, "color map").map;
+}
+
+Backdrop backdrop_named(const std::string& text) {
+  if (text == "transparent") return {{}, true};
+  if (const auto color = hex_color(text)) return {paper_of(*color), false};
+  if (text.starts_with('#'))
+    throw bad_input(shown(text) + " is not a color",
+                    "give six hexadecimal digits: --background '#f5f5dc'");
+  return {paper_of(entry_named(named_colors(), text, "color").color), false};
 }
 
 Mat3 view_named(const std::string& text) {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include <sinew/render/camera.h>
-#include <sinew/render/picture.h>
+#include <sinew/render/figure.h>
 
 namespace sinew {
 
@@ -27,6 +27,9 @@ std::span<const ViewPreset> view_presets();
 /// Throws bad input for an unknown name, suggesting the nearest.
 const ViewPreset& view_preset_named(const std::string& name);
 ColorMap color_map_named(const std::string& name);
+
+/// A color by name or as #rrggbb, or "transparent". Throws bad input for other text.
+Backdrop backdrop_named(const std::string& text);
 
 /// "three_quarter", "front", "back", "left", "right", "top", or the direction towards the viewer as
 /// "1,-2,0.5". Throws bad input for anything else.

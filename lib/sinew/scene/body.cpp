@@ -13,6 +13,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/geometry.h>
+#include <sinew/io/gltf/look.h>
 #include <sinew/io/vtk/vtk_mesh.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/mesh/winding.h>
@@ -27,13 +28,18 @@ PolygonSoup read_gltf_file(const std::string& path) { return read_gltf(path); }
 
 PolygonSoup read_vtk_file(const std::string& path) { return read_vtk_mesh(path); }
 
+PolygonSoup read_gltf_look_file(const std::string& path, PolygonLook& look) {
+  return read_gltf_look(path, look);
+}
+
 /// In addition to those of the room mesh, which does not depend on io.
-constexpr std::array<MeshFormat, 6> formats_of_io = {{{"glTF", ".gltf", read_gltf_file},
-                                                      {"GLB", ".glb", read_gltf_file},
-                                                      {"VTP", ".vtp", read_vtk_file},
-                                                      {"VTU", ".vtu", read_vtk_file},
-                                                      {"VTK", ".vtk", read_vtk_file},
-                                                      {"VTI", ".vti", read_vtk_file}}};
+constexpr std::array<MeshFormat, 6> formats_of_io = {
+    {{"glTF", ".gltf", read_gltf_file, nullptr, read_gltf_look_file},
+     {"GLB", ".glb", read_gltf_file, nullptr, read_gltf_look_file},
+     {"VTP", ".vtp", read_vtk_file},
+     {"VTU", ".vtu", read_vtk_file},
+     {"VTK", ".vtk", read_vtk_file},
+     {"VTI", ".vti", read_vtk_file}}};
 
 }  // namespace
 
@@ -100,6 +106,10 @@ std::vector<Corners> corners_of(const Triangles& surface, std::size_t first, std
 }
 
 }  // namespace
+
+SurfaceLook look_of_mesh(const Settings& settings, const Triangles& surface) {
+  return look_of(settings.body, surface, formats_of_io);
+}
 
 Surface read_mesh(const Settings& settings) {
   std::vector<Surface> parts;

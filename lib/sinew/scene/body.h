@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include <sinew/core/surface_look.h>
 #include <sinew/fill/pack.h>
 #include <sinew/io/single_files.h>
 #include <sinew/mesh/surface.h>
@@ -48,6 +49,8 @@ Surface read_mesh(const Settings& settings);
 /// in which it lies; empty: the same throughout.
 std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,
                                  const Points& rest);
+/// What the mesh's file says of the surface made from it, beside the shape.
+SurfaceLook look_of_mesh(const Settings& settings, const Triangles& surface);
 
 /// Fills it as the scene specifies. Errors name the scene's line. `verify`: checks every site
 /// against CGAL.

@@ -186,7 +186,7 @@ ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   const Settings settings = with_fit(given);
   ReadyScene ready;
   ready.surface = read_mesh(settings);
-  if (settings.output.export_surface) ready.look = look_of(settings.body, ready.surface.triangles);
+  if (settings.output.export_surface) ready.look = look_of_mesh(settings, ready.surface.triangles);
   const SceneFiles files = read_files(settings);
   ready.body =
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));

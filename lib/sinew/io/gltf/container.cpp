@@ -110,15 +110,9 @@ bool stays_below(const fs::path& path) {
 }
 
 std::string file_bytes(const std::string& uri, std::size_t size, const fs::path& folder) {
-  const std::string name = without_percents(uri);
-  const fs::path below = fs::path(name).lexically_normal();
-  const bool scheme = uri.find(':') < uri.find('/');
-  if (scheme || name.find('\0') != std::string::npos || !stays_below(below))
-    throw bad_input("a buffer is to be found at " + shown(uri) + ", outside the file's own folder",
-                    "put the .bin file beside it and export it so");
-  std::string bytes = read_head(folder / below, size);
-  if (bytes.size() < size)
-    throw too_short(size, bytes.size()).with_context({(folder / below).string()});
+  const fs::path file = gltf_file_of(uri, folder);
+  std::string bytes = read_head(file, size);
+  if (bytes.size() < size) throw too_short(size, bytes.size()).with_context({file.string()});
   return bytes;
 }
 
@@ -135,6 +129,16 @@ std::string bytes_of(const GltfBuffer& buffer, const std::optional<std::string>&
 }
 
 }  // namespace
+
+fs::path gltf_file_of(const std::string& uri, const fs::path& folder) {
+  const std::string name = without_percents(uri);
+  const fs::path below = fs::path(name).lexically_normal();
+  const bool scheme = uri.find(':') < uri.find('/');
+  if (scheme || name.find('\0') != std::string::npos || !stays_below(below))
+    throw bad_input("a buffer is to be found at " + shown(uri) + ", outside the file's own folder",
+                    "put the .bin file beside it and export it so");
+  return folder / below;
+}
 
 std::string read_gltf_file(const fs::path& path) {
   constexpr std::uint64_t enough = 4096;  // bytes

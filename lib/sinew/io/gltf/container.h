@@ -28,6 +28,10 @@ std::string read_gltf_file(const std::filesystem::path& path);
 /// (without the path) where it is neither, is truncated, or has the other's extension.
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension);
 
+/// The file that a URI names in `folder` or below. Throws bad input (without the path), as of a
+/// buffer, for places elsewhere.
+std::filesystem::path gltf_file_of(const std::string& uri, const std::filesystem::path& folder);
+
 /// All buffers concatenated, each of its declared length. `binary` is the GLB's chunk, `folder`
 /// that of the glTF file: buffers in files must lie there or below. Throws bad input (without the
 /// path) for buffers that are missing, too short, or too long in total.

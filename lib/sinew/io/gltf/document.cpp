@@ -237,7 +237,8 @@ GltfAccessor accessor_in(const Field& field) {
 GltfPrimitive primitive_in(const Field& field) {
   const Field mode = field["mode"];
   return {mode.given() ? static_cast<GltfMode>(mode.whole(0, 6)) : GltfMode::triangles,
-          field["indices"].index_or_none(), field["attributes"].named_indices()};
+          field["indices"].index_or_none(), field["material"].index_or_none(),
+          field["attributes"].named_indices()};
 }
 
 GltfMesh mesh_in(const Field& field) {

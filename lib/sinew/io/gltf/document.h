@@ -61,6 +61,7 @@ enum class GltfMode {
 struct GltfPrimitive {
   GltfMode mode = GltfMode::triangles;
   int indices = -1;
+  int material = -1;
   std::map<std::string, int> attributes;  ///< "POSITION", ... -> accessor
 
   /// Whether it has triangles to draw.

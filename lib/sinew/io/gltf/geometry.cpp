@@ -155,8 +155,17 @@ bool is_skinned(const CheckedGltf& gltf) {
   return false;
 }
 
+PolygonSoup soup_of(const CheckedGltf& gltf) {
+  PolygonSoup soup = gltf_triangles(gltf, gltf_shapes(gltf)).soup;
+  if (soup.polygons.empty())
+    throw bad_input("its scene shows no triangles", "export it with a mesh");
+  return soup;
+}
+
+}  // namespace
+
 /// Skinned meshes are placed by the skin's bind pose, not by their nodes.
-std::vector<GltfShape> shapes_of(const CheckedGltf& gltf) {
+std::vector<GltfShape> gltf_shapes(const CheckedGltf& gltf) {
   std::vector<Affine> local;
   for (const GltfNode& node : gltf.document.nodes) local.push_back(place_of(node).affine());
   const std::vector<Affine> global = global_places(gltf.tree, local);
@@ -170,15 +179,6 @@ std::vector<GltfShape> shapes_of(const CheckedGltf& gltf) {
   }
   return shapes;
 }
-
-PolygonSoup soup_of(const CheckedGltf& gltf) {
-  PolygonSoup soup = gltf_triangles(gltf, shapes_of(gltf)).soup;
-  if (soup.polygons.empty())
-    throw bad_input("its scene shows no triangles", "export it with a mesh");
-  return soup;
-}
-
-}  // namespace
 
 GltfTriangles gltf_triangles(const CheckedGltf& gltf, const std::vector<GltfShape>& shapes) {
   check_size(gltf, shapes);

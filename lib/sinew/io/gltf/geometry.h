@@ -41,6 +41,9 @@ struct GltfTriangles {
   std::vector<GltfVertex> sources;  ///< n
 };
 
+/// Those of the default scene, at rest: skinned ones in their bind pose.
+std::vector<GltfShape> gltf_shapes(const CheckedGltf& gltf);
+
 /// All shapes in order, as read_gltf() says. Throws bad input (without the path) for too many
 /// triangles, corners that do not exist and coordinates that are not finite.
 GltfTriangles gltf_triangles(const CheckedGltf& gltf, const std::vector<GltfShape>& shapes);

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/io/gltf/document.h>
+#include <sinew/io/gltf/materials.h>
+#include <sinew/io/gltf/split_surface.h>
 #include <sinew/io/point_cache.h>
 
 namespace sinew {
@@ -26,11 +29,11 @@ OrderedJson listed(OrderedJson only) {
   return list;
 }
 
-/// The samples taken, ascending: all, or every n-th and the last.
-std::vector<std::size_t> taken_samples(const CachedPoints& cache) {
+/// The samples taken, ascending: all, or every n-th and the last. `bytes` of one.
+std::vector<std::size_t> taken_samples(const CachedPoints& cache, std::size_t bytes) {
   if (cache.samples() == 0 || cache.points() == 0)
     throw bad_input("the point cache is empty", "run the scene again");
-  const std::size_t fit = most_bytes / std::max<std::size_t>(12 * cache.points(), 1);
+  const std::size_t fit = most_bytes / std::max<std::size_t>(bytes, 1);
   const std::size_t most = std::clamp<std::size_t>(fit, 2, most_samples);
   const std::size_t last = cache.samples() - 1, every = last / most + 1;
   std::vector<std::size_t> taken;
@@ -45,21 +48,43 @@ Floats turned(Floats xyz) {
   return xyz;
 }
 
-/// The samples of the surface in glTF's axes.
+Points turned(const Points& points) {
+  Points out;
+  for (const Vec3& point : points) out.push_back({point.y(), point.z(), point.x()});
+  return out;
+}
+
+Floats difference(Floats values, const Floats& from) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= from[i];
+  return values;
+}
+
+/// The samples of the surface's vertices in glTF's axes.
 class Moments {
  public:
-  explicit Moments(const std::filesystem::path& cache)
-      : cache_(cache), taken_(taken_samples(cache_)), first_(turned(cache_.sample(0))) {}
+  Moments(const std::filesystem::path& cache, const SplitSurface& surface)
+      : cache_(cache),
+        surface_(surface),
+        taken_(taken_samples(cache_, surface.point.size() * (surface.has_normals ? 24 : 12))),
+        first_(sample(0)) {
+    if (!surface.has_normals) return;
+    moved_.emplace(surface, first_, turned(surface.normals));
+    first_normals_ = moved_->at(first_);
+  }
 
-  std::size_t points() const { return cache_.points(); }
   std::size_t targets() const { return taken_.size() - 1; }
   const Floats& first() const { return first_; }
+  const Floats& first_normals() const { return first_normals_; }  ///< empty: none
 
-  /// Displacements of the points from the first sample to that of a target.
-  Floats target(std::size_t index) {
-    Floats displacements = turned(cache_.sample(taken_[index + 1]));
-    for (std::size_t i = 0; i < displacements.size(); ++i) displacements[i] -= first_[i];
-    return displacements;
+  /// From the first sample to that of a target.
+  struct Change {
+    Floats places, normals;
+  };
+  Change target(std::size_t index) {
+    const Floats places = sample(taken_[index + 1]);
+    Change change{difference(places, first_), {}};
+    if (moved_) change.normals = difference(moved_->at(places), first_normals_);
+    return change;
   }
 
   Floats times(double interval) const {
@@ -77,9 +102,20 @@ class Moments {
   }
 
  private:
+  Floats sample(std::size_t index) {
+    const Floats points = turned(cache_.sample(index));
+    Floats vertices;
+    vertices.reserve(3 * surface_.point.size());
+    for (const int point : surface_.point)
+      vertices.insert(vertices.end(), points.begin() + 3 * point, points.begin() + 3 * point + 3);
+    return vertices;
+  }
+
   CachedPoints cache_;
+  const SplitSurface& surface_;
   std::vector<std::size_t> taken_;
-  Floats first_;
+  Floats first_, first_normals_;
+  std::optional<MovedNormals> moved_;
 };
 
 /// The layout of the file's binary part, one view per accessor.
@@ -89,14 +125,23 @@ class Contents {
           OrderedJson more = OrderedJson::object()) {
     const std::size_t size =
         count * static_cast<std::size_t>(components_of(type)) * 4;  // all numbers have 4 bytes
-    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", size}});
-    more.update({{"bufferView", views_.size() - 1},
+    more.update({{"bufferView", add_view(size)},
                  {"componentType", number},
                  {"count", count},
                  {"type", type}});
     accessors_.push_back(std::move(more));
-    bytes_ += size;
     return static_cast<int>(accessors_.size()) - 1;
+  }
+
+  std::size_t add_view(std::size_t size) {
+    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", size}});
+    bytes_ += (size + 3) / 4 * 4;
+    return views_.size() - 1;
+  }
+
+  int add_floats(const Floats& values, const char* type) {
+    const auto components = static_cast<std::size_t>(components_of(type));
+    return add(GltfNumber::float32, type, values.size() / components);
   }
 
   int add_points(const Floats& xyz) {
@@ -134,21 +179,91 @@ OrderedJson animation_of(const Floats& times, std::size_t targets, Contents& con
   return animation;
 }
 
+const char* type_of(const SurfaceLook::Layer& layer) {
+  return layer.components == 2 ? "VEC2" : "VEC4";
+}
+
+/// The attributes of the vertices at first.
+OrderedJson attributes_of(const Moments& moments, const SplitSurface& surface, Contents& contents) {
+  OrderedJson attributes = {{"POSITION", contents.add_points(moments.first())}};
+  if (surface.has_normals)
+    attributes["NORMAL"] = contents.add_floats(moments.first_normals(), "VEC3");
+  if (!surface.coordinates.empty())
+    attributes["TEXCOORD_0"] = contents.add_floats(surface.coordinates, "VEC2");
+  for (const SurfaceLook::Layer& layer : surface.layers)
+    attributes[layer.name] = contents.add_floats(layer.values, type_of(layer));
+  return attributes;
+}
+
+OrderedJson targets_of(Moments& moments, Contents& contents) {
+  OrderedJson targets = OrderedJson::array();
+  for (std::size_t k = 0; k < moments.targets(); ++k) {
+    const Moments::Change change = moments.target(k);
+    OrderedJson target = {{"POSITION", contents.add_points(change.places)}};
+    if (!change.normals.empty()) target["NORMAL"] = contents.add_floats(change.normals, "VEC3");
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
+/// Those of the mesh's file for the patches that they are named by; others that these name are
+/// added.
+GltfMaterials materials_of(SplitSurface& surface, const SurfaceLook& look) {
+  GltfMaterials materials = look.gltf;
+  for (SplitSurface::Patch& patch : surface.patches) {
+    if (patch.gltf_material >= 0 || patch.material.empty()) continue;
+    SurfaceLook::Material material;
+    material.name = patch.material;
+    for (const SurfaceLook::Material& described : look.materials)
+      if (described.name == patch.material) material = described;
+    patch.gltf_material = add_material(materials, material);
+  }
+  return materials;
+}
+
+void put_into(OrderedJson& json, const GltfMaterials& materials, Contents& contents) {
+  std::vector<std::size_t> views;
+  for (const std::string& image : materials.images)
+    views.push_back(contents.add_view(image.size()));
+  if (materials.json.empty()) return;
+  OrderedJson own = OrderedJson::parse(materials.json);
+  if (own.contains("images"))
+    for (OrderedJson& image : own["images"])
+      if (image.is_object() && image.contains("bufferView"))
+        image["bufferView"] = views[image["bufferView"].get<std::size_t>()];
+  json.update(own);
+}
+
+/// The faces of each material, on the same vertices.
+OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Contents& contents) {
+  OrderedJson primitives = OrderedJson::array();
+  for (const SplitSurface::Patch& patch : surface.patches) {
+    primitives.push_back(
+        {{"indices", contents.add(GltfNumber::uint32, "SCALAR", patch.corners.size())}});
+    if (patch.gltf_material >= 0) primitives.back()["material"] = patch.gltf_material;
+  }
+  const OrderedJson attributes = attributes_of(moments, surface, contents);
+  const OrderedJson targets = targets_of(moments, contents);
+  for (OrderedJson& primitive : primitives) {
+    primitive["attributes"] = attributes;
+    if (!targets.empty()) primitive["targets"] = targets;
+  }
+  return primitives;
+}
+
 /// The file's JSON; declares the data in the order in which write_data() writes it.
-OrderedJson describe(Moments& moments, std::size_t corners, double interval, Contents& contents) {
-  OrderedJson surface = {{"indices", contents.add(GltfNumber::uint32, "SCALAR", corners)}};
-  surface["attributes"] = {{"POSITION", contents.add_points(moments.first())}};
-  for (std::size_t k = 0; k < moments.targets(); ++k)
-    surface["targets"].push_back({{"POSITION", contents.add_points(moments.target(k))}});
+OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMaterials& materials,
+                     double interval, Contents& contents) {
   OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = listed({{"nodes", listed(0)}});
   json["nodes"] = listed({{"name", "surface"}, {"mesh", 0}});
-  OrderedJson mesh = {
-      {"primitives", listed(surface)}};  // weights default to 0, but VTK counts them
+  OrderedJson mesh = {{"primitives", primitives_of(moments, surface, contents)}};
+  // Weights default to 0, but VTK counts them.
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
   json["meshes"] = listed(mesh);
   if (moments.targets() > 0)
     json["animations"] = listed(animation_of(moments.times(interval), moments.targets(), contents));
+  put_into(json, materials, contents);
   contents.put_into(json);
   return json;
 }
@@ -168,14 +283,29 @@ void write(NewFile& file, const std::vector<Number>& numbers) {
   file.write(bytes.data(), bytes.size());
 }
 
-void write_data(NewFile& file, Moments& moments, const std::vector<std::uint32_t>& corners,
-                double interval) {
-  write(file, corners);
+void write_image(NewFile& file, const std::string& image) {
+  file.write(image.data(), image.size());
+  const std::string padding((4 - image.size() % 4) % 4, '\0');
+  file.write(padding.data(), padding.size());
+}
+
+void write_data(NewFile& file, Moments& moments, const SplitSurface& surface,
+                const GltfMaterials& materials, double interval) {
+  for (const SplitSurface::Patch& patch : surface.patches) write(file, patch.corners);
   write(file, moments.first());
-  for (std::size_t k = 0; k < moments.targets(); ++k) write(file, moments.target(k));
-  if (moments.targets() == 0) return;
-  write(file, moments.times(interval));
-  write(file, moments.weights());
+  write(file, moments.first_normals());
+  write(file, surface.coordinates);
+  for (const SurfaceLook::Layer& layer : surface.layers) write(file, layer.values);
+  for (std::size_t k = 0; k < moments.targets(); ++k) {
+    const Moments::Change change = moments.target(k);
+    write(file, change.places);
+    write(file, change.normals);
+  }
+  if (moments.targets() > 0) {
+    write(file, moments.times(interval));
+    write(file, moments.weights());
+  }
+  for (const std::string& image : materials.images) write_image(file, image);
 }
 
 std::string chunk(std::size_t size, const char* kind) {
@@ -186,12 +316,13 @@ std::string chunk(std::size_t size, const char* kind) {
 
 void write_moving_surface(const std::filesystem::path& path,
                           const std::vector<std::array<int, 3>>& faces,
-                          const std::filesystem::path& cache, double interval) {
-  Moments moments(cache);
-  std::vector<std::uint32_t> corners;
-  for (const auto& face : faces) corners.insert(corners.end(), face.begin(), face.end());
+                          const std::filesystem::path& cache, double interval,
+                          const SurfaceLook& look) {
+  SplitSurface surface = split_surface(faces, CachedPoints(cache).points(), look);
+  const GltfMaterials materials = materials_of(surface, look);
+  Moments moments(cache, surface);
   Contents contents;
-  std::string json = describe(moments, corners.size(), interval, contents).dump();
+  std::string json = describe(moments, surface, materials, interval, contents).dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + contents.bytes();
   const std::string head = "glTF" + little_endian(2) +
@@ -199,7 +330,7 @@ void write_moving_surface(const std::filesystem::path& path,
                            chunk(json.size(), "JSON") + json + chunk(contents.bytes(), "BIN\0");
   NewFile file(path);
   file.write(head.data(), head.size());
-  write_data(file, moments, corners, interval);
+  write_data(file, moments, surface, materials, interval);
   file.finish();
 }
 

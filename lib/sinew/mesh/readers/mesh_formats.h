@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
 
 namespace sinew {
@@ -20,6 +21,8 @@ struct MeshFormat {
   PolygonSoup (*read)(const std::string& path);
   /// Whether the first words of a file identify the format; none: they never do.
   bool (*recognizes)(std::string_view content) = nullptr;
+  /// The same polygons with their look; none: its files say nothing of it.
+  PolygonSoup (*read_look)(const std::string& path, PolygonLook& look) = nullptr;
 };
 
 /// "OBJ, OFF, STL, PLY" and the names of `more`.

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <sinew/core/error.h>
 #include <sinew/core/surface_look.h>
@@ -35,19 +36,14 @@ MeshFile open_mesh(const std::string& path);
 // in a file is checked against its length. The result has faces of three corners or more, corners
 // that exist and finite coordinates.
 
-/// What an OBJ file says beside the shape.
-struct ObjLook {
-  std::vector<std::array<double, 2>> coordinates;  ///< of its `vt` lines
-  std::vector<std::vector<int>> corners;  ///< per polygon: coordinates of each, -1 for none
-  std::vector<int> part;                  ///< per polygon, -1 before the first
-  std::vector<SurfaceLook::Part> parts;   ///< of its `o`, `g` and `usemtl` lines
-  std::vector<std::string> libraries;     ///< of its `mtllib` lines
-};
-
 /// Wavefront OBJ: `v` and `f` lines with indices of either sign, continued lines joined; with
 /// `look`, what else describes the surface.
 PolygonSoup read_obj(const MeshFile& file);
-PolygonSoup read_obj(const MeshFile& file, ObjLook& look);
+PolygonSoup read_obj(const MeshFile& file, PolygonLook& look);
+
+/// The materials of an MTL file beside an OBJ: color (Kd), opacity (d, Tr) and texture (map_Kd).
+/// None where it cannot be read; what is no number is left out.
+std::vector<SurfaceLook::Material> read_mtl(const std::string& path);
 
 /// Geomview OFF (also with colors, normals, texture coordinates; text only).
 PolygonSoup read_off(const MeshFile& file);

@@ -32,7 +32,7 @@ std::string joined(std::string_view text) {
 
 class ObjReader {
  public:
-  ObjReader(const MeshFile& file, ObjLook* look) : file_(file), look_(look) {}
+  ObjReader(const MeshFile& file, PolygonLook* look) : file_(file), look_(look) {}
 
   PolygonSoup soup() {
     if (file_.content.find('\\') == std::string::npos)
@@ -64,19 +64,31 @@ class ObjReader {
     refuse_too_many_points(file_, soup_.points.size());
   }
 
-  /// The lines of a look; coordinates that are no numbers are 0.
+  /// The lines of a look.
   void look_at(std::string_view keyword, std::string_view line, Words& words) {
+    SurfaceLook& look = look_->look;
     if (keyword == "vt") {
-      const double u = number_in(words.next()).value_or(0), v = number_in(words.next()).value_or(0);
-      look_->coordinates.push_back({std::isfinite(u) ? u : 0, std::isfinite(v) ? v : 0});
+      const double u = finite(words), v = finite(words);
+      look.coordinates.push_back({u, v});
     }
-    if (keyword == "mtllib") look_->libraries.push_back(after(keyword, line));
-    SurfaceLook::Part part = look_->parts.empty() ? SurfaceLook::Part() : look_->parts.back();
+    if (keyword == "vn") {
+      Vec3 normal;
+      for (double& part : normal) part = finite(words);
+      look.normals.push_back(direction_of(normal));
+    }
+    if (keyword == "mtllib") look.libraries.push_back(after(keyword, line));
+    SurfaceLook::Part part = look.parts.empty() ? SurfaceLook::Part() : look.parts.back();
     if (keyword == "o") part.object = after(keyword, line);
     if (keyword == "g") part.group = after(keyword, line);
     if (keyword == "usemtl") part.material = after(keyword, line);
     if (keyword == "o" || keyword == "g" || keyword == "usemtl")
-      look_->parts.push_back(std::move(part));
+      look.parts.push_back(std::move(part));
+  }
+
+  /// The next word's number; 0 where it is none.
+  static double finite(Words& words) {
+    const double number = number_in(words.next()).value_or(0);
+    return std::isfinite(number) ? number : 0;
   }
 
   /// The rest of a line, without the spaces around it.
@@ -89,11 +101,16 @@ class ObjReader {
 
   void face(Words& words) {
     corners_.clear();
-    if (look_) look_->part.push_back(static_cast<int>(look_->parts.size()) - 1);
-    if (look_) look_->corners.emplace_back();
+    if (look_) {
+      look_->look.part.push_back(static_cast<int>(look_->look.parts.size()) - 1);
+      look_->corners.emplace_back();
+      look_->normal_corners.emplace_back();
+    }
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       corners_.push_back(static_cast<int>(corner(word, words.line()) - 1));
-      if (look_) look_->corners.back().push_back(coordinates_of(word));
+      if (!look_) continue;
+      look_->corners.back().push_back(index_in(word, 1, look_->look.coordinates.size()));
+      look_->normal_corners.back().push_back(index_in(word, 2, look_->look.normals.size()));
     }
     if (corners_.size() < 3)
       throw file_.broken(words.line(),
@@ -114,18 +131,21 @@ class ObjReader {
     return from_one;
   }
 
-  /// The second index of "7/1" or "7/1/3", from 0; -1 for none.
-  int coordinates_of(std::string_view word) const {
-    const std::size_t slash = std::min(word.find('/'), word.size());
-    word.remove_prefix(std::min(slash + 1, word.size()));
+  /// The index after so many slashes of "7/1/3", from 0; -1 for none. Negative ones count back
+  /// from the last of those `there`.
+  static int index_in(std::string_view word, int slashes, std::size_t there) {
+    for (; slashes > 0; --slashes) {
+      const std::size_t slash = std::min(word.find('/'), word.size());
+      word.remove_prefix(std::min(slash + 1, word.size()));
+    }
     const auto index = integer_in(word.substr(0, word.find('/')));
-    const auto there = static_cast<std::int64_t>(look_->coordinates.size());
-    const std::int64_t from_one = index ? (*index < 0 ? *index + there + 1 : *index) : 0;
+    const auto last = static_cast<std::int64_t>(there);
+    const std::int64_t from_one = index ? (*index < 0 ? *index + last + 1 : *index) : 0;
     return from_one < 1 || from_one > INT32_MAX ? -1 : static_cast<int>(from_one - 1);
   }
 
   const MeshFile& file_;
-  ObjLook* look_;
+  PolygonLook* look_;
   PolygonSoup soup_;
   std::vector<int> corners_;
   std::int64_t largest_ = 0;
@@ -136,6 +156,8 @@ class ObjReader {
 
 PolygonSoup read_obj(const MeshFile& file) { return ObjReader(file, nullptr).soup(); }
 
-PolygonSoup read_obj(const MeshFile& file, ObjLook& look) { return ObjReader(file, &look).soup(); }
+PolygonSoup read_obj(const MeshFile& file, PolygonLook& look) {
+  return ObjReader(file, &look).soup();
+}
 
 }  // namespace sinew

@@ -163,19 +163,38 @@ PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3
   append_moved(frame.particles, other.particles, shift);
   append_moved(frame.surface, other.surface, shift);
   append_moved(frame.bones, other.bones, shift);
+  append_moved(frame.obstacles, other.obstacles, shift);
   return frame;
+}
+
+/// The bones of the second appended.
+void join_bones(Playback& playback, const Playback& second,
+                const std::array<std::string, 2>& prefixes) {
+  const std::vector<std::string> first = playback.bone_names;
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (std::string& name : playback.bone_names)
+    if (!has(second.bone_names, name)) name.insert(0, prefixes[0]);
+  int colors = static_cast<int>(first.size());
+  for (const std::string& name : second.bone_names) {
+    const auto same = std::find(first.begin(), first.end(), name) - first.begin();
+    const bool shared = has(first, name);
+    playback.bone_names.push_back(shared ? name : prefixes[1] + name);
+    playback.bone_color.push_back(shared ? static_cast<int>(same) : colors++);
+  }
 }
 
 void join_shape(Playback& playback, const Playback& second,
                 const std::array<std::string, 2>& prefixes) {
   const auto bones = static_cast<int>(playback.bone_names.size());
   const auto points = static_cast<int>(playback.points.size());
-  for (std::string& name : playback.bone_names) name.insert(0, prefixes[0]);
-  for (const std::string& name : second.bone_names)
-    playback.bone_names.push_back(prefixes[1] + name);
+  join_bones(playback, second, prefixes);
   for (const int bone : second.bone) playback.bone.push_back(bone < 0 ? -1 : bone + bones);
   for (const auto& [a, b, c] : second.faces)
     playback.faces.push_back({a + points, b + points, c + points});
+  for (const std::uint32_t held : second.held)
+    playback.held.push_back(held + static_cast<std::uint32_t>(playback.particles.size()));
   playback.particles.insert(playback.particles.end(), second.particles.begin(),
                             second.particles.end());
   playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());

@@ -147,7 +147,7 @@ std::span<const PlaybackField> playback_fields() {
 Box box_of(const Playback& playback) {
   Box box;
   for (const PlaybackFrame& frame : playback.frames)
-    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones})
+    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones, &frame.obstacles})
       for (std::size_t i = 0; i + 2 < places->size(); i += 3)
         box.extend(Vec3((*places)[i], (*places)[i + 1], (*places)[i + 2]));
   return box;
@@ -194,7 +194,10 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
       thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_snapshots(playback)));
   playback.points = std::move(skin.points);
   playback.faces = std::move(skin.faces);
-  for (const MeasuredBone& bone : rest.bones) playback.bone_names.push_back(bone.name);
+  for (const MeasuredBone& bone : rest.bones) {
+    playback.bone_color.push_back(static_cast<int>(playback.bone_color.size()));
+    playback.bone_names.push_back(bone.name);
+  }
   return playback;
 }
 

@@ -35,6 +35,7 @@ struct PlaybackFrame {
   std::vector<float> particles, surface;   ///< x y z each, m
   std::vector<float> bones;                ///< head and tail, x y z each, m
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
+  std::vector<float> obstacles = {};       ///< three corners of each triangle, x y z each, m
 };
 
 /// Consecutive particles drawn with one radius (m): larger than their own where one is shown for
@@ -50,9 +51,11 @@ struct Playback {
   std::vector<std::uint32_t> particles;                           ///< of the run, ascending
   std::vector<Balls> balls;                                       ///< the particles, in their order
   std::vector<int> bone;                  ///< that each of them follows, -1 for none
+  std::vector<std::uint32_t> held = {};   ///< indices of those that are held, into `particles`
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
   std::vector<std::string> bone_names;
+  std::vector<int> bone_color;  ///< number of the color of each: of two runs, that of its name
   std::vector<PlaybackFrame> frames;
 
   bool wants(std::size_t frame) const;
@@ -80,6 +83,13 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double share = 
 /// Inserts a frame in order of time.
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles);
+
+/// The triangles as far as they lie in `space` (m), three corners each.
+Points cut_to(const Box& space, const Triangles& surface);
+
+/// Adds the obstacles at one of its frames, cut to `space`, to a playback.
+void add_obstacles(Playback& playback, std::size_t frame, const Box& space,
+                   const Triangles& obstacles);
 
 /// For the page's script: positions as 16-bit fractions of the playback's box, values as 8-bit
 /// fractions of their range (a thousandth of the values at either end lies outside), all in base64.

@@ -39,6 +39,19 @@ void quantize(std::vector<std::uint16_t>& out, const std::vector<float>& places,
   }
 }
 
+/// Of each frame; null where they are as in the frame before.
+Json obstacles_of(const Playback& playback, const Cube& cube) {
+  Json frames = Json::array();
+  const std::vector<float>* before = nullptr;
+  for (const PlaybackFrame& frame : playback.frames) {
+    std::vector<std::uint16_t> all;
+    quantize(all, frame.obstacles, cube);
+    frames.push_back(before && *before == frame.obstacles ? Json() : Json(base64_of(all)));
+    before = &frame.obstacles;
+  }
+  return frames;
+}
+
 std::string places_of(const Playback& playback, const Cube& cube,
                       const std::vector<float> PlaybackFrame::*places) {
   std::vector<std::uint16_t> all;
@@ -50,12 +63,13 @@ struct Range {
   float low, high;
 };
 
-/// The range of all but the outermost values; nothing where there are none.
-std::vector<Range> range_of(const Playback& playback, std::size_t field) {
+/// The range of all but the outermost values of some particles; nothing where there are none.
+std::vector<Range> range_of(const Playback& playback, std::size_t field, std::size_t first,
+                            std::size_t count) {
   std::vector<float> all;
   for (const PlaybackFrame& frame : playback.frames)
-    for (const float value : frame.values[field])
-      if (std::isfinite(value)) all.push_back(value);
+    for (std::size_t i = first; i < std::min(first + count, frame.values[field].size()); ++i)
+      if (const float value = frame.values[field][i]; std::isfinite(value)) all.push_back(value);
   if (all.empty()) return {};
   const auto at = [&](double share) {
     const auto place =
@@ -64,6 +78,20 @@ std::vector<Range> range_of(const Playback& playback, std::size_t field) {
     return *place;
   };
   return {{at(outside), at(1 - outside)}};
+}
+
+/// The range of both, where there are two runs: neither is outermost, however few its particles.
+std::vector<Range> range_of(const Playback& playback, std::size_t field) {
+  std::vector<Range> range;
+  std::size_t first = 0;
+  for (const Balls& balls : playback.balls) {
+    for (const Range own : range_of(playback, field, first, balls.count))
+      range = {range.empty()
+                   ? own
+                   : Range{std::min(own.low, range[0].low), std::max(own.high, range[0].high)}};
+    first += balls.count;
+  }
+  return range;
 }
 
 /// The values as 0 to 254 of their range; 255 stands for none.
@@ -130,9 +158,12 @@ std::string playback_json(const Playback& playback) {
                      {"ids", base64_of(playback.particles)},
                      {"bone", base64_of(bone)},
                      {"boneNames", playback.bone_names},
+                     {"boneColor", playback.bone_color},
                      {"surface", places_of(playback, cube, &PlaybackFrame::surface)},
                      {"corners", corners_of(playback)},
                      {"bones", places_of(playback, cube, &PlaybackFrame::bones)},
+                     {"held", base64_of(playback.held)},
+                     {"obstacles", obstacles_of(playback, cube)},
                      {"fields", fields_of(playback)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -8,6 +8,12 @@ const data = JSON.parse(byId("data").textContent);
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
+/** Each text decoded; null stands for the one before. */
+function repeated(texts, decode) {
+  let last = null;
+  return texts.map((text) => (text === null ? last : last = decode(text)));
+}
+
 /** Playback arrays as typed arrays; positions in meters from the center of the playback's cube. */
 function unpackedPlayback(playback) {
   const places = (text) => {
@@ -22,6 +28,8 @@ function unpackedPlayback(playback) {
     bone: new Int16Array(bytesOf(playback.bone).buffer),
     ids: new Uint32Array(bytesOf(playback.ids).buffer),
     corners: new Uint32Array(bytesOf(playback.corners).buffer),
+    held: new Uint32Array(bytesOf(playback.held).buffer),
+    obstacles: repeated(playback.obstacles, places),
     fields: playback.fields.map((field) => ({ ...field, levels: bytesOf(field.levels) })),
   };
 }

@@ -32,6 +32,8 @@ function begin() {
     hidden: timeCharts[0]?.isDatasetVisible(0) === false,
     webgl: playback !== null,
     snapshot: playback?.player.snapshot ?? null,
+    field: playback?.view.playback.fields[Number(byId("field").value)]?.name ?? null,
+    legend: [...byId("bone-names")?.children ?? []].map((entry) => entry.textContent),
     places: playback ? [...playback.view.spheres.geometry.attributes.position.array] : [],
     tints: playback ? [...playback.view.spheres.geometry.attributes.tint.array] : [],
     triangles: playback?.view.renderer.info.render.triangles ?? 0,

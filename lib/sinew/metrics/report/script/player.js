@@ -10,14 +10,15 @@ function fillFields(playback) {
 
 const mostNames = 12; // bones named beside the view; more would take too much space
 
-/** The legend of bone colors. */
+/** The legend of bone colors. Two runs have one entry for bones of the same name. */
 function fillBoneNames(playback) {
-  const names = playback.boneNames.slice(0, mostNames).map((name, b) => {
+  const all = new Map(playback.boneNames.map((name, b) => [name, playback.boneColor[b]]));
+  const names = [...all].slice(0, mostNames).map(([name, color]) => {
     const dot = element("i");
-    dot.style.background = palette[b % palette.length];
+    dot.style.background = palette[color % palette.length];
     return element("span", {}, [dot, name]);
   });
-  const more = playback.boneNames.length - names.length;
+  const more = all.size - names.length;
   if (more > 0) names.push(element("span", { textContent: `and ${more} more` }));
   byId("bone-names").append(...names);
 }
@@ -59,6 +60,7 @@ function makePlayer(view) {
     byId("clock").textContent = `${time.toFixed(3)} s · frame ${frame}`;
     view.spheres.visible = byId("show-particles").checked;
     view.skin.visible = byId("show-surface").checked;
+    view.obstacles.visible = byId("show-obstacles").checked;
     for (const bone of view.bones) bone.visible = byId("show-bones").checked;
     showScale(playback, field());
     showSnapshot(view, { snapshot: player.snapshot, field: field(), cut: byId("cut").checked });
@@ -88,11 +90,13 @@ function play(player, playback) {
 
 function connect(player, view) {
   const { playback } = view;
+  byId("has-held").hidden = playback.held.length === 0;
+  byId("has-obstacles").hidden = playback.obstacles.every((corners) => corners.length === 0);
   byId("time").max = playback.snapshots.length - 1;
   byId("time").addEventListener("input", () => player.go(Number(byId("time").value)));
   byId("play").addEventListener("click", () => play(player, playback));
   byId("reset").addEventListener("click", () => aim(view));
-  for (const id of ["field", "show-particles", "show-surface", "show-bones", "cut"])
+  for (const id of ["field", "show-particles", "show-surface", "show-bones", "show-obstacles", "cut"])
     byId(id).addEventListener("change", player.show);
   marked.go = (time) => player.go(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
   showWorst(playback, player.go);

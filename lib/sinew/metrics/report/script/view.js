@@ -45,12 +45,15 @@ function addParts(view) {
   view.spheres = makeSpheres(playback.balls);
   view.skin = makeSkin(playback, counts.points);
   view.skin.visible = false;
-  view.bones = Array.from({ length: counts.bones }, (_, b) => makeBone(b));
+  view.obstacles = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({ color: 0x80868e,
+    side: THREE.DoubleSide, transparent: true, opacity: 0.4, depthWrite: false }));
+  view.obstacles.frustumCulled = false;
+  view.bones = playback.boneColor.map(makeBone);
   const sun = new THREE.DirectionalLight(0xffffff, 0.75);
   sun.position.set(0.35, 0.55, 0.8);
   view.camera.add(sun);
   scene.add(view.camera, new THREE.AmbientLight(0xffffff, 0.5), view.skin, view.spheres,
-    ...view.bones);
+    view.obstacles, ...view.bones);
 }
 
 function makeSkin(playback, points) {
@@ -64,10 +67,10 @@ function makeSkin(playback, points) {
 }
 
 /** A long octahedron of length 1 along y, drawn over everything so that it is visible inside. */
-function makeBone(index) {
+function makeBone(number) {
   const geometry = new THREE.CylinderBufferGeometry(0, 0.07, 0.85, 4).translate(0, 0.575, 0);
   const foot = new THREE.CylinderBufferGeometry(0.07, 0, 0.15, 4).translate(0, 0.075, 0);
-  const color = new THREE.Color(palette[index % palette.length]);
+  const color = new THREE.Color(palette[number % palette.length]);
   const material = new THREE.MeshLambertMaterial({ color: color, transparent: true, opacity: 0.85,
     depthTest: false, flatShading: true });
   const bone = new THREE.Group();
@@ -134,6 +137,14 @@ function placeSkin(view, snapshot) {
   geometry.computeVertexNormals();
 }
 
+function placeObstacles(view, snapshot) {
+  const corners = view.playback.obstacles[snapshot], geometry = view.obstacles.geometry;
+  if (geometry.attributes.position?.array === corners) return;
+  geometry.setAttribute("position", new THREE.BufferAttribute(corners, 3));
+  geometry.deleteAttribute("normal");
+  geometry.computeVertexNormals();
+}
+
 function placeBones(view, snapshot) {
   const ends = snapshotOf(view.playback.bones, 2 * view.counts.bones, snapshot);
   view.bones.forEach((bone, b) => {
@@ -151,15 +162,18 @@ function tint(view, snapshot, field) {
   const count = view.counts.particles;
   for (let i = 0; i < count; ++i) {
     const color = field ? levelColors[field.levels[snapshot * count + i]]
-      : boneColors[view.playback.bone[i] % boneColors.length] ?? noColor;
+      : boneColors[view.playback.boneColor[view.playback.bone[i]] % boneColors.length] ?? noColor;
     for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = color[k] / 255;
   }
+  for (const i of view.playback.held)
+    for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = heldColor[k] / 255;
   tints.needsUpdate = true;
 }
 
 function showSnapshot(view, { snapshot, field, cut }) {
   placeParticles(view, snapshot, cut);
   placeSkin(view, snapshot);
+  placeObstacles(view, snapshot);
   placeBones(view, snapshot);
   tint(view, snapshot, field);
   view.draw();

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/world_shown.h>
+
+#include <algorithm>
+
+#include <sinew/run/scene_picture.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t most_bytes = 800'000;  // of a page of 10 MB
+
+/// A coarser form of the obstacles where all frames of it would not fit; the same in all frames.
+ThinSurface thinned(const RunFiles& run, std::size_t frames) {
+  constexpr std::size_t bytes = 36;  // a point has about two triangles, of three corners each
+  const Triangles first = read_obstacles(run, 0);
+  const bool moves = first.points != read_obstacles(run, run.frames() - 1).points;
+  return thin_surface(first, most_bytes / (bytes * (moves ? frames : 1)));
+}
+
+Triangles picked(const Triangles& obstacles, const ThinSurface& thin) {
+  Triangles some;
+  for (const std::uint32_t point : thin.points) some.points.push_back(obstacles.points.at(point));
+  some.faces = thin.faces;
+  return some;
+}
+
+}  // namespace
+
+std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle) {
+  if (run.ids.empty())
+    return particle < run.body.particles.size() ? static_cast<std::ptrdiff_t>(particle) : -1;
+  const auto at = std::lower_bound(run.ids.begin(), run.ids.end(), particle);
+  if (at == run.ids.end() || static_cast<std::size_t>(*at) != particle) return -1;
+  return at - run.ids.begin();
+}
+
+std::vector<std::size_t> held_in_frames(const RunFiles& run) {
+  std::vector<std::size_t> held;
+  const auto world = world_of_run(run);
+  if (!world) return held;
+  for (const Pinned& pin : world->pins)
+    if (const std::ptrdiff_t place = place_in_frames(run, pin.particle); place >= 0)
+      held.push_back(static_cast<std::size_t>(place));
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
+
+void show_world(Playback& playback, const RunFiles& run,
+                const std::function<std::size_t(std::size_t)>& frame_of) {
+  const std::vector<std::size_t> held = held_in_frames(run);
+  for (std::uint32_t i = 0; i < playback.particles.size(); ++i)
+    if (std::binary_search(held.begin(), held.end(), playback.particles[i]))
+      playback.held.push_back(i);
+  if (run.obstacle_rows.empty() || playback.frames.empty()) return;
+  const Box space = obstacle_space(box_of(playback));
+  const ThinSurface thin = thinned(run, playback.frames.size());
+  for (const PlaybackFrame& frame : playback.frames)
+    add_obstacles(playback, frame.frame, space,
+                  picked(read_obstacles(run, frame_of(frame.frame)), thin));
+}
+
+}  // namespace sinew

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What pictures and the report show of the world around a run's body: held particles, obstacles.
+//
+//     show_world(playback, run, [](std::size_t frame) { return frame; });
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <sinew/metrics/report/playback.h>
+#include <sinew/run/run_files.h>
+
+namespace sinew {
+
+/// The index of a particle of the body in the frames; -1 where they do not contain it.
+std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle);
+
+/// Indices of the held particles in the frames, ascending.
+std::vector<std::size_t> held_in_frames(const RunFiles& run);
+
+/// Marks the held particles of a playback and adds the obstacles to its frames. `frame_of`: the
+/// run's frame of a playback's. Throws bad input, naming the file, for damaged frames.
+void show_world(Playback& playback, const RunFiles& run,
+                const std::function<std::size_t(std::size_t)>& frame_of);
+
+}  // namespace sinew
