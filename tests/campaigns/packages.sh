@@ -24,7 +24,7 @@ rm -f "$root/etc/dpkg/dpkg.cfg.d/"*  # minimal images leave manuals out
 in_root find / -xdev -name '*sinew*' -not -path '/packages/*' > "$root/before"
 in_root dpkg -l | awk '{print $2}' > "$root/had"
 start=$SECONDS
-in_root sh -c 'apt-get -qq install -y /packages/sinew_*.deb /packages/python3-sinew_*.deb >/dev/null'
+in_root sh -c 'apt-get -qq install -y --no-install-recommends ffmpeg /packages/sinew_*.deb /packages/python3-sinew_*.deb >/dev/null'
 installed=$SECONDS
 in_root sh -c 'cd /root && sinew run /usr/share/sinew/configs/box_bend.yaml --quiet'
 echo "installed in $((installed - start)) s, first pictures $((SECONDS - installed)) s later"
