@@ -112,6 +112,7 @@ Exit make(Options options, const Common& common) {
   results.add("size", scene.size);
   results.add("run", "sinew run " + options.files.scene);
   results.print(common);
+  if (!scene.warning.empty()) say(common, "sinew: warning: " + scene.warning);
   return Exit::done;
 }
 

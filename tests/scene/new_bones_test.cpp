@@ -185,6 +185,19 @@ TEST(Refined, KeepsPlacesVolumeAndClosure) {
   EXPECT_EQ(border_of(fine, edge_uses(fine), border_loops(edge_uses(fine))).edges, 0u);
 }
 
+/// A rod a thousand times as long as wide: faces go with its length, not with a power of it.
+TEST(Refined, CutsNeedlesAcross) {
+  const double width = 1e-3, longest = 2e-3;
+  const Triangles rod = triangles_of(shapes::box(Vec3::Zero(), Vec3(width, width, 1)));
+  const Triangles fine = refined(rod, longest);
+  EXPECT_LE(longest_side(fine), longest);
+  EXPECT_NEAR(volume(fine), width * width, 1e-12);
+  EXPECT_NEAR(area(fine), area(rod), 1e-12);
+  EXPECT_EQ(border_of(fine, edge_uses(fine), border_loops(edge_uses(fine))).edges, 0u);
+  const double pieces_per_side = 512;
+  EXPECT_LT(static_cast<double>(fine.faces.size()), 8 * 2 * 3 * pieces_per_side);
+}
+
 TEST(Solids, AreClosedAndHaveTheirVolume) {
   const Vec3 size(0.1, 0.2, 0.5);
   const double pillar = pi / 4 * 0.1 * 0.2;

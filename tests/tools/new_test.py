@@ -182,6 +182,22 @@ class New(unittest.TestCase):
                 self.assertNotIn(word, said)
         self.assertAlmostEqual(radii[0], radii[1], delta=1e-4)
 
+    def test_a_clip_that_begins_late_begins_with_its_first_key(self):
+        glb = bytearray((SOURCE / "data/motions/fox.glb").read_bytes())
+        length = struct.unpack_from("<I", glb, 12)[0]
+        document = json.loads(glb[20:20 + length])
+        first = 28 + length  # of the binary chunk
+        for accessor in {s["input"] for a in document["animations"] for s in a["samplers"]}:
+            view = document["bufferViews"][document["accessors"][accessor]["bufferView"]]
+            at = first + view.get("byteOffset", 0) + document["accessors"][accessor].get("byteOffset", 0)
+            for k in range(document["accessors"][accessor]["count"]):
+                struct.pack_into("<f", glb, at + 4 * k, struct.unpack_from("<f", glb, at + 4 * k)[0] + 8)
+        late = self.folder / "late.glb"
+        late.write_bytes(glb)
+        self.make(late)
+        self.assertRegex(self.scene.read_text(), r"start: 8\n")
+        sinew("check", self.scene, check=0)
+
     def test_pieces_within_each_other_fill_as_one_body(self):
         bar = self.write("bar.obj", BAR)
         self.make(bar)

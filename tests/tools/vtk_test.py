@@ -155,6 +155,7 @@ class Vtk(unittest.TestCase):
         self.assertIn("border", " ".join(info["warnings"]))
         done = sinew("fill", path, "--radius", "0.05", "-o", self.folder / "b.vtu", check=0)
         self.assertIn("border", done.stderr)
+        self.assertIn("border", sinew("new", path, "-o", self.folder / "half.yaml", check=0).stderr)
 
     def test_files_of_meshio(self):
         points = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)

@@ -26,9 +26,24 @@ class Middles {
     if (added) points_.push_back((points_[std::min(a, b)] + points_[std::max(a, b)]) / 2);
     return at->second;
   }
-  bool any() const { return !numbers_.empty(); }
+
+  /// The points from a to b after all halving.
+  std::vector<int> chain(int a, int b) {
+    std::vector<int> points{a};
+    extend(points, b);
+    return points;
+  }
+
+  double distance(int a, int b) const { return (points_[a] - points_[b]).norm(); }
 
  private:
+  void extend(std::vector<int>& points, int end) {
+    const int middle = between(points.back(), end);
+    if (middle < 0) return points.push_back(end);
+    extend(points, middle);
+    extend(points, end);
+  }
+
   Points& points_;
   double squared_;
   std::map<std::pair<int, int>, int> numbers_;
@@ -41,6 +56,42 @@ void cut(const Face& face, int first, int second, std::vector<Face>& faces) {
   if (second < 0) return faces.push_back({first, b, c});
   faces.push_back({first, second, c});
   faces.push_back({first, b, second});
+}
+
+/// Cuts a face whose first two sides are many times as long as they may be, and whose last is short
+/// enough, into faces between the points of both: halving would make many more.
+void cut_needle(const Face& face, Middles& middles, std::vector<Face>& faces) {
+  const std::vector<int> one = middles.chain(face[1], face[0]),
+                         other = middles.chain(face[1], face[2]);
+  std::size_t i = 1, j = 1;
+  faces.push_back({one[1], face[1], other[1]});
+  while (i + 1 < one.size() || j + 1 < other.size()) {
+    const bool first =
+        j + 1 == other.size() || (i + 1 < one.size() && middles.distance(one[i + 1], other[j]) <=
+                                                            middles.distance(one[i], other[j + 1]));
+    if (first) {
+      faces.push_back({one[i + 1], one[i], other[j]});
+      ++i;
+    } else {
+      faces.push_back({one[i], other[j], other[j + 1]});
+      ++j;
+    }
+  }
+}
+
+/// Turned so that its last side is the shortest.
+Face turned(Face face, const Middles& middles) {
+  const auto side = [&](int k) { return middles.distance(face[k], face[(k + 1) % 3]); };
+  while (side(2) > side(0) || side(2) > side(1))
+    std::rotate(face.begin(), face.begin() + 1, face.end());
+  return face;
+}
+
+bool is_needle(const Face& face, const Middles& middles, double longest) {
+  constexpr double many = 8;
+  const auto& [a, b, c] = face;
+  return middles.distance(c, a) <= longest &&
+         std::min(middles.distance(a, b), middles.distance(b, c)) > many * longest;
 }
 
 void cut(Face face, std::array<int, 3> middle, std::vector<Face>& faces) {
@@ -71,17 +122,22 @@ double longest_side(const Triangles& surface) {
 }
 
 Triangles refined(Triangles surface, double longest) {
-  while (true) {
-    Middles middles(surface.points, longest);
+  Middles middles(surface.points, longest);
+  for (bool any = true; any;) {
+    any = false;
     std::vector<Face> faces;
-    for (const Face& face : surface.faces) {
-      const auto& [a, b, c] = face;
+    for (const Face& given : surface.faces) {
+      const auto& [a, b, c] = given;
       const int ab = middles.between(a, b), bc = middles.between(b, c), ca = middles.between(c, a);
-      cut(face, {ab, bc, ca}, faces);
+      any = any || ab >= 0 || bc >= 0 || ca >= 0;
+      if (const Face face = turned(given, middles); is_needle(face, middles, longest))
+        cut_needle(face, middles, faces);
+      else
+        cut(given, {ab, bc, ca}, faces);
     }
-    if (!middles.any()) return surface;
     surface.faces = std::move(faces);
   }
+  return surface;
 }
 
 Triangles thickened(const Triangles& surface, double thickness) {

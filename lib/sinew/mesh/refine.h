@@ -22,7 +22,7 @@ double longest_side(const Triangles& surface);
 /// three or four by its long sides; both faces of a side get the same new point, so that what was
 /// closed stays closed. The points stay, in their order, and new ones follow; faces keep their
 /// planes and orientation. Accepts any triangles. The number of faces goes with their area over the
-/// square of `longest`, and with the length of needles over it.
+/// square of `longest`, and with the length of needles over it, which are cut across at once.
 ///
 /// Needles stay needles: it cuts sides and moves no point.
 Triangles refined(Triangles surface, double longest);

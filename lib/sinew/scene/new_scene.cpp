@@ -250,6 +250,7 @@ NewScene new_scene(const NewSceneFiles& files) {
   settings.body.mesh = files.mesh;
   settings.output.interval = 1 / pictures;
   Surface surface = read_guessing(choices);
+  const std::string warning = surface.warning;
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
   if (!rig.empty()) surface = use_rig(rig, std::move(surface), choices);
   const std::vector<Limb> limbs = limbs_in(surface, choices);
@@ -265,7 +266,7 @@ NewScene new_scene(const NewSceneFiles& files) {
   refine_mesh(files.scene, surface, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
   made.unit = choices.unit, made.axes = choices.axes;
-  made.bones = choices.bones, made.size = choices.size;
+  made.bones = choices.bones, made.size = choices.size, made.warning = warning;
   return made;
 }
 

@@ -26,6 +26,7 @@ struct NewScene {
   std::string text;                     ///< of the file, with comments
   std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
+  std::string warning;                  ///< of the mesh's reader; "": none
 };
 
 /// A mesh whose triangles are too large to bend with the body is replaced by the same one in

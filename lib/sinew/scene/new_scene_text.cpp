@@ -114,6 +114,7 @@ std::string clip_text(const NewChoices& choices) {
     text += note("The file also holds: " + listed(others) + '.');
   }
   if (!s.motion.clip.empty()) text += key_text(s, "motion", "clip");
+  if (s.motion.start > 0) text += key_text(s, "motion", "start");
   if (s.motion.preroll.value_or(0) > 0)
     text += note("The clip does not begin at rest: the bones first move to its first pose.") +
             key_text(s, "motion", "preroll");

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include <sinew/core/error.h>
@@ -23,6 +24,7 @@ namespace {
 
 constexpr double least_share = 0.5;  // of the bones inside the mesh, for them to belong together
 constexpr double longest_clip = 3;   // s of the scene, for a first picture
+constexpr double least_wait = 0.1;   // s of a clip before its first key, to be left out
 constexpr double well_inside = 0.8;  // a share that no fit improves
 constexpr int places_per_bone = 5;
 
@@ -92,6 +94,18 @@ void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& s
   placing.share = share;
 }
 
+/// s of the clip; all that comes before it is one pose.
+double first_key(const Motion& motion) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Track& track : motion.tracks) {
+    const auto visit = [&](const auto& curve) {
+      if (curve.times.size() > 1) first = std::min(first, curve.times.front());
+    };
+    visit(track.rotation), visit(track.translation), visit(track.twist), visit(track.stretch);
+  }
+  return std::isfinite(first) ? first : 0;
+}
+
 void choose_clip(const Rig& rig, NewChoices& choices) {
   if (rig.clips.empty()) return;
   const Clip& clip = rig.clips.front();
@@ -101,10 +115,12 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
     choices.clips.push_back(shown(rig.clips[i].name));
   const double preroll = preroll_for(rig.skeleton, clip.motion);
   if (preroll > 0) motion.preroll = preroll;
-  const double played = std::min(clip.duration, longest_clip);
-  choices.clip_note =
-      "The clip " + shown(clip.name) + " of the file, " + three_digits(clip.duration) + " s long";
-  if (played < clip.duration) choices.clip_note += "; solver.duration shows its beginning";
+  const double begin = first_key(clip.motion);
+  if (begin > least_wait) motion.start = begin;
+  const double length = clip.duration - motion.start, played = std::min(length, longest_clip);
+  choices.clip_note = "The clip " + shown(clip.name) + " of the file, " + three_digits(length) +
+                      " s long" + (motion.start > 0 ? " from its first key" : "");
+  if (played < length) choices.clip_note += "; solver.duration shows its beginning";
   choices.clip_note += '.';
   choices.settings.solver.duration =
       std::max(std::round((preroll + played + rest_after) * 100) / 100, rest_after);
