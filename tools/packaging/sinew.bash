@@ -17,7 +17,7 @@ _sinew() {
       mapfile -t COMPREPLY < <(compgen -W "F J stretch strain hencky_strain strain_eq stress von_mises D2min turnover inverted pose_error all" -- "$word")
       return ;;
     --view)
-      mapfile -t COMPREPLY < <(compgen -W "body surface particles section strain forces bones" -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "body surface particles section strain forces bonds bones" -- "$word")
       return ;;
     --packing) mapfile -t COMPREPLY < <(compgen -W "fcc hcp" -- "$word"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "m dm cm mm um in ft" -- "$word"); return ;;
