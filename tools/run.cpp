@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-run: fills, simulates, measures, renders and reports, each by its own program.
 #include <fmt/format.h>
+#include <csignal>
 #include <filesystem>
 #include <optional>
 
@@ -106,6 +107,8 @@ class Parts {
     for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
                              Exit::not_written, Exit::interrupted})
       if (end.exit == static_cast<int>(known)) return known;
+    for (const int stop : {SIGHUP, SIGINT, SIGTERM})
+      if (end.exit == 128 + stop) return Exit::interrupted;
     throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
                         (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
                     "see whether memory ran out; run sinew " + command + " by itself");
@@ -141,6 +144,10 @@ Exit show(const Options& options, const Common& common, const std::string& folde
     exit = parts.run("measure", "measuring", measure_words(options, common, folder));
   if (exit == Exit::done) parts.add_places(!options.no_movie);
   if (exit == Exit::done && movie) exit = parts.finish(*movie, "render", "movie", common);
+  if (exit != Exit::done && movie) {
+    movie.reset();
+    const PicturesLock lock(run_folder(options.scene, options.folder).pictures());  // tidies up
+  }
   return exit;
 }
 

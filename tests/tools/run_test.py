@@ -369,6 +369,12 @@ class Commands(SmallRun):
         self.assertLessEqual(len(shown), 12)
         self.assertEqual([line.partition(":")[0] for line in shown], keys)
 
+    def test_a_run_tells_what_the_fill_is_doubtful_of(self):
+        text = (SOURCE / "data/meshes/box.obj").read_text()
+        (self.folder / "open.obj").write_text(text[:text.rindex("\nf ")] + "\n")
+        done = sinew("simulate", self.scene, "-o", self.out, "--set", f"body.mesh={self.folder}/open.obj", check=0)
+        self.assertIn("warning: the surface is open", done.stderr)
+
     def test_the_keys_of_scenes_are_a_help_of_their_own(self):
         self.assertIn("young_modulus", sinew("run", "--help-settings", check=0).stdout)
         self.assertNotIn("young_modulus", sinew("run", "--help", check=0).stdout)

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 import unittest
+from pathlib import Path
 
 from small_run import BIN, SERIES, SOURCE, SmallRun, sinew
 
@@ -229,6 +230,21 @@ class Stops(SmallRun):
         self.assertEqual(self.record()["status"], "stopped")
         self.assertIn(b"sinew run ", said)
         self.assertIn(b"--resume", said)
+
+    def test_an_interrupt_while_it_draws_leaves_nothing_half_done(self):
+        words = [BIN / "sinew", "run", self.scene, "-o", self.out, "--set", "solver.duration=1.5"]
+        with subprocess.Popen(words, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as child:
+            self.wait_for(child, "pictures/body_000000.png")
+            child.terminate()
+            self.assertEqual(child.wait(30), 130)
+        self.assertEqual([file.name for file in (self.out / "pictures").glob(".*")], [])
+        self.assertEqual(self.record()["status"], "finished")
+        for process in Path("/proc").glob("[0-9]*/cmdline"):
+            try:
+                words = process.read_bytes()
+            except OSError:  # it ended just now
+                continue
+            self.assertFalse(b"sinew-render" in words and bytes(self.out) in words)
 
     def test_a_terminal_that_is_closed_stops_a_whole_run(self):
         pid, terminal = self.run_in_a_terminal()

@@ -39,9 +39,9 @@ class Diagnosis {
     if (weight > strong)
       return "gravity alone moves it " + in_a_step(weight) +
              "; give solver.gravity in m/s^2 (9.81 on earth), or a stiffer material";
-    const std::string by_bone = cause_by_bone();
+    std::string by_bone = cause_by_bone();
     if (!by_bone.empty()) return by_bone;
-    const std::string by_world = cause_by_world();
+    std::string by_world = cause_by_world();
     if (!by_world.empty()) return by_world;
     return "its neighbors push it; use " + step_text(step_ / 4);
   }

@@ -245,13 +245,24 @@ std::string fit_text(const SkeletonOptions& fitted) {
          list(fitted.rotation) + " degrees, offset " + list(fitted.offset) + " m";
 }
 
-void say_what_is_doubtful(const Settings& scene, const Setup& setup, const Surface& surface,
+/// Of the fill, as body.vtu keeps them.
+std::vector<std::string> fill_warnings(const BodyFile& body) {
+  const auto meta = nlohmann::json::parse(body.meta, nullptr, false);
+  if (!meta.is_object() || !meta.contains("fill")) return {};
+  return meta["fill"].value("warnings", std::vector<std::string>());
+}
+
+void say_what_is_doubtful(const Settings& scene, const ReadyScene& ready,
                           const SimulateOptions& options) {
+  const Setup& setup = ready.setup;
   say(options, "step " + three_digits(setup.steps.step) + " s, " +
                    three_digits(setup.steps.factor()) + " of the stability limit " +
                    three_digits(setup.steps.limit) + " s");
   const double speed = farthest_carried(setup, scene.output.interval);
-  for (const std::string& warning : warnings_of(setup, surface, speed))
+  std::vector<std::string> warnings = fill_warnings(ready.body);
+  for (std::string& warning : warnings_of(setup, ready.surface, speed))
+    warnings.push_back(std::move(warning));
+  for (const std::string& warning : warnings)
     if (options.warning) options.warning(warning);
 }
 
@@ -279,7 +290,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   log.spend("filling", ready.seconds_filling);
   log.spend("binding", ready.seconds_binding);
   log.describe(scene, ready.setup);
-  say_what_is_doubtful(scene, ready.setup, ready.surface, options);
+  say_what_is_doubtful(scene, ready, options);
   if (options.before_stepping) options.before_stepping();
   const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
   return {exit, false, log.record().dump()};
