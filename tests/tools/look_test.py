@@ -197,6 +197,19 @@ class ViewPreset(unittest.TestCase):
         self.assertIn("scene.png", self.names())
         self.assertEqual(size_of(self.pictures / "scene.png"), (320, 200))
 
+    def test_bonds_that_a_run_writes_are_in_its_report(self):
+        run = self.pictures / "bonds"
+        body = (f"body: {{mesh: {SOURCE}/data/meshes/box.obj, radius: 0.025}}\nmaterial: {{model: bonded}}\n"
+                "skeleton: {bones: [{name: all, head: [0, 0, 0], tail: [0, 0, 0.69]}]}\n"
+                "solver: {duration: 0.05}\noutput: {interval: 0.05, bonds: true}\n")
+        (self.pictures / "bonds.yaml").write_text(body)
+        done = sinew("run", self.pictures / "bonds.yaml", "-o", run)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (run / "report.html").read_text()
+        for name in ("scene.png", "bonds_000000.png", "bonds_sheet.png"):
+            self.assertIn(f"pictures/{name}", page)
+        self.assertEqual(sorted(file.name for file in (run / "pictures").glob("*.mp4")), ["movie.mp4"])
+
     def test_check_draws_the_scene(self):
         scene, picture = SOURCE / "configs/box_bend.yaml", self.pictures / "scene.png"
         done = sinew("check", scene, *SMALL, "--picture", picture)

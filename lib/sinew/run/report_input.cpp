@@ -193,9 +193,11 @@ std::string caption_of(const std::filesystem::path& picture, const Measured& mea
   const auto digits = name.find_first_of("0123456789");
   if (name == "scene")
     return "The scene at rest: the bones in the mesh from two sides, with axes in meters";
-  if (digits == std::string::npos) return "Over time";
+  const std::string bonds = name.starts_with("bonds_") ? "The bonds, " : "";
+  if (digits == std::string::npos) return bonds.empty() ? "Over time" : bonds + "over time";
   const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);
-  return frame < measured.frames.size() ? three_digits(measured.frames[frame].time) + " s" : name;
+  return frame < measured.frames.size() ? bonds + three_digits(measured.frames[frame].time) + " s"
+                                        : name;
 }
 
 /// The pictures in the folder: the scene, the contact sheet, then single moments in order.
