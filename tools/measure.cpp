@@ -67,7 +67,8 @@ void add_verdicts(const Measured& measured, const RunFiles& run, Results& result
     double time = 0;
     const double value = worst(name, time);
     if (std::isfinite(value))
-      results.add_headline(key, three_digits(value) + unit + ", at " + three_digits(time) + " s");
+      results.add_headline(key, three_digits(value) + unit +
+                                    (value == 0 ? "" : ", at " + three_digits(time) + " s"));
   };
   add("bone_angle", "bone_angle", " degrees");
   add("volume_error", "volume_error", " of the volume at rest");

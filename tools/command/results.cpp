@@ -30,7 +30,14 @@ std::string plain(const Json& value, bool briefly) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float())
     return briefly ? four_digits(value.get<double>()) : number_text(value.get<double>());
-  return value.dump(-1, ' ', false, replace_wrong_bytes);
+  if (!briefly || !value.is_array()) return value.dump(-1, ' ', false, replace_wrong_bytes);
+  std::string list;
+  for (const Json& one : value) {
+    const std::string text = one.is_number_float() ? four_digits(one.get<double>())
+                                                   : one.dump(-1, ' ', false, replace_wrong_bytes);
+    list += (list.empty() ? "" : ", ") + text;
+  }
+  return '[' + list + ']';
 }
 
 }  // namespace
