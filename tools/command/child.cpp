@@ -157,7 +157,7 @@ bool Helper::read(std::span<std::uint8_t> bytes) {
   return true;
 }
 
-void Helper::yield() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), 10); }
+void Helper::yield() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), 5); }
 
 ChildEnd Helper::wait(const std::function<bool(const std::string& line)>& taken) {
   pass_signals_on();
