@@ -76,7 +76,7 @@ void print(const ExportedFrames& done, const RunFiles& run, const std::vector<st
   results.print(common);
   if (done.broken_bonds > 0)
     say(common, "sinew: warning: up to " + std::to_string(done.broken_bonds) +
-                    " broken bonds are written as bonds; output.bonds writes their states");
+                    " broken bonds are written as whole; with output.bonds, they are left out");
 }
 
 Exit export_run(const Options& options, const Common& common) {
@@ -84,8 +84,9 @@ Exit export_run(const Options& options, const Common& common) {
   const RunFiles run = open_run({options.folder});
   const std::vector<std::size_t> frames = frames_at(run, options.times);
   const bool folder = separate(format, frames);
-  const std::filesystem::path target =
-      options.output.empty() ? default_target(options, format, folder) : options.output;
+  const std::filesystem::path target = options.output.empty()
+                                           ? default_target(options, format, folder)
+                                           : std::filesystem::path(options.output);
   refuse_target(target, options, format, folder);
   print(export_frames(run, format, frames, target), run, frames, target, common);
   return Exit::done;

@@ -8,6 +8,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/run/drawn_bonds.h>
 
 namespace sinew {
 namespace {
@@ -36,15 +37,22 @@ std::size_t frame_at(const RunFiles& run, double time) {
 }
 
 /// Puts a frame in place of the one before.
-std::size_t read_into(ParticleCloud& cloud, const RunFiles& run, std::size_t index) {
-  RunFrame frame = read_frame(run, index);
+void read_into(ParticleCloud& cloud, const RunFiles& run, std::size_t index, RunFrame frame) {
   cloud.positions = std::move(frame.positions);
   cloud.velocities = std::move(frame.velocities);
   cloud.time = frame.time;
   cloud.frame = static_cast<std::int64_t>(index);
-  const auto ends =
-      std::accumulate(frame.broken_bonds.begin(), frame.broken_bonds.end(), std::size_t{0});
-  return cloud.bonds.empty() ? 0 : ends / 2;
+  if (cloud.bonds.empty() || index >= run.bond_rows.size()) return;
+  cloud.bonds.clear();
+  for (const DrawnBond& bond : DrawnBonds(run, "length").at(index))
+    cloud.bonds.push_back(
+        {static_cast<std::uint32_t>(bond.ends[0]), static_cast<std::uint32_t>(bond.ends[1])});
+}
+
+/// Each is counted by both of its particles.
+std::size_t broken_bonds(const RunFrame& frame) {
+  const std::vector<std::int32_t>& of_each = frame.broken_bonds;
+  return std::accumulate(of_each.begin(), of_each.end(), std::size_t{0}) / 2;
 }
 
 void create_folder(const std::filesystem::path& folder) {
@@ -91,8 +99,13 @@ ExportedFrames export_frames(const RunFiles& run, const ParticleFormat& format,
                              const std::filesystem::path& target) {
   ExportedFrames done;
   ParticleCloud cloud = rest_cloud(run, format);
-  const auto read = [&](std::size_t frame) {
-    done.broken_bonds = std::max(done.broken_bonds, read_into(cloud, run, frame));
+  const std::vector<std::array<std::uint32_t, 2>> at_rest = cloud.bonds;
+  const auto read = [&](std::size_t index) {
+    RunFrame frame = read_frame(run, index);
+    if (format.bonds && index >= run.bond_rows.size())
+      done.broken_bonds = std::max(done.broken_bonds, broken_bonds(frame));
+    cloud.bonds = at_rest;
+    read_into(cloud, run, index, std::move(frame));
   };
   if (format.many_frames) {
     NewFile file(target);

@@ -23,11 +23,12 @@ ParticleCloud rest_cloud(const RunFiles& run, const ParticleFormat& format);
 
 struct ExportedFrames {
   std::vector<std::filesystem::path> files;
-  std::size_t broken_bonds = 0;  ///< most of a frame, of those written as bonds
+  std::size_t broken_bonds = 0;  ///< most of a frame, written as bonds all the same
 };
 
 /// Writes these frames to one file, where the format allows it or there is one frame; else as
-/// particles_000000.EXTENSION and so on, by frame, in the folder `target`, which is created. Throws
+/// particles_000000.EXTENSION and so on, by frame, in the folder `target`, which is created. Bonds
+/// are the unbroken ones of the frame where the run has written them, else those at rest. Throws
 /// what read_frame() does, and not written.
 ExportedFrames export_frames(const RunFiles& run, const ParticleFormat& format,
                              const std::vector<std::size_t>& frames,

@@ -73,8 +73,14 @@ OrderedJson only(OrderedJson item) {
   return list;
 }
 
-/// As the file has it.
-Vec3 rounded(const Vec3& v) { return v.cast<float>().cast<double>(); }
+/// As the file has it. Volatile, since g++ 12 at -O2 drops two neighboring conversions to float and
+/// back as if they changed nothing.
+double rounded(double value) {
+  const volatile float single = static_cast<float>(value);
+  return single;
+}
+
+Vec3 rounded(const Vec3& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
 
 std::string gltf_json(const ParticleCloud& cloud, const Box& box, const Vec3& center) {
   const std::size_t bytes = 12 * cloud.positions.size();

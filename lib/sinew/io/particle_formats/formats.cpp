@@ -21,7 +21,13 @@ const std::vector<ParticleFormat> formats = {
     {"xyz", {".xyz", ".extxyz"}, "extended XYZ of OVITO and ASE", false, true, add_xyz},
     {"csv", {".csv"}, "table", false, false, add_csv},
     {"yade", {".txt"}, "spheres for YADE's ymport.textExt", false, false, add_yade},
-    {"peridigm", {".txt"}, "mesh of Peridigm and PeriLab", false, false, add_peridigm},
+    {"peridigm",
+     {".txt"},
+     "mesh of Peridigm and PeriLab",
+     false,
+     false,
+     add_peridigm,
+     write_node_sets},
     {"bgeo", {".bgeo"}, "Partio, SPlisHSPlasH, Houdini", false, false, add_bgeo},
     {"gltf", {".glb"}, "glTF points", false, false, add_gltf_points},
 };
@@ -173,6 +179,7 @@ void write_particles(const std::filesystem::path& path, const ParticleCloud& clo
   NewFile file(path);
   format.add(file, cloud);
   file.finish();
+  if (format.write_beside) format.write_beside(path, cloud);
 }
 
 }  // namespace sinew

@@ -52,6 +52,8 @@ struct ParticleFormat {
   bool bonds = false;                        ///< has a place for them
   bool many_frames = false;                  ///< in one file
   void (*add)(NewFile&, const ParticleCloud&) = nullptr;  ///< a frame; null: VTU
+  /// Writes what belongs into files beside that of the particles; null: nothing.
+  void (*write_beside)(const std::filesystem::path&, const ParticleCloud&) = nullptr;
 };
 
 std::span<const ParticleFormat> particle_formats();
@@ -64,7 +66,7 @@ std::string help_of_formats();
 /// `path` may be empty where a format is named.
 const ParticleFormat& format_of(const std::string& name, const std::filesystem::path& path);
 
-/// Atomically. Throws not written.
+/// Each file atomically. Throws not written.
 void write_particles(const std::filesystem::path& path, const ParticleCloud& cloud,
                      const ParticleFormat& format);
 

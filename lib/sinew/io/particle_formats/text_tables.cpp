@@ -74,4 +74,19 @@ void add_peridigm(NewFile& file, const ParticleCloud& cloud) {
   });
 }
 
+// Nodes are numbered from 1 in the order of the mesh.
+void write_node_sets(const std::filesystem::path& mesh, const ParticleCloud& cloud) {
+  const std::size_t regions = cloud.region_names.size();
+  if (regions < 2) return;
+  std::vector<std::string> texts;
+  for (const std::string& name : cloud.region_names)
+    texts.push_back("#header: global_id\n# " + name + '\n');
+  for (std::size_t i = 0; i < cloud.region.size(); ++i)
+    put_row(texts[static_cast<std::size_t>(cloud.region[i])], ' ', i + 1);
+  for (std::size_t k = 0; k < regions; ++k) {
+    const std::string name = mesh.stem().string() + "_block_" + std::to_string(k + 1) + ".txt";
+    write_file(mesh.parent_path() / name, texts[k]);
+  }
+}
+
 }  // namespace sinew

@@ -27,6 +27,9 @@ void add_peridigm(NewFile& file, const ParticleCloud& cloud);
 void add_bgeo(NewFile& file, const ParticleCloud& cloud);
 void add_gltf_points(NewFile& file, const ParticleCloud& cloud);
 
+/// Beside a mesh NAME.txt of several regions, the nodes of each: NAME_block_1.txt and so on.
+void write_node_sets(const std::filesystem::path& mesh, const ParticleCloud& cloud);
+
 inline void put_value(std::string& text, std::string_view word) { text += word; }
 inline void put_value(std::string& text, char letter) { text += letter; }
 
