@@ -48,22 +48,25 @@ const ParticleFormat& chosen_format(const Options& options) {
   return format_of(options.format, options.format.empty() ? options.output : "");
 }
 
+/// Whether a path that exists lies in the folder of the run, or is it.
+bool is_of_the_run(const std::filesystem::path& target, const std::string& folder) {
+  if (!std::filesystem::exists(target)) return false;
+  const auto run = std::filesystem::canonical(folder), given = std::filesystem::canonical(target);
+  return std::mismatch(run.begin(), run.end(), given.begin(), given.end()).first == run.end();
+}
+
 void refuse_target(const std::filesystem::path& target, const Options& options,
                    const ParticleFormat& format, bool folder) {
-  std::error_code missing;
-  if (!folder) {
-    format_of(std::string(format.name), target);
-    if (std::filesystem::is_directory(target, missing))
-      throw bad_input(Place{target.string()}, "is a folder", "name a file with -o");
-    return;
-  }
-  if (std::filesystem::exists(target, missing) && !std::filesystem::is_directory(target, missing))
+  if (is_of_the_run(target, options.folder))
+    throw bad_input(Place{target.string()}, "is of the run itself, and would be replaced",
+                    "give another name with -o");
+  const bool is_folder = std::filesystem::is_directory(target);
+  if (folder && !is_folder && std::filesystem::exists(target))
     throw bad_input(Place{target.string()}, "is no folder, and there is a file per frame",
                     "name a folder with -o, or one time with --times");
-  if (std::filesystem::equivalent(target, options.folder, missing) ||
-      std::filesystem::equivalent(target, std::filesystem::path(options.folder) / "particles",
-                                  missing))
-    throw bad_input(Place{target.string()}, "holds the run itself", "name another folder with -o");
+  if (!folder && is_folder)
+    throw bad_input(Place{target.string()}, "is a folder", "name a file with -o");
+  if (!folder) format_of(std::string(format.name), target);
 }
 
 void print(const ExportedFrames& done, const RunFiles& run, const std::vector<std::size_t>& frames,

@@ -243,7 +243,7 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
   create({figure_set.folder});
   const PicturesLock lock(figure_set.folder);
   Helpers helpers(helpers_for(run, options), words);
-  Share share(options, common, presets.size() * pictures_planned(options, runs.front()));
+  Share share(options, common, options.views.size() * pictures_planned(options, runs.front()));
   figure_set.drawn = [&] { share.add_one(); };
   int pictures = 0;
   for (std::size_t preset = 0; preset < options.views.size(); ++preset) {

@@ -7,6 +7,7 @@ usage: formats_test.py BIN SOURCE      YADE and ASE are left out where they are 
 """
 import csv
 import json
+import re
 import shutil
 import struct
 import subprocess
@@ -203,6 +204,13 @@ json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state
         self.assertEqual(told["meshes"][0]["primitives"][0]["mode"], 0)
         self.assertAlmostEqual(told["meshes"][0]["extras"]["mass"] * len(points) / self.mass, 1, 12)
 
+    def test_shells_complete_the_formats(self):
+        told = sinew("fill", "--help", check=0).stdout.split("--to")[1].split("--verify")[0]
+        names = re.findall(r"(\w+) \(", told)
+        self.assertGreaterEqual(len(names), 9)
+        for script in ("_sinew", "sinew.bash", "sinew.fish"):
+            self.assertIn(" ".join(names), (SOURCE / "tools/packaging" / script).read_text())
+
     def test_names_are_checked(self):
         self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "-o", self.folder / "a.txt"), 2, "yade", "peridigm")
         self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "--to", "lamps"), 2, "did you mean lammps?")
@@ -272,6 +280,22 @@ class Exported(SmallRun):
         self.assertIn(f"up to {broken.sum()} broken bonds", done.stderr)
         self.assertEqual(bonds, pairs_within(meshio.read(self.out / "body.vtu").points, 2.2 * 0.025))
 
+    def test_particles_keep_their_ids_where_frames_have_some_of_them(self):
+        self.scene.write_text(SCENE.format(mesh=SOURCE / "data/meshes/box.obj") +
+                              "output: {interval: 0.1, region: [-1, -1, 0.3, 1, 1, 1]}\n")
+        self.simulate("--force")
+        frame = meshio.read(self.out / "particles/particles_000001.vtu")
+        ids = frame.point_data["id"]
+        self.assertGreater(ids[0], 0)
+        self.export("--to", "csv", "--times", 0.1, "-o", "part.csv")
+        with open(self.folder / "part.csv", newline="") as file:
+            self.assertEqual([int(row["id"]) for row in csv.DictReader(file)], list(ids))
+        self.export("--to", "lammps", "--times", 0.1, "-o", "part.data")
+        read = read_lammps(self.folder / "part.data")
+        np.testing.assert_array_equal(read["Atoms"][:, 0], ids + 1)
+        self.assertTrue(set(read["Bonds"][:, 2:].flat) <= set(ids + 1))
+        np.testing.assert_allclose(read["Atoms"][:, 3:6], frame.points, rtol=0, atol=1e-7)
+
     def test_one_file_per_frame(self):
         self.export("--to", "peridigm", "-o", "mesh")
         self.assertEqual(sorted(path.name for path in (self.folder / "mesh").glob("*[0-9][0-9].txt")),
@@ -299,7 +323,13 @@ class Exported(SmallRun):
         self.assert_one_line(self.export(check=2), 2, "--to")
         self.assert_one_line(self.export("--to", "csv", "--times", 0.9, check=2), 2, "0.9", "to 0.4")
         self.assert_one_line(self.export("--to", "csv", "-o", self.out, check=2), 2, "run itself")
+        body = (self.out / "body.vtu").read_bytes()
+        self.assert_one_line(self.export("--times", 0, "-o", "run/body.vtu", check=2), 2, "run itself")
+        self.assertEqual((self.out / "body.vtu").read_bytes(), body)
+        self.assert_one_line(self.export("--to", "vtu", "-o", "run/particles", check=2), 2, "run itself")
+        self.export("--to", "csv", "-o", "run/tables")
         self.assert_one_line(self.export("--to", "csv", "-o", self.scene, check=2), 2, "no folder")
+        self.assert_one_line(self.export("--to", "csv", "--times", 0, "-o", ".", check=2), 2, "is a folder")
         self.assert_one_line(self.export("--to", "csv", "--times", 0, "-o", self.scene, check=2), 2, ".csv")
         self.assert_one_line(sinew("export", self.folder, "--to", "csv"), 2, "folder of a run")
 

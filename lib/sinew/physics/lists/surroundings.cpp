@@ -169,8 +169,8 @@ void Surroundings<Real>::act(void* context, std::ptrdiff_t i, int count,
 template <class Real>
 void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const Vec3 position = state_->position(k, units_), velocity = state_->velocity(k, units_);
-  const HeldParticle particle{{}, position, velocity, body_->material.pair.r,
-                              static_cast<std::size_t>(id_[k])};
+  const HeldParticle particle{
+      {}, position, velocity, body_->material.pair.r, static_cast<std::size_t>(id_[k])};
   Piece& piece = pieces_[k / (kernel::blocks_per_piece * BlockState<Real>::block)];
   const Vec3 others = mass_ * acceleration;
   const ParticleWorld world =
