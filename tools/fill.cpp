@@ -95,8 +95,8 @@ int main(int argc, char** argv) {
       argc, argv,
       {"fill",
        "Fills a mesh, or the mesh of a scene, with closest-packed particles.",
-       {"sinew fill configs/box_bend.yaml", "sinew fill body.obj --radius 0.01 -o body.vtu",
-        "sinew fill body.obj --count 100000 --to lammps -o body.data",
+       {"sinew fill configs/box_bend.yaml",
+        "sinew fill body.obj --radius 0.01 --to lammps -o body.data",
         "sinew fill body.stl --unit mm --count 100000 --packing hcp --verify"}},
       [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) { return fill(options, common); });

@@ -7,6 +7,7 @@ usage: formats_test.py BIN SOURCE      YADE and ASE are left out where they are 
 """
 import csv
 import json
+import os
 import re
 import shutil
 import struct
@@ -15,6 +16,8 @@ import unittest
 
 import meshio
 import numpy as np
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
 
 from small_run import SCENE, SOURCE, SmallRun, sinew
 
@@ -175,7 +178,7 @@ json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state
            "radii": [b.shape.radius for b in O.bodies]}}, open("back.json", "w"))
 """)
         subprocess.run(["yade", "-n", "-x", "load.py"], cwd=self.folder, capture_output=True, timeout=100,
-                       stdin=subprocess.DEVNULL)
+                       stdin=subprocess.DEVNULL, env=os.environ | {"HOME": str(self.folder)})
         back = json.loads((self.folder / "back.json").read_text())
         np.testing.assert_array_equal(back["places"], self.points)
         self.assertAlmostEqual(back["mass"] / self.mass, 1, 12)
@@ -201,6 +204,13 @@ json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state
     def test_gltf(self):
         points, told = read_glb(self.fill("gltf", "body.glb"))
         np.testing.assert_allclose(points, self.points, rtol=0, atol=1e-7)
+        reader = vtk.vtkGLTFReader()
+        reader.SetFileName(str(self.folder / "body.glb"))
+        reader.Update()
+        blocks = reader.GetOutput().NewIterator()
+        blocks.InitTraversal()
+        seen = vtk_to_numpy(blocks.GetCurrentDataObject().GetPoints().GetData())
+        np.testing.assert_allclose(seen[:, [2, 0, 1]], self.points, rtol=0, atol=1e-7)
         self.assertEqual(told["meshes"][0]["primitives"][0]["mode"], 0)
         self.assertAlmostEqual(told["meshes"][0]["extras"]["mass"] * len(points) / self.mass, 1, 12)
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
@@ -39,20 +40,17 @@ std::string ascii_line(std::string text) {
   return text;
 }
 
-struct RegionKey {
-  double stiffness = 1;
-  std::int32_t bone = -1;
-  auto operator<=>(const RegionKey&) const = default;
-};
+/// Stiffness and bone.
+using RegionKey = std::pair<double, std::int32_t>;
 
 std::string name_of(const RegionKey& key, const BodyFile& body,
                     std::span<const std::string> bones) {
   std::string name;
-  if (body.stiffness) name = "stiffness " + number_text(key.stiffness);
+  if (body.stiffness) name = "stiffness " + number_text(key.first);
   if (!body.bone) return name.empty() ? "body" : name;
   if (!name.empty()) name += ", ";
-  if (key.bone < 0) return name + "no bone";
-  const auto bone = static_cast<std::size_t>(key.bone);
+  if (key.second < 0) return name + "no bone";
+  const auto bone = static_cast<std::size_t>(key.second);
   return ascii_line(name + "bone " + (bone < bones.size() ? bones[bone] : std::to_string(bone)));
 }
 
@@ -85,6 +83,7 @@ bool has_extension(const ParticleFormat& format, const std::string& extension) {
 
 std::vector<std::string_view> names_of_formats() {
   std::vector<std::string_view> names;
+  names.reserve(formats.size());
   for (const ParticleFormat& format : formats) names.push_back(format.name);
   return names;
 }
