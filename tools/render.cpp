@@ -28,7 +28,7 @@ struct Options {
   std::vector<int> traced;
   double orbit = 0;  ///< degrees
   bool axes = false;
-  std::vector<std::string> views{"body"};
+  std::vector<std::string> views;  ///< none given: the body, and bonds where the run wrote them
   std::vector<double> times, range;
   std::vector<int> part;  ///< of the movie's frames, which goes to standard output: K of N
   int width = 1280, height = 720;
@@ -213,16 +213,31 @@ std::size_t pictures_planned(const Options& options, const DrawnRun& run) {
   return (options.no_pictures ? 0 : moments) + (options.no_movie ? 0 : run.files().frames());
 }
 
+std::vector<std::string> views_of(const Options& options) {
+  if (!options.views.empty()) return options.views;
+  std::vector<std::string> views = {"body"};
+  const bool bonds = std::filesystem::exists(std::filesystem::path(options.folder) / "bonds.pvd");
+  if (bonds && !options.no_pictures && options.array.empty() && options.other_folder.empty())
+    views.push_back("bonds");
+  return views;
+}
+
 /// Whether the pictures are those of a whole run, which begin with its scene.
 bool tells_all(const Options& options) {
-  const bool body = options.views.size() == 1 && options.views.front() == "body";
-  return !options.no_pictures && body && options.times.empty() && options.other_folder.empty();
+  return !options.no_pictures && options.views.empty() && options.times.empty() &&
+         options.other_folder.empty();
+}
+
+/// Of views that were not asked for, the first one alone.
+bool has_movie(const Options& options, std::size_t view) {
+  return !options.no_movie && (view == 0 || !options.views.empty());
 }
 
 Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
   FigureSetOptions figure_set = figure_set_options(options);
   DrawnRunOptions what{{}, options.array, figure_set.view, options.bones, options.traced};
-  for (const std::string& view : options.views) what.presets.push_back(view_preset_named(view));
+  const std::vector<std::string> views = views_of(options);
+  for (const std::string& view : views) what.presets.push_back(view_preset_named(view));
   what.ahead = common.threads != 1;
   ensure_display();
   Stopwatch watch;
@@ -234,25 +249,25 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
   figure_set.folder =
       options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
   if (!options.part.empty()) {
-    for (std::size_t preset = 0; preset < options.views.size(); ++preset) {
+    for (std::size_t preset = 0; preset < views.size(); ++preset) {
       FigureSet pages(shown, preset, figure_set);
-      write_part(pages, options.part);
+      if (has_movie(options, preset)) write_part(pages, options.part);
     }
     return Exit::done;
   }
   create({figure_set.folder});
   const PicturesLock lock(figure_set.folder);
   Helpers helpers(helpers_for(run, options), words);
-  Share share(options, common, options.views.size() * pictures_planned(options, runs.front()));
+  Share share(options, common, views.size() * pictures_planned(options, runs.front()));
   figure_set.drawn = [&] { share.add_one(); };
   int pictures = 0;
-  for (std::size_t preset = 0; preset < options.views.size(); ++preset) {
+  for (std::size_t preset = 0; preset < views.size(); ++preset) {
     FigureSet pages(shown, preset, figure_set);
     if (!options.no_pictures) {
       pictures += pages.pictures() + 1;
       pages.sheet();
     }
-    if (!options.no_movie) pages.movie(helpers.sources(pages));
+    if (has_movie(options, preset)) pages.movie(helpers.sources(pages));
   }
   if (tells_all(options)) {
     write_scene_picture(scene_snapshot(run), {options.width, options.height}, figure_set.backdrop,

@@ -13,6 +13,7 @@ import shutil
 import struct
 import subprocess
 import unittest
+from pathlib import Path
 
 import meshio
 import numpy as np
@@ -117,8 +118,8 @@ class Filled(SmallRun):
     @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
     def test_lammps_reads_the_data(self):
         self.fill("lammps", "body.data")
-        said = run_lammps(self.folder, "read_data body.data", "bond_style zero", "bond_coeff *", "variable m equal mass(all)",
-                          "variable n equal count(all)", "run 0", 'print "said mass: $(v_m:%.15g)"',
+        said = run_lammps(self.folder, "read_data body.data", "bond_style zero", "bond_coeff *",
+                          "variable m equal mass(all)", "variable n equal count(all)", "run 0", 'print "said mass: $(v_m:%.15g)"',
                           'print "said atoms: ${n}"', "write_data back.data")
         self.assertEqual(float(said["said atoms"]), len(self.points))
         self.assertAlmostEqual(float(said["said mass"]) / self.mass, 1, 12)
@@ -175,11 +176,14 @@ import json
 O.materials.append(FrictMat(density={density!r}))
 O.bodies.append(ymport.textExt("body.txt"))
 json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state.mass for b in O.bodies),
-           "radii": [b.shape.radius for b in O.bodies]}}, open("back.json", "w"))
+           "radii": [b.shape.radius for b in O.bodies], "litter": O.tmpFilename()}}, open("back.json", "w"))
 """)
         subprocess.run(["yade", "-n", "-x", "load.py"], cwd=self.folder, capture_output=True, timeout=100,
                        stdin=subprocess.DEVNULL, env=os.environ | {"HOME": str(self.folder)})
         back = json.loads((self.folder / "back.json").read_text())
+        litter = Path(back["litter"]).parent
+        self.assertTrue(litter.name.startswith("yade-"), litter)
+        shutil.rmtree(litter)
         np.testing.assert_array_equal(back["places"], self.points)
         self.assertAlmostEqual(back["mass"] / self.mass, 1, 12)
         self.assertEqual(set(back["radii"]), {0.03})
@@ -222,7 +226,8 @@ json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state
             self.assertIn(" ".join(names), (SOURCE / "tools/packaging" / script).read_text())
 
     def test_names_are_checked(self):
-        self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "-o", self.folder / "a.txt"), 2, "yade", "peridigm")
+        self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "-o", self.folder / "a.txt"), 2, "yade",
+                             "peridigm")
         self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "--to", "lamps"), 2, "did you mean lammps?")
         self.assertEqual(sinew("fill", self.mesh, "--radius", 0.03, "--to", "csv", cwd=self.folder).returncode, 0)
         self.assertTrue((self.folder / "body.csv").exists())
