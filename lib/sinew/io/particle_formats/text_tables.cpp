@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Formats of one line per particle: extended XYZ (https://github.com/libAtoms/extxyz), CSV, YADE's
 // ymport.textExt, and the text meshes of Peridigm and PeriLab.
+#include <cmath>
 #include <numbers>
 
 #include <sinew/io/particle_formats/writers.h>
