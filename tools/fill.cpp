@@ -2,7 +2,10 @@
 // sinew-fill: fills a mesh, or the mesh of a scene, with closest-packed particles.
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
 
+#include <sinew/io/particle_formats/formats.h>
 #include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
 #include "command/body_options.h"
@@ -14,14 +17,17 @@ namespace {
 using namespace sinew;
 
 struct Options {
-  std::string input, output = "body.vtu";
+  std::string input, output, format;
   bool verify = false;
   BodyFlags body;
 };
 
 void declare(OptionList& list, Options& options) {
   list.add("INPUT", options.input, "Scene (YAML), or mesh (" + mesh_formats() + ')').required();
-  list.add("-o", options.output, "File of the filled body").type_name("FILE").show_default();
+  list.add("-o", options.output, "File of the filled body, by default body.vtu").type_name("FILE");
+  list.add("--to", options.format,
+           "Format, by default that of the file's name: " + help_of_formats())
+      .type_name("FORMAT");
   list.add_flag("--verify", options.verify,
                 "Check every site against CGAL's Side_of_triangle_mesh (closed meshes; slow)");
   options.body.declare(list);
@@ -57,13 +63,26 @@ void print(const FillReport& report, const Options& options, const Common& commo
   for (const std::string& warning : report.warnings) say(common, "sinew: warning: " + warning);
 }
 
-Exit fill(const Options& options, const Common& common) {
+/// VTU has more columns for bodies than other formats.
+void write(const Options& options, const ParticleFormat& format, const Settings& settings,
+           BodyFile body) {
+  if (!format.add) return write_body(options.output, std::move(body));
+  ParticleCloud cloud = cloud_of(body, settings.material.density);
+  if (format.bonds) cloud.bonds = touching_pairs(cloud.positions, cloud.radius);
+  write_particles(options.output, cloud, format);
+}
+
+Exit fill(Options options, const Common& common) {
+  if (options.output.empty() && options.format.empty()) options.format = "vtu";
+  const ParticleFormat& format = format_of(options.format, options.output);
+  if (options.output.empty()) options.output = "body" + std::string(format.extensions.front());
   const Settings settings = is_scene(options.input) ? settings_for_scene(options, common)
                                                     : settings_for_mesh(options, common);
-  refuse_output(options.output, {options.input, settings.body.mesh});
+  const std::string extension = std::filesystem::path(options.output).extension().string();
+  refuse_output(options.output, {options.input, settings.body.mesh}, extension);
   Filling filling = fill_body(settings, read_mesh(settings), options.verify);
   const FillReport report = filling.report;
-  write_body(options.output, body_file(std::move(filling), origin_of(settings)));
+  write(options, format, settings, body_file(std::move(filling), origin_of(settings)));
   print(report, options, common);
   return Exit::done;
 }
@@ -76,7 +95,8 @@ int main(int argc, char** argv) {
       argc, argv,
       {"fill",
        "Fills a mesh, or the mesh of a scene, with closest-packed particles.",
-       {"sinew fill configs/box_bend.yaml", "sinew fill body.obj --radius 0.01 -o body.vtu",
+       {"sinew fill configs/box_bend.yaml",
+        "sinew fill body.obj --radius 0.01 --to lammps -o body.data",
         "sinew fill body.stl --unit mm --count 100000 --packing hcp --verify"}},
       [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) { return fill(options, common); });

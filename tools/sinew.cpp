@@ -24,7 +24,7 @@ struct Known {
   std::string_view name, purpose;
 };
 
-constexpr std::array<Known, 9> commands = {{
+constexpr std::array<Known, 10> commands = {{
     {"new", "write a scene for a mesh, which runs as it is"},
     {"run", "fill, simulate, render and measure a scene"},
     {"check", "report what a run needs, and doubtful settings"},
@@ -33,6 +33,7 @@ constexpr std::array<Known, 9> commands = {{
     {"measure", "write the metrics and the report of a run"},
     {"render", "draw pictures and a movie of a run"},
     {"view", "open a run in ParaView, even while it is in progress"},
+    {"export", "write the particles of a run for other programs"},
     {"info", "describe a file and list its defects"},
 }};
 

@@ -13,6 +13,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/fill/pack.h>
+#include <sinew/io/particle_formats/formats.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
 #include <sinew/io/vtu.h>
@@ -28,6 +29,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/compare_runs.h>
+#include <sinew/run/export_run.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/measure_run.h>
 #include <sinew/run/simulate.h>

@@ -2,7 +2,7 @@
 # Completion of sinew for bash: commands, options, keys after --set, views, files.
 _sinew() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
-  local commands="new run check fill simulate measure render view info"
+  local commands="new run check fill simulate measure render view export info"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
     mapfile -t COMPREPLY < <(compgen -W "$commands --help --version" -- "$word")
@@ -20,6 +20,7 @@ _sinew() {
       mapfile -t COMPREPLY < <(compgen -W "body surface particles section strain forces bonds bones" -- "$word")
       return ;;
     --packing) mapfile -t COMPREPLY < <(compgen -W "fcc hcp" -- "$word"); return ;;
+    --to) mapfile -t COMPREPLY < <(compgen -W "vtu lammps dump xyz csv yade peridigm bgeo gltf" -- "$word"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "m dm cm mm um in ft" -- "$word"); return ;;
   esac
   if [[ $word == -* ]]; then

@@ -11,10 +11,11 @@ end
 function __sinew_keys
     sinew (__sinew_command) --completions 2>/dev/null | string match '*='
 end
-set -l commands new run check fill simulate measure render view info
+set -l commands new run check fill simulate measure render view export info
 complete -c sinew -f -n "not __fish_seen_subcommand_from $commands" -a "$commands"
 complete -c sinew -n "__fish_seen_subcommand_from $commands; and string match -q -- '-*' (commandline -ct)" -f -a '(__sinew_options)'
 complete -c sinew -l set -x -a '(__sinew_keys)'
 complete -c sinew -l view -x -a 'body surface particles section strain forces bonds bones'
 complete -c sinew -l unit -x -a 'm dm cm mm um in ft'
 complete -c sinew -l packing -x -a 'fcc hcp'
+complete -c sinew -l to -x -a 'vtu lammps dump xyz csv yade peridigm bgeo gltf'

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sinew-export: the particles of a run's frames as files of other programs.
+#include <algorithm>
+#include <filesystem>
+
+#include <sinew/run/export_run.h>
+#include "command/command.h"
+#include "command/results.h"
+
+namespace {
+
+using namespace sinew;
+
+struct Options {
+  std::string folder, format, output;
+  std::vector<double> times;
+};
+
+void declare(OptionList& list, Options& options) {
+  list.add("DIR", options.folder, "Folder of the run").required();
+  list.add("--to", options.format,
+           "Format, by default that of the file's name: " + help_of_formats())
+      .type_name("FORMAT");
+  list.add("--times", options.times, "Times of the frames, s; all frames if not given")
+      .comma_separated()
+      .type_name("T,T,...");
+  list.add("-o", options.output,
+           "File, or folder of one file per frame where a format has no frames; by default named "
+           "after the run")
+      .type_name("FILE|DIR");
+}
+
+/// Whether the frames lie in a folder, one file each.
+bool separate(const ParticleFormat& format, const std::vector<std::size_t>& frames) {
+  return !format.many_frames && frames.size() > 1;
+}
+
+std::filesystem::path default_target(const Options& options, const ParticleFormat& format,
+                                     bool folder) {
+  const auto run = std::filesystem::weakly_canonical(options.folder).filename().string();
+  return run + (folder ? '_' + std::string(format.name) : std::string(format.extensions.front()));
+}
+
+/// By its name, or where frames go to one file by that of the file.
+const ParticleFormat& chosen_format(const Options& options) {
+  if (options.format.empty() && options.output.empty())
+    throw bad_input("no format is given", "add --to FORMAT; see sinew export --help");
+  return format_of(options.format, options.format.empty() ? options.output : "");
+}
+
+/// Whether a path that exists lies in the folder of the run, or is it.
+bool is_of_the_run(const std::filesystem::path& target, const std::string& folder) {
+  if (!std::filesystem::exists(target)) return false;
+  const auto run = std::filesystem::canonical(folder), given = std::filesystem::canonical(target);
+  return std::mismatch(run.begin(), run.end(), given.begin(), given.end()).first == run.end();
+}
+
+void refuse_target(const std::filesystem::path& target, const Options& options,
+                   const ParticleFormat& format, bool folder) {
+  if (is_of_the_run(target, options.folder))
+    throw bad_input(Place{target.string()}, "is of the run itself, and would be replaced",
+                    "give another name with -o");
+  const bool is_folder = std::filesystem::is_directory(target);
+  if (folder && !is_folder && std::filesystem::exists(target))
+    throw bad_input(Place{target.string()}, "is no folder, and there is a file per frame",
+                    "name a folder with -o, or one time with --times");
+  if (!folder && is_folder)
+    throw bad_input(Place{target.string()}, "is a folder", "name a file with -o");
+  if (!folder) format_of(std::string(format.name), target);
+}
+
+void print(const ExportedFrames& done, const RunFiles& run, const std::vector<std::size_t>& frames,
+           const std::filesystem::path& target, const Common& common) {
+  Results results;
+  results.add("particles", run.body.particles.size());
+  results.add("frames", frames.size());
+  results.add("files", done.files.size());
+  results.add(done.files.size() > 1 ? "folder" : "file", target.string());
+  results.print(common);
+  if (done.broken_bonds > 0)
+    say(common, "sinew: warning: up to " + std::to_string(done.broken_bonds) +
+                    " broken bonds are written as whole; with output.bonds, they are left out");
+}
+
+Exit export_run(const Options& options, const Common& common) {
+  const ParticleFormat& format = chosen_format(options);
+  const RunFiles run = open_run({options.folder});
+  const std::vector<std::size_t> frames = frames_at(run, options.times);
+  const bool folder = separate(format, frames);
+  const std::filesystem::path target = options.output.empty()
+                                           ? default_target(options, format, folder)
+                                           : std::filesystem::path(options.output);
+  refuse_target(target, options, format, folder);
+  print(export_frames(run, format, frames, target), run, frames, target, common);
+  return Exit::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  About about{"export",
+              "Writes the particles of a run for other programs.",
+              {"sinew export out/box_bend --to xyz -o box_bend.xyz",
+               "sinew export out/box_bend --to lammps --times 1 -o bent.data",
+               "sinew export out/box_bend --to bgeo -o frames"}};
+  about.takes_scene = false;
+  return run_command(
+      argc, argv, about, [&](OptionList& list) { declare(list, options); },
+      [&](const Common& common) { return export_run(options, common); });
+}
