@@ -180,7 +180,7 @@ int helpers_for(const RunFiles& run, const Options& options) {
 void write_part(FigureSet& pages, const std::vector<int>& part) {
   for (int frame = part[0]; frame < static_cast<int>(pages.movie_frames()); frame += part[1]) {
     const Image image = pages.movie_frame(static_cast<std::size_t>(frame));
-    print_out(std::string(image.rgb.begin(), image.rgb.end()));
+    print_out({reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size()});
   }
 }
 

@@ -96,7 +96,7 @@ void Results::print(const Common& common) const {
   print_out(common.json ? json() : text(!common.verbose));
 }
 
-void print_out(const std::string& text) {
+void print_out(std::string_view text) {
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (std::fflush(stdout) == 0 && written) return;

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -46,6 +47,6 @@ class Results {
 };
 
 /// Writes to standard output and flushes it. Throws Error (not_written).
-void print_out(const std::string& text);
+void print_out(std::string_view text);
 
 }  // namespace sinew
