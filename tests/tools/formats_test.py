@@ -44,8 +44,9 @@ def read_lammps(path):
 def run_lammps(folder, *commands):
     """What LAMMPS says of these commands."""
     (folder / "in.lmp").write_text("\n".join(["units si", "atom_style bond", "boundary s s s", *commands]) + "\n")
+    # Open MPI removes the folder of its sessions when it ends, also from under a program that begins.
     done = subprocess.run(["lmp", "-in", "in.lmp", "-log", "none"], cwd=folder, capture_output=True, text=True,
-                          timeout=100)
+                          env={**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder)}, timeout=100)
     if done.returncode:
         raise AssertionError(done.stdout + done.stderr)
     return dict(line.split(": ", 1) for line in done.stdout.splitlines() if line.startswith("said "))

@@ -5,6 +5,7 @@
 usage: lammps_test.py LAMMPS_WORLD      the program that writes the input and our forces
 """
 import math
+import os
 import subprocess
 import sys
 import tempfile
@@ -32,8 +33,9 @@ print "energy ${{energy}}" file energy.txt
 
 def run_lammps(folder, b):
     (folder / "in.txt").write_text(SCRIPT.format(b=b))
+    # Open MPI removes the folder of its sessions when it ends, also from under a program that begins.
     done = subprocess.run(["lmp", "-in", "in.txt", "-log", "none"], cwd=folder, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                          env={**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:
         sys.exit("lmp failed:\n" + done.stdout[-2000:])
 

@@ -67,7 +67,8 @@ class Live(unittest.TestCase):
         self.start_run(3, 0).wait()
         (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "finished"}')
         picture = self.run_folder / "live.png"
-        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages"}
+        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages",
+                       "OMPI_MCA_orte_tmpdir_base": str(self.run_folder)}
         done = subprocess.run(["xvfb-run", "-a", "pvbatch", self.run_folder / "live.py", "--frames", "2", "--size",
                                "400", "200", "--picture", str(picture)], env=environment, capture_output=True,
                               text=True, timeout=50)
@@ -78,7 +79,8 @@ class Live(unittest.TestCase):
 
     def test_without_a_display_it_says_how_to_draw(self):
         self.start_run(3, 0).wait()
-        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages"}
+        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages",
+                       "OMPI_MCA_orte_tmpdir_base": str(self.run_folder)}
         environment.pop("DISPLAY", None)
         for script in ("live.py", "view.py"):
             done = subprocess.run(["pvbatch", self.run_folder / script], env=environment, capture_output=True,

@@ -11,6 +11,9 @@ if [ ! -d "$modules/paraview" ]; then
   exit 1
 fi
 export PYTHONPATH="$modules" PYTHONDONTWRITEBYTECODE=1
+# Open MPI removes the folder of its sessions when it ends, also from under a program that begins.
+OMPI_MCA_orte_tmpdir_base=$(mktemp -d)
+export OMPI_MCA_orte_tmpdir_base
 
 # -noreset: by default the server starts over whenever its last client leaves, and pvbatch, which opens
 # its display more than once, then finds none. -displayfd: the server itself takes a free number and
@@ -18,7 +21,7 @@ export PYTHONPATH="$modules" PYTHONDONTWRITEBYTECODE=1
 exec {ready}< <(exec setpriv --pdeathsig TERM Xvfb -displayfd 1 -noreset -screen 0 1600x1200x24 \
   -nolisten tcp 2>/dev/null)
 server=$!
-trap 'kill "$server" 2>/dev/null || true' EXIT
+trap 'kill "$server" 2>/dev/null || true; rm -rf "$OMPI_MCA_orte_tmpdir_base"' EXIT
 trap 'exit 143' TERM INT
 if ! read -r -t 30 -u "$ready" number; then
   echo "paraview.sh: Xvfb gives no display; install xvfb" >&2
