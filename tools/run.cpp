@@ -70,9 +70,9 @@ class Parts {
     return exit_of(command, end);
   }
 
-  /// Waits for a part that was at work beside the others.
-  Exit finish(Helper& part, const std::string& command, const char* stage, const Common& common) {
-    StageProgress progress(stage, progress_style(common.quiet));
+  /// Waits for a part that was at work beside the others, and tells its progress.
+  Exit finish(Helper& part, const std::string& command, const char* stage,
+              StageProgress& progress) {
     const ChildEnd end = part.wait([&](const std::string& line) {
       const bool percent = line.starts_with("percent ");
       if (percent) progress.at(std::stoul(line.substr(8)), 100);
@@ -134,6 +134,7 @@ class Parts {
 /// The report includes the pictures, so they are made first; it does not wait for the movie, which
 /// takes the time that they leave.
 Exit show(const Options& options, const Common& common, const std::string& folder, Parts& parts) {
+  StageProgress progress("movie", progress_style(common.quiet));  // counts from here
   std::optional<Helper> movie;
   if (!options.no_movie) {
     movie.emplace("render", movie_words(common, folder));
@@ -143,10 +144,10 @@ Exit show(const Options& options, const Common& common, const std::string& folde
   if (exit == Exit::done)
     exit = parts.run("measure", "measuring", measure_words(options, common, folder));
   if (exit == Exit::done) parts.add_places(!options.no_movie);
-  if (exit == Exit::done && movie) exit = parts.finish(*movie, "render", "movie", common);
+  if (exit == Exit::done && movie) exit = parts.finish(*movie, "render", "movie", progress);
   if (exit != Exit::done && movie) {
     movie.reset();
-    const PicturesLock lock(run_folder(options.scene, options.folder).pictures());  // tidies up
+    const PicturesLock lock(RunFolder{folder}.pictures());  // tidies up
   }
   return exit;
 }

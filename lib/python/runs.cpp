@@ -42,9 +42,12 @@ void simulate_into(const Settings& scene, const std::filesystem::path& folder, b
   options.force = force, options.resume = resume;
   options.command = {"sinew.simulate"};
   bool interrupted = false;
-  options.stop_requested = [&] {
+  Stopwatch since_asked;
+  options.stop_requested = [&] {  // after every step
+    if (interrupted || since_asked.seconds() < 0.05) return interrupted;
+    since_asked.lap();
     const py::gil_scoped_acquire acquire;
-    return interrupted = interrupted || PyErr_CheckSignals() != 0;
+    return interrupted = PyErr_CheckSignals() != 0;
   };
   {
     const py::gil_scoped_release release;

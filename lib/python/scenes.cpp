@@ -3,6 +3,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
+
 #include "arrays.h"
 #include "body.h"
 
@@ -44,10 +46,13 @@ FilledBody body_of_points(const GivenPoints& given, double radius, std::optional
   FilledBody body;
   body.points = points_of(given, "the points of a body");
   if (body.points.empty()) throw bad_input("a body needs particles", "give at least one point");
-  if (!(radius > 0)) throw bad_input("the radius is not above 0", "give it in meters");
+  if (!all_finite(body.points)) throw bad_input("a point is not finite", "give numbers, in meters");
+  if (!(radius > 0 && std::isfinite(radius)))
+    throw bad_input("the radius is not above 0", "give it in meters");
   body.radius = radius;
   body.mass = mass.value_or(density * volume_per_particle(radius));
-  if (!(body.mass > 0)) throw bad_input("the mass is not above 0", "give it in kilograms");
+  if (!(body.mass > 0 && std::isfinite(body.mass)))
+    throw bad_input("the mass is not above 0", "give it in kilograms");
   return body;
 }
 

@@ -3,9 +3,12 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <map>
 
+#include <sinew/scene/rig.h>
 #include "arrays.h"
 #include "body.h"
 
@@ -21,7 +24,6 @@ class Stepped {
       begin(scene, prepare(scene), own_forces);
     else
       begin(scene, *body, own_forces);
-    unmoved_ = positions_.size();
   }
 
   /// Asks between steps whether Ctrl-C was pressed.
@@ -34,11 +36,14 @@ class Stepped {
   }
 
   double time() const { return simulation_->time(); }
-  std::int64_t steps() const { return simulation_->steps(); }
+  /// Those that other threads may ask for in the meantime.
+  double time_told() const { return time_; }
+  std::int64_t steps_told() const { return steps_; }
 
   const Points& positions() { return read().positions_; }
   const Points& velocities() { return read().velocities_; }
   const Points& forces() {
+    refuse_while_stepping();
     const Forces& all = simulation_->forces();
     const auto& ids = simulation_->particles().id;
     forces_.resize(ids.size());
@@ -48,7 +53,9 @@ class Stepped {
   }
   const Points& surface() {
     if (!skin_) throw bad_input("this body has no surface", "make it from a scene with a mesh");
-    surface_ = follow(*skin_, positions());
+    const Points moved = follow(*skin_, positions());
+    surface_.resize(moved.size());  // views of it stay valid
+    std::copy(moved.begin(), moved.end(), surface_.begin());
     return surface_;
   }
   const std::vector<std::array<int, 3>>& faces() const { return faces_; }
@@ -59,6 +66,7 @@ class Stepped {
     return names;
   }
   std::map<std::string, double> energies() {
+    refuse_while_stepping();
     const Energies e = simulation_->energies();
     return {{"kinetic", e.kinetic},       {"pair", e.pair},       {"bone", e.bone},
             {"gravity", e.gravity},       {"contact", e.contact}, {"work", e.work()},
@@ -66,43 +74,64 @@ class Stepped {
   }
 
   void set_forces(const GivenPoints& given) {
+    refuse_while_stepping();
     if (!pushes_)
       throw bad_input("this simulation takes no forces",
                       "make it with sinew.Simulation(scene, own_forces=True)");
     Points forces = points_of(given, "forces");
-    if (forces.size() != unmoved_)
+    if (forces.size() != pushes_->size())
       throw bad_input("there are " + std::to_string(forces.size()) + " forces for " +
-                          std::to_string(unmoved_) + " particles",
+                          std::to_string(pushes_->size()) + " particles",
                       "give one for each");
     if (!all_finite(forces)) throw bad_input("a force is not finite", "give numbers, in newtons");
     *pushes_ = std::move(forces);
   }
 
+  /// Bones that are not named, now or before, stay as they are.
   void set_pose(const std::map<std::string, std::array<double, 4>>& rotations, double over) {
+    refuse_while_stepping();
     if (!(over > 0)) throw bad_input("a pose takes no time", "give over=SECONDS, above 0");
     const Skeleton& skeleton = simulation_->body().skeleton;
+    for (const auto& [name, quaternion] : rotations) check_bone(skeleton, name);
+    auto target = target_;
+    for (const auto& [name, quaternion] : rotations) target[name] = quaternion;
     const std::vector<LocalMotion> now = local_motions(skeleton, motion_, time());
-    for (const auto& [name, quaternion] : rotations) target_[name] = quaternion;
     std::vector<TrackDefinition> tracks;
-    for (const auto& [name, quaternion] : target_) {
-      TrackDefinition track{name, Interpolation::smooth, "xyz", {}};
-      track.keys.resize(2);
-      track.keys[0].time = time(), track.keys[1].time = time() + over;
-      const int bone = bone_named(skeleton, name);
-      const Quat start = now[static_cast<std::size_t>(bone)].rotation;
-      track.keys[0].quaternion = {start.w(), start.x(), start.y(), start.z()};
-      track.keys[1].quaternion = quaternion;
+    for (std::size_t bone = 0; bone < now.size(); ++bone) {
+      const std::string& name = skeleton.bones[bone].name;
+      TrackDefinition track{name,
+                            Interpolation::smooth,
+                            "xyz",
+                            {key_of(now[bone], time()), key_of(now[bone], time() + over)}};
+      if (target.contains(name)) track.keys[1].quaternion = target[name];
       tracks.push_back(std::move(track));
     }
     motion_ = played(make_motion(tracks, skeleton), {});
+    target_ = std::move(target);
     simulation_->play(motion_);
   }
 
  private:
-  static int bone_named(const Skeleton& skeleton, const std::string& name) {
-    for (std::size_t i = 0; i < skeleton.bones.size(); ++i)
-      if (skeleton.bones[i].name == name) return static_cast<int>(i);
-    throw bad_input("there is no bone '" + name + "'", "see simulation.bones");
+  static void check_bone(const Skeleton& skeleton, const std::string& name) {
+    if (std::none_of(skeleton.bones.begin(), skeleton.bones.end(),
+                     [&](const Bone& bone) { return bone.name == name; }))
+      throw bad_input("there is no bone '" + name + "'", "see simulation.bones");
+  }
+
+  static KeyDefinition key_of(const LocalMotion& local, double time) {
+    KeyDefinition key;
+    key.time = time;
+    const Quat& q = local.rotation;
+    key.quaternion = {q.w(), q.x(), q.y(), q.z()};
+    key.twist = degrees(local.twist);
+    key.translation = local.translation;
+    key.stretch = local.stretch;
+    return key;
+  }
+
+  void refuse_while_stepping() const {
+    if (stepping_)
+      throw bad_input("another thread steps this simulation", "wait until its step() has returned");
   }
 
   void begin(const Settings& scene, ReadyScene ready, bool own_forces) {
@@ -113,7 +142,8 @@ class Stepped {
     begin(scene, std::move(ready.setup), std::move(ready.body.particles), own_forces);
   }
 
-  void begin(const Settings& scene, const FilledBody& body, bool own_forces) {
+  void begin(const Settings& given, const FilledBody& body, bool own_forces) {
+    const Settings scene = with_fit(given);
     Particles particles = body.particles();
     Setup setup = set_up(scene, read_files(scene), particles, body.local);
     begin(scene, std::move(setup), std::move(particles), own_forces);
@@ -134,12 +164,26 @@ class Stepped {
     read();
   }
 
+  /// Until its end, of a block.
+  struct Busy {
+    explicit Busy(std::atomic<bool>& flag) : flag_(flag) { flag_ = true; }
+    ~Busy() { flag_ = false; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+   private:
+    std::atomic<bool>& flag_;
+  };
+
   template <class Goes>
   void run(const Goes& goes) {
     using Clock = std::chrono::steady_clock;
+    refuse_while_stepping();
     const py::gil_scoped_release release;
+    const Busy busy(stepping_);
     for (auto asked = Clock::now(); goes();) {
       simulation_->step();
+      time_ = simulation_->time(), steps_ = simulation_->steps();
       if (Clock::now() - asked < std::chrono::milliseconds(50)) continue;
       asked = Clock::now();
       const py::gil_scoped_acquire acquire;
@@ -148,6 +192,7 @@ class Stepped {
   }
 
   Stepped& read() {
+    refuse_while_stepping();
     if (read_at_ == simulation_->steps()) return *this;
     const Particles& now = simulation_->particles();
     positions_.resize(now.size()), velocities_.resize(now.size());
@@ -167,7 +212,9 @@ class Stepped {
   std::shared_ptr<Points> pushes_;
   Points positions_, velocities_, forces_, surface_;
   std::int64_t read_at_ = -1;
-  std::size_t unmoved_ = 0;
+  std::atomic<bool> stepping_ = false;
+  std::atomic<double> time_ = 0;
+  std::atomic<std::int64_t> steps_ = 0;
 };
 
 }  // namespace
@@ -185,8 +232,8 @@ void bind_simulation(py::module_& module) {
       .def("set_forces", &S::set_forces, py::arg("forces"))
       .def("set_pose", &S::set_pose, py::arg("rotations"), py::arg("over") = 1.0 / 30)
       .def("energies", &S::energies)
-      .def_property_readonly("time", &S::time)
-      .def_property_readonly("steps", &S::steps)
+      .def_property_readonly("time", &S::time_told)
+      .def_property_readonly("steps", &S::steps_told)
       .def_property_readonly("bones", &S::bones)
       .def_property_readonly("positions", view(&S::positions))
       .def_property_readonly("velocities", view(&S::velocities))

@@ -49,6 +49,12 @@ class Scenes(SmallRun):
         small = sinew.fill(SOURCE / "data/meshes/arm.ply", count=500, unit="cm", packing="hcp")
         self.assertAlmostEqual(len(small) / 500, 1, delta=0.1)
 
+    def test_a_scene_is_filled_as_it_says(self):
+        scene = sinew.read_scene(self.scene)
+        self.assertEqual(sinew.fill(scene).radius, 0.025)
+        with self.assertRaises(TypeError):
+            sinew.fill(scene, radius=0.01)
+
     def test_steps_are_as_the_commands(self):
         self.simulate("--set", "output.double_precision=true")
         simulation = sinew.Simulation(sinew.read_scene(self.scene))
@@ -82,6 +88,7 @@ class Scenes(SmallRun):
                             (lambda: sinew.open_run(self.folder), "run"),
                             (lambda: sinew.Body([[0, 0]], 1), "(n, 3)"),
                             (lambda: sinew.Body([], 1), "(n, 3)"),
+                            (lambda: sinew.Body([[0, 0, float("nan")]], 1), "finite"),
                             (lambda: sinew.Body([[0, 0, 0]], -1), "radius")):
             with self.assertRaises(sinew.Error) as raised:
                 cause()
@@ -133,9 +140,24 @@ class Made(unittest.TestCase):
         expected = (self.body.points[top] - [0, 0, 0.1]) @ numpy.array([[1, 0, -1], [0, 2 ** 0.5, 0], [1, 0, 1]]) \
             / 2 ** 0.5 + [0, 0, 0.1]
         self.assertLess(abs(simulation.positions[top] - expected).max(), 0.01)
-        with self.assertRaises(sinew.Error) as raised:
-            simulation.set_pose({"none": (1, 0, 0, 0)})
-        self.assertIn("simulation.bones", str(raised.exception))
+        for wrong, part in (({"none": (1, 0, 0, 0)}, "simulation.bones"), ({"high": (0, 0, 0, 0)}, "quaternion")):
+            with self.assertRaises(sinew.Error) as raised:
+                simulation.set_pose(wrong)
+            self.assertIn(part, str(raised.exception))
+        before = simulation.positions.copy()
+        simulation.set_pose({"low": (1, 0, 0, 0)})  # high stays as it is
+        simulation.run_until(1.2)
+        self.assertLess(abs(simulation.positions - before).max(), 0.003)
+
+    def test_a_pose_begins_where_the_motion_of_the_scene_is(self):
+        keys = [{"time": 0}, {"time": 0.2, "axis": [0, 1, 0], "angle": 30}]
+        scene = sinew.make_scene(BAR | {"motion": {"tracks": [{"bone": "high", "keys": keys}]}}, self.body)
+        simulation = sinew.Simulation(scene, self.body)
+        simulation.run_until(0.6)
+        before = simulation.positions.copy()
+        simulation.set_pose({"low": (1, 0, 0, 0)})
+        simulation.run_until(0.8)
+        self.assertLess(abs(simulation.positions - before).max(), 0.003)
 
     def test_forces_of_ones_own_accelerate(self):
         """Newton's second law for the first step, and a body that is pushed alike moves as in gravity."""
@@ -159,6 +181,11 @@ class Made(unittest.TestCase):
     def test_positions_are_a_view(self):
         simulation = sinew.Simulation(self.scene, self.body)
         first = simulation.positions
+        surface = sinew.Simulation(sinew.read_scene(SOURCE / "configs/box_bend.yaml", {"body.radius": 0.04}))
+        views = [surface.surface, surface.forces, surface.velocities]
+        surface.step(3)
+        for view, again in zip(views, (surface.surface, surface.forces, surface.velocities)):
+            self.assertEqual(view.ctypes.data, again.ctypes.data)
         simulation.step(3)
         self.assertEqual(first.ctypes.data, simulation.positions.ctypes.data)
         self.assertFalse(first.flags.writeable)
@@ -172,10 +199,17 @@ class Made(unittest.TestCase):
         simulation = sinew.Simulation(self.scene, self.body)
         worker = threading.Thread(target=simulation.step, args=(3000,))
         worker.start()
+        busy = 0
         while worker.is_alive():
             counted += 1
+            try:
+                simulation.positions
+            except sinew.Error:
+                busy += simulation.steps > 0
             time.sleep(0)
         self.assertGreater(counted, 100)
+        self.assertGreater(busy, 10)
+        self.assertEqual(simulation.steps, 3000)
 
     def test_simulations_leak_nothing(self):
         def used():

@@ -46,15 +46,18 @@ def make_scene(sections, body=None, folder="."):
     return _sinew._scene_of_text(_yaml(sections), folder)
 
 
-def fill(mesh, radius=None, count=None, density=1000.0, **options):
+def fill(mesh, radius=None, count=None, density=None, **options):
     """Fills a mesh, or the mesh of a Scene, with closest-packed particles of this radius (m) or about this count.
 
     Options are the keys of a scene's section body: unit="mm", packing="hcp", clearance=0.001, ..."""
-    if isinstance(mesh, Scene):
-        return _sinew._fill_scene(mesh)
-    given = {"radius": radius, "count": count, **options}
-    values = {f"body.{key}": value for key, value in given.items() if value is not None}
-    return _sinew._fill(mesh, _values({**values, "material.density": density}))
+    given = {"body.radius": radius, "body.count": count, "material.density": density,
+             **{f"body.{key}": value for key, value in options.items()}}
+    values = {path: value for path, value in given.items() if value is not None}
+    if not isinstance(mesh, Scene):
+        return _sinew._fill(mesh, _values(values))
+    if values:
+        raise TypeError(f"a scene says itself how it is filled; read it with {values}")
+    return _sinew._fill_scene(mesh)
 
 
 def simulate(scene, folder, force=False, resume=False):
