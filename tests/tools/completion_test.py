@@ -44,9 +44,15 @@ class Completion(unittest.TestCase):
         views = set(re.findall(r"(\w+) \(", subprocess.run([BIN / "sinew", "render", "--help"], capture_output=True,
                                                            text=True).stdout.split("--view")[1].split("--compare")[0]))
         self.assertEqual(set(bash("sinew", "render", "--view", "")), views)
+        settings = subprocess.run([BIN / "sinew", "run", "--help-settings"], capture_output=True, text=True).stdout
+        arrays = settings.split("or all: ")[1].splitlines()[0].split(", ")
+        self.assertEqual(set(bash("sinew", "measure", "--arrays", "")), {*arrays, "all"})
+        fill = subprocess.run([BIN / "sinew", "fill", "--help"], capture_output=True, text=True).stdout
+        formats = re.findall(r"(\w+) \(", fill.split("--to FORMAT")[1].split("--verify")[0])
+        self.assertEqual(set(bash("sinew", "export", "--to", "")), set(formats))
         for script in ("_sinew", "sinew.fish"):
-            for view in views:
-                self.assertRegex((SCRIPTS / script).read_text(), rf"\b{view}\b")
+            for word in views | (set(arrays) if script == "_sinew" else set()):
+                self.assertRegex((SCRIPTS / script).read_text(), rf"\b{word}\b")
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
     def test_fish(self):
