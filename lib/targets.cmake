@@ -89,3 +89,23 @@ function(sinew_install_package)
     ${PROJECT_BINARY_DIR}/sinew-config-version.cmake DESTINATION ${place}
     COMPONENT libsinew-dev)
 endfunction()
+
+# The target `api`: pages of the library's headers in build/api, where Doxygen is there. The comment at the top of
+# a header becomes that of its file.
+function(sinew_api_pages)
+  find_package(Doxygen QUIET)
+  if(NOT DOXYGEN_FOUND)
+    return()
+  endif()
+  set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/api)
+  set(DOXYGEN_HTML_OUTPUT .)
+  set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR}/lib)
+  set(DOXYGEN_STRIP_FROM_INC_PATH ${PROJECT_SOURCE_DIR}/lib)
+  set(DOXYGEN_FILE_PATTERNS *.h)
+  set(DOXYGEN_INPUT_FILTER [[sed -e '1s#^//.*#/// @file#' -e '2,/^.pragma once/s#^//#///#']])
+  set(DOXYGEN_EXTRACT_ALL YES)
+  set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+  set(DOXYGEN_SORT_MEMBER_DOCS NO)
+  set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+  doxygen_add_docs(api ${PROJECT_SOURCE_DIR}/lib COMMENT "pages of the library's headers: build/api/index.html")
+endfunction()

@@ -87,6 +87,23 @@ TEST(SteppersOfSolids, TakeTheSameStepsOfADisorderedBody) {
   }
 }
 
+/// Where each bond has a length and a stiffness of its own, and any number of neighbors.
+TEST(SteppersOfSolids, TakeTheSameStepsOfABodyThatIsNoLattice) {
+  for (const auto& [name, settings] : solids()) {
+    SCOPED_TRACE(name);
+    const Material material = test::material_of(settings);
+    const Points rest =
+        positions_of(test::shaken(test::fcc_box(7, 7, 25, r), material, 0.2 * r, 0));
+    const Body body = test::make_body(settings, rest);
+    EXPECT_EQ(body.factors.particle.size(), material.bond.second > 0 ? rest.size() : 0);
+    Both both(settings, rest, test::shaken(rest, material, 0.02 * r, 0.05),
+              test::step_of(settings, body));
+    both.step_until(50);
+    expect_same(both, 1e-11);
+    expect_same_bonds(both, rest);
+  }
+}
+
 TEST(SteppersOfSolids, BreakTheSameBonds) {
   for (const auto& [name, settings] : solids()) {
     if (!settings.material.breaking_strain) continue;

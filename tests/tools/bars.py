@@ -32,6 +32,8 @@ body:
   mesh: {mesh}
   radius: {radius}
   lattice_rotation: {rotation}
+  packing: {packing}
+  seed: {seed}
 material: {material}
 skeleton:
   bones:
@@ -56,6 +58,8 @@ body:
   mesh: {mesh}
   radius: {radius}
   lattice_rotation: {rotation}
+  packing: {packing}
+  seed: {seed}
 material: {material}
 skeleton: {{bones: [{{name: axis, head: [0, 0, 0], tail: [0, 0, {length}]}}]}}
 binding: {{stiffness: 0, twist_stiffness: 0, axial_stiffness: 0}}
@@ -87,7 +91,8 @@ def motions(kind, length):
 
 
 class Bar:
-    def __init__(self, planes, axis="100", material=None, poisson_ratio=0.25):
+    def __init__(self, planes, axis="100", material=None, poisson_ratio=0.25, packing="fcc", seed=1):
+        self.packing, self.seed = packing, seed
         self.planes = planes
         self.radius = WIDTH / planes / math.sqrt(2)
         self.length = SLENDERNESS * WIDTH
@@ -115,7 +120,7 @@ class Bar:
         mesh, scene = folder / "bar.obj", folder / "bar.yaml"
         write_box(mesh, WIDTH, self.length)
         scene.write_text(template.format(
-            mesh=mesh, radius=self.radius, rotation=self.rotation, length=self.length,
+            mesh=mesh, radius=self.radius, rotation=self.rotation, packing=self.packing, seed=self.seed, length=self.length,
             material="{" + ", ".join(f"{key}: {value}" for key, value in self.material.items()) + "}",
             drag=2 * lowest, ramp=ramp / lowest, duration=(20 + ramp) / lowest, **values))
         sinew("simulate", scene, "-o", folder / "run", "--quiet", *words, check=0, timeout=1200)

@@ -36,6 +36,11 @@ class Stiffness(unittest.TestCase):
     def test_a_mesh_that_ends_between_two_planes(self):
         self.expect(Bar(9.5), pull=(0.94, 1.06), bend=(0.88, 1.12), twist=(0.88, 1.12))
 
+    def test_packings_that_are_no_lattice_show_it_too(self):
+        """As soft as a lattice in a random orientation: a layer less of 9 across, where they are bent."""
+        self.expect(Bar(9, packing="random"), pull=(0.94, 1.03), bend=(0.84, 1.06))
+        self.expect(Bar(9, packing="conformal"), pull=(0.96, 1.03), bend=(0.88, 1.06), twist=(0.93, 1.06))
+
     def test_twelve_bonds_are_stiff_by_direction(self):
         """[100] is the soft direction of a cubic crystal, and its surfaces lack half a plane each."""
         self.expect(Bar(9, material={"isotropic": "false"}), pull=(0.56, 0.63))

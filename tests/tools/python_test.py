@@ -48,6 +48,9 @@ class Scenes(SmallRun):
         self.assertEqual(len(body), len(body.points))
         small = sinew.fill(SOURCE / "data/meshes/arm.ply", count=500, unit="cm", packing="hcp")
         self.assertAlmostEqual(len(small) / 500, 1, delta=0.1)
+        glass = [sinew.fill(SOURCE / "data/meshes/arm.ply", count=500, packing="random", seed=seed) for seed in (1, 1, 2)]
+        numpy.testing.assert_array_equal(glass[0].points, glass[1].points)
+        self.assertNotEqual(glass[0].points.tobytes(), glass[2].points.tobytes())
 
     def test_a_scene_is_filled_as_it_says(self):
         scene = sinew.read_scene(self.scene)

@@ -78,13 +78,20 @@ Error unknown_option(const CLI::App& app, const std::string& see_help) {
                    close.empty() ? see_help : "did you mean " + close + "?");
 }
 
+/// CLI11 ends its sections with up to three empty lines.
+std::string with_single_gaps(std::string text) {
+  for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n", at))
+    text.erase(at, 1);
+  return text;
+}
+
 /// Parses the command line. Throws bad input; false where --help or --version was printed.
 bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {
     const bool version_asked = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
-    print_out(version_asked ? std::string(asked.what()) + '\n' : app.help());
+    print_out(version_asked ? std::string(asked.what()) + '\n' : with_single_gaps(app.help()));
     return false;
   } catch (const Completions&) {  // for the shells' scripts in tools/packaging
     for (const std::string& name : option_names(app)) print_out(name + '\n');

@@ -19,7 +19,15 @@
 
 namespace sinew {
 
-enum class Packing { fcc, hcp };
+/// fcc, hcp: closest packings; random: without order; conformal: fcc whose outer layer follows the
+/// surface.
+enum class Packing { fcc, hcp, random, conformal };
+/// The lattice that a packing is, or comes from.
+constexpr Packing lattice_of(Packing packing) {
+  return packing == Packing::hcp ? Packing::hcp : Packing::fcc;
+}
+constexpr bool is_lattice(Packing packing) { return packing == lattice_of(packing); }
+
 enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
 enum class FillRule { unite, hollow };
 enum class Keep { center, sphere };
@@ -45,7 +53,8 @@ struct BodyOptions {
   std::optional<int> count;
   Packing packing = Packing::fcc;
   std::optional<Vec3> lattice_origin;
-  Vec3 lattice_rotation = Vec3::Zero();
+  std::optional<Vec3> lattice_rotation = Vec3::Zero();  ///< none: any, by the seed
+  int seed = 1;
   Keep keep = Keep::center;
   double clearance = 0;
 };
@@ -85,10 +94,11 @@ struct MaterialOptions {
   double creep_rate = 1;
 };
 
-/// Whether bonds make the material isotropic in that packing.
+/// Whether bonds of first and second neighbors, with factors, make the material isotropic in that
+/// packing.
 constexpr bool is_isotropic(const MaterialOptions& material, Packing packing) {
   return material.model != MaterialModel::paper &&
-         material.isotropic.value_or(packing == Packing::fcc);
+         material.isotropic.value_or(packing != Packing::hcp);
 }
 
 // Materials by name: the values of material.preset, each with its source.

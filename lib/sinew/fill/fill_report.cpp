@@ -92,6 +92,12 @@ void add_shape(std::vector<ReportRow>& rows, const FillReport& report) {
   rows.push_back({"center_offset", without_rounding(offset, size), "m"});
 }
 
+/// The volume of the particles' spheres over that of the body; where some overlap, both count.
+double packing_fraction(const FillReport& report) {
+  return static_cast<double>(report.particles) * 4 / 3 * pi * std::pow(report.radius, 3) /
+         report.volume;
+}
+
 }  // namespace
 
 std::vector<ReportRow> rows_of(const FillReport& report) {
@@ -106,11 +112,14 @@ std::vector<ReportRow> rows_of(const FillReport& report) {
   rows.push_back({"particle_mass", report.mass, "kg"});
   rows.push_back({"total_mass", report.mass * static_cast<double>(report.particles), "kg"});
   add_shape(rows, report);
-  rows.push_back({"neighbors",
-                  std::vector<std::size_t>(report.neighbors.begin(), report.neighbors.end()),
-                  "particles with 0, 1, .. 12"});
+  rows.push_back({"neighbors", report.neighbors,
+                  "particles with 0, 1, .. " + std::to_string(report.neighbors.size() - 1)});
   rows.push_back({"smallest_distance", report.smallest_distance, "diameters"});
   rows.push_back({"mean_distance", report.mean_distance, "diameters"});
+  rows.push_back({"packing_fraction", packing_fraction(report)});
+  rows.push_back({"modulus_by_direction",
+                  std::vector<double>(report.modulus_range.begin(), report.modulus_range.end()),
+                  "softest and stiffest, over the mean, of equal springs"});
   rows.push_back({"sites_tested", report.sites});
   rows.push_back({"sites_on_surface", report.ties});
   if (report.kept_out > 0) rows.push_back({"sites_too_close", report.kept_out});

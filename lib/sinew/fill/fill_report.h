@@ -40,9 +40,12 @@ struct FillReport {
   double volume = 0;          ///< that the mass is of, m^3: the mesh's, else the particles'
   bool volume_of_mesh = true;
   Moments mesh, packed;
-  Vec3 box_size = Vec3::Zero();                     ///< of the mesh, m
-  std::array<std::size_t, 13> neighbors = {};       ///< particles with 0, 1, .. 12
+  Vec3 box_size = Vec3::Zero();                                       ///< of the mesh, m
+  std::vector<std::size_t> neighbors = std::vector<std::size_t>(13);  ///< particles with 0, 1, ..
   double smallest_distance = 0, mean_distance = 0;  ///< to the nearest, over 2r; 0: none touch
+  /// Young's modulus of equal springs between touching particles, along the softest and stiffest
+  /// direction over the mean; 0: none.
+  std::array<double, 2> modulus_range = {};
   std::vector<BodyReport> bodies;
   int cavities = 0;
   int groups = 0;  ///< of particles connected by touching

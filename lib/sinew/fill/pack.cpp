@@ -11,6 +11,9 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/fill/filled_sites.h>
+#include <sinew/fill/isotropy.h>
+#include <sinew/fill/owners.h>
+#include <sinew/fill/packings/irregular.h>
 #include <sinew/fill/shares.h>
 #include <sinew/fill/verify.h>
 
@@ -31,6 +34,9 @@ void check(const Surface& surface, const PackOptions& options) {
   if (options.count) positive("count", *options.count);
   if (options.thickness) positive("thickness", *options.thickness);
   positive("density", options.density);
+  if (options.verify && !is_lattice(options.packing))
+    throw bad_input("only sites of a lattice can be verified, not places of other packings",
+                    "leave the verification out, or set packing to fcc");
   if (options.verify && !options.thickness) refuse_unverifiable(surface);
   if (!options.thickness) return;
   if (options.keep != Keep::center || options.clearance > 0)
@@ -75,10 +81,9 @@ void report_surface(const Surface& surface, FillReport& report) {
 void report_sites(const FilledSites& filled, const BodySpace& space, FillReport& report) {
   report.radius = filled.lattice.radius;
   report.sites = filled.lattice.sites();
-  report.particles = count_of(filled.runs);
   report.ties = filled.inside.on_surface.size();
   report.kept_out =
-      count_of(filled.inside.runs) > 0 ? count_of(filled.inside.runs) - report.particles : 0;
+      count_of(filled.inside.runs) > 0 ? count_of(filled.inside.runs) - count_of(filled.runs) : 0;
   report.deepest = filled.inside.deepest;
   report.shallowest = filled.inside.shallowest;
   report.layer = filled.inside.runs.empty();
@@ -89,22 +94,33 @@ void report_sites(const FilledSites& filled, const BodySpace& space, FillReport&
     if (body >= 0) report.bodies[body].volume += volumes[i];
     report.cavities += volumes[i] < 0;
   }
-  for (const Run& run : filled.runs)
-    if (!report.bodies.empty()) report.bodies[run.body].particles += run.sites();
 }
 
-void report_neighbors(const Touching& touching, const Lattice& lattice, FillReport& report) {
-  for (const std::int32_t count : touching.neighbors) ++report.neighbors[count];
-  report.groups = touching.groups;
-  if (report.neighbors[0] == report.particles) return;
-  double least = HUGE_VAL, sum = 0;
-  for (const LatticePlace& step : lattice.nearest(0)) {
-    const double length = lattice.unit.cwiseProduct(Vec3(step[0], step[1], step[2])).norm();
-    least = std::min(least, length);
-    sum += length;
+void report_particles(const Filling& filling, FillReport& report) {
+  report.particles = filling.particles.size();
+  for (const std::int32_t count : filling.neighbors) {
+    const auto touching = static_cast<std::size_t>(count);
+    if (touching >= report.neighbors.size()) report.neighbors.resize(touching + 1);
+    ++report.neighbors[touching];
   }
+  if (!report.bodies.empty())
+    for (const std::int32_t body : filling.component) ++report.bodies[body].particles;
+}
+
+/// Distances and directions of nearest neighbors on a lattice.
+void report_lattice(const Lattice& lattice, FillReport& report) {
+  double least = HUGE_VAL, sum = 0;
+  DirectionalStiffness springs;
+  for (const int layer : {0, 1})  // those of HCP take turns
+    for (const LatticePlace& step : lattice.nearest(layer)) {
+      const Vec3 bond = lattice.unit.cwiseProduct(Vec3(step[0], step[1], step[2]));
+      least = std::min(least, bond.norm());
+      sum += bond.norm();
+      springs.add(bond);
+    }
   report.smallest_distance = least / nearest_distance(lattice.radius);
-  report.mean_distance = sum / 12 / nearest_distance(lattice.radius);
+  report.mean_distance = sum / 24 / nearest_distance(lattice.radius);
+  report.modulus_range = springs.modulus_range();
 }
 
 /// The mass is that of the mesh's volume where the particles fill just that, else of their own.
@@ -113,8 +129,61 @@ void report_mass(Particles& particles, const PackOptions& options, FillReport& r
   report.volume_of_mesh = report.closed && report.deepest <= 1 && report.shallowest >= 0 &&
                           !options.thickness && report.kept_out == 0;
   report.volume = report.volume_of_mesh ? report.mesh.volume : report.packed.volume;
-  report.mass = options.density * report.volume / static_cast<double>(report.particles);
+  report.mass = options.density * report.volume / static_cast<double>(particles.size());
   particles.mass = report.mass;
+}
+
+/// What particles are placed by.
+struct Task {
+  const Surface& surface;
+  const PackOptions& options;
+  const BodySpace& space;
+  const FilledSites& filled;
+
+  std::vector<double> shares(const Owners& owners, const FillReport& report) const {
+    return volume_shares(surface, options, space, filled.lattice, owners,
+                         report.volume_of_mesh ? report.volume : 0);
+  }
+};
+
+void place_on_sites(const Task& task, Filling& filling) {
+  FillReport& report = filling.report;
+  Touching touching = touching_sites(task.filled.lattice, task.filled.runs);
+  filling.particles = particles_in(task.filled, task.space.placement);
+  filling.component = components_of(task.filled, touching);
+  report.groups = touching.groups;
+  if (std::any_of(touching.neighbors.begin(), touching.neighbors.end(),
+                  [](std::int32_t count) { return count > 0; }))
+    report_lattice(task.filled.lattice, report);
+  report_mass(filling.particles, task.options, report);
+  if (task.options.shares && task.options.packing == Packing::fcc)
+    filling.share = task.shares(SiteOwners(task.filled, touching), report);
+  filling.neighbors = std::move(touching.neighbors);
+}
+
+void place_irregularly(const Task& task, Filling& filling) {
+  FillReport& report = filling.report;
+  Irregular packed = irregular_packing(task.space, task.options, task.filled);
+  const double radius = task.filled.lattice.radius;
+  filling.particles = particles_at_rest(packed.places.size());
+  filling.particles.radius = radius;
+  for (std::size_t i = 0; i < packed.places.size(); ++i) {
+    filling.particles.set_position(i, task.space.placement.from_lattice(packed.places[i]));
+    filling.neighbors.push_back(static_cast<std::int32_t>(packed.touching.of(i).size()));
+  }
+  report.groups = packed.groups;
+  report.smallest_distance = packed.smallest / nearest_distance(radius);
+  report.mean_distance = packed.mean / nearest_distance(radius);
+  report.modulus_range = packed.springs.modulus_range();
+  report_mass(filling.particles, task.options, report);
+  if (task.options.shares) {
+    const Lattice& lattice = task.filled.lattice;
+    Points places = packed.places;
+    for (Vec3& place : places) place = (place - lattice.origin).cwiseQuotient(lattice.unit);
+    filling.share = task.shares(PointOwners(std::move(places), packed.touching), report);
+  }
+  filling.component =
+      task.filled.inside.bodies > 0 ? std::move(packed.body) : std::move(packed.group);
 }
 
 }  // namespace
@@ -133,17 +202,11 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   refuse_found(filled);
   report.seconds_inside = watch.lap();
 
-  Touching touching = touching_sites(filled.lattice, filled.runs);
-  filling.particles = particles_in(filled, space.placement);
-  filling.component = components_of(filled, touching);
   report_surface(surface, report);
   report_sites(filled, space, report);
-  report_neighbors(touching, filled.lattice, report);
-  report_mass(filling.particles, options, report);
-  if (options.shares && options.packing == Packing::fcc)
-    filling.share = volume_shares(surface, options, space, filled, touching,
-                                  report.volume_of_mesh ? report.volume : 0);
-  filling.neighbors = std::move(touching.neighbors);
+  const Task task = {surface, options, space, filled};
+  is_lattice(options.packing) ? place_on_sites(task, filling) : place_irregularly(task, filling);
+  report_particles(filling, report);
   report.seconds_particles = watch.lap();
 
   if (options.verify) report.verification = verify(filled.lattice, space.surface, filled.inside);

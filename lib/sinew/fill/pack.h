@@ -20,6 +20,7 @@ namespace sinew {
 
 struct PackOptions {
   Packing packing = Packing::fcc;
+  int seed = 1;                          ///< of a random packing
   std::optional<double> radius;          ///< m; either this
   std::optional<int> count;              ///< or about this number of particles
   double density = 1000;                 ///< kg/m^3
@@ -28,14 +29,14 @@ struct PackOptions {
   Keep keep = Keep::center;
   double clearance = 0;             ///< minimal distance from the surface, m
   std::optional<double> thickness;  ///< fill a layer along the surface instead of its inside, m
-  bool shares = false;              ///< find Filling::share; FCC alone
+  bool shares = false;              ///< find Filling::share; not of HCP
   bool verify = false;              ///< check every site against CGAL
 };
 
 struct Filling {
   Particles particles;                  ///< at rest, by lattice rows; mass = density volume / count
   std::vector<std::int32_t> component;  ///< the body that each particle is in, from 0
-  std::vector<std::int32_t> neighbors;  ///< number of touching particles; 12 inside the body
+  std::vector<std::int32_t> neighbors;  ///< number of touching particles; 12 inside a lattice
   /// Volume of the body around each particle over that of one inside; empty: not asked for.
   std::vector<double> share;
   /// Of the material of each particle over the body's; empty: the same throughout.

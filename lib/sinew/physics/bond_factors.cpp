@@ -18,7 +18,10 @@ constexpr std::size_t bonds_inside = 18;
 constexpr double least_factor = 0.1, most_factor = 4;
 constexpr double most_share = 2;
 constexpr double least_difference = 1e-3;  // of a share from that inside
-constexpr double regularization = 1e-6 / 18;
+// Of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for bonds that push
+// apart, and a body with factors this near to 1 is stiffer.
+constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 18;
+constexpr double least_offset = 1e-3;  // in radii, of a neighbor's distance from a lattice's
 
 /// The independent parts of a symmetric tensor of fourth order, so that sums of products are those
 /// of the tensors.
@@ -66,6 +69,7 @@ class SurfaceBonds {
         near_(neighbors_within(rest, second_neighbor_range * r_)) {}
 
   BondFactors factors() {
+    find_asking();
     find_asked();
     BondFactors out;
     out.first.push_back(0);
@@ -88,6 +92,9 @@ class SurfaceBonds {
   }
 
  private:
+  /// Why a particle asks for factors.
+  enum Reason : char { nothing, at_edge, irregular };
+
   template <class Visit>
   void for_each(const Visit& visit) const {
     parallel_for(rest_.size(), particles_per_search, [&](std::size_t begin, std::size_t end) {
@@ -96,9 +103,24 @@ class SurfaceBonds {
   }
 
   std::size_t bonds_of(std::size_t i) const { return near_.of(i).size(); }
-  bool at_surface(std::size_t i) const {
-    return bonds_of(i) < bonds_inside ||
-           (!share_.empty() && std::abs(share_[i] - 1) > least_difference);
+  /// Whether particle i has other distances to its neighbors than in a lattice.
+  bool is_irregular(std::size_t i) const {
+    const auto around = near_.of(i);
+    return std::any_of(around.begin(), around.end(), [&](std::uint32_t j) {
+      const double d = (rest_[j] - rest_[i]).norm();
+      return std::min(std::abs(d - nearest_distance(r_)), std::abs(d - second_distance(r_))) >
+             least_offset * r_;
+    });
+  }
+  bool asks(std::size_t i) const { return asks_[i] != nothing; }
+  void find_asking() {
+    asks_.resize(rest_.size());
+    for_each([&](std::size_t i) {
+      const bool other_share = !share_.empty() && std::abs(share_[i] - 1) > least_difference;
+      asks_[i] = is_irregular(i)                             ? irregular
+                 : bonds_of(i) < bonds_inside || other_share ? at_edge
+                                                             : nothing;
+    });
   }
   bool is_touched(std::size_t i) const {
     const auto around = near_.of(i);
@@ -106,7 +128,7 @@ class SurfaceBonds {
                                         [&](std::uint32_t j) { return is_special(j); });
   }
   bool is_special(std::size_t i) const {
-    return at_surface(i) || (!stiffness_.empty() && stiffness_[i] != 1);
+    return asks(i) || (!stiffness_.empty() && stiffness_[i] != 1);
   }
   /// Of the material between two particles.
   double stiffness_between(std::size_t i, std::size_t j) const {
@@ -120,10 +142,10 @@ class SurfaceBonds {
   void find_asked() {
     first_.assign(rest_.size() + 1, 0);
     for (std::size_t i = 0; i < rest_.size(); ++i)
-      first_[i + 1] = first_[i] + (at_surface(i) ? static_cast<std::uint32_t>(bonds_of(i)) : 0);
+      first_[i + 1] = first_[i] + (asks(i) ? static_cast<std::uint32_t>(bonds_of(i)) : 0);
     asked_.resize(first_.back());
     for_each([&](std::size_t i) {
-      if (at_surface(i) && bonds_of(i) > 0) ask(i);
+      if (asks(i) && bonds_of(i) > 0) ask(i);
     });
   }
 
@@ -140,7 +162,8 @@ class SurfaceBonds {
     const double share = share_.empty() ? 1 : std::min(share_[i], most_share);
     const Eigen::Matrix<double, 15, 15> normal =
         parts * parts.transpose() +
-        regularization * whole.squaredNorm() * Eigen::Matrix<double, 15, 15>::Identity();
+        (asks_[i] == irregular ? irregular_regularization : regularization) * whole.squaredNorm() *
+            Eigen::Matrix<double, 15, 15>::Identity();
     const Tensor lacking = share * whole - parts.rowwise().sum();
     const Eigen::VectorXd change = parts.transpose() * normal.ldlt().solve(lacking);
     for (std::size_t b = 0; b < around.size(); ++b)
@@ -149,7 +172,7 @@ class SurfaceBonds {
 
   /// What particle i asks for its bond with j.
   double asked(std::size_t i, std::uint32_t j) const {
-    if (!at_surface(i)) return 1;
+    if (!asks(i)) return 1;
     const auto around = near_.of(i);
     const auto at = std::find(around.begin(), around.end(), j) - around.begin();
     return asked_[first_[i] + static_cast<std::size_t>(at)];
@@ -172,8 +195,9 @@ class SurfaceBonds {
   const std::vector<double>&share_, &stiffness_;
   double r_, second_;
   NeighborLists near_;
+  std::vector<Reason> asks_;
   std::vector<std::uint32_t> first_;  ///< by particle, its first in asked_
-  std::vector<double> asked_;         ///< of those at the surface
+  std::vector<double> asked_;         ///< of those that ask
 };
 
 }  // namespace

@@ -43,6 +43,11 @@ constexpr CubicConstants fcc_constants(const PackingStiffness& of = {}) {
 /// C44, E = 2.5 k / (sqrt(2) d0), Poisson's ratio 1/4.
 inline constexpr double isotropic_second = 0.25, isotropic_poisson = 0.25;
 
+/// Young's modulus of a random packing over that of the isotropic FCC with the same bonds, factors
+/// included: its particles give way to each other. Measured on periodic packings of 864 and 2,048
+/// particles with bonds up to 3.1 r.
+inline constexpr double random_young = 0.945;
+
 /// Hill means of central bonds; HCP's differ by less than 1 %.
 inline constexpr double hill_young = 1.3505, hill_shear = 0.5354, hill_poisson = 0.261,
                         bulk_of_bonds = 2 * std::numbers::sqrt2 / 3;

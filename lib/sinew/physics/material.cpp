@@ -10,8 +10,10 @@
 namespace sinew {
 namespace {
 
+double order_of(Packing packing) { return packing == Packing::random ? random_young : 1; }
+
 /// k1 (Pa) for a Young's modulus (Pa).
-double k1_of(const MaterialOptions& settings, const PackingStiffness& packing,
+double k1_of(const MaterialOptions& settings, const PackingStiffness& packing, Packing sites,
              const Mat3& lattice) {
   const CubicConstants of_k = fcc_constants(packing);
   const bool isotropic = packing.second > 0;
@@ -21,6 +23,7 @@ double k1_of(const MaterialOptions& settings, const PackingStiffness& packing,
     per_k = 2 * shear * (1 + settings.poisson_ratio);
   if (settings.modulus_direction)
     per_k = of_k.young_modulus(lattice.transpose() * *settings.modulus_direction);
+  per_k *= order_of(sites);
   return settings.young_modulus / (2 * per_k);  // E = per_k k / d0, k = 4 k1 r = 2 k1 d0
 }
 
@@ -62,14 +65,14 @@ void bond(const MaterialOptions& settings, const PackingStiffness& packing, Mate
   material.bond = {k, packing.second * k, breaking_strain,
                    yield_shear(settings.yield_strain.value_or(0), poisson_ratio_of(settings)),
                    settings.creep_rate};
-  material.volume_stiffness = packing.volume * k / (2 * material.pair.r);
+  material.volume_stiffness = material.order * packing.volume * k / (2 * material.pair.r);
 }
 
 }  // namespace
 
 PackingStiffness Material::packing() const {
   const double k_over_d0 = 2 * pair.k1;
-  return {bond.second / (2 * pair.r * k_over_d0), volume_stiffness / k_over_d0};
+  return {bond.second / (2 * pair.r * k_over_d0), volume_stiffness / (order * k_over_d0)};
 }
 
 double Material::young_modulus() const {
@@ -88,7 +91,7 @@ double Material::stiffness() const {
 CubicConstants Material::constants() const {
   const double k_over_d0 = 2 * pair.k1;
   CubicConstants constants = fcc_constants(packing());
-  for (double* C : {&constants.C11, &constants.C12, &constants.C44}) *C *= k_over_d0;
+  for (double* C : {&constants.C11, &constants.C12, &constants.C44}) *C *= order * k_over_d0;
   return constants;
 }
 
@@ -101,9 +104,10 @@ Material make_material(const MaterialOptions& settings, const PackedBody& body) 
   pair.r = body.radius;
   pair.a = settings.a * pair.r;
   pair.b = settings.b * pair.r;
-  pair.k1 = settings.k1 ? *settings.k1 : k1_of(settings, packing, body.lattice);
+  pair.k1 = settings.k1 ? *settings.k1 : k1_of(settings, packing, body.packing, body.lattice);
   pair.k2 = settings.k2.value_or(settings.lambda * pair.contact_stiffness() / (pair.b - pair.a));
   material.mass = body.mass;
+  material.order = order_of(body.packing);
   if (settings.model != MaterialModel::paper) bond(settings, packing, material);
   material.damping_form = settings.damping_form;
   material.damping = settings.damping * std::sqrt(pair.contact_stiffness() * body.mass);

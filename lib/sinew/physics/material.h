@@ -27,6 +27,7 @@ struct Material {
   PairForce pair;
   BondStrength bond;
   double volume_stiffness = 0;  ///< K_v, Pa
+  double order = 1;             ///< moduli of the bonds over those in FCC: less in random packings
   double mass = 0;              ///< of a particle, kg
   double damping = 0;           ///< C of eq. 2, kg/s
   DampingForm damping_form = DampingForm::paper;

@@ -28,7 +28,7 @@ std::span<const ViewPreset> view_presets();
 const ViewPreset& view_preset_named(const std::string& name);
 ColorMap color_map_named(const std::string& name);
 
-/// A color by name or as #rrggbb, or "transparent". Throws bad input for other text.
+/// A color by name or as `#rrggbb`, or "transparent". Throws bad input for other text.
 Backdrop backdrop_named(const std::string& text);
 
 /// "three_quarter", "front", "back", "left", "right", "top", or the direction towards the viewer as

@@ -10,6 +10,7 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/random.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/geometry.h>
@@ -77,7 +78,9 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
                       "give another name with -o");
 }
 
-Mat3 lattice_axes(const BodyOptions& body) { return rotation_of(body.lattice_rotation); }
+Mat3 lattice_axes(const BodyOptions& body) {
+  return body.lattice_rotation ? rotation_of(*body.lattice_rotation) : random_rotation(body.seed);
+}
 
 namespace {
 
@@ -150,6 +153,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   const BodyOptions& body = settings.body;
   PackOptions options;
   options.packing = body.packing;
+  options.seed = body.seed;
   options.radius = body.radius;
   options.count = body.count;
   options.density = settings.material.density;

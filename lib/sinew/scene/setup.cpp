@@ -158,8 +158,26 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   return body;
 }
 
+namespace {
+
+/// Packings that are no lattice rest on bonds of the lengths that they happen to have.
+void check_packing(const Settings& settings) {
+  if (is_lattice(settings.body.packing)) return;
+  if (settings.material.model == MaterialModel::paper)
+    throw bad_input(settings.place("body.packing"),
+                    "the paper's forces keep particles 2 radii apart, as only closest packings are",
+                    "set material.model to bonded or bonded_volume, or body.packing to fcc");
+  if (!settings.material.isotropic.value_or(true))
+    throw bad_input(settings.place("material.isotropic"),
+                    "only a lattice can have bonds of nearest neighbors alone",
+                    "remove it, or set body.packing to fcc");
+}
+
+}  // namespace
+
 Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
              LocalMaterial local) {
+  check_packing(settings);
   Setup setup;
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings, files);
@@ -183,6 +201,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
 
 ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   Stopwatch watch;
+  check_packing(given);
   const Settings settings = with_fit(given);
   ReadyScene ready;
   ready.surface = read_mesh(settings);

@@ -43,9 +43,9 @@ void check_isotropy(const Settings& settings) {
       throw bad_input(settings.place("material.isotropic"),
                       "the paper's model has no bonds that could make it isotropic",
                       "set material.model to bonded or bonded_volume, or remove it");
-    if (settings.body.packing != Packing::fcc)
+    if (settings.body.packing == Packing::hcp)
       throw bad_input(settings.place("material.isotropic"),
-                      "only the fcc packing can be made isotropic",
+                      "the hcp packing cannot be made isotropic",
                       "set body.packing to fcc, or material.isotropic to false");
   }
   if (material.model == MaterialModel::bonded_volume &&

@@ -14,8 +14,8 @@ namespace sinew {
 /// Text for an element or a quoted attribute: & < > " ' escaped, control characters left out.
 std::string escaped(std::string_view text);
 
-/// JSON that is safe in a script element: "<" written as \u003c can neither end the element nor
-/// begin a comment.
+/// JSON that is safe in a script element: "<" is written by its number, which can neither end the
+/// element nor begin a comment.
 std::string inert(std::string json);
 
 /// A relative link from a path: all but letters, digits and - _ . ~ / is percent-encoded and
@@ -23,7 +23,7 @@ std::string inert(std::string json);
 /// or host.
 std::string link_to(std::string_view path);
 
-/// <tag>content</tag>; the content is markup already. `attributes`: markup as well, or empty.
+/// An element `tag`; its content is markup already. `attributes`: markup as well, or empty.
 std::string element(std::string_view tag, const std::string& content,
                     std::string_view attributes = {});
 
