@@ -150,7 +150,7 @@ TEST(ConformalPacking, HasItsOuterLayerOnTheOffsetSurface) {
     EXPECT_GT(static_cast<double>(on_it), 0.9 * static_cast<double>(outer));
     EXPECT_GT(static_cast<double>(on_it) * 2 * std::sqrt(3.0) * r * r,
               0.75 * area(surface.triangles));
-    expect_spaced(filling, 0.7);
+    expect_spaced(filling, 0.65);
   }
 }
 

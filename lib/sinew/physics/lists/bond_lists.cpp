@@ -37,10 +37,21 @@ class Kinds {
     if (!added) return at->second;
     const auto known = number_.find(opposite);
     met.push_back(known == number_.end() || known == at ? rest : Vec3(-met[known->second]));
+    factor.push_back(shared);
     return at->second;
   }
 
+  /// A kind of its own.
+  std::uint32_t add(const Vec3& rest, double its_factor) {
+    met.push_back(rest);
+    factor.push_back(its_factor);
+    return static_cast<std::uint32_t>(met.size() - 1);
+  }
+
+  static constexpr double shared =
+      0;  ///< the factor of kinds of several bonds, which have their own
   std::vector<Vec3> met;
+  std::vector<double> factor;
 
  private:
   using Key = std::array<std::int64_t, 3>;
@@ -54,12 +65,14 @@ struct RestNeighbors {
   Points rest;  ///< in the kernel's order
   NeighborLists near;
   bool kinds;            ///< whether they differ
+  double r;              ///< m
   double nearest_range;  ///< m
   std::span<const std::int32_t> id;
   const BondFactors& factors;
 
   RestNeighbors(const Body& body, std::span<const std::int32_t> ids)
       : kinds(law_of(body.material).has_bonds || has_muscles(body)),
+        r(body.material.pair.r),
         nearest_range(rest_neighbor_range(body.material.pair.r)),
         id(ids),
         factors(body.factors) {
@@ -71,6 +84,13 @@ struct RestNeighbors {
   }
 
   bool is_nearest(const Vec3& X) const { return X.norm() < nearest_range; }
+  /// Whether it has a length of a lattice, as many others do.
+  bool is_usual(const Vec3& X) const {
+    constexpr double about = 1e-6;  // radii
+    const double d = X.norm();
+    return std::abs(d - nearest_distance(r)) < about * r ||
+           std::abs(d - second_distance(r)) < about * r;
+  }
   double factor(const BondFactors::Row& row, std::uint32_t j) const {
     return row.empty() ? 1 : row.at(static_cast<std::uint32_t>(id[j]));
   }
@@ -81,6 +101,7 @@ struct Piece {
   std::vector<std::uint32_t> nearest, count;  ///< entries by block: of nearest neighbors, and all
   std::vector<kernel::BondEntry> entries;
   std::vector<Vec3> kinds;
+  std::vector<double> kind_factor;
   std::vector<double> factor;  ///< rows of a block's lanes
 };
 
@@ -130,11 +151,14 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
         const auto difference =
             static_cast<std::int32_t>(static_cast<std::int64_t>(j) - static_cast<std::int64_t>(k));
         const Vec3 X = of.rest[j] - of.rest[k];
-        const std::uint32_t kind = kinds.of(of.kinds ? X : Vec3::Zero());
+        const bool alone = of.kinds && !of.is_usual(X);
+        const double factor = of.factor(row, j);
+        const std::uint32_t kind =
+            alone ? kinds.add(X, factor) : kinds.of(of.kinds ? X : Vec3::Zero());
         const std::uint32_t own = std::uint32_t{1} << lane;
         (of.is_nearest(X) ? nearest : second)
             .push_back(
-                {{difference, kind, own | own << kernel::rest_lanes, -1}, of.factor(row, j)});
+                {{difference, kind, own | own << kernel::rest_lanes, -1}, alone ? 1 : factor});
       }
     }
     const std::size_t before = piece.entries.size();
@@ -144,6 +168,7 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
     piece.count.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
   }
   piece.kinds = std::move(kinds.met);
+  piece.kind_factor = std::move(kinds.factor);
   return piece;
 }
 
@@ -157,7 +182,10 @@ void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds)
   bonds.first.push_back(0);
   for (const Piece& piece : pieces) {
     std::vector<std::uint32_t> number;
-    for (const Vec3& rest : piece.kinds) number.push_back(kinds.of(rest));
+    for (std::size_t k = 0; k < piece.kinds.size(); ++k)
+      number.push_back(piece.kind_factor[k] == Kinds::shared
+                           ? kinds.of(piece.kinds[k])
+                           : kinds.add(piece.kinds[k], piece.kind_factor[k]));
     const auto rows = static_cast<std::int32_t>(bonds.factor.size() / kernel::Traits<Real>::block);
     for (kernel::BondEntry entry : piece.entries) {
       entry.kind = number[entry.kind];
@@ -171,6 +199,7 @@ void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds)
     }
   }
   bonds.rest = std::move(kinds.met);
+  bonds.kind_factor = std::move(kinds.factor);
 }
 
 /// Calls visit(place in `creep`) for the lanes of all entries that are whole.
@@ -197,12 +226,14 @@ void BondLists<Real>::set_units(const Body& body, double mass, const Units& unit
   if (!kinds.empty() && kinds[0].length > 0)
     for (Real& one : creep) one = static_cast<Real>(static_cast<double>(one) * longer);
   kinds.clear();
-  for (const Vec3& to : rest) {
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    const Vec3& to = rest[k];
+    const double of_kind = kind_factor[k] == Kinds::shared ? 1 : kind_factor[k];
     kernel::BondKind<Real> kind{};
     for (int axis = 0; axis < 3; ++axis)
       kind.rest[axis] = static_cast<Real>(to[axis] / units.length);
     kind.length = static_cast<Real>(to.norm() / units.length);
-    kind.stiffness = static_cast<Real>(stiffness_of(to));
+    kind.stiffness = static_cast<Real>(of_kind * stiffness_of(to));
     kinds.push_back(kind);
   }
   constexpr std::size_t size = kernel::Traits<Real>::block;

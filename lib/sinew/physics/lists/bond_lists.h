@@ -25,6 +25,7 @@ struct BondLists {
   std::vector<std::uint32_t> second;       ///< by block: where those of second neighbors begin
   std::vector<kernel::BondEntry> entries;  ///< of a block, each: ascending differences, then kinds
   std::vector<Vec3> rest;                  ///< by kind, m
+  std::vector<double> kind_factor;         ///< on its stiffness; 0: of several bonds, none
   std::vector<kernel::BondKind<Real>> kinds;
   std::vector<double> factor;        ///< rows x block, on the kind's stiffness
   std::vector<Real> own;             ///< the stiffness with it
@@ -51,8 +52,7 @@ struct BondLists {
 };
 
 /// Of particles of `mass` (kg), `id` in the kernel's order. None where no force depends on the
-/// neighbors at rest. Made for lattices: elsewhere each bond is a kind of its own, which takes ten
-/// times the memory.
+/// neighbors at rest. Made for lattices: elsewhere each bond is a kind of its own.
 template <class Real>
 BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                            const Units& units);
