@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/fill/packings/conformal.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
@@ -13,9 +15,11 @@
 namespace sinew {
 namespace {
 
-// Layers of a closest packing are this far apart, in radii: as many particles as have their sites
-// within it of the surface make one full layer.
+// Layers of a closest packing are this far apart, in radii: those that have their sites within it
+// of the surface make one layer, but for those that have no room there.
 const double layer = std::sqrt(8.0 / 3);
+constexpr double room = 1.75;      // radii, least distance of two particles of the layer
+constexpr double behind = 1;       // radii from the layer to particles that it has no room for
 constexpr double moved_along = 6;  // radii below the surface, to where particles may move
 constexpr double stiffness = 4;    // of the outer layer's springs, over that of a pair
 constexpr int rounds = 40, steps_of_each = 10;  // the surface is looked for in each round
@@ -51,11 +55,12 @@ class OuterLayer {
         outermost_(places.size()),
         deep_(places.size()) {
     find(places);
+    std::vector<double> depth(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const double depth = depth_of(i, places[i]);
-      outermost_[i] = depth < first_depth + layer * r_ ? 1 : 0;
-      deep_[i] = depth > first_depth + moved_along * r_ ? 1 : 0;
+      depth[i] = depth_of(i, places[i]);
+      deep_[i] = depth[i] > first_depth + moved_along * r_ ? 1 : 0;
     }
+    choose_outermost(places, depth, first_depth + layer * r_);
   }
 
   const std::vector<char>& deep() const { return deep_; }
@@ -74,11 +79,31 @@ class OuterLayer {
   /// Over that of a pair at d = 0.
   Vec3 force(std::size_t i, const Vec3& place) const {
     const double rise = (depth_of(i, place) - offset_) / (2 * r_);
-    const bool held = outermost_[i] != 0 || rise < 0;
-    return held ? Vec3(stiffness * rise * planes_[i].normal) : Vec3(Vec3::Zero());
+    if (outermost_[i] != 0) return stiffness * rise * planes_[i].normal;
+    return stiffness * std::min(rise - behind / 2, 0.0) * planes_[i].normal;
   }
 
  private:
+  /// From the surface inward, those that have room on the offset surface.
+  void choose_outermost(const Points& places, const std::vector<double>& depth, double deepest) {
+    std::vector<std::uint32_t> order;
+    Points on_it = places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (depth[i] < deepest) order.push_back(static_cast<std::uint32_t>(i));
+      on_it[i] += (depth[i] - offset_) * planes_[i].normal;
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return depth[a] < depth[b]; });
+    const CellGrid grid(on_it, room * r_);
+    for (const std::uint32_t i : order) {
+      bool has_room = true;
+      grid.for_each_near(on_it[i], [&](std::uint32_t j) {
+        has_room = has_room && (outermost_[j] == 0 || (on_it[i] - on_it[j]).norm() > room * r_);
+      });
+      outermost_[i] = has_room ? 1 : 0;
+    }
+  }
+
   double depth_of(std::size_t i, const Vec3& place) const {
     return planes_[i].height - planes_[i].normal.dot(place);
   }
