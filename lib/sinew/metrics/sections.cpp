@@ -55,7 +55,7 @@ class Cut {
     for (int k = 0; k < 3; ++k) {
       const int from = face[k], to = face[(k + 1) % 3];
       if (above(from) == above(to)) continue;
-      (above(from) ? in : out) = {std::min(from, to), std::max(from, to)};
+      (above(from) ? in : out) = Edge{std::min(from, to), std::max(from, to)};
       ++crossed;
     }
     if (crossed == 2) next_[in] = out;

@@ -85,10 +85,11 @@ std::vector<Range> range_of(const Playback& playback, std::size_t field) {
   std::vector<Range> range;
   std::size_t first = 0;
   for (const Balls& balls : playback.balls) {
-    for (const Range own : range_of(playback, field, first, balls.count))
-      range = {range.empty()
-                   ? own
-                   : Range{std::min(own.low, range[0].low), std::max(own.high, range[0].high)}};
+    for (const Range own : range_of(playback, field, first, balls.count)) {
+      if (range.empty()) range.push_back(own);
+      range[0].low = std::min(own.low, range[0].low);
+      range[0].high = std::max(own.high, range[0].high);
+    }
     first += balls.count;
   }
   return range;
