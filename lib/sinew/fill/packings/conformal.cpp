@@ -19,9 +19,10 @@ namespace {
 // of the surface make one layer, but for those that have no room there.
 const double layer = std::sqrt(8.0 / 3);
 constexpr double room = 1.75;      // radii, least distance of two particles of the layer
+constexpr double deeper = 0.8;     // radii
 constexpr double behind = 1;       // radii from the layer to particles that it has no room for
 constexpr double moved_along = 6;  // radii below the surface, to where particles may move
-constexpr double stiffness = 4;    // of the outer layer's springs, over that of a pair
+constexpr double stiffness = 3;    // of the outer layer's springs, over that of a pair
 constexpr int rounds = 40, steps_of_each = 10;  // the surface is looked for in each round
 constexpr std::size_t particles_at_a_time = 256;
 
@@ -94,14 +95,29 @@ class OuterLayer {
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depth[a] < depth[b]; });
+    const std::vector<char> backed = find_backed(places, depth);
     const CellGrid grid(on_it, room * r_);
     for (const std::uint32_t i : order) {
-      bool has_room = true;
+      bool has_room = backed[i] != 0;
       grid.for_each_near(on_it[i], [&](std::uint32_t j) {
         has_room = has_room && (outermost_[j] == 0 || (on_it[i] - on_it[j]).norm() > room * r_);
       });
       outermost_[i] = has_room ? 1 : 0;
     }
+  }
+
+  /// Those with others deeper in the body beside them: where it is a particle or two thick, it has
+  /// no layer, and would fall apart.
+  std::vector<char> find_backed(const Points& places, const std::vector<double>& depth) const {
+    std::vector<char> backed(places.size());
+    const double around = second_distance(r_) * 1.01;
+    const CellGrid grid(places, around);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      grid.for_each_near(places[i], [&](std::uint32_t j) {
+        if (depth[j] > depth[i] + deeper * r_ && (places[j] - places[i]).norm() < around)
+          backed[i] = 1;
+      });
+    return backed;
   }
 
   double depth_of(std::size_t i, const Vec3& place) const {

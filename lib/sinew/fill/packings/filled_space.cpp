@@ -6,13 +6,19 @@
 namespace sinew {
 namespace {
 
-constexpr double finer = 4;
+/// The particles' radius over that of the sites: 1 where those only tell which body is around, few
+/// where winding numbers of open surfaces take time.
+double finer(const BodySpace& space, const PackOptions& options) {
+  if (options.thickness) return 4;
+  return space.surface.closed() ? 1 : 2;
+}
 
 FilledSites fine_sites(const BodySpace& space, PackOptions options, double radius) {
+  const double by = finer(space, options);
   options.clearance = clearance_of(options, radius);
   options.keep = Keep::center;
   options.count.reset();
-  return fill_sites(space, options, radius / finer);
+  return fill_sites(space, options, radius / by);
 }
 
 }  // namespace

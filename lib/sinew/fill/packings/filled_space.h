@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether any point, not only a site, is in the part of a body that is filled. In closed surfaces
-// the answer is exact; open ones and layers are known by the sites of a lattice four times as fine.
+// the answer is exact; open ones and layers are known by the sites of a finer lattice.
 //
 //     const FilledSpace space(body, options, radius);
 //     if (space.body_at(point) >= 0) keep(point);
