@@ -124,6 +124,8 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
       written_(static_cast<int>(kept.size())) {
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
+  if (body.world && !(body.world->supports.empty() && body.world->loads.empty()))
+    support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
   begin_arrays(output, kept);
@@ -225,8 +227,12 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.pose = simulation.pose();
   frame.energies = simulation.energies();
   if (body_.world) {
-    frame.obstacles = world_at(*body_.world, time, frame.pose).obstacles;
+    WorldNow now = world_at(*body_.world, time, frame.pose);
+    frame.obstacles = std::move(now.obstacles);
     frame.on_obstacles = simulation.reactions_of_obstacles();
+    frame.supports = std::move(now.supports);
+    frame.of_supports = simulation.of_supports();
+    frame.of_loads = simulation.of_loads();
   }
   if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
   frame.reactions = simulation.reactions_of_bones();
@@ -249,6 +255,10 @@ void FrameWriter::take_forces(Simulation& simulation, Moved& frame) const {
 }
 
 void FrameWriter::write(Moved& frame) {
+  if (support_table_)
+    support_table_->add(
+        {frame.moment.time, frame.positions, frame.supports, frame.of_supports, frame.of_loads},
+        body_.rest);
   if (frame.with_particles) write_particles(frame);
   write_surfaces(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
@@ -311,6 +321,10 @@ void FrameWriter::close() {
   }
   bone_table_.close();
   checksums_->add("bones.csv");
+  if (support_table_) {
+    support_table_->close();
+    checksums_->add("supports.csv");
+  }
   if (!export_) return;
   export_->close();
   write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_,

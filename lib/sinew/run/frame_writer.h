@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the present state of a simulation as one frame of each series, by a separate thread while
-// the simulation continues. Also writes bones.csv, checksums.sfv and, where the scene requests
-// them, the surface by skinning alone and its export for animators.
+// the simulation continues. Also writes bones.csv, supports.csv, checksums.sfv and, where the scene
+// requests them, the surface by skinning alone and its export for animators.
 //
 //     FrameWriter writer(folder, output, body, surface, obstacles);
 //     writer.add(simulation, time);
@@ -30,6 +30,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/skin.h>
 #include <sinew/rig/skinning.h>
+#include <sinew/run/support_table.h>
 #include <sinew/scene/setup.h>
 #include <sinew/settings/settings.h>
 
@@ -77,6 +78,8 @@ class FrameWriter {
     BoneReactions reactions;
     std::vector<ObstaclePose> obstacles;
     std::vector<Reaction> on_obstacles;
+    std::vector<ObstaclePose> supports;
+    std::vector<Reaction> of_supports, of_loads;
   };
 
   /// The surface moved by skinning alone, in a series of its own.
@@ -111,6 +114,7 @@ class FrameWriter {
   Series particles_, skins_, bones_, frames_;
   std::optional<Series> obstacle_series_;  ///< where the scene has some
   BoneTable bone_table_;
+  std::optional<SupportTable> support_table_;  ///< where the scene has some, or loads
   BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not requested
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;

@@ -27,7 +27,8 @@ namespace {
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|checksums\\.sfv|report\\.html|"
-      "metrics(_bones)?\\.(csv|json)|(bones|sections)\\.csv|surface\\.(obj|pc2|glb)|blowup\\.vtu|"
+      "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|glb)"
+      "|blowup\\.vtu|"
       "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
       "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
