@@ -148,7 +148,10 @@ loads:
         self.assert_near(1 - volumes[-1] / volumes[0], 600 / K, 0.05)
 
     def test_a_resumed_run_leaves_the_same_table_and_state(self):
-        machine = PULL.format(by=0.02) + "loads:\n  - {name: sea, pressure: 600}\n"
+        machine = PULL.format(by=0.02) + """
+loads: [{name: sea, pressure: 600}]
+probes: [{name: middle, low: [-1, -1, 0.3], high: [1, 1, 0.4]}]
+"""
         self.run_of(machine)
         parts = self.folder / "parts"
         sinew("simulate", self.scene(machine), "-o", parts, "--set", "solver.wall_time=0.2", check=None)
@@ -159,7 +162,8 @@ loads:
         records = [json.loads((folder / "run.json").read_text()) for folder in (self.out, parts)]
         self.assertGreater(records[1]["resumed"], 0)
         self.assertEqual(*[record["state_hash"] for record in records])
-        self.assertEqual(*[(folder / "supports.csv").read_bytes() for folder in (self.out, parts)])
+        for table in "supports.csv", "probes.csv":
+            self.assertEqual(*[(folder / table).read_bytes() for folder in (self.out, parts)])
 
     def test_its_resolved_scene_gives_the_same_run(self):
         machine = PULL.format(by=0.002)
@@ -167,6 +171,29 @@ loads:
         sinew("simulate", self.out / "scene.yaml", "-o", self.folder / "again")
         self.assertEqual(*[(folder / "supports.csv").read_bytes()
                            for folder in (self.out, self.folder / "again")])
+
+    def test_probes_measure_parts_and_points(self):
+        self.run_of(PULL.format(by=0.002) + """
+probes:
+  - {name: middle, low: [-1, -1, 0.3], high: [1, 1, 0.4]}
+  - {name: axis, at: [0, 0, 0.3]}
+  - {name: above, facing: [0, 0, 1]}
+""", "--set", "output.every=5")
+        probes, rows = self.rows(self.out, "probes.csv"), self.rows(self.out)
+        with (self.out / "probes.csv").open() as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 3 * 16)
+        middle, axis, above = (probes[name] for name in ("middle", "axis", "above"))
+        strain = float(middle["strain_zz"])
+        self.assert_near(float(middle["strain_xx"]), -strain / 4, 0.03)
+        self.assert_near(float(middle["stress_zz"]), E * strain, 0.03)
+        self.assertLess(abs(float(middle["stress_xx"])), 1e-3 * E * strain)
+        self.assert_near(float(axis["z"]) - float(axis["displacement_z"]), 0.3, 1e-12)
+        gauge = self.vector(rows["above"], "pivot")[2] - self.vector(rows["below"], "pivot")[2] - 0.002
+        low = self.vector(rows["below"], "pivot")[2]
+        self.assert_near(float(axis["displacement_z"]), 0.002 * (0.3 - low) / gauge, 0.01)
+        for name in "force", "displacement":
+            for one, other in zip(self.vector(above, name), self.vector(rows["above"], name)):
+                self.assertLess(abs(one - other), 1e-9 * max(1, abs(other)))
 
     def test_fast_supports_get_shorter_steps(self):
         self.run_of("supports:\n  - name: all\n    hold: x\n    keys: [{time: 0}, {time: 0.1, translation: [2, 0, 0]}]\n",

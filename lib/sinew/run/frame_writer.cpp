@@ -2,6 +2,7 @@
 #include <sinew/run/frame_writer.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -104,7 +105,7 @@ struct ReactionColumns {
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const Body& body, const Triangles& surface,
                          std::vector<Triangles> obstacles, std::span<const double> kept,
-                         SurfaceLook look)
+                         SurfaceLook look, std::vector<Probe> probes)
     : folder_(folder),
       interval_(output.interval),
       body_(body),
@@ -126,6 +127,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
   if (body.world && !(body.world->supports.empty() && body.world->loads.empty()))
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
+  if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
   begin_arrays(output, kept);
@@ -182,7 +184,7 @@ void FrameWriter::begin_export(std::size_t kept, SurfaceLook look) {
 
 void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept) {
   arrays_ = additional_arrays(output, body_);
-  if (arrays_.empty() && !output.bonds) return;
+  if (arrays_.empty() && !output.bonds && !probe_table_) return;
   RestInput input = measured_body(body_.material, body_.skeleton, body_.factors);
   input.positions = body_.rest;
   input.surface = surface_;
@@ -210,7 +212,7 @@ FrameState FrameWriter::measured_at_rest() const {
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const ReadyScene& ready)
     : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles, ready.setup.obstacles,
-                  {}, ready.look) {}
+                  {}, ready.look, ready.setup.probes) {}
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does
@@ -239,7 +241,7 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
   find_positions_by_id(frame.particles, frame.positions);
-  if (measured_ && frame.with_particles) take_forces(simulation, frame);
+  if (measured_ && (frame.with_particles || probe_table_)) take_forces(simulation, frame);
   for (const auto axis : {&Particles::x, &Particles::y, &Particles::z}) frame.particles.*axis = {};
   return frame;
 }
@@ -259,6 +261,7 @@ void FrameWriter::write(Moved& frame) {
     support_table_->add(
         {frame.moment.time, frame.positions, frame.supports, frame.of_supports, frame.of_loads},
         body_.rest);
+  if (probe_table_) write_probes(frame, state_of(frame));
   if (frame.with_particles) write_particles(frame);
   write_surfaces(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
@@ -276,14 +279,31 @@ void FrameWriter::write(Moved& frame) {
   spare_ = std::move(frame);
 }
 
+FrameState FrameWriter::state_of(const Moved& frame) const {
+  FrameState state;
+  state.positions = frame.positions;
+  for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
+  state.bond_rest = frame.bond_rest;
+  state.muscle_stress = frame.muscle_stress;
+  return state;
+}
+
+void FrameWriter::write_probes(const Moved& frame, const FrameState& state) {
+  static constexpr std::array<std::string_view, 2> tensors = {"strain", "stress"};
+  const std::vector<Column> found = particle_arrays(*measured_, state, tensors);
+  const Points& world = frame.forces.world;
+  Points force(world.size());
+  for (std::size_t i = 0; i < world.size(); ++i)
+    force[static_cast<std::size_t>(frame.particles.id[i])] = world[i];
+  probe_table_->add(frame.moment.time, frame.positions, body_.rest,
+                    {std::get<std::vector<double>>(found[0].values),
+                     std::get<std::vector<double>>(found[1].values), force});
+}
+
 void FrameWriter::write_particles(Moved& frame) {
   std::vector<Column> requested;
   if (measured_) {
-    FrameState state;
-    state.positions = frame.positions;
-    for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
-    state.bond_rest = std::move(frame.bond_rest);
-    state.muscle_stress = std::move(frame.muscle_stress);
+    const FrameState state = state_of(frame);
     requested = particle_arrays(*measured_, state, arrays_);
     if (bond_series_)
       bond_series_->add(bonds_dataset(bond_values(*measured_, state), frame.positions,
@@ -324,6 +344,10 @@ void FrameWriter::close() {
   if (support_table_) {
     support_table_->close();
     checksums_->add("supports.csv");
+  }
+  if (probe_table_) {
+    probe_table_->close();
+    checksums_->add("probes.csv");
   }
   if (!export_) return;
   export_->close();

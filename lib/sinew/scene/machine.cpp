@@ -65,6 +65,17 @@ Load load_of(const LoadSettings& given, const std::string& path, const Body& bod
   return load;
 }
 
+Probe point_probe(const std::string& name, const Vec3& at, const Body& body) {
+  FollowingPoints point = following({at}, body.rest, body.material.pair.r);
+  return {name, std::move(point.particle), std::move(point.weight), true};
+}
+
+Probe part_probe(const std::string& name, std::vector<std::uint32_t> particles) {
+  const double share = 1 / static_cast<double>(particles.size());
+  const std::size_t count = particles.size();
+  return {name, std::move(particles), std::vector<double>(count, share), false};
+}
+
 }  // namespace
 
 void add_machine(const Settings& settings, const Body& body, const Parts& parts, World& world) {
@@ -77,6 +88,17 @@ void add_machine(const Settings& settings, const Body& body, const Parts& parts,
     world.loads.push_back(with_context(
         settings, path.c_str(), [&] { return load_of(settings.loads[k], path, body, parts); }));
   }
+}
+
+std::vector<Probe> probes_of(const Settings& settings, const Body& body, const Parts& parts) {
+  std::vector<Probe> probes;
+  for (std::size_t k = 0; k < settings.probes.size(); ++k) {
+    const ProbeSettings& given = settings.probes[k];
+    probes.push_back(
+        given.at ? point_probe(given.name, *given.at, body)
+                 : part_probe(given.name, parts.particles(given.part, path_of_one("probes", k))));
+  }
+  return probes;
 }
 
 }  // namespace sinew

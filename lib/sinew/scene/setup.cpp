@@ -168,6 +168,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   SceneWorld around = world_of(settings, files, setup.body, component);
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);
+  setup.probes = std::move(around.probes);
   setup.motion = std::move(rig.motion);
   setup.file_warnings = warnings_of(files);
   setup.joint_zone = settings.binding.joint_zone;

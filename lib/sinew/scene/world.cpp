@@ -10,7 +10,6 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/context.h>
-#include <sinew/scene/machine.h>
 #include <sinew/scene/rig.h>
 
 namespace sinew {
@@ -202,8 +201,10 @@ ObstacleMotion keyed_motion(const std::string& name, Interpolation interpolation
 
 SceneWorld world_of(const Settings& settings, const SceneFiles& files, const Body& body,
                     std::span<const std::int32_t> component) {
-  if (settings.world.empty() && settings.supports.empty() && settings.loads.empty()) return {};
   SceneWorld made;
+  const Parts parts(settings, body, files.surface, component);
+  made.probes = probes_of(settings, body, parts);
+  if (settings.world.empty() && settings.supports.empty() && settings.loads.empty()) return made;
   World world;
   add_obstacles(settings, files.obstacles, body, world, made.obstacles);
   world.drag.rate = settings.world.drag;
@@ -212,7 +213,7 @@ SceneWorld world_of(const Settings& settings, const SceneFiles& files, const Bod
         {given.name, form_of(given), region_of(given.region), values_of(given.keys)});
   add_muscles(settings, body, world);
   add_pins(settings, body, world);
-  add_machine(settings, body, Parts(settings, body, files.surface, component), world);
+  add_machine(settings, body, parts, world);
   with_context(settings, "world", [&] { check_world(world); });
   made.world = std::make_shared<const World>(std::move(world));
   return made;

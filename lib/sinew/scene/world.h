@@ -14,6 +14,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/time_step.h>
 #include <sinew/physics/world/obstacle.h>
+#include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/settings/settings.h>
 
@@ -22,6 +23,7 @@ namespace sinew {
 struct SceneWorld {
   std::shared_ptr<const World> world;  ///< none where nothing surrounds the body
   std::vector<Triangles> obstacles;    ///< each as a surface, in coordinates of its shape
+  std::vector<Probe> probes;           ///< of the body in it
 };
 
 /// `body` is complete except for its world; `component`: of each particle. Throws bad input, with
