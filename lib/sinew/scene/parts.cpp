@@ -69,9 +69,9 @@ class Parts::Test {
   }
 
   bool faces(const Vec3& area) const {
-    constexpr double rounding = 1e-9;  // faces at exactly that angle are in
+    constexpr double slack = 1e-9;  // faces at exactly that angle are in
     return !part_.facing ||
-           area.dot(direction_) >= (std::cos(radians(part_.facing_angle)) - rounding) * area.norm();
+           area.dot(direction_) >= (std::cos(radians(part_.facing_angle)) - slack) * area.norm();
   }
 
  private:
