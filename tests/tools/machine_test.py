@@ -195,6 +195,24 @@ probes:
             for one, other in zip(self.vector(above, name), self.vector(rows["above"], name)):
                 self.assertLess(abs(one - other), 1e-9 * max(1, abs(other)))
 
+    def test_the_report_offers_any_pair_of_columns(self):
+        self.run_of(PULL.format(by=0.002) + "probes:\n  - {name: 'a, b', at: [0, 0, 0.3]}\n",
+                    "--set", "solver.duration=0.5")
+        sinew("measure", self.out)
+        page = (self.out / "report.html").read_text()
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))["machine"]
+        columns = data["columns"]
+        self.assertEqual([columns[data[axis]]["name"] for axis in ("across", "up")],
+                         ["above: displacement_z", "above: force_z"])
+        self.assertIn("a, b: strain_zz", [column["name"] for column in columns])
+        self.assertNotIn("above: force_x", [column["name"] for column in columns])
+        for column in columns:
+            self.assertEqual(len(column["values"]), 6)
+        table = self.out / "supports.csv"
+        table.write_text(table.read_text().replace("support,", "support,x", 1))
+        done = sinew("measure", self.out, check=2)
+        self.assertRegex(done.stderr, "supports.csv: has 'x[^']*' where a number belongs; run")
+
     def test_fast_supports_get_shorter_steps(self):
         self.run_of("supports:\n  - name: all\n    hold: x\n    keys: [{time: 0}, {time: 0.1, translation: [2, 0, 0]}]\n",
                     "--set", "solver.duration=0.2")
