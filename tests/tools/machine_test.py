@@ -213,6 +213,21 @@ probes:
         done = sinew("measure", self.out, check=2)
         self.assertRegex(done.stderr, "supports.csv: has 'x[^']*' where a number belongs; run")
 
+    def test_supports_and_loads_are_a_series_of_their_own(self):
+        self.run_of(PULL.format(by=0.002) + "loads: [{name: sea, pressure: 600}]\n",
+                    "--set", "solver.duration=0.2", "--set", "output.encoding=none")
+        rows = re.findall(r'file="([^"]*)"', (self.out / "supports.pvd").read_text())
+        self.assertEqual(rows, [f"supports/supports_{i:06}.vtu" for i in range(3)])
+        head = (self.out / rows[-1]).read_bytes()
+        for name in [b"number", b"load", b"force", b"moment", b"power", b"displacement"]:
+            self.assertIn(b'Name="' + name + b'"', head)
+        self.assertIn(b'NumberOfPoints="3"', head)
+        sinew("info", self.out, "--verify")
+        sinew("simulate", "--force", self.scene("loads: []\nskeleton: {bones: [{name: a, head: [0, 0, 0], tail: [0, 0, 0.6]}]}\n"),
+              "-o", self.out, "--set", "solver.duration=0.1")
+        self.assertFalse((self.out / "supports.pvd").exists())
+        self.assertFalse((self.out / "supports.csv").exists())
+
     def test_fast_supports_get_shorter_steps(self):
         self.run_of("supports:\n  - name: all\n    hold: x\n    keys: [{time: 0}, {time: 0.1, translation: [2, 0, 0]}]\n",
                     "--set", "solver.duration=0.2")

@@ -125,8 +125,10 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
       written_(static_cast<int>(kept.size())) {
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
-  if (body.world && !(body.world->supports.empty() && body.world->loads.empty()))
+  if (body.world && !(body.world->supports.empty() && body.world->loads.empty())) {
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
+    support_series_.emplace(folder, format_of(output, "supports", body.material.pair.r), kept);
+  }
   if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
@@ -136,7 +138,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
 
 std::vector<Series*> FrameWriter::all_series() {
   std::vector<Series*> all{&particles_, &skins_, &bones_, &frames_};
-  for (auto* series : {&obstacle_series_, &bond_series_})
+  for (auto* series : {&obstacle_series_, &support_series_, &bond_series_})
     if (*series) all.push_back(&**series);
   for (const Skinned& skinned : skinned_) all.push_back(skinned.series.get());
   return all;
@@ -257,10 +259,7 @@ void FrameWriter::take_forces(Simulation& simulation, Moved& frame) const {
 }
 
 void FrameWriter::write(Moved& frame) {
-  if (support_table_)
-    support_table_->add(
-        {frame.moment.time, frame.positions, frame.supports, frame.of_supports, frame.of_loads},
-        body_.rest);
+  if (support_table_) write_supports(frame);
   if (probe_table_) write_probes(frame, state_of(frame));
   if (frame.with_particles) write_particles(frame);
   write_surfaces(frame);
@@ -277,6 +276,14 @@ void FrameWriter::write(Moved& frame) {
   list_new_frames();
   ++written_;
   spare_ = std::move(frame);
+}
+
+void FrameWriter::write_supports(const Moved& frame) {
+  const MachineMoment now = {frame.moment.time, frame.positions, frame.supports, frame.of_supports,
+                             frame.of_loads};
+  const std::vector<SupportFrame> frames = support_frames(*body_.world, now, body_.rest);
+  support_table_->add(now, frames);
+  support_series_->add(supports_dataset(frames, frame.moment));
 }
 
 FrameState FrameWriter::state_of(const Moved& frame) const {

@@ -101,6 +101,7 @@ class FrameWriter {
   void take_forces(Simulation& simulation, Moved& frame) const;
   void write_particles(Moved& frame);
   void write_surfaces(const Moved& frame);
+  void write_supports(const Moved& frame);
   void write_probes(const Moved& frame, const FrameState& state);
   FrameState state_of(const Moved& frame) const;
   std::vector<Series*> all_series();
@@ -118,7 +119,7 @@ class FrameWriter {
   std::vector<std::int32_t> surface_bone_;
   std::vector<Triangles> obstacles_;
   Series particles_, skins_, bones_, frames_;
-  std::optional<Series> obstacle_series_;  ///< where the scene has some
+  std::optional<Series> obstacle_series_, support_series_;  ///< where the scene has some
   BoneTable bone_table_;
   std::optional<SupportTable> support_table_;  ///< where the scene has some, or loads
   std::optional<ProbeTable> probe_table_;      ///< where the scene has some
