@@ -165,10 +165,11 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   }
   const Settings settings = with_fit(read_scene(scene, common.overrides));
   const Surface surface = read_mesh(settings);
-  const SceneFiles files = read_files(settings);
+  SceneFiles files = read_files(settings);
+  files.surface = surface.triangles;
   const Filling filling = fill_body(settings, surface);
-  const Setup setup =
-      set_up(settings, files, filling.particles, {filling.share, filling.stiffness});
+  const Setup setup = set_up(settings, files, filling.particles,
+                             {filling.share, filling.stiffness, filling.component});
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);

@@ -46,6 +46,8 @@ TEST(WrittenArrays, AreExactlyThoseThatTheSeriesHold) {
   expect_listed("bones", run.bones({}));
   expect_listed("frames", run.frames({}));
   expect_listed("obstacles", run.obstacles({}));
+  const SupportFrame grip{};
+  expect_listed("supports", supports_dataset({&grip, 1}, {}));
   const Particles some = particles_at(run.rest, run.radius, 1);
   const std::vector<Offence> offence(run.count(), Offence::none);
   const std::vector<double> moved(run.count());

@@ -22,6 +22,22 @@ TEST(ObstaclesDataset, MovesEachSurfaceWithItsFrame) {
   EXPECT_EQ(vectors(data.point_columns, "reaction_force")[7], Vec3(0, 0, -2));
 }
 
+TEST(SupportsDataset, HasAPointForEachSupportAndLoad) {
+  const std::vector<SupportFrame> both = {
+      {false, {0, 0, 1}, {0, 0, 0.1}, {0, 0, 5}, {1, 0, 0}, 0.5},
+      {true, {0, 0, 2}, {0, 0, 0.2}, {0, 0, -5}, {0, 1, 0}, -0.5}};
+  const Dataset data = supports_dataset(both, {0.5, 7});
+  EXPECT_EQ(data.cycle, 7);
+  ASSERT_EQ(data.points.size(), 2U);
+  EXPECT_EQ(data.cells(), 2U);
+  EXPECT_EQ(integers(data.point_columns, "number"), (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(integers(data.point_columns, "load"), (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(vectors(data.point_columns, "force")[1], Vec3(0, 0, -5));
+  EXPECT_EQ(vectors(data.point_columns, "moment")[0], Vec3(1, 0, 0));
+  EXPECT_EQ(vectors(data.point_columns, "displacement")[1], Vec3(0, 0, 0.2));
+  EXPECT_EQ(numbers(data.point_columns, "power"), (std::vector<double>{0.5, -0.5}));
+}
+
 TEST(SurfaceDataset, HasUnitNormalsThatPointOutwards) {
   const Dataset data = SyntheticRun().surface({});
   const Vec3 center(0, 0, 0.24);

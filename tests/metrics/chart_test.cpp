@@ -167,4 +167,24 @@ TEST(WorstFrames, AreOfferedOfWhatWentWrong) {
   EXPECT_EQ(worst[0].frame, 2u);
 }
 
+TEST(Charts, OfATestingMachineBeginWithAForceOverItsDisplacement) {
+  PageData data;
+  EXPECT_FALSE(Json::parse(page_json(data)).contains("machine"));
+  EXPECT_EQ(machine_section(data.machine), "");
+  data.machine = {{"time", "s", {0, 1}},
+                  {"tip: displacement_z", "m", {0, 9}},
+                  {"grip: displacement_x", "m", {0, 0.1}},
+                  {"grip: displacement_z", "m", {0, 0.2}},
+                  {"clamp: force_z", "N", {0, -70}},
+                  {"grip: force_x", "N", {0, 1}},
+                  {"grip: force_z", "N", {0, NAN}},
+                  {"grip: force_y", "N", {0, 2}}};
+  const Json machine = Json::parse(page_json(data))["machine"];
+  EXPECT_EQ(machine["columns"].size(), 8U);
+  EXPECT_EQ(machine["columns"][6]["values"], Json::parse("[0, null]"));
+  EXPECT_EQ(machine["across"], 3);
+  EXPECT_EQ(machine["up"], 7);
+  EXPECT_NE(machine_section(data.machine).find("id=\"machine\""), std::string::npos);
+}
+
 }  // namespace sinew::test::chart_test

@@ -114,6 +114,16 @@ void expect_same_ledger(const Energies& a, const Energies& b, double part) {
   for (int k = 0; k < 8; ++k) EXPECT_NEAR(ledger[0][k], ledger[1][k], part * scale) << k;
 }
 
+void expect_same(const std::vector<Reaction>& on, const std::vector<Reaction>& expected,
+                 double force) {
+  ASSERT_EQ(on.size(), expected.size());
+  for (std::size_t k = 0; k < on.size(); ++k) {
+    EXPECT_LE((on[k].force - expected[k].force).norm(), force);
+    EXPECT_LE((on[k].moment - expected[k].moment).norm(), force * r * height);
+    EXPECT_NEAR(on[k].power, expected[k].power, force);
+  }
+}
+
 void expect_same(Simulation& kernel, Simulation& reference, double part) {
   const Material& material = reference.body().material;
   EXPECT_LE(test::largest_distance(kernel.particles(), reference.particles()), part * r);
@@ -124,12 +134,10 @@ void expect_same(Simulation& kernel, Simulation& reference, double part) {
   EXPECT_LE(largest(f.bone, g.bone), 10 * part * force);
   EXPECT_LE(largest(f.world, g.world), 10 * part * force);
   expect_same_ledger(kernel.energies(), reference.energies(), part);
-  const auto on = kernel.reactions_of_obstacles(), expected = reference.reactions_of_obstacles();
-  ASSERT_EQ(on.size(), expected.size());
-  for (std::size_t k = 0; k < on.size(); ++k) {
-    EXPECT_LE((on[k].force - expected[k].force).norm(), 100 * part * force);
-    EXPECT_LE((on[k].moment - expected[k].moment).norm(), 100 * part * force * r * height);
-  }
+  expect_same(kernel.reactions_of_obstacles(), reference.reactions_of_obstacles(),
+              100 * part * force);
+  expect_same(kernel.of_supports(), reference.of_supports(), 100 * part * force);
+  expect_same(kernel.of_loads(), reference.of_loads(), 100 * part * force);
 }
 
 void expect_same_steps(const Settings& settings, const Around& around) {

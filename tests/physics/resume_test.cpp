@@ -107,8 +107,25 @@ World in(Precision precision, World world) {
   return world;
 }
 
+/// A roller, a grip that lifts, a force that grows and a pressure.
+void grip(const Points& rest, sinew::World& around) {
+  const auto middle = static_cast<std::uint32_t>(rest.size() / 2);
+  Support roller{"roller", {middle}, {true, false, false}}, lift{"lift", {middle + 9}};
+  lift.pivot = rest[middle];
+  lift.motion = [at = lift.pivot](double time, const Pose&) {
+    return ObstaclePose{{at + time * Vec3(0, 0, 0.01), Mat3::Identity()}, {0, 0, 0.01}, {0, 0, 0}};
+  };
+  around.supports = {roller, lift};
+  hold(around, rest.size());
+  const Vec3 side(3 * r, 0, 0), up(0, 0, 4 * r);
+  const Triangles sheet{{rest[middle] - side, rest[middle] + side, rest[middle] + up}, {{0, 1, 2}}};
+  around.loads = {force_load("pull", {middle + 20}, {1}, {0, 0.01, 0}, rest),
+                  pressure_load("press", sheet, 300, rest, r)};
+  around.loads[0].scale = {{0, 0.05}, {0, 1}};
+}
+
 /// Between an approaching wall and a wind, in a medium, held at both ends, with a muscle that
-/// twitches.
+/// twitches, in a testing machine.
 World surrounded(const std::string& name, Integrator integrator) {
   World world = with(bend(name, Precision::binary64, 17), integrator);
   const Material material = test::material_of(world.settings);
@@ -135,6 +152,7 @@ World surrounded(const std::string& name, Integrator integrator) {
   muscle.activation = {{0, 0.05}, {0, 1}};
   muscle.shares = shares_in({}, world.rest);
   around.muscles = make_muscles(world.rest, r, {muscle});
+  grip(world.rest, around);
   world.around = std::make_shared<const sinew::World>(around);
   world.factor = 0.2;
   return world;
@@ -196,7 +214,13 @@ Results results_of(Simulation& simulation) {
     for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
       results.forces.push_back((*part)[i]);
   results.forces.insert(results.forces.end(), forces.world.begin(), forces.world.end());
-  for (const Reaction& on : simulation.reactions_of_obstacles()) results.forces.push_back(on.force);
+  for (const auto& all :
+       {simulation.reactions_of_obstacles(), simulation.of_supports(), simulation.of_loads()})
+    for (const Reaction& on : all) {
+      results.forces.push_back(on.force);
+      results.forces.push_back(on.moment);
+      results.energies.push_back(on.power);
+    }
   return results;
 }
 

@@ -62,9 +62,11 @@ Results run(const Story& story, kernel::InstructionSet set, int steps) {
                   {},
                   simulation.list_counts().listed,
                   simulation.list_counts().pruned};
-  for (const Reaction& on : simulation.reactions_of_obstacles())
-    for (const double value : {on.force.x(), on.force.y(), on.force.z(), on.moment.x()})
-      results.reactions.push_back(value);
+  for (const auto& all :
+       {simulation.reactions_of_obstacles(), simulation.of_supports(), simulation.of_loads()})
+    for (const Reaction& on : all)
+      for (const double value : {on.force.x(), on.force.y(), on.force.z(), on.moment.x(), on.power})
+        results.reactions.push_back(value);
   return results;
 }
 

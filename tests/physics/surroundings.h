@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surroundings of a body of particles of 1 cm: walls that move, pins, fields, muscles, and all.
+// Surroundings of a body of particles of 1 cm: walls that move, pins, fields, muscles, a testing
+// machine, and all.
 #pragma once
 
 #include <functional>
@@ -63,15 +64,34 @@ inline std::vector<Around> all_surroundings() {
     part.shares = shares_in({SphereShape{rest.back(), 3 * r}, 0.02}, rest);
     world.muscles = make_muscles(rest, r, {whole, part});
   };
+  const auto machine = [](const Points& rest, const Material&, World& world) {
+    const auto middle = static_cast<std::uint32_t>(rest.size() / 2);
+    const Vec3 pivot = rest[middle];
+    Support roller{"roller", {middle, middle + 1}, {true, false, true}}, grip = roller;
+    grip = {"grip", {middle + 5, middle + 6}, {true, true, false}};
+    grip.pivot = pivot;
+    grip.motion = [pivot](double time, const Pose&) {
+      const Mat3 turn = Eigen::AngleAxisd(3 * time, Vec3::UnitZ()).toRotationMatrix();
+      return ObstaclePose{{pivot + time * Vec3(0.02, 0, 0.1), turn}, {0.02, 0, 0.1}, {0, 0, 3}};
+    };
+    world.supports = {roller, grip};
+    const Vec3 size(2.5 * r, 0, 0), up(0, 0, 3 * r);
+    const Triangles sheet{{pivot - size, pivot + size, pivot + up}, {{0, 1, 2}}};
+    world.loads = {force_load("pull", {1, 3, 4}, {1, 2, 1}, {0.01, 0, 0.02}, rest),
+                   pressure_load("press", sheet, 500, rest, r)};
+    world.loads[0].scale = {{0, 0.02}, {0, 1}};
+    hold(world, rest.size());
+  };
   const auto all = [=](const Points& rest, const Material& material, World& world) {
     for (const auto& part : {std::function<void(const Points&, const Material&, World&)>(walls),
                              {pins},
                              {fields},
-                             {muscles}})
+                             {muscles},
+                             {machine}})
       part(rest, material, world);
   };
-  return {{"nothing", nullptr}, {"walls", walls},     {"pins", pins},
-          {"fields", fields},   {"muscles", muscles}, {"all", all}};
+  return {{"nothing", nullptr}, {"walls", walls},     {"pins", pins}, {"fields", fields},
+          {"muscles", muscles}, {"machine", machine}, {"all", all}};
 }
 
 }  // namespace sinew::surroundings

@@ -84,10 +84,46 @@ class Chance {
       drawn.tracks.push_back(owner(track_fields()));
       for (int k = 0; k <= below(3); ++k) drawn.tracks.back().keys.push_back(owner(key_fields()));
     }
+    add_machine(drawn);
     return drawn;
   }
 
  private:
+  PartSettings part() {
+    PartSettings drawn;
+    if (below(2) == 0) drawn.region = {Vec3(-1, 0, 2), Vec3(0, 1e-3, 3), {}, {}, 0};
+    if (below(2) == 0) drawn.point = drawn.normal = Vec3(number({}), 1, -0.0);
+    if (below(2) == 0) drawn.facing = Vec3(0, 1, number({}));
+    if (below(2) == 0) drawn.component = below(9);
+    if (below(2) == 0) drawn.bone = texts[index(texts)];
+    if (below(2) == 0) drawn.ids = {0, 1e9};
+    drawn.facing_angle = number({0, 180});
+    return drawn;
+  }
+
+  void add_machine(Settings& drawn) {
+    for (int i = 0; i < below(3); ++i) {
+      SupportSettings& support = drawn.supports.emplace_back();
+      support = {"s" + std::to_string(i), HeldAxes(below(7)), part(), Vec3(number({}), 0, 1)};
+      if (below(2) == 0) support.pivot.reset();
+      for (int k = 0; k < below(4); ++k)
+        support.keys.push_back({1.0 * k, k * Vec3(0, 1, 0.1), Vec3::UnitX(), k * 1e-9});
+    }
+    for (int i = 0; i < below(3); ++i) {
+      LoadSettings& load = drawn.loads.emplace_back();
+      load.name = "l" + std::to_string(i);
+      load.part = part();
+      const int kind = below(4);
+      if (kind == 0) load.force = Vec3(0, 0, number({}));
+      if (kind == 1) load.traction = Vec3(0, 0, number({}));
+      if (kind == 2) load.gravity = Vec3(0, 0, number({}));
+      if (kind == 3) load.pressure = number({});
+      for (int k = 0; k < below(4); ++k) load.keys.push_back({0.5 * k, number({})});
+    }
+    for (int i = 0; i < below(3); ++i) drawn.probes.push_back({texts[index(texts)], {}, part()});
+    if (drawn.probes.size() == 2) drawn.probes = {{"p", Vec3(0, number({}), 1), {}}};
+  }
+
   template <class List>
   std::size_t index(const List& list) {
     return static_cast<std::size_t>(below(static_cast<int>(list.size())));
@@ -170,12 +206,34 @@ void expect_same(const Settings& one, const Settings& other) {
   }
 }
 
+template <class Owner, class Key>
+void expect_same_lists(std::span<const Field<Owner>> rows, std::span<const Field<Key>> key_rows,
+                       const std::vector<Owner>& one, const std::vector<Owner>& other) {
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    expect_same(rows, one[i], other[i]);
+    ASSERT_EQ(one[i].keys.size(), other[i].keys.size());
+    for (std::size_t k = 0; k < one[i].keys.size(); ++k)
+      expect_same(key_rows, one[i].keys[k], other[i].keys[k]);
+  }
+}
+
+void expect_same_machines(const Settings& one, const Settings& other) {
+  expect_same_lists(support_fields(), place_key_fields(), one.supports, other.supports);
+  expect_same_lists(load_fields(), factor_fields(), one.loads, other.loads);
+  ASSERT_EQ(one.probes.size(), other.probes.size());
+  for (std::size_t i = 0; i < one.probes.size(); ++i)
+    expect_same(probe_fields(), one.probes[i], other.probes[i]);
+}
+
 TEST(ResolvedScene, ReadsBackAsTheSameSettings) {
   const TempFolder folder;
   for (unsigned seed = 0; seed < 300; ++seed) {
     const Settings settings = Chance(seed).settings();
     const std::string text = resolved_scene(settings, folder.path());
-    expect_same(settings, read_scene(folder.write("scene.yaml", text)));
+    const Settings again = read_scene(folder.write("scene.yaml", text));
+    expect_same(settings, again);
+    expect_same_machines(settings, again);
     if (testing::Test::HasFailure()) FAIL() << "seed " << seed << "\n" << text;
   }
 }

@@ -64,6 +64,14 @@ void add_world(std::vector<Group>& all) {
   all.push_back(entries("world.muscles[].keys[]", activation_fields()));
 }
 
+void add_machine(std::vector<Group>& all) {
+  all.push_back(entries("supports[]", support_fields()));
+  all.push_back(entries("supports[].keys[]", place_key_fields()));
+  all.push_back(entries("loads[]", load_fields()));
+  all.push_back(entries("loads[].keys[]", factor_fields()));
+  all.push_back(entries("probes[]", probe_fields()));
+}
+
 std::vector<Group> groups() {
   std::vector<Group> all;
   for (const std::string_view section : sections()) {
@@ -78,7 +86,10 @@ std::vector<Group> groups() {
       all.push_back(entries("motion.tracks[]", track_fields()));
       all.push_back(entries("motion.tracks[].keys[]", key_fields()));
     }
-    if (section == "world") add_world(all);
+    if (section == "world") {
+      add_world(all);
+      add_machine(all);
+    }
   }
   return all;
 }

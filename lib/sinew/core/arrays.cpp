@@ -192,6 +192,20 @@ std::vector<WrittenArray> table_of_frames() {
   };
 }
 
+std::vector<WrittenArray> table_of_supports() {
+  return {
+      {"supports", point, "Points", "m", xyz, real, plain,
+       "mean place of what a support holds or a load acts on"},
+      {"supports", point, "number", "1", one, whole, scalars,
+       "its row in a frame of supports.csv, from 0"},
+      {"supports", point, "load", "1", one, whole, plain, "1 for a load, 0 for a support"},
+      {"supports", point, "force", "N", xyz, real, vectors, "its force on the body"},
+      {"supports", point, "moment", "N m", xyz, real, plain, "its moment about its pivot"},
+      {"supports", point, "power", "W", one, real, plain, "its power into the body"},
+      {"supports", point, "displacement", "m", xyz, real, plain, "mean displacement"},
+  };
+}
+
 std::vector<WrittenArray> table_of_obstacles() {
   return {
       {"obstacles", point, "Points", "m", xyz, real, plain, "point of an obstacle's surface"},
@@ -239,7 +253,8 @@ std::vector<WrittenArray> make_table() {
   for (auto rows :
        {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles,
         table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs, table_of_bones,
-        table_of_bonds, table_of_frames, table_of_obstacles, table_of_defects, table_of_blowup})
+        table_of_bonds, table_of_frames, table_of_obstacles, table_of_supports, table_of_defects,
+        table_of_blowup})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }

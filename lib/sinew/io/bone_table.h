@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include <sinew/core/file.h>
+#include <sinew/io/frame_table.h>
 #include <sinew/io/frames.h>
 
 namespace sinew {
@@ -35,10 +35,10 @@ class BoneTable {
   /// One frame; per bone the sums and the parts (empty: zeros). Throws not written.
   void add(double time, const Skeleton& skeleton, std::span<const BoneRow> sums,
            const std::array<std::span<const BoneRow>, 3>& parts);
-  void close();  ///< throws not written
+  void close() { table_.close(); }  ///< throws not written
 
  private:
-  GrowingFile file_;
+  FrameTable table_;
 };
 
 }  // namespace sinew

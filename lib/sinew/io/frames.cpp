@@ -107,6 +107,29 @@ Dataset obstacles_dataset(std::span<const ObstacleFrame> obstacles, Moment momen
   return data;
 }
 
+Dataset supports_dataset(std::span<const SupportFrame> supports, Moment moment) {
+  std::vector<std::int32_t> load;
+  std::vector<double> power;
+  Points force, moment_of_force, displacement;
+  Dataset data = dataset_at(moment);
+  for (const SupportFrame& now : supports) {
+    data.points.push_back(now.place);
+    load.push_back(now.load ? 1 : 0);
+    force.push_back(now.force);
+    moment_of_force.push_back(now.moment);
+    power.push_back(now.power);
+    displacement.push_back(now.displacement);
+  }
+  data.connectivity = vertex_cells(supports.size());
+  data.point_columns = {column("number", vertex_cells(supports.size())),
+                        column("load", load),
+                        column("force", force),
+                        column("moment", moment_of_force),
+                        column("power", power),
+                        column("displacement", displacement)};
+  return data;
+}
+
 Dataset bones_dataset(const Skeleton& skeleton, const Pose& pose, Moment moment) {
   assert(pose.size() == skeleton.size());
   Dataset data = dataset_at(moment);

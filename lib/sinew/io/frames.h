@@ -34,6 +34,17 @@ struct ObstacleFrame {
 /// The surfaces of all obstacles in one dataset.
 Dataset obstacles_dataset(std::span<const ObstacleFrame> obstacles, Moment moment);
 
+/// A support or a load at one moment.
+struct SupportFrame {
+  bool load;                 ///< else a support
+  Vec3 place, displacement;  ///< means of its part, m
+  Vec3 force, moment;        ///< on the body, N and N m
+  double power;              ///< into it, W
+};
+
+/// A vertex for each.
+Dataset supports_dataset(std::span<const SupportFrame> supports, Moment moment);
+
 /// Four lines per bone: head to tail, and its x, y, z axes, a quarter of the bone long.
 Dataset bones_dataset(const Skeleton& skeleton, const Pose& pose, Moment moment);
 

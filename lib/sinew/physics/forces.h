@@ -60,11 +60,12 @@ void pair_forces(const Particles& particles, const Material& material, Forces& f
 /// Bone forces at `pose`. Fills bone, bone_damping and the powers.
 void bone_forces(const Particles& particles, const Body& body, const Pose& pose, Forces& forces);
 
-/// Force and moment about its head that the body puts on a bone.
+/// Force and moment about its head that the body puts on a bone; of a support or a load: that it
+/// puts on the body, about its pivot.
 struct Reaction {
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N m
-  double power = 0;            ///< from the bone into the body, W
+  double power = 0;            ///< from the bone, support or load into the body, W
 
   Reaction& operator+=(const Reaction& other) {
     force += other.force;

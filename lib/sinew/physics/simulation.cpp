@@ -232,7 +232,7 @@ Energies Simulation::energies() {
   energies.work_of_bones = ledger_.work_until(balance_.power);
   energies.dissipation = ledger_.dissipation_until(balance_.lost);
   energies.contact = balance_.contact_energy;
-  // Pinned particles move as prescribed: the pins supply their kinetic energy.
+  // Held particles move as prescribed: pins and supports supply their kinetic energy.
   energies.work_of_world = world_ledger_.work_until(balance_.world_power) + balance_.held_kinetic -
                            (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
   return energies;
@@ -252,6 +252,16 @@ std::vector<double> Simulation::rest_of_bonds(const NeighborLists& nearest,
 std::vector<Reaction> Simulation::reactions_of_obstacles() {
   evaluate();
   return std::visit([](const auto& stepper) { return stepper.reactions_of_obstacles(); }, stepper_);
+}
+
+std::vector<Reaction> Simulation::of_supports() {
+  evaluate();
+  return std::visit([](const auto& stepper) { return stepper.of_supports(); }, stepper_);
+}
+
+std::vector<Reaction> Simulation::of_loads() {
+  evaluate();
+  return std::visit([](const auto& stepper) { return stepper.of_loads(); }, stepper_);
 }
 
 BoneReactions Simulation::reactions_of_bones() {

@@ -78,6 +78,10 @@ class Simulation {
 
   /// The force of the body on each obstacle of its world at the present moment, about its frame.
   std::vector<Reaction> reactions_of_obstacles();
+  /// The force of each support and load of its world on the body at the present moment, about its
+  /// pivot. The inertia of what supports hold is not part of it.
+  std::vector<Reaction> of_supports();
+  std::vector<Reaction> of_loads();
   /// The force of the body on each bone at the present moment, about its head.
   BoneReactions reactions_of_bones();
 

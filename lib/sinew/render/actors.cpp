@@ -125,6 +125,8 @@ Color color_of(const Snapshot& snapshot, std::size_t particle, const ColorScale&
   switch (snapshot.marks.empty() ? Mark::none : snapshot.marks[particle]) {
     case Mark::held:
       return palette::held;
+    case Mark::loaded:
+      return palette::loaded;
     case Mark::muscle:
       return palette::muscle;
     case Mark::sample:

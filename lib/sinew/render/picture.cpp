@@ -219,7 +219,7 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
   if (view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
   if (view == View::lines) add_lines(stage_.renderer(), snapshot, scale_, sizes.line);
   if (view == View::plan)
-    for (const Mark mark : {Mark::held, Mark::sample})
+    for (const Mark mark : {Mark::held, Mark::loaded, Mark::sample})
       add_particles(stage_.renderer(), marked(snapshot, mark), scale_);
   Exposure over = stage_.render();
   add_shadows(over, 2 * sizes.grain, sizes.shadows);

@@ -40,7 +40,8 @@ struct SnapshotTrace {
 /// What a particle is, beside its value.
 enum class Mark : std::uint8_t {
   none,
-  held,    ///< in place or on a bone, drawn dark
+  held,    ///< in place, on a bone or by a support, drawn dark
+  loaded,  ///< by a force or a pressure, drawn violet
   muscle,  ///< drawn red
   sample,  ///< shown for its size
 };

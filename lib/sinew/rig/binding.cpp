@@ -168,6 +168,11 @@ Binding bound(const Choice& choice, double particle_volume) {
 
 Binding bound_by(const Points& rest, const Skeleton& skeleton, const BindOptions& options,
                  double particle_volume) {
+  if (skeleton.size() == 0) {
+    Binding none;
+    none.first.assign(rest.size() + 1, 0);
+    return none;
+  }
   Choice choice{rest, skeleton, options, {}, {}, {}};
   std::size_t unreached = 0;
   if (options.inside)

@@ -2,6 +2,7 @@
 #include <sinew/run/frame_writer.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -104,7 +105,7 @@ struct ReactionColumns {
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const Body& body, const Triangles& surface,
                          std::vector<Triangles> obstacles, std::span<const double> kept,
-                         SurfaceLook look)
+                         SurfaceLook look, std::vector<Probe> probes)
     : folder_(folder),
       interval_(output.interval),
       body_(body),
@@ -124,6 +125,11 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
       written_(static_cast<int>(kept.size())) {
   if (!obstacles_.empty())
     obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
+  if (body.world && !(body.world->supports.empty() && body.world->loads.empty())) {
+    support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
+    support_series_.emplace(folder, format_of(output, "supports", body.material.pair.r), kept);
+  }
+  if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
   begin_arrays(output, kept);
@@ -132,7 +138,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
 
 std::vector<Series*> FrameWriter::all_series() {
   std::vector<Series*> all{&particles_, &skins_, &bones_, &frames_};
-  for (auto* series : {&obstacle_series_, &bond_series_})
+  for (auto* series : {&obstacle_series_, &support_series_, &bond_series_})
     if (*series) all.push_back(&**series);
   for (const Skinned& skinned : skinned_) all.push_back(skinned.series.get());
   return all;
@@ -180,7 +186,7 @@ void FrameWriter::begin_export(std::size_t kept, SurfaceLook look) {
 
 void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept) {
   arrays_ = additional_arrays(output, body_);
-  if (arrays_.empty() && !output.bonds) return;
+  if (arrays_.empty() && !output.bonds && !probe_table_) return;
   RestInput input = measured_body(body_.material, body_.skeleton, body_.factors);
   input.positions = body_.rest;
   input.surface = surface_;
@@ -208,7 +214,7 @@ FrameState FrameWriter::measured_at_rest() const {
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const ReadyScene& ready)
     : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles, ready.setup.obstacles,
-                  {}, ready.look) {}
+                  {}, ready.look, ready.setup.probes) {}
 
 void FrameWriter::add(Simulation& simulation, double time) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does
@@ -225,15 +231,19 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.pose = simulation.pose();
   frame.energies = simulation.energies();
   if (body_.world) {
-    frame.obstacles = world_at(*body_.world, time, frame.pose).obstacles;
+    WorldNow now = world_at(*body_.world, time, frame.pose);
+    frame.obstacles = std::move(now.obstacles);
     frame.on_obstacles = simulation.reactions_of_obstacles();
+    frame.supports = std::move(now.supports);
+    frame.of_supports = simulation.of_supports();
+    frame.of_loads = simulation.of_loads();
   }
   if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
   frame.reactions = simulation.reactions_of_bones();
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
   find_positions_by_id(frame.particles, frame.positions);
-  if (measured_ && frame.with_particles) take_forces(simulation, frame);
+  if (measured_ && (frame.with_particles || probe_table_)) take_forces(simulation, frame);
   for (const auto axis : {&Particles::x, &Particles::y, &Particles::z}) frame.particles.*axis = {};
   return frame;
 }
@@ -249,6 +259,8 @@ void FrameWriter::take_forces(Simulation& simulation, Moved& frame) const {
 }
 
 void FrameWriter::write(Moved& frame) {
+  if (support_table_) write_supports(frame);
+  if (probe_table_) write_probes(frame, state_of(frame));
   if (frame.with_particles) write_particles(frame);
   write_surfaces(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
@@ -266,14 +278,39 @@ void FrameWriter::write(Moved& frame) {
   spare_ = std::move(frame);
 }
 
+void FrameWriter::write_supports(const Moved& frame) {
+  const MachineMoment now = {frame.moment.time, frame.positions, frame.supports, frame.of_supports,
+                             frame.of_loads};
+  const std::vector<SupportFrame> frames = support_frames(*body_.world, now, body_.rest);
+  support_table_->add(now, frames);
+  support_series_->add(supports_dataset(frames, frame.moment));
+}
+
+FrameState FrameWriter::state_of(const Moved& frame) const {
+  FrameState state;
+  state.positions = frame.positions;
+  for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
+  state.bond_rest = frame.bond_rest;
+  state.muscle_stress = frame.muscle_stress;
+  return state;
+}
+
+void FrameWriter::write_probes(const Moved& frame, const FrameState& state) {
+  static constexpr std::array<std::string_view, 2> tensors = {"strain", "stress"};
+  const std::vector<Column> found = particle_arrays(*measured_, state, tensors);
+  const Points& world = frame.forces.world;
+  Points force(world.size());
+  for (std::size_t i = 0; i < world.size(); ++i)
+    force[static_cast<std::size_t>(frame.particles.id[i])] = world[i];
+  probe_table_->add(frame.moment.time, frame.positions, body_.rest,
+                    {std::get<std::vector<double>>(found[0].values),
+                     std::get<std::vector<double>>(found[1].values), force});
+}
+
 void FrameWriter::write_particles(Moved& frame) {
   std::vector<Column> requested;
   if (measured_) {
-    FrameState state;
-    state.positions = frame.positions;
-    for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
-    state.bond_rest = std::move(frame.bond_rest);
-    state.muscle_stress = std::move(frame.muscle_stress);
+    const FrameState state = state_of(frame);
     requested = particle_arrays(*measured_, state, arrays_);
     if (bond_series_)
       bond_series_->add(bonds_dataset(bond_values(*measured_, state), frame.positions,
@@ -311,6 +348,14 @@ void FrameWriter::close() {
   }
   bone_table_.close();
   checksums_->add("bones.csv");
+  if (support_table_) {
+    support_table_->close();
+    checksums_->add("supports.csv");
+  }
+  if (probe_table_) {
+    probe_table_->close();
+    checksums_->add("probes.csv");
+  }
   if (!export_) return;
   export_->close();
   write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the present state of a simulation as one frame of each series, by a separate thread while
-// the simulation continues. Also writes bones.csv, checksums.sfv and, where the scene requests
-// them, the surface by skinning alone and its export for animators.
+// the simulation continues. Also writes bones.csv, supports.csv, probes.csv, checksums.sfv
+// and, where the scene
+// requests them, the surface by skinning alone and its export for animators.
 //
 //     FrameWriter writer(folder, output, body, surface, obstacles);
 //     writer.add(simulation, time);
@@ -30,6 +31,8 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/skin.h>
 #include <sinew/rig/skinning.h>
+#include <sinew/run/probe_table.h>
+#include <sinew/run/support_table.h>
 #include <sinew/scene/setup.h>
 #include <sinew/settings/settings.h>
 
@@ -38,11 +41,13 @@ namespace sinew {
 class FrameWriter {
  public:
   /// `surface`: the body's skin at rest; `obstacles`: those of its world, each in its own frame;
-  /// `kept`: times (s) of frames already written; `look`: of the exported surface. The body must
+  /// `kept`: times (s) of frames already written; `look`: of the exported surface; `probes`: for
+  /// probes.csv. The body must
   /// outlive the writer. Throws not written, and bad input when one of those frames is missing.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
               const Triangles& surface, std::vector<Triangles> obstacles,
-              std::span<const double> kept = {}, SurfaceLook look = {});
+              std::span<const double> kept = {}, SurfaceLook look = {},
+              std::vector<Probe> probes = {});
   /// The same of a scene that begins.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
               const ReadyScene& ready);
@@ -77,6 +82,8 @@ class FrameWriter {
     BoneReactions reactions;
     std::vector<ObstaclePose> obstacles;
     std::vector<Reaction> on_obstacles;
+    std::vector<ObstaclePose> supports;
+    std::vector<Reaction> of_supports, of_loads;
   };
 
   /// The surface moved by skinning alone, in a series of its own.
@@ -94,6 +101,9 @@ class FrameWriter {
   void take_forces(Simulation& simulation, Moved& frame) const;
   void write_particles(Moved& frame);
   void write_surfaces(const Moved& frame);
+  void write_supports(const Moved& frame);
+  void write_probes(const Moved& frame, const FrameState& state);
+  FrameState state_of(const Moved& frame) const;
   std::vector<Series*> all_series();
   void begin_checksums();
   void list_new_frames();
@@ -109,8 +119,10 @@ class FrameWriter {
   std::vector<std::int32_t> surface_bone_;
   std::vector<Triangles> obstacles_;
   Series particles_, skins_, bones_, frames_;
-  std::optional<Series> obstacle_series_;  ///< where the scene has some
+  std::optional<Series> obstacle_series_, support_series_;  ///< where the scene has some
   BoneTable bone_table_;
+  std::optional<SupportTable> support_table_;  ///< where the scene has some, or loads
+  std::optional<ProbeTable> probe_table_;      ///< where the scene has some
   BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not requested
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;

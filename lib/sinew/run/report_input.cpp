@@ -13,6 +13,7 @@
 #include <sinew/physics/bone_force.h>
 #include <sinew/physics/laws.h>
 #include <sinew/rig/binding.h>
+#include <sinew/run/machine_columns.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/run_record.h>
 
@@ -241,6 +242,7 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
   input.checks = std::move(measured.checks);
   input.playback = std::move(measured.playback);
   input.curves = law_curves(run);
+  input.machine = machine_columns(run.folder.path);
   if (movie == MovieLink::follows || std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;

@@ -260,13 +260,16 @@ Triangles read_obstacles(const RunFiles& run, std::size_t index) {
 }
 
 std::shared_ptr<const World> world_of_run(const RunFiles& run) {
-  if (run.settings.world.pins.empty() && run.settings.world.muscles.empty()) return nullptr;
+  if (run.settings.world.pins.empty() && run.settings.world.muscles.empty() &&
+      run.settings.supports.empty() && run.settings.loads.empty())
+    return nullptr;
   Settings settings = run.settings;
   settings.world.obstacles.clear();  // their meshes need not exist any more
   const BodyFile body = read_body(run.folder.body());
-  const Body bound = make_body(settings, read_rig_files(settings), run.skeleton, body.particles,
-                               local_material(body));
-  return world_of(settings, {}, bound).world;
+  SceneFiles files = read_rig_files(settings);
+  const Body bound = make_body(settings, files, run.skeleton, body.particles, local_material(body));
+  files.surface = run.surface;
+  return world_of(settings, files, bound, body.component).world;
 }
 
 FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {

@@ -27,9 +27,11 @@ namespace {
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|checksums\\.sfv|report\\.html|"
-      "metrics(_bones)?\\.(csv|json)|(bones|sections)\\.csv|surface\\.(obj|pc2|glb)|blowup\\.vtu|"
-      "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)\\.pvd)(\\.tmp)?|"
-      "(particles|surface|bones|bonds|frames|obstacles|skin_lbs|skin_dqs|values)/"
+      "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|glb)"
+      "|blowup\\.vtu|"
+      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)\\.pvd)("
+      "\\.tmp)?|"
+      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/\\.?((compare_)?(body|surface|particles|section|strain|forces|bones)"
@@ -41,9 +43,9 @@ bool written_by_a_run(const fs::path& relative) {
 
 /// Folders within that of a run, and the run's own. Checkpoints first: without them a partly
 /// removed run cannot be resumed.
-constexpr std::array<const char*, 12> run_parts = {
-    "checkpoint", "",          "particles", "surface",  "bones",  "bonds",
-    "frames",     "obstacles", "skin_lbs",  "skin_dqs", "values", "pictures"};
+constexpr std::array<const char*, 13> run_parts = {
+    "checkpoint", "",         "particles", "surface",  "bones",  "bonds",   "frames",
+    "obstacles",  "supports", "skin_lbs",  "skin_dqs", "values", "pictures"};
 
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;

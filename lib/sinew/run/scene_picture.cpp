@@ -42,6 +42,11 @@ std::size_t visible_particle(const Scene& scene) {
   return best;
 }
 
+/// Those of a load that acts on a part of the body: all would hide it.
+std::vector<std::uint32_t> loaded_part(const Load& load, const Points& rest) {
+  return 2 * load.particles.size() > rest.size() ? std::vector<std::uint32_t>() : load.particles;
+}
+
 void add_particles(const Scene& scene, Snapshot& snapshot) {
   snapshot.radius = scene.radius;
   if (scene.rest.empty()) return;
@@ -51,6 +56,8 @@ void add_particles(const Scene& scene, Snapshot& snapshot) {
   };
   if (scene.world) {
     for (const Pinned& pin : scene.world->pins) add(pin.particle, Mark::held);
+    for (const Load& load : scene.world->loads)
+      for (const std::uint32_t i : loaded_part(load, scene.rest)) add(i, Mark::loaded);
     for (const std::uint32_t i : scene.world->muscles.active) add(i, Mark::muscle);
   }
   add(visible_particle(scene), Mark::sample);

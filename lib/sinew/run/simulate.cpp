@@ -119,6 +119,7 @@ class Run {
   void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
     schedule_ = {ready.setup.frames, ready.setup.plan, scene_.output.interval};
     std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
+    std::vector<Probe> probes = std::move(ready.setup.probes);
     simulation_.emplace(start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
     ready.body = {};  // millions of numbers that nobody needs any more
     if (state) {
@@ -127,7 +128,8 @@ class Run {
       log_.frames(schedule_.there);
     }
     writer_.emplace(folder_.path, scene_.output, simulation_->body(), ready.surface.triangles,
-                    std::move(obstacles), schedule_.times_there(), std::move(ready.look));
+                    std::move(obstacles), schedule_.times_there(), std::move(ready.look),
+                    std::move(probes));
     simulation_->forces();  // finds the first neighbors: no part of what writing costs
   }
 

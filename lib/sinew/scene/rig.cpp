@@ -71,6 +71,7 @@ Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& set
 }  // namespace
 
 Skeleton skeleton_of(const Settings& settings) {
+  if (settings.bones.empty() && !(settings.supports.empty() && settings.loads.empty())) return {};
   Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
   return placed(std::move(skeleton), placement_of(settings.skeleton));
 }

@@ -30,6 +30,7 @@ struct SceneFiles {
   SkinnedRig skeleton;             ///< of skeleton.file
   Rig motion;                      ///< of motion.file
   std::vector<Surface> obstacles;  ///< of world.obstacles, one each; empty for other shapes
+  Triangles surface;               ///< of the body, for supports and loads; read_files() has none
 };
 
 /// Throws bad input, with the scene's line, for files that cannot be read.

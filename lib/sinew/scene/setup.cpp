@@ -139,7 +139,7 @@ Material material_of(const Settings& settings, const Particles& particles) {
 
 LocalMaterial local_material(const BodyFile& body) {
   const auto given = [](const auto& values) { return values.value_or(std::vector<double>()); };
-  return {given(body.share), given(body.stiffness)};
+  return {given(body.share), given(body.stiffness), body.component};
 }
 
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
@@ -181,10 +181,12 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   Setup setup;
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings, files);
+  const std::vector<std::int32_t> component = std::move(local.component);
   setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(local));
-  SceneWorld around = world_of(settings, files.obstacles, setup.body);
+  SceneWorld around = world_of(settings, files, setup.body, component);
   setup.body.world = std::move(around.world);
   setup.obstacles = std::move(around.obstacles);
+  setup.probes = std::move(around.probes);
   setup.motion = std::move(rig.motion);
   setup.file_warnings = warnings_of(files);
   setup.joint_zone = settings.binding.joint_zone;
@@ -206,7 +208,8 @@ ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   ReadyScene ready;
   ready.surface = read_mesh(settings);
   if (settings.output.export_surface) ready.look = look_of_mesh(settings, ready.surface.triangles);
-  const SceneFiles files = read_files(settings);
+  SceneFiles files = read_files(settings);
+  files.surface = ready.surface.triangles;
   ready.body =
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
   ready.seconds_filling = watch.lap();

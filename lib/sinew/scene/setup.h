@@ -14,6 +14,7 @@
 #include <sinew/physics/time_step.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
@@ -34,6 +35,7 @@ Material material_of(const Settings& settings, const Particles& particles);
 /// What differs from particle to particle, as in Body.
 struct LocalMaterial {
   std::vector<double> share = {}, stiffness = {};
+  std::vector<std::int32_t> component = {};  ///< of each particle; empty: not known
 };
 LocalMaterial local_material(const BodyFile& body);
 
@@ -47,8 +49,9 @@ struct Setup {
   StepChoice steps;
   StepPlan plan;
   std::vector<Triangles> obstacles;  ///< of the world, as surfaces in coordinates of their shapes
-  double joint_zone = 0;             ///< in square roots of the bones' cross-section
-  bool weights_given = false;        ///< by a file: they distribute rotations in their own manner
+  std::vector<Probe> probes;
+  double joint_zone = 0;       ///< in square roots of the bones' cross-section
+  bool weights_given = false;  ///< by a file: they distribute rotations in their own manner
   std::vector<std::string> file_warnings = {};  ///< what its rigs get wrong, with their places
   int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
 };

@@ -6,6 +6,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/world.h>
@@ -50,13 +51,23 @@ struct BoneEnds {
   Vec3 head, tail;
 };
 
+/// How fast a support carries what it holds, m/s.
+double speed_of(const Support& support, const ObstaclePose& now, const Points& rest) {
+  double reach = 0;
+  for (const std::uint32_t i : support.particles)
+    reach = std::max(reach, (rest[i] - support.pivot).norm());
+  return now.velocity.norm() + now.angular_velocity.norm() * reach;
+}
+
 /// How fast bones move at moments one after the other, as their velocities say, and as their ends
-/// have moved since the last.
+/// have moved since the last; and supports, as their velocities say.
 class Speedometer {
  public:
   /// Before the first moment, at 0, bones were at rest for `between` s: they may begin elsewhere.
   Speedometer(const Setup& setup, double between)
       : skeleton_(setup.body.skeleton),
+        world_(setup.body.world),
+        rest_(setup.body.rest),
         reach_(reach_of_bones(setup.body)),
         poses_(setup.body.skeleton, setup.motion),
         time_(-between) {
@@ -76,16 +87,27 @@ class Speedometer {
       last_[b] = ends;
     }
     time_ = time;
-    return fastest;
+    return std::max(fastest, of_supports(time, pose));
   }
 
  private:
+  double of_supports(double time, const Pose& pose) const {
+    if (!world_) return 0;
+    double fastest = 0;
+    for (const Support& support : world_->supports)
+      if (support.motion)
+        fastest = std::max(fastest, speed_of(support, support.motion(time, pose), rest_));
+    return fastest;
+  }
+
   double moved(std::size_t bone, const BoneEnds& ends, double time) const {
     return std::max((ends.head - last_[bone].head).norm(), (ends.tail - last_[bone].tail).norm()) /
            (time - time_);
   }
 
   const Skeleton& skeleton_;
+  std::shared_ptr<const World> world_;
+  const Points& rest_;
   std::vector<double> reach_;
   PoseCursor poses_;
   std::vector<BoneEnds> last_;

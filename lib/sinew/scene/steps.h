@@ -26,8 +26,8 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
 /// For a body. Throws bad input, with the scene's line, where no step is stable.
 StepChoice steps_of(const Settings& settings, const Body& body);
 
-/// An upper bound of the speed at which bones carry any particle, m/s: by interval of that length
-/// (s), from frame to frame.
+/// An upper bound of the speed at which bones and supports carry any particle, m/s: by interval of
+/// that length (s), from frame to frame.
 std::vector<double> bone_speeds(const Setup& setup, double interval);
 
 /// With time_step: auto, the steps of each interval are divided until bones carry no particle

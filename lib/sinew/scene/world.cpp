@@ -105,31 +105,9 @@ Placed placed_shape(const ObstacleSettings& given, const Surface& mesh, double s
   return placed;
 }
 
-/// The motion that the keys of an obstacle give: that of a bone with its head at the center.
-ObstacleMotion keyed(const ObstacleSettings& given, const Vec3& middle) {
-  const std::vector<BoneDefinition> bones = {
-      {given.name, "", middle, Vec3(middle + Vec3::UnitX())}};
-  TrackDefinition track;
-  track.bone = given.name;
-  track.interpolation = given.interpolation;
-  for (const PlaceKeySettings& key : given.keys) {
-    KeyDefinition& made = track.keys.emplace_back();
-    made.time = key.time;
-    made.translation = key.translation;
-    made.axis = key.axis;
-    made.angle = key.angle;
-  }
-  const Skeleton skeleton = make_skeleton(bones);
-  Motion motion = played(make_motion(std::span(&track, 1), skeleton), {});
-  return [skeleton, motion = std::move(motion)](double time, const Pose&) {
-    const BonePose bone = pose_at(skeleton, motion, time).front();
-    return ObstaclePose{{bone.frame.origin, bone.turn}, bone.velocity, bone.angular_velocity};
-  };
-}
-
 ObstacleMotion motion_of(const ObstacleSettings& given, const Vec3& middle, int bone,
                          const Skeleton& skeleton) {
-  if (!given.keys.empty()) return keyed(given, middle);
+  if (!given.keys.empty()) return keyed_motion(given.name, given.interpolation, given.keys, middle);
   const RigidFrame frame = {middle, Mat3::Identity()};
   return bone == no_bone ? still(frame) : attached_to_bone(bone, skeleton.bones[bone], frame);
 }
@@ -199,17 +177,43 @@ void add_muscles(const Settings& settings, const Body& body, World& world) {
 
 }  // namespace
 
-SceneWorld world_of(const Settings& settings, std::span<const Surface> meshes, const Body& body) {
-  if (settings.world.empty()) return {};
+/// The motion of a bone with its head at the center.
+ObstacleMotion keyed_motion(const std::string& name, Interpolation interpolation,
+                            std::span<const PlaceKeySettings> keys, const Vec3& middle) {
+  const std::vector<BoneDefinition> bones = {{name, "", middle, Vec3(middle + Vec3::UnitX())}};
+  TrackDefinition track;
+  track.bone = name;
+  track.interpolation = interpolation;
+  for (const PlaceKeySettings& key : keys) {
+    KeyDefinition& made = track.keys.emplace_back();
+    made.time = key.time;
+    made.translation = key.translation;
+    made.axis = key.axis;
+    made.angle = key.angle;
+  }
+  const Skeleton skeleton = make_skeleton(bones);
+  Motion motion = played(make_motion(std::span(&track, 1), skeleton), {});
+  return [skeleton, motion = std::move(motion)](double time, const Pose&) {
+    const BonePose bone = pose_at(skeleton, motion, time).front();
+    return ObstaclePose{{bone.frame.origin, bone.turn}, bone.velocity, bone.angular_velocity};
+  };
+}
+
+SceneWorld world_of(const Settings& settings, const SceneFiles& files, const Body& body,
+                    std::span<const std::int32_t> component) {
   SceneWorld made;
+  const Parts parts(settings, body, files.surface, component);
+  made.probes = probes_of(settings, body, parts);
+  if (settings.world.empty() && settings.supports.empty() && settings.loads.empty()) return made;
   World world;
-  add_obstacles(settings, meshes, body, world, made.obstacles);
+  add_obstacles(settings, files.obstacles, body, world, made.obstacles);
   world.drag.rate = settings.world.drag;
   for (const FieldSettings& given : settings.world.fields)
     world.fields.push_back(
         {given.name, form_of(given), region_of(given.region), values_of(given.keys)});
   add_muscles(settings, body, world);
   add_pins(settings, body, world);
+  add_machine(settings, body, parts, world);
   with_context(settings, "world", [&] { check_world(world); });
   made.world = std::make_shared<const World>(std::move(world));
   return made;

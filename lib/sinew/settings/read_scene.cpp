@@ -116,6 +116,12 @@ void read_bodies(const YamlNode& scene, Settings& settings) {
                 settings.bodies.emplace_back(), settings.places);
 }
 
+/// Without bones a body hangs in its testing machine.
+bool needs_bones(const YamlNode& skeleton, const Settings& settings) {
+  return (settings.supports.empty() && settings.loads.empty()) ||
+         skeleton.find("bones") != nullptr || !settings.skeleton.file.empty();
+}
+
 Settings read_settings(const YamlNode& scene, const std::string& file,
                        std::span<const std::string_view> known) {
   Settings settings;
@@ -125,14 +131,16 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
                     "write its sections: " + listed(known));
   std::vector<std::string_view> keys(known.begin(), known.end());
   keys.push_back(list_of_bodies);
+  keys.insert(keys.end(), machine_lists.begin(), machine_lists.end());
   check_keys(scene, "", keys);
   read_bodies(scene, settings);
+  read_machine(scene, settings);
   for (const std::string_view name : known) {
     const YamlNode section = section_of(scene, name, settings);
     const auto rows = rows_of(name);
     read_fields<Settings>(section, std::string(name), rows, lists_of(name), settings,
                           settings.places);
-    if (name == "skeleton") read_bones(section, settings);
+    if (name == "skeleton" && needs_bones(section, settings)) read_bones(section, settings);
     if (name == "motion") read_tracks(section, settings);
     if (name == "world") read_world(section, settings);
     if (name == "binding") read_bound(section, settings);

@@ -1,72 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/settings/sections.h>
 
-#include <set>
 #include <string>
 #include <vector>
 
+#include <sinew/settings/entries.h>
 #include <sinew/settings/text_file.h>
-#include <sinew/settings/values.h>
-#include <sinew/settings/write_scene.h>
 
 namespace sinew {
 namespace {
-
-bool has_entries(const YamlNode& node, std::string_view list) {
-  const YamlNode* found = node.find(list);
-  return found != nullptr && (found->kind == YamlNode::Kind::scalar || !found->items.empty());
-}
-
-/// Calls read(item, path, entry) for the entries of a list that may be missing or empty.
-template <class Owner, class Read>
-void read_entries(const YamlNode& node, const std::string& path, std::string_view list,
-                  std::vector<Owner>& owners, Places& places, const Read& read) {
-  if (!has_entries(node, list)) return;
-  const auto items = list_below(node, path, list, places);
-  for (std::size_t i = 0; i < items.size(); ++i)
-    read(items[i], path_of_entry(path, list, i), owners.emplace_back());
-}
-
-/// Keys of an entry, with ascending times.
-template <class Key>
-void read_keys(const YamlNode& node, const std::string& path, std::span<const Field<Key>> rows,
-               std::vector<Key>& keys, Settings& settings) {
-  read_entries(node, path, "keys", keys, settings.places,
-               [&](const YamlNode& item, const std::string& below, Key& key) {
-                 read_fields(item, below, rows, "", key, settings.places);
-                 if (keys.size() > 1 && !(key.time > keys[keys.size() - 2].time))
-                   throw bad_input(settings.place(below + ".time"),
-                                   "keys are not in ascending time",
-                                   "sort them, each with its own time");
-               });
-}
-
-/// The name of an entry, or a placeholder for it.
-template <class Owner>
-void check_names(const std::vector<Owner>& owners, std::string_view list,
-                 const Settings& settings) {
-  std::set<std::string> seen;
-  for (std::size_t i = 0; i < owners.size(); ++i)
-    if (!seen.insert(owners[i].name).second)
-      throw bad_input(settings.place(path_of_entry("world", list, i) + ".name"),
-                      "two of world." + std::string(list) + " are named '" + owners[i].name + '\'',
-                      "give each a name of its own");
-}
-
-void check_region(const RegionSettings& region, const std::string& path, const Settings& settings) {
-  const bool box = region.low || region.high, ball = region.center || region.radius;
-  const Place place = settings.place(path);
-  if (box && ball)
-    throw bad_input(place, path + " has a region given as a box and as a ball",
-                    "keep low and high, or center and radius");
-  if (box && !(region.low && region.high))
-    throw bad_input(place, path + " has one corner of a box", "give low and high");
-  if (ball && !(region.center && region.radius))
-    throw bad_input(place, path + " has half of a ball", "give center and radius");
-  if (box && !(region.low->array() < region.high->array()).all())
-    throw bad_input(settings.place(path + ".low"), path + ".low is not below high on all axes",
-                    "give the least corner as low and the greatest as high");
-}
 
 bool has_region(const RegionSettings& region) { return region.low || region.center; }
 
@@ -108,10 +50,7 @@ void read_obstacle(const YamlNode& item, const std::string& path, ObstacleSettin
   read_fields(item, path, obstacle_fields(), "keys", obstacle, settings.places);
   check_shape(obstacle, path, settings);
   read_keys(item, path, place_key_fields(), obstacle.keys, settings);
-  for (std::size_t i = 0; i < obstacle.keys.size(); ++i)
-    if (obstacle.keys[i].axis.norm() == 0)
-      throw bad_input(settings.place(path_of_entry(path, "keys", i) + ".axis"),
-                      "a direction without length", "give [x, y, z], not all zero");
+  check_axes_of_keys(obstacle.keys, path, settings);
   if (!obstacle.bone.empty() && !obstacle.keys.empty())
     throw bad_input(settings.place(path + ".keys"), path + " has a bone and keys of its own",
                     "keep one of them");
@@ -171,28 +110,30 @@ void read_muscle(const YamlNode& item, const std::string& path, MuscleSettings& 
                     "give [x, y, z], not all zero");
 }
 
-/// One list of the section, `  NAME:` and its entries.
-template <class Owner, class Entry>
-std::string list_text(std::string_view name, const std::vector<Owner>& owners,
-                      const Entry& entry_text) {
-  std::string text = "  " + std::string(name) + ':';
-  if (owners.empty()) return text + " []\n";
-  text += '\n';
-  for (const Owner& owner : owners) text += entry_text(owner, &owner == &owners.front());
-  return text;
-}
-
-template <class Owner>
-std::string with_keys(std::span<const Field<typename decltype(Owner::keys)::value_type>> rows,
-                      const Owner& owner, bool first) {
-  if (owner.keys.empty()) return "      keys: []\n";
-  std::string text = "      keys:\n";
-  for (const auto& key : owner.keys)
-    text += entry_text(rows, key, 8, first && &key == &owner.keys.front());
-  return text;
-}
-
 }  // namespace
+
+void check_axes_of_keys(const std::vector<PlaceKeySettings>& keys, const std::string& path,
+                        const Settings& settings) {
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (keys[i].axis.norm() == 0)
+      throw bad_input(settings.place(path_of_entry(path, "keys", i) + ".axis"),
+                      "a direction without length", "give [x, y, z], not all zero");
+}
+
+void check_region(const RegionSettings& region, const std::string& path, const Settings& settings) {
+  const bool box = region.low || region.high, ball = region.center || region.radius;
+  const Place place = settings.place(path);
+  if (box && ball)
+    throw bad_input(place, path + " has a region given as a box and as a ball",
+                    "keep low and high, or center and radius");
+  if (box && !(region.low && region.high))
+    throw bad_input(place, path + " has one corner of a box", "give low and high");
+  if (ball && !(region.center && region.radius))
+    throw bad_input(place, path + " has half of a ball", "give center and radius");
+  if (box && !(region.low->array() < region.high->array()).all())
+    throw bad_input(settings.place(path + ".low"), path + ".low is not below high on all axes",
+                    "give the least corner as low and the greatest as high");
+}
 
 void read_world(const YamlNode& node, Settings& settings) {
   WorldSettings& world = settings.world;
@@ -206,28 +147,29 @@ void read_world(const YamlNode& node, Settings& settings) {
   read_entries(node, "world", "pins", world.pins, places, with(read_pin));
   read_entries(node, "world", "fields", world.fields, places, with(read_field));
   read_entries(node, "world", "muscles", world.muscles, places, with(read_muscle));
-  check_names(world.obstacles, "obstacles", settings);
-  check_names(world.fields, "fields", settings);
-  check_names(world.muscles, "muscles", settings);
+  check_names(world.obstacles, "world", "obstacles", settings);
+  check_names(world.fields, "world", "fields", settings);
+  check_names(world.muscles, "world", "muscles", settings);
 }
 
 std::string world_text(const Settings& settings, const std::filesystem::path& folder) {
   const WorldSettings& world = settings.world;
   std::string text =
-      list_text("obstacles", world.obstacles, [&](ObstacleSettings obstacle, bool first) {
+      list_text("obstacles", world.obstacles, 2, [&](ObstacleSettings obstacle, bool first) {
         obstacle.mesh = path_in(folder, obstacle.mesh);
         return entry_text(obstacle_fields(), obstacle, 4, first) +
-               with_keys(place_key_fields(), obstacle, first);
+               keys_text(place_key_fields(), obstacle, 4, first);
       });
-  text += list_text("pins", world.pins, [](const PinSettings& pin, bool first) {
+  text += list_text("pins", world.pins, 2, [](const PinSettings& pin, bool first) {
     return entry_text(pin_fields(), pin, 4, first);
   });
-  text += list_text("fields", world.fields, [](const FieldSettings& field, bool first) {
-    return entry_text(field_fields(), field, 4, first) + with_keys(strength_fields(), field, first);
+  text += list_text("fields", world.fields, 2, [](const FieldSettings& field, bool first) {
+    return entry_text(field_fields(), field, 4, first) +
+           keys_text(strength_fields(), field, 4, first);
   });
-  text += list_text("muscles", world.muscles, [](const MuscleSettings& muscle, bool first) {
+  text += list_text("muscles", world.muscles, 2, [](const MuscleSettings& muscle, bool first) {
     return entry_text(muscle_fields(), muscle, 4, first) +
-           with_keys(activation_fields(), muscle, first);
+           keys_text(activation_fields(), muscle, 4, first);
   });
   return text;
 }

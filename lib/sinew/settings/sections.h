@@ -50,6 +50,19 @@ void read_world(const YamlNode& world, Settings& settings);
 /// The lists as a scene in `folder` writes them; each key has a comment where it first occurs.
 std::string world_text(const Settings& settings, const std::filesystem::path& folder);
 
+// A testing machine: lists of supports, loads and probes of the scene itself.
+
+/// The names of its lists.
+inline constexpr std::array<std::string_view, 3> machine_lists = {"supports", "loads", "probes"};
+
+/// Reads the lists, all of which are optional. Throws bad input, with the scene's line, as
+/// read_world() does, for a support that begins elsewhere than at rest, and for a load of no kind
+/// or of several.
+void read_machine(const YamlNode& scene, Settings& settings);
+
+/// The lists that have entries, as a scene writes them.
+std::string machine_text(const Settings& settings);
+
 // Checks that involve more than one setting.
 
 /// Two keys that specify the same thing: at most one of them may be given.

@@ -99,6 +99,48 @@ struct WorldSettings {
   }
 };
 
+/// A part of the body at rest: what is in all of the regions that are given. None: all of it.
+struct PartSettings {
+  RegionSettings region = {};                   ///< a box or a ball
+  std::optional<Vec3> point = {}, normal = {};  ///< of a plane: what is in front of it
+  std::optional<int> component = {};
+  std::optional<Vec3> facing = {};  ///< at the surface
+  double facing_angle = 30;
+  std::string bone;
+  std::optional<std::vector<double>> ids = {};
+
+  bool empty() const {
+    return !region.low && !region.high && !region.center && !region.radius && !point && !normal &&
+           !component && !facing && bone.empty() && !ids;
+  }
+};
+
+enum class HeldAxes { x, y, xy, z, xz, yz, xyz };
+
+struct SupportSettings {
+  std::string name;
+  HeldAxes hold = HeldAxes::xyz;
+  PartSettings part = {};
+  std::optional<Vec3> pivot = {};
+  Interpolation interpolation = Interpolation::smooth;
+  std::vector<PlaceKeySettings> keys = {};
+};
+
+struct LoadSettings {
+  std::string name;
+  std::optional<Vec3> force = {}, traction = {}, gravity = {};
+  std::optional<double> pressure = {};
+  PartSettings part = {};
+  std::optional<Vec3> pivot = {};
+  std::vector<ValueKeySettings> keys = {};  ///< factors
+};
+
+struct ProbeSettings {
+  std::string name;
+  std::optional<Vec3> at = {};  ///< a point, instead of a part
+  PartSettings part = {};
+};
+
 /// Particles that belong to a bone, whatever is nearest: by number, in a box, or in a ball.
 struct BoundSettings {
   std::string bone;  ///< "": to none
@@ -145,6 +187,9 @@ struct Settings {
   BindingOptions binding;
   WorldSettings world;
   std::vector<BoundSettings> bound;  ///< section binding, list explicit
+  std::vector<SupportSettings> supports;
+  std::vector<LoadSettings> loads;
+  std::vector<ProbeSettings> probes;
   SolverSettings solver;
   OutputSettings output;
 

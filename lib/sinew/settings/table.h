@@ -71,6 +71,12 @@ std::span<const Field<ValueKeySettings>> strength_fields();    ///< world.fields
 std::span<const Field<MuscleSettings>> muscle_fields();        ///< world.muscles[]
 std::span<const Field<ValueKeySettings>> activation_fields();  ///< world.muscles[].keys[]
 
+// Lists of a testing machine, and the keys of their entries; those of supports are as obstacles'.
+std::span<const Field<SupportSettings>> support_fields();  ///< supports[]
+std::span<const Field<LoadSettings>> load_fields();        ///< loads[]
+std::span<const Field<ValueKeySettings>> factor_fields();  ///< loads[].keys[]
+std::span<const Field<ProbeSettings>> probe_fields();      ///< probes[]
+
 /// A shape of obstacles: the word for it, and the keys that it needs.
 struct ObstacleShapeRow {
   std::string_view name;

@@ -231,6 +231,10 @@ std::vector<std::string> homes_of(std::string_view name) {
   search(strength_fields(), "world.fields[].keys");
   search(muscle_fields(), "world.muscles");
   search(activation_fields(), "world.muscles[].keys");
+  search(support_fields(), "supports");
+  search(load_fields(), "loads");
+  search(factor_fields(), "loads[].keys");
+  search(probe_fields(), "probes");
   return homes;
 }
 

@@ -23,7 +23,7 @@ constexpr std::size_t most_samples = 500;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 /// A JSON list of one element.
-OrderedJson listed(OrderedJson only) {
+OrderedJson list_of(OrderedJson only) {
   OrderedJson list = OrderedJson::array();
   list.push_back(std::move(only));
   return list;
@@ -160,7 +160,7 @@ class Contents {
   void put_into(OrderedJson& json) const {
     json["accessors"] = accessors_;
     json["bufferViews"] = views_;
-    json["buffers"] = listed({{"byteLength", bytes_}});
+    json["buffers"] = list_of({{"byteLength", bytes_}});
   }
 
  private:
@@ -170,12 +170,12 @@ class Contents {
 
 OrderedJson animation_of(const Floats& times, std::size_t targets, Contents& contents) {
   const int input = contents.add(GltfNumber::float32, "SCALAR", times.size(),
-                                 {{"min", listed(times.front())}, {"max", listed(times.back())}});
+                                 {{"min", list_of(times.front())}, {"max", list_of(times.back())}});
   const int output = contents.add(GltfNumber::float32, "SCALAR", times.size() * targets);
   OrderedJson animation = {{"name", "motion"}};
   animation["samplers"] =
-      listed({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
-  animation["channels"] = listed({{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}});
+      list_of({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+  animation["channels"] = list_of({{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}});
   return animation;
 }
 
@@ -255,14 +255,15 @@ OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Content
 OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMaterials& materials,
                      double interval, Contents& contents) {
   OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
-  json["scenes"] = listed({{"nodes", listed(0)}});
-  json["nodes"] = listed({{"name", "surface"}, {"mesh", 0}});
+  json["scenes"] = list_of({{"nodes", list_of(0)}});
+  json["nodes"] = list_of({{"name", "surface"}, {"mesh", 0}});
   OrderedJson mesh = {{"primitives", primitives_of(moments, surface, contents)}};
   // Weights default to 0, but VTK counts them.
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
-  json["meshes"] = listed(mesh);
+  json["meshes"] = list_of(mesh);
   if (moments.targets() > 0)
-    json["animations"] = listed(animation_of(moments.times(interval), moments.targets(), contents));
+    json["animations"] =
+        list_of(animation_of(moments.times(interval), moments.targets(), contents));
   put_into(json, materials, contents);
   contents.put_into(json);
   return json;

@@ -135,6 +135,27 @@ def show_obstacles(source, view):
     show_plain(source, view, OBSTACLE, 0.6).SelectNormalArray = "None"
 
 
+def arrow_scale(scene):
+    """Of the arrows of supports and loads, m/N."""
+    return 0.2 * scene.size / scene.hardest if scene.hardest > 0 else 0
+
+
+def show_supports(source, view, scene):
+    """An arrow for the force of each support (dark) and load (red) on the body, at the middle of its
+    part; the longest at any time is a fifth of the body."""
+    for name, load, color in (("supports", 0, INK), ("loads", 1, FORCE)):
+        chosen = Threshold(registrationName=name, Input=source)
+        chosen.Scalars = ["POINTS", "load"]
+        chosen.LowerThreshold = chosen.UpperThreshold = load
+        arrows = Glyph(registrationName=name + " arrows", Input=chosen, GlyphType="Arrow")
+        arrows.OrientationArray = ["POINTS", "force"]
+        arrows.ScaleArray = ["POINTS", "force"]
+        arrows.ScaleFactor = arrow_scale(scene)
+        arrows.GlyphMode = "All Points"
+        arrows.GlyphType.TipResolution = arrows.GlyphType.ShaftResolution = 24
+        show_plain(arrows, view, color)
+
+
 def tubes(bones, name, first, last, radius):
     chosen = Threshold(registrationName=name, Input=bones)
     chosen.Scalars = ["CELLS", "axis"]
@@ -241,6 +262,8 @@ def show_all(sources, options, scene):
         show_heads(sources["frames"], view, radius)
         if "obstacles" in sources:
             show_obstacles(sources["obstacles"], view)
+        if "supports" in sources:
+            show_supports(sources["supports"], view, scene)
         look_at(view, scene.corners, options.camera, options.size[0] / 2 / options.size[1])
     arrows = force_arrows(sources["particles"], scene, options.forces or "force_pair")
     if options.forces:

@@ -24,8 +24,9 @@ def frame_files(folder, series):
 
 def open_series(folder):
     names = ["particles", "surface", "bones", "frames"]
-    if os.path.exists(os.path.join(folder, "obstacles.pvd")):
-        names.append("obstacles")
+    for name in ("obstacles", "supports"):
+        if os.path.exists(os.path.join(folder, name + ".pvd")):
+            names.append(name)
     return {name: PVDReader(registrationName=name, FileName=os.path.join(folder, name + ".pvd"))
             for name in names}
 
@@ -49,22 +50,40 @@ def corners_over_time(source, times, most=16):
     return corners
 
 
+def tips_over_time(source, times, scene, most=16):
+    """The ends of the arrows of supports and loads at times spread over the run."""
+    tips = []
+    for time in times[::max(1, math.ceil(len(times) / most))] + [times[-1]]:
+        source.UpdatePipeline(time)
+        shown = servermanager.Fetch(source)
+        force = shown.GetPointData().GetArray("force")
+        for i in range(shown.GetNumberOfPoints()):
+            tips.append([place + arrow_scale(scene) * along
+                         for place, along in zip(shown.GetPoint(i), force.GetTuple(i))])
+    return tips
+
+
 def time_note(source):
     note = AnnotateTimeFilter(registrationName="time", Input=source)
     note.Format = "t = {time:.3f} s"
     return note
 
 
-def scene_of(folder, frames, particles, options):
+def scene_of(folder, frames, sources, options):
     """The scene of a run, and the time at which the array is largest."""
     scene = Scene(folder)
     scene.array = array_or_stop(frames[0][1], options.array)
     ranges = ranges_over_time(frames, options.array)
     scene.limits = options.range or limits_of(ranges)
     scene.strongest = limits_of(ranges_over_time(frames, options.forces or "force_pair"))[1]
+    if "supports" in sources:
+        files = [path for _, path in frame_files(folder, "supports")]
+        scene.hardest = max(range_in(described_array(path, "force"))[1] for path in files)
     times = [time for time, _ in frames]
-    scene.corners += corners_over_time(particles, times)
+    scene.corners += corners_over_time(sources["particles"], times)
     _, scene.size = middle_and_size(scene.corners)
+    if "supports" in sources:
+        scene.corners += tips_over_time(sources["supports"], times, scene)
     return scene, max(zip(ranges, times), key=lambda entry: entry[0][1])[1]
 
 
@@ -77,7 +96,7 @@ def main():
     if not frames:
         stop("the run has no frames yet; live.py follows it")
     sources = open_series(folder)
-    scene, moment = scene_of(folder, frames, sources["particles"], options)
+    scene, moment = scene_of(folder, frames, sources, options)
     layout, left = show_all(sources, options, scene)
     show_time(time_note(sources["particles"]), left, options)
     SetActiveSource(sources["particles"])

@@ -52,6 +52,57 @@ Json json_of(const LawCurve& curve) {
           {"lines", std::move(lines)}};
 }
 
+double range_of(const MachineColumn& column) {
+  double low = 0, high = 0;
+  bool any = false;
+  for (const double value : column.values) {
+    if (!drawable(value)) continue;
+    low = any ? std::min(low, value) : value;
+    high = any ? std::max(high, value) : value;
+    any = true;
+  }
+  return high - low;
+}
+
+std::string owner_of(const MachineColumn& column) {
+  return column.name.substr(0, column.name.find(':') + 1);
+}
+
+/// The column with the largest range of those that are wanted; `otherwise` where none changes.
+template <class Wanted>
+std::size_t widest(const std::vector<MachineColumn>& columns, std::size_t otherwise,
+                   const Wanted& wanted) {
+  double most = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (wanted(columns[k]) && range_of(columns[k]) > most) {
+      most = range_of(columns[k]);
+      otherwise = k;
+    }
+  return otherwise;
+}
+
+/// At first a force is over the displacement that changes most.
+Json machine_json(const std::vector<MachineColumn>& columns) {
+  Json all = Json::array();
+  for (const MachineColumn& column : columns) {
+    Json values = Json::array();
+    for (const double value : column.values) values.push_back(shown(value));
+    all.push_back({{"name", column.name}, {"unit", column.unit}, {"values", std::move(values)}});
+  }
+  const auto has_force = [&](const std::string& owner) {
+    return std::any_of(columns.begin(), columns.end(), [&](const MachineColumn& one) {
+      return one.unit == "N" && owner_of(one) == owner;
+    });
+  };
+  const std::size_t across = widest(columns, 0, [&](const MachineColumn& one) {
+    return one.name.find(": displacement_") != std::string::npos && has_force(owner_of(one));
+  });
+  const std::size_t up = widest(columns, columns.size() - 1, [&](const MachineColumn& one) {
+    return one.unit == "N" && (across == 0 || owner_of(one) == owner_of(columns[across]));
+  });
+  return {{"columns", std::move(all)}, {"across", across}, {"up", up}};
+}
+
 bool has_bones(const std::vector<double>& angles) {
   return std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; });
 }
@@ -128,6 +179,7 @@ std::string page_json(const PageData& data) {
   for (const LawCurve& curve : data.curves) json["curves"].push_back(json_of(curve));
   for (const auto& [metric, frame, time] : data.worst)
     json["worst"].push_back({{"metric", metric}, {"frame", frame}, {"time", time}});
+  if (!data.machine.empty()) json["machine"] = machine_json(data.machine);
   json["angles"] = has_bones(data.angles) ? points_of(data.times, data.angles) : Json::array();
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -191,6 +243,16 @@ std::string charts_section(bool with_view) {
   return element("section",
                  element("h2", "Over time") + element("p", hint, "class=\"quiet hint\"") +
                      element("div", "", "class=\"charts\" id=\"charts\""),
+                 "class=\"needs-script\"");
+}
+
+std::string machine_section(std::span<const MachineColumn> columns) {
+  if (columns.empty()) return "";
+  const std::string hint =
+      "Any column of supports.csv and probes.csv over any other: forces are those on the body.";
+  return element("section",
+                 element("h2", "Testing machine") + element("p", hint, "class=\"quiet hint\"") +
+                     element("div", "", "id=\"machine\""),
                  "class=\"needs-script\"");
 }
 

@@ -33,6 +33,7 @@ struct PageData {
   std::vector<Chart> charts;
   std::vector<LawCurve> curves;
   std::vector<WorstFrame> worst;
+  std::vector<MachineColumn> machine = {};
 };
 
 /// One JSON object:
@@ -40,6 +41,8 @@ struct PageData {
 /// - angles: of the bones, [time, degrees]; none where there are no bones
 /// - curves: title, note, across, up, lines (name, points [x, y])
 /// - worst: metric, frame, time
+/// - machine, where there is one: columns (name, unit, values), and which of them are shown first,
+///   across and up
 std::string page_json(const PageData& data);
 
 /// The frames that the buttons beside the 3D view show: for each headline metric its worst frame
@@ -71,6 +74,9 @@ std::string described(const RunMetric& metric);
 /// Heading, hint and container of the charts; `with_view`: a click on one moves the 3D view to that
 /// time.
 std::string charts_section(bool with_view);
+
+/// Heading, hint and container of the chart of a testing machine; empty without one.
+std::string machine_section(std::span<const MachineColumn> columns);
 
 /// The 3D view and its controls; `worst` labels the buttons that show a frame.
 std::string view_section(std::string_view worst);

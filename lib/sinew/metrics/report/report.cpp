@@ -46,6 +46,7 @@ PageData drawn_data(const ReportInput& input) {
   leave_out_empty(data.charts);
   data.curves = input.curves;
   data.worst = worst_frames(input.frames, input.summary);
+  data.machine = input.machine;
   return data;
 }
 
@@ -108,9 +109,10 @@ std::string report_html(const ReportInput& input) {
   const std::string body =
       header(input) + verdict_cards(input.frames, input.summary, input.radius) +
       checks_table(input.checks) + playback_section(input) + pictures(input) +
-      charts_section(!input.playback.frames.empty()) + curves_section(input) +
-      metrics_tables(input.frames, input.summary) + element("h2", "What was run") +
-      fact_lists(input.facts) + folded("The resolved scene", input.scene_text);
+      machine_section(input.machine) + charts_section(!input.playback.frames.empty()) +
+      curves_section(input) + metrics_tables(input.frames, input.summary) +
+      element("h2", "What was run") + fact_lists(input.facts) +
+      folded("The resolved scene", input.scene_text);
   return page_html(
       {input.title, input.version, body, "metrics.csv", drawn_data(input), input.playback});
 }

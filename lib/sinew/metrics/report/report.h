@@ -42,6 +42,12 @@ struct LawCurve {
   std::vector<CurveLine> lines;
 };
 
+/// Of what supports, loads and probes do, one value per frame.
+struct MachineColumn {
+  std::string name, unit;
+  std::vector<double> values;
+};
+
 /// Texts are plain; the page escapes them.
 struct ReportInput {
   std::string title;    ///< the scene's name
@@ -52,7 +58,8 @@ struct ReportInput {
   Summary summary;                   ///< of these frames
   std::vector<Check> checks;
   std::vector<LawCurve> curves;
-  Playback playback;  ///< of no frames: the page has no 3D view
+  std::vector<MachineColumn> machine;  ///< all of the same length; the page offers any two of them
+  Playback playback;                   ///< of no frames: the page has no 3D view
   std::vector<Picture> pictures;
   std::string movie;       ///< relative to the report, or empty
   std::string scene_text;  ///< the resolved scene

@@ -92,8 +92,8 @@ Vec3 BlockState<double>::position(std::size_t k, const Units&) const {
 }
 
 template <>
-void BlockState<double>::set_position(std::size_t k, const Vec3& p, const Units&) {
-  for (int axis = 0; axis < 3; ++axis) x_[axis][k + block] = p[axis];
+void BlockState<double>::set_position(std::size_t k, int axis, double p, const Units&) {
+  x_[axis][k + block] = p;
 }
 
 template <>
@@ -104,10 +104,14 @@ Vec3 BlockState<float>::position(std::size_t k, const Units& units) const {
 }
 
 template <>
-void BlockState<float>::set_position(std::size_t k, const Vec3& p, const Units& units) {
-  const Vec3 scaled = (p - units.origin) / units.length;
-  for (int axis = 0; axis < 3; ++axis)
-    x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(scaled[axis]));
+void BlockState<float>::set_position(std::size_t k, int axis, double p, const Units& units) {
+  const double scaled = (p - units.origin[axis]) / units.length;
+  x_[axis][k + block] = static_cast<std::int32_t>(std::llrint(scaled));
+}
+
+template <class Real>
+void BlockState<Real>::set_position(std::size_t k, const Vec3& p, const Units& units) {
+  for (int axis = 0; axis < 3; ++axis) set_position(k, axis, p[axis], units);
 }
 
 template <class Real>
@@ -119,8 +123,12 @@ Vec3 BlockState<Real>::velocity(std::size_t k, const Units& units) const {
 
 template <class Real>
 void BlockState<Real>::set_velocity(std::size_t k, const Vec3& v, const Units& units) {
-  for (int axis = 0; axis < 3; ++axis)
-    v_[axis][k + block] = static_cast<Real>(units.velocity(v[axis]));
+  for (int axis = 0; axis < 3; ++axis) set_velocity(k, axis, v[axis], units);
+}
+
+template <class Real>
+void BlockState<Real>::set_velocity(std::size_t k, int axis, double v, const Units& units) {
+  v_[axis][k + block] = static_cast<Real>(units.velocity(v));
 }
 
 template <class Real>

@@ -74,8 +74,10 @@ class BlockState {
 
   Vec3 position(std::size_t k, const Units& units) const;
   void set_position(std::size_t k, const Vec3& p, const Units& units);
+  void set_position(std::size_t k, int axis, double p, const Units& units);
   Vec3 velocity(std::size_t k, const Units& units) const;
   void set_velocity(std::size_t k, const Vec3& v, const Units& units);
+  void set_velocity(std::size_t k, int axis, double v, const Units& units);
 
   /// Around the particles, m; `grain`: of them a thread takes at a time.
   Box box(const Units& units, std::size_t grain) const;

@@ -111,7 +111,7 @@ void ListStepper<Real>::on_all_pieces(const Run& run) {
 template <class Real>
 void ListStepper<Real>::hold(const Pose& pose) {
   moved_.resize(totals_.size());
-  surroundings_.hold(pose, layout_.now, layout_.units(), moved_);
+  surroundings_.hold(pose, time_, layout_.now, layout_.units(), moved_);
 }
 
 /// The work at the pose, with what must be known of all particles before.
@@ -199,7 +199,6 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
                       (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
-    if (surroundings_.is_held(k) && layout_.next.velocity(k, layout_.units()).allFinite()) continue;
     const double moved = stepping_.step * relative_velocity(pose, k).norm();
     const bool finite =
         std::isfinite(moved) && layout_.next.velocity(k, layout_.units()).allFinite();
@@ -214,11 +213,12 @@ Failure ListStepper<Real>::failure(const Pose& pose) {
   return failure;
 }
 
-/// Velocity after the step relative to the leading bone or, without one, to the velocity before.
+/// Velocity after the step relative to the leading bone or, without one and for what is held, to
+/// the velocity before.
 template <class Real>
 Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
   const int bone = body_->binding.bone(static_cast<std::size_t>(layout_.padded_id()[k]));
-  const Vec3 carried = bone == no_bone
+  const Vec3 carried = bone == no_bone || surroundings_.is_held(k)
                            ? layout_.now.velocity(k, layout_.units())
                            : pose[bone].velocity_at(layout_.now.position(k, layout_.units()));
   return layout_.next.velocity(k, layout_.units()) - carried;

@@ -37,6 +37,8 @@ class ListStepper {
   /// As evaluated last.
   std::vector<Reaction> reactions_of_obstacles() const { return surroundings_.reactions(); }
   std::vector<Reaction> reactions_of_pins() const { return surroundings_.reactions_of_pins(); }
+  std::vector<Reaction> of_supports() const { return surroundings_.of_supports(); }
+  std::vector<Reaction> of_loads() const { return surroundings_.of_loads(); }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);

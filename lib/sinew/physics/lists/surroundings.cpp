@@ -18,7 +18,8 @@ bool fills_space(const World& world) { return world.drag.rate > 0 || !world.fiel
 bool surrounds(const Body& body) {
   if (!body.world) return false;
   const World& world = *body.world;
-  return !world.obstacles.empty() || !world.pins.empty() || fills_space(world);
+  return !world.obstacles.empty() || !world.pins.empty() || !world.loads.empty() ||
+         fills_space(world);
 }
 
 }  // namespace
@@ -33,7 +34,10 @@ Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Steppin
       everywhere_(any_ && fills_space(*body_->world)),
       pins_on_bones_(any_ && std::any_of(body_->world->pins.begin(), body_->world->pins.end(),
                                          [](const Pinned& pin) { return pin.bone != no_bone; })),
-      until_middle_(stepping.step / 2) {}
+      until_middle_(stepping.step / 2) {
+  if (!any_) return;
+  for (const Load& load : body_->world->loads) loads_.emplace_back(load);
+}
 
 template <class Real>
 void Surroundings<Real>::set_step(double step) {
@@ -50,6 +54,13 @@ void Surroundings<Real>::set_order(std::span<const std::int32_t> id) {
   touched_.assign(blocks, 0);
   held_.assign(blocks, 0);
   pieces_.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
+  set_pins(id);
+  set_loads(id);
+}
+
+template <class Real>
+void Surroundings<Real>::set_pins(std::span<const std::int32_t> id) {
+  constexpr std::size_t block = BlockState<Real>::block;
   pinned_.clear();
   if (body_->world->pins.empty()) return;
   pin_.assign(id.size(), no_pin);
@@ -69,18 +80,46 @@ void Surroundings<Real>::set_order(std::span<const std::int32_t> id) {
 }
 
 template <class Real>
-void Surroundings<Real>::hold(const Pose& pose, BlockState<Real>& state, const Units& units,
-                              std::vector<double>& moved) const {
+void Surroundings<Real>::set_loads(std::span<const std::int32_t> id) {
+  if (loads_.empty()) return;
+  place_.resize(id.size());
+  for (std::uint32_t k = 0; k < id.size(); ++k) place_[static_cast<std::size_t>(id[k])] = k;
+  const auto& loads = body_->world->loads;
+  const auto for_each = [&](const auto& visit) {
+    for (std::uint32_t n = 0; n < loads.size(); ++n)
+      for (std::uint32_t at = 0; at < loads[n].particles.size(); ++at)
+        visit(place_[loads[n].particles[at]], Loaded{n, at});
+  };
+  first_load_.assign(id.size() + 1, 0);
+  for_each([&](std::uint32_t k, const Loaded&) { ++first_load_[k + 1]; });
+  std::partial_sum(first_load_.begin(), first_load_.end(), first_load_.begin());
+  loaded_.resize(first_load_.back());
+  std::vector<std::uint32_t> next(first_load_.begin(), first_load_.end() - 1);
+  for_each([&](std::uint32_t k, const Loaded& one) {
+    loaded_[next[k]++] = one;
+    held_[k / BlockState<Real>::block] = 1;
+  });
+}
+
+template <class Real>
+void Surroundings<Real>::hold(const Pose& pose, double time, BlockState<Real>& state,
+                              const Units& units, std::vector<double>& moved) const {
   if (pinned_.empty()) return;
+  const World& world = *body_->world;
+  const std::vector<ObstaclePose> supports = poses_of(world.supports, time, pose);
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece)
       for (std::size_t n = first_[piece]; n < first_[piece + 1]; ++n) {
         const std::uint32_t k = pinned_[n];
-        const Pinned& pin = body_->world->pins[pin_[k]];
-        const PinPose place = pin_pose(pin, body_->rest[pin.particle], body_->skeleton, pose);
+        const Pinned& pin = world.pins[pin_[k]];
+        const PinPose place =
+            held_place(pin, body_->rest[pin.particle], world, supports, body_->skeleton, pose);
         const Vec3 before = state.position(k, units);
-        state.set_position(k, place.position, units);
-        state.set_velocity(k, place.velocity, units);
+        for (int axis = 0; axis < 3; ++axis) {
+          if (!pin.holds(axis)) continue;
+          state.set_position(k, axis, place.position[axis], units);
+          state.set_velocity(k, axis, place.velocity[axis], units);
+        }
         moved[piece] = std::max(moved[piece], (state.position(k, units) - before).norm());
       }
   });
@@ -130,15 +169,60 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
   units_ = units;
   forces_ = forces;
   if (forces_ != nullptr) forces_->assign(state.size(), Vec3::Zero());
+  find_loads();
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};
       pieces_[piece].reactions.assign(body_->world->obstacles.size(), {});
       const bool pins = pins_on_bones_ && first_[piece] < first_[piece + 1];
       pieces_[piece].of_pins.assign(pins ? body_->skeleton.size() : 0, {});
+      pieces_[piece].of_supports.assign(body_->world->supports.size(), {});
+      pieces_[piece].of_loads.assign(loads_.size(), {});
       find_touched(piece, lists.box_of(piece, units_));
     }
   });
+}
+
+template <class Real>
+void Surroundings<Real>::find_loads() {
+  for (std::size_t n = 0; n < loads_.size(); ++n)
+    loads_[n].find(body_->world->loads[n], now_.loads[n],
+                   [&](std::uint32_t id) { return state_->position(place_[id], units_); });
+}
+
+template <class Real>
+Vec3 Surroundings<Real>::load_on(std::size_t k) const {
+  Vec3 sum = Vec3::Zero();
+  if (first_load_.empty()) return sum;
+  for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n)
+    sum += loads_[loaded_[n].load].forces[loaded_[n].place];
+  return sum;
+}
+
+template <class Real>
+void Surroundings<Real>::add_loads(std::size_t k, const Vec3& position, const Vec3& middle,
+                                   Piece& piece) const {
+  if (first_load_.empty()) return;
+  for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n) {
+    const auto& [load, place] = loaded_[n];
+    const Vec3& force = loads_[load].forces[place];
+    const Vec3 arm = position - body_->world->loads[load].pivot;
+    piece.of_loads[load] += {force, arm.cross(force), force.dot(middle)};
+  }
+}
+
+/// `unheld`: all forces that pins and supports answer, N.
+template <class Real>
+void Surroundings<Real>::answer_of_pins(std::size_t k, const PinPose& at, const Vec3& unheld,
+                                        const Vec3& middle, Piece& piece) const {
+  const Pinned& pin = body_->world->pins[pin_[k]];
+  const Vec3 own = held_part(pin, middle);
+  piece.sums.power -= unheld.dot(own);
+  piece.sums.held_kinetic += mass_ / 2 * own.squaredNorm();
+  if (pin.is_pin())
+    add_reaction(pin, at, unheld, *pose_, piece.of_pins);
+  else
+    add_answer(pin, at, -unheld, now_.supports, piece.of_supports);
 }
 
 template <class Real>
@@ -165,32 +249,32 @@ void Surroundings<Real>::act(void* context, std::ptrdiff_t i, int count,
   }
 }
 
-/// Pins take what all other forces leave.
+/// Pins and supports take what all other forces leave.
 template <class Real>
 void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const Vec3 position = state_->position(k, units_), velocity = state_->velocity(k, units_);
   const HeldParticle particle{
       {}, position, velocity, body_->material.pair.r, static_cast<std::size_t>(id_[k])};
   Piece& piece = pieces_[k / (kernel::blocks_per_piece * BlockState<Real>::block)];
-  const Vec3 others = mass_ * acceleration;
+  const Vec3 inner = mass_ * acceleration, load = load_on(k), others = inner + load;
   const ParticleWorld world =
       world_on(particle, mass_, *body_->world, now_, others, stepping_.step, piece.reactions);
-  const Vec3 unheld = others + world.force();
-  const bool pin = is_held(k);
-  acceleration = pin ? Vec3(Vec3::Zero()) : Vec3(acceleration + world.force() / mass_);
-  held = pin ? Real(1) : Real(0);
+  const Vec3 given = load + world.force();
+  const Pinned* pin = is_held(k) ? &body_->world->pins[pin_[k]] : nullptr;
+  acceleration += given / mass_;
+  if (pin != nullptr) acceleration -= held_part(*pin, acceleration);
+  held = pin != nullptr ? Real(1) : Real(0);
   const Vec3 middle = velocity + until_middle_ * acceleration;
   WorldSums& sums = piece.sums;
-  sums.power += world.power + world.field.dot(middle);
+  sums.power += world.power + (load + world.field).dot(middle);
   sums.lost += world.losing_power - world.losing.dot(middle);
   sums.contact_energy += world.contact_energy;
-  if (pin) {
-    sums.power -= unheld.dot(middle);
-    const Pinned& held_by = body_->world->pins[pin_[k]];
-    add_reaction(held_by, {position, velocity}, unheld, *pose_, piece.of_pins);
-    sums.held_kinetic += mass_ / 2 * middle.squaredNorm();
-  }
-  if (forces_ != nullptr) (*forces_)[k] = pin ? Vec3(-others) : world.force();
+  add_loads(k, position, middle, piece);
+  if (pin != nullptr)
+    answer_of_pins(k, {position, velocity}, others + world.force(), middle, piece);
+  if (forces_ == nullptr) return;
+  Vec3& stored = (*forces_)[k] = given;
+  if (pin != nullptr) stored = stored - held_part(*pin, stored) - held_part(*pin, inner);
 }
 
 template <class Real>
@@ -206,22 +290,33 @@ WorldSums Surroundings<Real>::sums() const {
 }
 
 template <class Real>
-std::vector<Reaction> Surroundings<Real>::reactions() const {
-  std::vector<Reaction> all(any_ ? body_->world->obstacles.size() : 0);
+std::vector<Reaction> Surroundings<Real>::sums_of(std::vector<Reaction> Piece::*part,
+                                                  std::size_t count) const {
+  std::vector<Reaction> all(any_ ? count : 0);
   for (const Piece& piece : pieces_)
-    for (std::size_t k = 0; k < std::min(all.size(), piece.reactions.size()); ++k) {
-      all[k].force += piece.reactions[k].force;
-      all[k].moment += piece.reactions[k].moment;
-    }
+    for (std::size_t k = 0; k < std::min(all.size(), (piece.*part).size()); ++k)
+      all[k] += (piece.*part)[k];
   return all;
 }
 
 template <class Real>
+std::vector<Reaction> Surroundings<Real>::reactions() const {
+  return sums_of(&Piece::reactions, any_ ? body_->world->obstacles.size() : 0);
+}
+
+template <class Real>
 std::vector<Reaction> Surroundings<Real>::reactions_of_pins() const {
-  std::vector<Reaction> all(pins_on_bones_ ? body_->skeleton.size() : 0);
-  for (const Piece& piece : pieces_)
-    for (std::size_t b = 0; b < piece.of_pins.size(); ++b) all[b] += piece.of_pins[b];
-  return all;
+  return sums_of(&Piece::of_pins, pins_on_bones_ ? body_->skeleton.size() : 0);
+}
+
+template <class Real>
+std::vector<Reaction> Surroundings<Real>::of_supports() const {
+  return sums_of(&Piece::of_supports, any_ ? body_->world->supports.size() : 0);
+}
+
+template <class Real>
+std::vector<Reaction> Surroundings<Real>::of_loads() const {
+  return sums_of(&Piece::of_loads, loads_.size());
 }
 
 template class Surroundings<double>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What surrounds a body, for the list stepper: obstacles, drag, fields and pins, evaluated in
-// double precision for the blocks of particles that they may touch. ../world/world.h gives the
-// forces.
+// What surrounds a body, for the list stepper: obstacles, drag, fields, pins, supports and loads,
+// evaluated in double precision for the blocks of particles that they may touch. ../world/world.h
+// gives the forces.
 //
 //     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
 //     step.surroundings = surroundings.calls();
@@ -24,7 +24,7 @@ namespace sinew {
 
 /// Contributions to the ledger, W and J.
 struct WorldSums {
-  double power = 0;  ///< of obstacles, fields and pins
+  double power = 0;  ///< of obstacles, fields, pins and loads
   double lost = 0;
   double contact_energy = 0, held_kinetic = 0;
 };
@@ -42,7 +42,7 @@ class Surroundings {
 
   /// Moves what pins hold exactly to its place: no error accumulates over steps. Adds to `moved`,
   /// by piece, how far (m).
-  void hold(const Pose& pose, BlockState<Real>& state, const Units& units,
+  void hold(const Pose& pose, double time, BlockState<Real>& state, const Units& units,
             std::vector<double>& moved) const;
   /// Finds which blocks may be touched at this moment. `forces`: where the forces of the world are
   /// to be stored, in the kernel's order (N), or null.
@@ -56,6 +56,8 @@ class Surroundings {
   WorldSums sums() const;
   std::vector<Reaction> reactions() const;          ///< of obstacles
   std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
+  std::vector<Reaction> of_supports() const;        ///< on the body, of each
+  std::vector<Reaction> of_loads() const;
   bool is_held(std::size_t k) const { return !pin_.empty() && pin_[k] != no_pin; }
 
  private:
@@ -64,11 +66,24 @@ class Surroundings {
     WorldSums sums;
     std::vector<Reaction> reactions;  ///< of obstacles
     std::vector<Reaction> of_pins;    ///< on bones
+    std::vector<Reaction> of_supports, of_loads;
+  };
+  /// A load's force on a particle, by its place among the load's particles.
+  struct Loaded {
+    std::uint32_t load, place;
   };
 
   static void act(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3],
                   Real* held);
   void act_on(std::size_t k, Vec3& acceleration, Real& held);
+  void set_pins(std::span<const std::int32_t> id);
+  void set_loads(std::span<const std::int32_t> id);
+  void find_loads();
+  Vec3 load_on(std::size_t k) const;
+  void answer_of_pins(std::size_t k, const PinPose& at, const Vec3& unheld, const Vec3& middle,
+                      Piece& piece) const;
+  void add_loads(std::size_t k, const Vec3& position, const Vec3& middle, Piece& piece) const;
+  std::vector<Reaction> sums_of(std::vector<Reaction> Piece::*part, std::size_t count) const;
   bool may_touch(const Box& box) const;
   void find_touched(std::size_t piece, const Box& box);
   Box box_of(std::size_t first, std::size_t last) const;
@@ -83,7 +98,11 @@ class Surroundings {
   std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
   std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces
   std::vector<std::uint8_t> touched_;  ///< by block
-  std::vector<std::uint8_t> held_;     ///< by block: whether it has pins
+  std::vector<std::uint8_t> held_;     ///< by block: whether it has pins or loads
+  std::vector<std::uint32_t> place_;   ///< in the kernel's order, by id; empty without loads
+  std::vector<std::uint32_t> first_load_;  ///< of particle k; empty without loads
+  std::vector<Loaded> loaded_;
+  std::vector<LoadNow> loads_;
   std::vector<Piece> pieces_;
 
   // Of the moment:

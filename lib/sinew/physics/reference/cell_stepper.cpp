@@ -26,32 +26,54 @@ CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepp
                          Particles particles)
     : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {
   solid_ = solid_of(*body_, particles_);
-  if (!body_->world || body_->world->pins.empty()) return;
-  std::vector<std::size_t> place(particles_.size());
-  for (std::size_t i = 0; i < place.size(); ++i) place[particles_.id[i]] = i;
+  if (!body_->world) return;
+  place_.resize(particles_.size());
+  for (std::size_t i = 0; i < place_.size(); ++i) place_[particles_.id[i]] = i;
+  for (const Load& load : body_->world->loads) loads_.emplace_back(load);
+  if (body_->world->pins.empty()) return;
   is_held_.resize(particles_.size());
   for (const Pinned& pin : body_->world->pins) {
-    held_.push_back(place[pin.particle]);
+    held_.push_back(place_[pin.particle]);
     is_held_[held_.back()] = true;
   }
 }
 
-/// Moves pinned particles exactly to their positions: no error accumulates over steps.
+/// Moves held particles exactly to their positions: no error accumulates over steps.
 void CellStepper::hold(const Pose& pose) {
+  if (held_.empty()) return;
+  const World& world = *body_->world;
+  const std::vector<ObstaclePose> supports = poses_of(world.supports, time_, pose);
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    const Pinned& pin = body_->world->pins[k];
-    const PinPose place = pin_pose(pin, body_->rest[pin.particle], body_->skeleton, pose);
-    particles_.set_position(held_[k], place.position);
-    particles_.set_velocity(held_[k], place.velocity);
+    const Pinned& pin = world.pins[k];
+    const std::size_t i = held_[k];
+    const PinPose place =
+        held_place(pin, body_->rest[pin.particle], world, supports, body_->skeleton, pose);
+    const Vec3 x = particles_.position(i), v = particles_.velocity(i);
+    particles_.set_position(i, x - held_part(pin, x) + held_part(pin, place.position));
+    particles_.set_velocity(i, v - held_part(pin, v) + held_part(pin, place.velocity));
   }
 }
 
-/// After all other forces: dry friction answers them, and a pin takes whatever is left.
+/// The sum of all loads on each particle.
+void CellStepper::find_loads(const WorldNow& now) {
+  load_.assign(particles_.size(), Vec3::Zero());
+  of_loads_.assign(loads_.size(), {});
+  for (std::size_t n = 0; n < loads_.size(); ++n) {
+    const Load& load = body_->world->loads[n];
+    loads_[n].find(load, now.loads[n],
+                   [&](std::uint32_t id) { return particles_.position(place_[id]); });
+    for (std::size_t k = 0; k < load.particles.size(); ++k)
+      load_[place_[load.particles[k]]] += loads_[n].forces[k];
+  }
+}
+
+/// After all other forces: dry friction answers them, and pins and supports take whatever is left.
 void CellStepper::find_world_forces(const Pose& pose) {
   const World& world = *body_->world;
   const WorldNow now = world_at(world, time_, pose);
   const Vec3 weight = particles_.mass * stepping_.gravity;
   muscle_forces(world.muscles, now.activations, particles_, muscle_);
+  find_loads(now);
   reactions_.assign(world.obstacles.size(), {});
   around_.resize(particles_.size());
   forces_.world = muscle_;
@@ -61,17 +83,38 @@ void CellStepper::find_world_forces(const Pose& pose) {
                                 particles_.velocity(i),
                                 particles_.radius,
                                 static_cast<std::size_t>(particles_.id[i])};
+    forces_.world[i] += load_[i];
     around_[i] = world_on(particle, particles_.mass, world, now, forces_.total(i) + weight,
                           stepping_.step, reactions_);
     forces_.world[i] += around_[i].force();
   }
+  hold_back(now, pose);
+  for (std::size_t n = 0; n < loads_.size(); ++n)
+    for (std::size_t k = 0; k < loads_[n].forces.size(); ++k) {
+      const Load& load = world.loads[n];
+      const std::size_t i = place_[load.particles[k]];
+      const Vec3& force = loads_[n].forces[k];
+      of_loads_[n] +=
+          {force, (particles_.position(i) - load.pivot).cross(force), force.dot(velocity_now(i))};
+    }
+}
+
+/// Pins and supports answer all other forces on what they hold.
+void CellStepper::hold_back(const WorldNow& now, const Pose& pose) {
+  const World& world = *body_->world;
+  const Vec3 weight = particles_.mass * stepping_.gravity;
   of_pins_.assign(held_.empty() ? 0 : pose.size(), {});
+  of_supports_.assign(world.supports.size(), {});
   for (std::size_t k = 0; k < held_.size(); ++k) {
+    const Pinned& pin = world.pins[k];
     const std::size_t i = held_[k];
     const Vec3 unheld = forces_.total(i) + weight;
-    add_reaction(world.pins[k], {particles_.position(i), particles_.velocity(i)}, unheld, pose,
-                 of_pins_);
-    forces_.world[i] -= unheld;
+    const PinPose at{particles_.position(i), particles_.velocity(i)};
+    if (pin.is_pin())
+      add_reaction(pin, at, unheld, pose, of_pins_);
+    else
+      add_answer(pin, at, -unheld, now.supports, of_supports_);
+    forces_.world[i] -= held_part(pin, unheld);
   }
 }
 
@@ -146,12 +189,14 @@ void CellStepper::add_world(StepSums& sums) const {
     const Vec3 velocity = velocity_now(i);
     const ParticleWorld& on = around_[i];
     sums.lost += on.losing_power - on.losing.dot(velocity);
-    sums.world_power += on.power + (on.field + muscle_[i]).dot(velocity);
+    sums.world_power += on.power + (on.field + load_[i] + muscle_[i]).dot(velocity);
   }
-  for (const std::size_t i : held_) {
-    const Vec3 velocity = velocity_now(i), others = around_[i].force() + muscle_[i];
-    sums.world_power += (forces_.world[i] - others).dot(velocity);
-    sums.held_kinetic += particles_.mass / 2 * velocity.squaredNorm();
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const std::size_t i = held_[k];
+    const Vec3 own = held_part(body_->world->pins[k], velocity_now(i));
+    const Vec3 others = around_[i].force() + load_[i] + muscle_[i];
+    sums.world_power += (forces_.world[i] - others).dot(own);
+    sums.held_kinetic += particles_.mass / 2 * own.squaredNorm();
   }
 }
 
@@ -184,16 +229,17 @@ void CellStepper::advance(std::size_t i, double kick) {
   particles_.set_velocity(i, kicked);
 }
 
-/// Over the step, relative to the bone or, without one, to the previous motion.
+/// Over the step, relative to the bone or, without one and for what is held, to the previous
+/// motion.
 Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose) const {
   const auto bones = body_->binding.of(particles_.id[i]);
-  const Vec3 carried =
-      bones.empty() ? before.velocity : pose[bones.front().bone].velocity_at(before.position);
+  const Vec3 carried = bones.empty() || (!is_held_.empty() && is_held_[i])
+                           ? before.velocity
+                           : pose[bones.front().bone].velocity_at(before.position);
   return stepping_.step * (particles_.velocity(i) - carried);
 }
 
 bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
-  if (!is_held_.empty() && is_held_[i]) return particles_.position(i).allFinite();
   const double most = most_radii_per_step * particles_.radius;
   // Also false for values that are not numbers.
   return moved(i, before, pose).squaredNorm() <= most * most && particles_.position(i).allFinite();

@@ -36,6 +36,9 @@ class CellStepper {
   std::vector<Reaction> reactions_of_obstacles() const { return reactions_; }
   /// On each bone; none without pins.
   std::vector<Reaction> reactions_of_pins() const { return of_pins_; }
+  /// On the body; as evaluated last.
+  std::vector<Reaction> of_supports() const { return of_supports_; }
+  std::vector<Reaction> of_loads() const { return of_loads_; }
 
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);
@@ -47,6 +50,8 @@ class CellStepper {
 
   void find_forces(const Pose& pose);
   void find_world_forces(const Pose& pose);
+  void find_loads(const WorldNow& now);
+  void hold_back(const WorldNow& now, const Pose& pose);
   void hold(const Pose& pose);
   double stored_in_pairs();
   Vec3 acceleration(std::size_t i) const;
@@ -66,12 +71,15 @@ class CellStepper {
   MovingInDouble before_;  ///< the step
   double time_ = 0;
   std::vector<ParticleWorld> around_;
-  Points muscle_;
+  Points muscle_, load_;
+  std::vector<LoadNow> loads_;
   std::vector<Reaction> reactions_;  ///< of obstacles
   std::vector<Reaction> of_pins_;    ///< on bones
-  std::vector<std::size_t> held_;    ///< index of the particle of each pin of the world
-  std::vector<bool> is_held_;        ///< empty without pins
-  bool kicked_ = false;              ///< velocities are half a step ahead (velocity Verlet)
+  std::vector<Reaction> of_supports_, of_loads_;
+  std::vector<std::size_t> held_;   ///< index of the particle of each pin of the world
+  std::vector<bool> is_held_;       ///< empty without pins
+  std::vector<std::size_t> place_;  ///< of a particle, by id; empty without a world
+  bool kicked_ = false;             ///< velocities are half a step ahead (velocity Verlet)
 };
 
 }  // namespace sinew

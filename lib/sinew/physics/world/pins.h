@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles that are held where they rest, or fixed to a bone: which ones, and their positions. The
-// stepper applies them.
+// Particles that are held: where they rest, fixed to a bone, or along some axes by supports
+// (supports.h). Which ones, and their positions. The stepper applies them.
 //
 //     const std::vector<Pinned> held = pinned(rest, pins, bones);
 //     const PinPose at = pin_pose(held[k], rest[held[k].particle], skeleton, pose);
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,10 +21,22 @@ struct Pin {
   int bone = no_bone;  ///< to which its particles are fixed; no_bone: the scene
 };
 
+inline constexpr std::int32_t no_support = -1;
+
 /// A held particle, by its place in the written order.
 struct Pinned {
   std::uint32_t particle = 0;
-  int bone = no_bone;
+  int bone = no_bone;  ///< of a pin
+  /// The support that holds its x, y and z; none at all: a pin holds it.
+  std::array<std::int32_t, 3> support = {no_support, no_support, no_support};
+
+  bool is_pin() const {
+    return support[0] == no_support && support[1] == no_support && support[2] == no_support;
+  }
+  /// Whether it moves as prescribed along that axis.
+  bool holds(int axis) const {
+    return support[static_cast<std::size_t>(axis)] != no_support || is_pin();
+  }
 };
 
 /// Where a held particle is, and its velocity.

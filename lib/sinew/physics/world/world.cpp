@@ -120,7 +120,16 @@ WorldNow world_at(const World& world, double time, const Pose& pose) {
   for (const Obstacle& obstacle : world.obstacles) now.obstacles.push_back(obstacle.at(time, pose));
   for (const ForceField& field : world.fields) now.scales.push_back(field.scale.at(time));
   now.activations = activations_at(world.muscles, time);
+  now.supports = poses_of(world.supports, time, pose);
+  for (const Load& load : world.loads) now.loads.push_back(load.scale.at(time));
   return now;
+}
+
+PinPose held_place(const Pinned& held, const Vec3& rest, const World& world,
+                   std::span<const ObstaclePose> supports, const Skeleton& skeleton,
+                   const Pose& pose) {
+  return held.is_pin() ? pin_pose(held, rest, skeleton, pose)
+                       : place_of(held, rest, world.supports, supports);
 }
 
 ParticleWorld world_on(const HeldParticle& particle, double mass, const World& world,
@@ -140,6 +149,7 @@ double added_stiffness(const World& world, const Particles& particles) {
   for (const Obstacle& obstacle : world.obstacles) springs.push_back(obstacle.stiffness);
   double sum = largest_few(springs) + muscle_stiffness(world.muscles, particles.radius);
   for (const ForceField& field : world.fields) sum += field_stiffness(field, grain);
+  for (const Load& load : world.loads) sum += load_stiffness(load, particles.radius);
   return sum;
 }
 
@@ -153,6 +163,7 @@ double added_damping(const World& world, const Particles& particles) {
 void check_world(const World& world) {
   for (const Obstacle& obstacle : world.obstacles) check_obstacle(obstacle);
   for (const ForceField& field : world.fields) check_field(field);
+  for (const Load& load : world.loads) check_load(load);
   check_drag(world.drag);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All that acts on a body from outside its bones, and its muscles: obstacles, a medium, fields,
-// fibers.
+// fibers, supports and loads.
 //
 //     const WorldNow now = world_at(world, time, pose);
 //     const ParticleWorld on = world_on(particle, mass, world, now, others, step, reactions);
@@ -12,9 +12,11 @@
 #include <sinew/core/particles.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/world/force_field.h>
+#include <sinew/physics/world/loads.h>
 #include <sinew/physics/world/muscles.h>
 #include <sinew/physics/world/obstacle.h>
 #include <sinew/physics/world/pins.h>
+#include <sinew/physics/world/supports.h>
 
 namespace sinew {
 
@@ -24,7 +26,9 @@ struct World {
   Drag drag;
   std::vector<ForceField> fields;
   Muscles muscles;
-  std::vector<Pinned> pins;  ///< applied by the stepper; ascending particles
+  std::vector<Pinned> pins;            ///< applied by the stepper; ascending particles
+  std::vector<Support> supports = {};  ///< their particles are among the pins: see hold()
+  std::vector<Load> loads = {};
 };
 
 /// Whether a body has muscles with fibers.
@@ -35,9 +39,16 @@ struct WorldNow {
   std::vector<ObstaclePose> obstacles;
   std::vector<double> scales;  ///< of the fields
   Activations activations;
+  std::vector<ObstaclePose> supports;
+  std::vector<double> loads;  ///< their scales
 };
 
 WorldNow world_at(const World& world, double time, const Pose& pose);
+
+/// Where pins and supports hold a particle that was at `rest` (m), with the bones at `pose`.
+PinPose held_place(const Pinned& held, const Vec3& rest, const World& world,
+                   std::span<const ObstaclePose> supports, const Skeleton& skeleton,
+                   const Pose& pose);
 
 /// The force of the body on each bone through the obstacles that ride on it, about its head; `on`:
 /// on each obstacle, about its frame. None where no obstacle rides on a bone.
@@ -66,14 +77,15 @@ ParticleWorld world_on(const HeldParticle& particle, double mass, const World& w
                        std::span<Reaction> reactions);
 
 /// An upper bound of the stiffness that the world adds to a particle of `particles`' radius and
-/// mass, N/m: the three stiffest obstacles (more at once need a shorter step), fields and muscles.
+/// mass, N/m: the three stiffest obstacles (more at once need a shorter step), fields, muscles and
+/// pressures.
 double added_stiffness(const World& world, const Particles& particles);
 
 /// An upper bound of the damping rate it adds, 1/s: drag, and the larger of damping and stick of
 /// the three strongest obstacles.
 double added_damping(const World& world, const Particles& particles);
 
-/// Throws bad input, which names what is wrong, for invalid obstacles, fields or drag.
+/// Throws bad input, which names what is wrong, for invalid obstacles, fields, loads or drag.
 /// make_muscles() checks muscles.
 void check_world(const World& world);
 

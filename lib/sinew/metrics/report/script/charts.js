@@ -196,6 +196,8 @@ function drawCharts() {
   Object.assign(defaults, { color: colorOf("--ink"), borderColor: colorOf("--rule") });
   defaults.font.family = getComputedStyle(document.body).fontFamily;
   const charts = [...data.charts.map(timeChart), ...data.curves.map(curveChart)];
+  const machine = machineChart();
+  if (machine) charts.push(machine);
   followPrinting(charts);
   return charts;
 }

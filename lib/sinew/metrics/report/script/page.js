@@ -29,6 +29,7 @@ function begin() {
     gaps: timeCharts.map((chart) => chart.getDatasetMeta(0).data.filter((point) => point.skip).length),
     pointed: timeCharts[0]?.tooltip.dataPoints?.map(({ dataset, parsed }) =>
       [dataset.label, parsed.x, parsed.y]) ?? [],
+    machine: [...document.querySelectorAll("#machine select")].map((one) => one.selectedOptions[0].textContent),
     hidden: timeCharts[0]?.isDatasetVisible(0) === false,
     webgl: playback !== null,
     snapshot: playback?.player.snapshot ?? null,

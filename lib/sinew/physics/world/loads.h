@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces that a testing machine puts on parts of a body: a force, a traction or a weight, which
+// keep their direction, and a pressure, which follows the surface.
+//
+//     LoadNow now(load);
+//     now.find(load, load.scale.at(time), [&](std::uint32_t i) { return position_of(i); });
+//     force += now.forces[k];   // on particle load.particles[k]
+//
+// A pressure p acts on triangles whose corners y follow the particles: p A n / 3 inward on each
+// corner, with the area and the normal of the moment, and from there by the corner's weights on
+// particles. On a closed surface forces and moments so sum to zero, and the work is p times the
+// volume that is lost.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/physics/forces.h>
+#include <sinew/physics/world/following_points.h>
+#include <sinew/physics/world/region.h>
+
+namespace sinew {
+
+struct Load {
+  std::string name;
+  KeyedValue scale;                            ///< over time; 1 without keys
+  std::vector<std::uint32_t> particles;        ///< on which it acts, by id, ascending
+  std::vector<double> share;                   ///< of each of them in `force`; sums to 1
+  Vec3 force = Vec3::Zero();                   ///< the sum, N
+  double pressure = 0;                         ///< Pa, in addition
+  std::vector<std::array<int, 3>> faces = {};  ///< on which it acts, of `corners`
+  FollowingPoints corners = {};                ///< of places in `particles`
+  Vec3 pivot = Vec3::Zero();                   ///< of its moment, m
+};
+
+/// A force (N) shared by particles as listed, with the same number more than once if need be:
+/// shares are summed and made to sum to 1. Its pivot is the mean of `rest` (m) by shares. Throws
+/// bad input, which names it, for no particles and shares that cancel.
+Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
+                const std::vector<double>& shares, const Vec3& force, const Points& rest);
+
+/// A pressure (Pa) on all faces of a surface whose points follow the particles at `rest` with
+/// `radius` (m); its shares are those of the area. Throws bad input for no faces.
+Load pressure_load(const std::string& name, const Triangles& surface, double pressure,
+                   const Points& rest, double radius);
+
+/// The area of the faces around each point, as a force on it that is shared by area: (particle,
+/// share) pairs for force_load(), of points that follow the particles at `rest`.
+struct AreaShares {
+  std::vector<std::uint32_t> particles;
+  std::vector<double> shares;  ///< m^2
+  double area = 0;             ///< m^2
+};
+AreaShares area_shares(const Triangles& surface, const Points& rest, double radius);
+
+/// The forces of a load at one moment.
+class LoadNow {
+ public:
+  explicit LoadNow(const Load& load);
+
+  /// `position`: of a particle, by id, m. In parallel; the same bits for any number of threads.
+  void find(const Load& load, double scale, const std::function<Vec3(std::uint32_t)>& position);
+
+  Points forces;  ///< on load.particles, N
+
+ private:
+  std::vector<std::uint32_t> first_;   ///< of particle k: entries [first_[k], first_[k + 1])
+  std::vector<std::uint32_t> corner_;  ///< corners that follow it
+  std::vector<double> weight_;
+  std::vector<std::uint32_t> first_face_, face_;  ///< of each corner
+};
+
+/// An upper bound of the stiffness that a load adds to a particle of `radius` (m), N/m.
+double load_stiffness(const Load& load, double radius);
+
+/// Throws bad input, which names the load, for numbers that are not finite and bad keys.
+void check_load(const Load& load);
+
+}  // namespace sinew

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// probes.csv: what parts and points of the body do over time, one row of each per frame.
+//
+//     ProbeTable table(folder / "probes.csv", setup.probes);
+//     table.add(time, positions, rest, {strain, stress, force});
+//     table.close();
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include <sinew/io/frame_table.h>
+#include <sinew/scene/machine.h>
+
+namespace sinew {
+
+/// Of all particles by id: components XX YY ZZ XY YZ XZ of tensors, not-a-number where they are not
+/// known.
+struct ProbedValues {
+  std::span<const double> strain, stress;  ///< 6 each; Pa
+  const Points& force;                     ///< of the world, N; empty: none
+};
+
+/// Columns: time (s), name, x, y, z (m, mean place), displacement_x, displacement_y,
+/// displacement_z (m), strain_xx to strain_xz (Green-Lagrange), stress_xx to stress_xz (Pa,
+/// virial), force_x, force_y, force_z (N: the sum of all that acts on the part from outside of the
+/// body but for its weight; of a point 0). Strains and stresses are means over the particles that
+/// have them.
+class ProbeTable {
+ public:
+  /// Continues after `kept` frames; throws as FrameTable does.
+  ProbeTable(const std::filesystem::path& path, std::vector<Probe> probes, std::size_t kept = 0);
+
+  /// Positions and rest by id, m. Throws not written.
+  void add(double time, const Points& positions, const Points& rest, const ProbedValues& values);
+  void close() { table_.close(); }  ///< throws not written
+
+ private:
+  std::vector<Probe> probes_;
+  FrameTable table_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/machine.h>
+
+#include <string>
+#include <utility>
+
+#include <sinew/scene/context.h>
+#include <sinew/scene/world.h>
+
+namespace sinew {
+namespace {
+
+std::string path_of_one(const char* list, std::size_t index) {
+  return std::string(list) + '[' + std::to_string(index) + ']';
+}
+
+Vec3 mean_of(const std::vector<std::uint32_t>& particles, const Points& rest) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t i : particles) sum += rest[i];
+  return sum / static_cast<double>(particles.size());
+}
+
+Support support_of(const SupportSettings& given, const std::string& path, const Body& body,
+                   const Parts& parts) {
+  Support support;
+  support.name = given.name;
+  support.particles = parts.particles(given.part, path);
+  const int bits = static_cast<int>(given.hold) + 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) support.holds[axis] = ((bits >> axis) & 1) != 0;
+  support.pivot = given.pivot ? *given.pivot : mean_of(support.particles, body.rest);
+  if (!given.keys.empty())
+    support.motion = keyed_motion(given.name, given.interpolation, given.keys, support.pivot);
+  return support;
+}
+
+/// A force shared by all particles of a part.
+Load by_mass(const LoadSettings& given, const std::string& path, const Body& body,
+             const Parts& parts) {
+  const std::vector<std::uint32_t> on = parts.particles(given.part, path);
+  const double mass = body.material.mass * static_cast<double>(on.size());
+  const Vec3 force = given.gravity ? Vec3(mass * *given.gravity) : *given.force;
+  return force_load(given.name, on, std::vector<double>(on.size(), 1.0), force, body.rest);
+}
+
+/// A force, a traction or a pressure on the faces of a part.
+Load by_area(const LoadSettings& given, const std::string& path, const Body& body,
+             const Parts& parts) {
+  const Triangles faces = parts.faces(given.part, path);
+  const double radius = body.material.pair.r;
+  if (given.pressure) return pressure_load(given.name, faces, *given.pressure, body.rest, radius);
+  const AreaShares shares = area_shares(faces, body.rest, radius);
+  const Vec3 force = given.traction ? Vec3(shares.area * *given.traction) : *given.force;
+  return force_load(given.name, shares.particles, shares.shares, force, body.rest);
+}
+
+Load load_of(const LoadSettings& given, const std::string& path, const Body& body,
+             const Parts& parts) {
+  const bool on_surface = given.pressure || given.traction || (given.force && given.part.facing);
+  Load load = on_surface ? by_area(given, path, body, parts) : by_mass(given, path, body, parts);
+  if (given.pivot) load.pivot = *given.pivot;
+  for (const ValueKeySettings& key : given.keys) {
+    load.scale.times.push_back(key.time);
+    load.scale.values.push_back(key.value);
+  }
+  return load;
+}
+
+Probe point_probe(const std::string& name, const Vec3& at, const Body& body) {
+  FollowingPoints point = following({at}, body.rest, body.material.pair.r);
+  return {name, std::move(point.particle), std::move(point.weight), true};
+}
+
+Probe part_probe(const std::string& name, std::vector<std::uint32_t> particles) {
+  const double share = 1 / static_cast<double>(particles.size());
+  const std::size_t count = particles.size();
+  return {name, std::move(particles), std::vector<double>(count, share), false};
+}
+
+}  // namespace
+
+void add_machine(const Settings& settings, const Body& body, const Parts& parts, World& world) {
+  for (std::size_t k = 0; k < settings.supports.size(); ++k)
+    world.supports.push_back(
+        support_of(settings.supports[k], path_of_one("supports", k), body, parts));
+  with_context(settings, "supports", [&] { hold(world, body.rest.size()); });
+  for (std::size_t k = 0; k < settings.loads.size(); ++k) {
+    const std::string path = path_of_one("loads", k);
+    world.loads.push_back(with_context(
+        settings, path.c_str(), [&] { return load_of(settings.loads[k], path, body, parts); }));
+  }
+}
+
+std::vector<Probe> probes_of(const Settings& settings, const Body& body, const Parts& parts) {
+  std::vector<Probe> probes;
+  for (std::size_t k = 0; k < settings.probes.size(); ++k) {
+    const ProbeSettings& given = settings.probes[k];
+    probes.push_back(
+        given.at ? point_probe(given.name, *given.at, body)
+                 : part_probe(given.name, parts.particles(given.part, path_of_one("probes", k))));
+  }
+  return probes;
+}
+
+}  // namespace sinew

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The testing machine of a scene: its supports, loads and probes, made for its particles.
+//
+//     const Parts parts(settings, body, files.surface, components);
+//     add_machine(settings, body, parts, world);
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sinew/physics/world/world.h>
+#include <sinew/scene/parts.h>
+
+namespace sinew {
+
+/// Adds the lists `supports` and `loads` to a world that has its pins. Throws bad input, with the
+/// scene's line, for parts without particles or faces, and for supports that contradict each other.
+void add_machine(const Settings& settings, const Body& body, const Parts& parts, World& world);
+
+/// A part or a point of the body that is measured.
+struct Probe {
+  std::string name;
+  std::vector<std::uint32_t> particles;  ///< by id
+  std::vector<double> weight;            ///< of each in its means; sums to 1
+  bool is_point = false;                 ///< that follows the particles
+};
+
+/// Throws bad input as add_machine() does.
+std::vector<Probe> probes_of(const Settings& settings, const Body& body, const Parts& parts);
+
+}  // namespace sinew

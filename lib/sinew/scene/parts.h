@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts of a scene's body at rest, as supports, loads and probes name them: particles, and faces of
+// the surface.
+//
+//     const Parts parts(settings, body, surface, components);
+//     const auto held = parts.particles(settings.supports[0].part, "supports[0]");
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sinew/core/triangles.h>
+#include <sinew/physics/forces.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+class Parts {
+ public:
+  /// `surface`: of the body, as filled; only what is on it needs one. `component`: of each
+  /// particle; only parts by component need them.
+  Parts(const Settings& settings, const Body& body, const Triangles& surface,
+        std::span<const std::int32_t> component);
+
+  /// The particles in a part, by id, ascending: of a part that faces a direction those next to its
+  /// faces. Throws bad input, with the scene's line, for unknown bones, numbers of particles that
+  /// do not exist, and a part without particles.
+  std::vector<std::uint32_t> particles(const PartSettings& part, const std::string& path) const;
+
+  /// The faces in a part, by their centers, of the surface in triangles of sides up to two radii.
+  /// Throws bad input as particles() does.
+  Triangles faces(const PartSettings& part, const std::string& path) const;
+
+ private:
+  class Test;
+
+  const Triangles& fine_surface(const std::string& path) const;
+
+  const Settings& settings_;
+  const Body& body_;
+  const Triangles& surface_;
+  std::span<const std::int32_t> component_;
+  mutable Triangles fine_;                      ///< made when it is first asked for
+  mutable std::vector<std::uint32_t> nearest_;  ///< particle of each of its faces
+};
+
+}  // namespace sinew

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/settings/entries.h>
+#include <sinew/settings/sections.h>
+
+namespace sinew {
+namespace {
+
+void check_direction(const std::optional<Vec3>& direction, const std::string& path,
+                     const Settings& settings) {
+  if (direction && direction->norm() == 0)
+    throw bad_input(settings.place(path), "a direction without length",
+                    "give [x, y, z], not all zero");
+}
+
+void check_part(const PartSettings& part, const std::string& path, const Settings& settings) {
+  check_region(part.region, path, settings);
+  if (part.point.has_value() != part.normal.has_value())
+    throw bad_input(settings.place(path), path + " has half of a plane", "give point and normal");
+  check_direction(part.normal, path + ".normal", settings);
+  check_direction(part.facing, path + ".facing", settings);
+}
+
+void read_support(const YamlNode& item, const std::string& path, SupportSettings& support,
+                  Settings& settings) {
+  read_fields(item, path, support_fields(), "keys", support, settings.places);
+  check_part(support.part, path, settings);
+  read_keys(item, path, place_key_fields(), support.keys, settings);
+  check_axes_of_keys(support.keys, path, settings);
+  if (support.keys.empty()) return;
+  const PlaceKeySettings& first = support.keys.front();
+  if (!first.translation.isZero(0) || first.angle != 0)
+    throw bad_input(settings.place(path_of_entry(path, "keys", 0)),
+                    "the first key of support '" + support.name + "' is not at rest",
+                    "begin with a key without translation and angle, as in - time: 0");
+}
+
+void read_load(const YamlNode& item, const std::string& path, LoadSettings& load,
+               Settings& settings) {
+  read_fields(item, path, load_fields(), "keys", load, settings.places);
+  check_part(load.part, path, settings);
+  read_keys(item, path, factor_fields(), load.keys, settings);
+  const int given = (load.force ? 1 : 0) + (load.traction ? 1 : 0) + (load.pressure ? 1 : 0) +
+                    (load.gravity ? 1 : 0);
+  if (given != 1)
+    throw bad_input(
+        settings.place(path),
+        "load '" + load.name + "' has " + (given == 0 ? "no" : "more than one") + " kind of load",
+        "give one of force, traction, pressure and gravity");
+}
+
+void read_probe(const YamlNode& item, const std::string& path, ProbeSettings& probe,
+                Settings& settings) {
+  read_fields(item, path, probe_fields(), "", probe, settings.places);
+  check_part(probe.part, path, settings);
+  if (probe.at && !probe.part.empty())
+    throw bad_input(settings.place(path), "probe '" + probe.name + "' has a point and a part",
+                    "keep one of them");
+}
+
+/// Both share the rows of supports.csv.
+void check_names_of_machine(const Settings& settings) {
+  check_names(settings.supports, "", "supports", settings);
+  check_names(settings.loads, "", "loads", settings);
+  check_names(settings.probes, "", "probes", settings);
+  for (std::size_t i = 0; i < settings.loads.size(); ++i)
+    for (const SupportSettings& support : settings.supports)
+      if (support.name == settings.loads[i].name)
+        throw bad_input(settings.place(path_of_entry("", "loads", i) + ".name"),
+                        "a support and a load are both named '" + support.name + '\'',
+                        "give each a name of its own");
+}
+
+}  // namespace
+
+void read_machine(const YamlNode& scene, Settings& settings) {
+  const auto with = [&](auto read) {
+    return [&settings, read](const YamlNode& item, const std::string& path, auto& owner) {
+      read(item, path, owner, settings);
+    };
+  };
+  read_entries(scene, "", "supports", settings.supports, settings.places, with(read_support));
+  read_entries(scene, "", "loads", settings.loads, settings.places, with(read_load));
+  read_entries(scene, "", "probes", settings.probes, settings.places, with(read_probe));
+  check_names_of_machine(settings);
+}
+
+std::string machine_text(const Settings& settings) {
+  std::string text;
+  if (!settings.supports.empty())
+    text += '\n' + list_text("supports", settings.supports, 0,
+                             [](const SupportSettings& support, bool first) {
+                               return entry_text(support_fields(), support, 2, first) +
+                                      keys_text(place_key_fields(), support, 2, first);
+                             });
+  if (!settings.loads.empty())
+    text += '\n' + list_text("loads", settings.loads, 0, [](const LoadSettings& load, bool first) {
+              return entry_text(load_fields(), load, 2, first) +
+                     keys_text(factor_fields(), load, 2, first);
+            });
+  if (!settings.probes.empty())
+    text +=
+        '\n' + list_text("probes", settings.probes, 0, [](const ProbeSettings& probe, bool first) {
+          return entry_text(probe_fields(), probe, 2, first);
+        });
+  return text;
+}
+
+}  // namespace sinew

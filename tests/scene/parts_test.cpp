@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/parts.h>
+
+#include <gtest/gtest.h>
+
+#include <sinew/mesh/surface.h>
+
+#include "expect_error.h"
+#include "world.h"
+
+namespace sinew::parts_test {
+
+constexpr double r = 0.01;
+
+/// The surface of an upright box, in 12 triangles.
+Triangles box_around(const Points& rest) {
+  const Box box(bounds(rest).min() - Vec3::Constant(0.6 * r),
+                bounds(rest).max() + Vec3::Constant(0.6 * r));
+  Triangles made;
+  for (int k = 0; k < 8; ++k) made.points.push_back(box.corner(static_cast<Box::CornerType>(k)));
+  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& [a, b, c, d] : quads) {
+    made.faces.push_back({a, b, c});
+    made.faces.push_back({a, c, d});
+  }
+  return made;
+}
+
+struct World {
+  Settings settings = test::box_scene(15);
+  Points rest = test::fcc_box(7, 7, 15, r);
+  Body body = test::make_body(settings, rest);
+  Triangles surface = box_around(rest);
+  std::vector<std::int32_t> component = std::vector<std::int32_t>(rest.size(), 0);
+  Parts parts{settings, body, surface, component};
+
+  std::vector<std::uint32_t> where(const std::function<bool(const Vec3&)>& holds) const {
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t i = 0; i < rest.size(); ++i)
+      if (holds(rest[i])) ids.push_back(i);
+    return ids;
+  }
+};
+
+TEST(Parts, OfASurfaceAreTheParticlesNextToIt) {
+  const World world;
+  PartSettings top;
+  top.facing = Vec3(0, 0, 3);
+  const double high = world.rest.back().z();
+  EXPECT_EQ(world.parts.particles(top, "supports[0]"),
+            world.where([&](const Vec3& p) { return p.z() == high; }));
+  const Triangles faces = world.parts.faces(top, "loads[0]");
+  Vec3 sum = Vec3::Zero();
+  for (const auto& face : faces.faces) sum += area_vector(faces, face);
+  const double side = bounds(world.surface.points).sizes().x();
+  EXPECT_LT((sum - Vec3(0, 0, side * side)).norm(), 1e-12);
+  top.facing_angle = 90;
+  EXPECT_GT(world.parts.particles(top, "").size(),
+            world.where([&](const Vec3& p) { return p.z() == high; }).size());
+}
+
+TEST(Parts, AreWhatIsInAllRegionsThatAreGiven) {
+  const World world;
+  PartSettings part;
+  EXPECT_EQ(world.parts.particles(part, "").size(), world.rest.size());
+  part.region.low = Vec3(-1, -1, 0.05);
+  part.region.high = Vec3(1, 1, 1);
+  part.point = Vec3(0, 0, 0);
+  part.normal = Vec3(2, 0, 0);
+  part.component = 0;
+  EXPECT_EQ(world.parts.particles(part, ""),
+            world.where([](const Vec3& p) { return p.z() >= 0.05 && p.x() >= 0; }));
+  PartSettings round;
+  round.region.center = Vec3(0, 0, 0.1);
+  round.region.radius = 0.03;
+  round.bone = "lower";
+  const auto ball = world.parts.particles(round, "");
+  for (const std::uint32_t i : ball) {
+    EXPECT_LE((world.rest[i] - Vec3(0, 0, 0.1)).norm(), 0.03);
+    EXPECT_EQ(world.body.binding.bone(i), 0);
+  }
+  round.ids = std::vector<double>{1.0 * ball[0], 0};
+  EXPECT_EQ(world.parts.particles(round, ""), std::vector<std::uint32_t>{ball[0]});
+}
+
+TEST(Parts, ThatAreEmptyAreRefused) {
+  const World world;
+  PartSettings part;
+  part.component = 1;
+  test::expect_bad_input([&] { world.parts.particles(part, "supports[0]"); },
+                         {"no particle is in the part of supports[0]", "; choose one that"});
+  test::expect_bad_input([&] { world.parts.faces(part, "loads[2]"); },
+                         {"no face of the surface is in the part of loads[2]"});
+  part = {};
+  part.ids = std::vector<double>{1e9};
+  test::expect_bad_input([&] { world.parts.particles(part, ""); }, {"there is no particle 1e+09"});
+  part.ids = std::vector<double>{0.5};
+  test::expect_bad_input([&] { world.parts.particles(part, ""); }, {"there is no particle 0.5"});
+  part = {};
+  part.bone = "tail";
+  test::expect_bad_input([&] { world.parts.particles(part, "probes[0]"); }, {"no bone 'tail'"});
+  const Triangles none;
+  const Parts bare(world.settings, world.body, none, {});
+  part = {};
+  part.facing = Vec3(0, 0, 1);
+  test::expect_bad_input([&] { bare.particles(part, ""); }, {"a surface without a mesh"});
+}
+
+}  // namespace sinew::parts_test
