@@ -34,8 +34,9 @@ int main(int argc, char** argv) {
     if (argc != 2)
       throw bad_input("sinew-lammps needs the folder of a prepared run",
                       "start it by sinew simulate SCENE --engine lammps --ranks N");
-    return step_on_lammps({argv[1]}, {take_interruption, [](const std::string& line) {
-                                        print_out("sinew-lammps: " + line + '\n');
+    if (Ranks::first()) print_out(std::string(engine_begins) + '\n');
+    return step_on_lammps({argv[1]}, {take_interruption, [](const EngineNews& news) {
+                                        print_out(text_of(news) + '\n');
                                       }});
   });
   const bool ended = code == static_cast<int>(Exit::done) ||

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include <sinew/engine/engine_talk.h>
 #include <sinew/lammps/lammps_headers.h>
 #include <sinew/lammps/local_body.h>
 #include <sinew/rig/motion.h>

@@ -87,9 +87,10 @@ class LammpsRun {
 
   Exit to_end() {
     const EngineSetup& setup = body_.setup;
+    if (setup.frames > 0) told_ = setup.start.steps;
     if (setup.frames == 0) {
       run(0);
-      write_state();
+      tell_state();
       return Exit::done;
     }
     for (int frame = plan_.intervals_begun(setup.start.steps + 1); frame <= setup.frames; ++frame) {
@@ -153,7 +154,10 @@ class LammpsRun {
     body_.longest_bond = bond_growth * longest;
   }
 
-  void run(std::int64_t steps) { order("run " + std::to_string(steps)); }
+  void run(std::int64_t steps) {
+    lammps_.timer->reset_timeout();  // by which interruptions end a run
+    order("run " + std::to_string(steps));
+  }
 
   /// Steps to `end` or the next interruption, and writes the state there.
   Exit stretch(std::int64_t end) {
@@ -163,9 +167,17 @@ class LammpsRun {
     }
     fix_->go_on();
     run(end - fix_->steps());
-    write_state();
+    tell_state();
     if (fix_->interrupted() == Interruption::stop) return Exit::interrupted;
     return fix_->interrupted() == Interruption::unstable ? Exit::unstable : Exit::done;
+  }
+
+  /// Writes the state, unless it is there already or was the beginning, and says so.
+  void tell_state() {
+    if (fix_->steps() != told_) write_state();
+    told_ = fix_->steps();
+    if (Ranks::first() && talk_.news)
+      talk_.news({told_, fix_->interrupted() == Interruption::unstable});
   }
 
   void write_state() {
@@ -187,7 +199,7 @@ class LammpsRun {
     moment.ledger.work = sums[0], moment.ledger.dissipation = sums[1],
     moment.ledger.power = sums[2];
     write_engine_moment(folder_, moment);
-    if (talk_.said) talk_.said("state " + std::to_string(moment.steps));
+    if (talk_.news) talk_.news({moment.steps, fix_->interrupted() == Interruption::unstable});
   }
 
   std::vector<double> state_rows() const {
@@ -221,12 +233,19 @@ class LammpsRun {
   LAMMPS_NS::LAMMPS lammps_;
   PairSinew* pair_ = nullptr;  ///< LAMMPS's, as the fix
   FixSinew* fix_ = nullptr;
+  std::int64_t told_ = -1;  ///< the step of the last state
 };
 
 }  // namespace
 
 Ranks::Ranks(int argc, char** argv) { MPI_Init(&argc, &argv); }
 Ranks::~Ranks() { MPI_Finalize(); }
+
+bool Ranks::first() {
+  int me = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  return me == 0;
+}
 
 void Ranks::abort(int code) const {
   MPI_Abort(MPI_COMM_WORLD, code);

@@ -8,11 +8,10 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include <sinew/core/error.h>
 #include <sinew/engine/engine_files.h>
-#include <sinew/lammps/local_body.h>
+#include <sinew/engine/engine_talk.h>
 
 namespace sinew {
 
@@ -24,13 +23,14 @@ class Ranks {
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
+  static bool first();  ///< whether this is the one that speaks
   /// Ends all of them at once.
   [[noreturn]] void abort(int code) const;
 };
 
 struct LammpsTalk {
-  std::function<Interruption()> interruption;         ///< asked by every rank in every step
-  std::function<void(const std::string&)> said = {};  ///< by rank 0: "state N" and how it ended
+  std::function<Interruption()> interruption;        ///< asked by every rank in every step
+  std::function<void(const EngineNews&)> news = {};  ///< from rank 0
 };
 
 /// Steps the run in the folder to its end and writes a state at every frame, and where a step is

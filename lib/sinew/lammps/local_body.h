@@ -15,9 +15,6 @@ namespace sinew {
 inline std::int32_t tag_of(std::int32_t id) { return id + 1; }
 inline std::int32_t id_of(std::int32_t tag) { return tag - 1; }
 
-/// What ends a stretch of steps before its end; of all ranks the largest.
-enum class Interruption { none, state, stop, unstable };
-
 struct LocalBody {
   explicit LocalBody(EngineSetup given) : setup(std::move(given)), width(setup.shape.size()) {}
 
