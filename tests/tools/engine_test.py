@@ -71,6 +71,18 @@ class OnLammps(SmallRun):
             self.assertFalse((self.out / ".engine").exists())
         sinew("measure", self.out, check=0)
 
+    def test_the_papers_box_is_bent_alike_for_a_thousand_steps(self):
+        words = [SOURCE / "configs/box_bend.yaml", "--set", "solver.duration=1.75",
+                 "--set", "output.double_precision=true"]
+        whole = self.folder / "whole"
+        sinew("simulate", *words, "-o", whole, check=0)
+        last, steps = self.record(whole)["frames"] - 1, self.record(whole)["steps"]
+        self.assertGreaterEqual(steps, 1000)
+        for ranks in (1, 2, 4):
+            sinew("simulate", *words, "-o", self.out, *ON_LAMMPS, ranks, "--force", check=0)
+            self.assertEqual(self.record()["steps"], steps)
+            self.assertLess(self.largest_distance(self.out, whole, last) * RADIUS / 0.010, 1e-9)
+
     def test_shorter_steps_where_bones_are_fast_are_taken_on_both(self):
         fast = self.folder / "fast.yaml"
         fast.write_text(self.scene.read_text().replace("angle: 30", "angle: 30\n          translation: [0.5, 0, 0]"))
@@ -127,8 +139,10 @@ class OnLammps(SmallRun):
             with self.start(*ON_LAMMPS, 2, *ENDLESS) as child:
                 self.wait_for(child, "particles/particles_000002.vtu")
                 child.send_signal(name)
+                begun = time.time()
                 said = child.stderr.read()
                 self.assertEqual(child.wait(30), 130)
+            self.assertLess(time.time() - begun, 20)
             self.assertIn("--engine lammps --ranks 2", said)
             self.assertIn("--resume", said)
             self.assertEqual(self.record()["status"], "stopped")

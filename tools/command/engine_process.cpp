@@ -125,6 +125,7 @@ class EngineProcess {
   }
 
   void finish() {
+    ::kill(process_, listens_ ? SIGUSR1 : SIGTERM);  // where there is more to do
     while (read_more()) {
     }
     wait();

@@ -4,7 +4,9 @@
 #include <mpi.h>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include <sinew/lammps/fix_sinew.h>
 #include <sinew/lammps/pair_sinew.h>
@@ -17,6 +19,7 @@ constexpr double skin = 0.6;       // of neighbor lists, in radii
 constexpr double bond_growth = 2;  // of the longest bond until it is measured
 // LAMMPS refuses boxes much thinner than the range of forces. That of a thin body never shrinks.
 constexpr double thin = 12;  // in radii
+constexpr std::size_t most_unread = 3;
 
 LAMMPS_NS::Pair* make_pair(LAMMPS_NS::LAMMPS* lammps) { return new PairSinew(lammps); }
 LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lammps, int words, char** word) {
@@ -174,10 +177,24 @@ class LammpsRun {
 
   /// Writes the state, unless it is there already or was the beginning, and says so.
   void tell_state() {
+    if (Ranks::first()) wait_for_reader();
     if (fix_->steps() != told_) write_state();
     told_ = fix_->steps();
+    unread_.push_back(told_);
     if (Ranks::first() && talk_.news)
       talk_.news({told_, fix_->interrupted() == Interruption::unstable});
+  }
+
+  /// Who reads the states removes them: there are never many, and the others wait as well.
+  void wait_for_reader() {
+    const auto is_read = [&](std::int64_t steps) {
+      return !std::filesystem::exists(folder_.state(steps));
+    };
+    while (true) {
+      std::erase_if(unread_, is_read);
+      if (unread_.size() < most_unread || talk_.interruption() == Interruption::stop) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
   }
 
   void write_state() {
@@ -233,7 +250,8 @@ class LammpsRun {
   LAMMPS_NS::LAMMPS lammps_;
   PairSinew* pair_ = nullptr;  ///< LAMMPS's, as the fix
   FixSinew* fix_ = nullptr;
-  std::int64_t told_ = -1;  ///< the step of the last state
+  std::int64_t told_ = -1;            ///< the step of the last state
+  std::vector<std::int64_t> unread_;  ///< states
 };
 
 }  // namespace

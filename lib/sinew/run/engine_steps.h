@@ -25,7 +25,7 @@ struct Engine {
   /// Waits for the next state. `wanted` is asked several times a second meanwhile. Throws where the
   /// engine ends without one.
   std::function<EngineNews(const std::function<Interruption()>& wanted)> next;
-  std::function<void()> finish;  ///< waits for its end after the last state
+  std::function<void()> finish;  ///< ends it, before its time if need be
 };
 
 /// Throws bad input, naming the scene's line, for what engines in other programs cannot do.
@@ -42,7 +42,7 @@ class EngineSteps {
   /// Brings the simulation to the engine's next state. Throws as Simulation::step() does where the
   /// engine's step fails.
   void advance(Simulation& simulation, const std::function<Interruption()>& wanted);
-  /// Waits for the engine's end and removes its files, which a failed run keeps.
+  /// Ends the engine and removes its files, which a failed run keeps.
   void finish();
 
  private:
