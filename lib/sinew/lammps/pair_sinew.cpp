@@ -38,12 +38,6 @@ void PairSinew::coeff(int, char**) {
 
 double PairSinew::init_one(int, int) { return range_; }
 
-/// From j to i. Two coincident particles separate along x, the lower id to the left.
-Vec3 PairSinew::direction(const Meeting& pair) const {
-  if (pair.d > 0) return pair.offset / pair.d;
-  return Vec3(atom->tag[pair.i] < atom->tag[pair.j] ? -1 : 1, 0, 0);
-}
-
 /// All pairs in range that are not bonded.
 template <class Visit>
 void PairSinew::for_each_pair(Visit&& visit) const {
@@ -59,11 +53,13 @@ void PairSinew::for_each_pair(Visit&& visit) const {
       if (squared >= squared_range) continue;
       const double d = std::sqrt(squared);
       double push = 0;
-      if (law_->has_memory && body_->row(i).is_nearest(id_of(atom->tag[j]))) {
+      if (!law_->has_memory) {
+        push = material.pair.force(d);
+      } else if (body_->row(i).is_nearest(id_of(atom->tag[j]))) {
         if (law_->has_bonds) continue;
         push = law_->bond_force(material, {}, d);
       } else {
-        if (law_->has_memory && d >= contact) continue;
+        if (d >= contact) continue;
         push = law_->force(material, d);
       }
       visit(Meeting{i, j, offset, d, push, j < atom->nlocal, true});
