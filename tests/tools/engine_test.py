@@ -5,6 +5,8 @@
 usage: engine_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import os
+import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -82,6 +84,9 @@ class OnLammps(SmallRun):
             sinew("simulate", *words, "-o", self.out, *ON_LAMMPS, ranks, "--force", check=0)
             self.assertEqual(self.record()["steps"], steps)
             self.assertLess(self.largest_distance(self.out, whole, last) * RADIUS / 0.010, 1e-9)
+            shares = self.record()["particles_on_ranks"]
+            self.assertEqual(len(shares), ranks)
+            self.assertLess(max(shares), 1.1 * sum(shares) / ranks)  # a layer is 2 % of the body
 
     def test_shorter_steps_where_bones_are_fast_are_taken_on_both(self):
         fast = self.folder / "fast.yaml"
@@ -103,6 +108,21 @@ class OnLammps(SmallRun):
         self.assert_one_line(self.simulate("--ranks", 2, check=2), 2, "--engine lammps")
         self.assert_one_line(self.simulate("--engine", "gromacs", check=2), 2, "gromacs", "built-in or lammps")
         self.assert_one_line(self.simulate(*ON_LAMMPS, 2, "--hosts", "none.txt", check=2), 2, "none.txt", "slots=")
+
+    def test_what_is_not_installed_is_named(self):
+        words = ["simulate", self.scene, "-o", self.out, *ON_LAMMPS, 2]
+        self.assert_one_line(sinew(*words, env={"PATH": "/nowhere"}), 2, "mpirun", "openmpi-bin")
+        alone = self.folder / "sinew-simulate"
+        shutil.copy(BIN / "sinew-simulate", alone)
+        done = subprocess.run([alone, *map(str, words[1:])], capture_output=True, text=True)
+        self.assert_one_line(done, 2, "sinew-lammps", "liblammps-dev")
+
+    def test_a_full_disk_ends_the_run_with_4(self):
+        limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))
+        done = sinew("simulate", self.scene, "-o", self.out, *ON_LAMMPS, 1, "--set", "body.radius=0.02",
+                     "--set", "output.encoding=zlib", preexec_fn=limited)
+        self.assert_one_line(done, 4, "cannot be written: File too large", "free some space")
+        self.assert_nothing_left()
 
     def test_hosts_are_those_of_a_file(self):
         hosts = self.folder / "hosts"

@@ -29,7 +29,8 @@ fs::path program_of_engine() {
 }
 
 bool is_in_path(const std::string& program) {
-  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "/usr/bin:/bin");
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
   for (std::string folder; std::getline(folders, folder, ':');)
     if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
   return false;
@@ -60,6 +61,7 @@ std::vector<std::string> mpirun_words(const EngineOptions& options, int ranks,
   ::dup2(output, STDOUT_FILENO);
   ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   ::execvp(arguments[0], arguments.data());

@@ -143,8 +143,8 @@ class LammpsRun {
     for_each_engine_particle(folder_, body_.setup,
                              [&](const EngineParticle& one) { creation.add(one); });
     creation.flush();
-    order("balance 1.05 rcb");
-    order("fix balance all balance 1000 1.05 rcb");
+    order("balance 1.02 rcb");
+    order("fix balance all balance 100 1.02 rcb");
     const LAMMPS_NS::Atom& atoms = *lammps_.atom;
     double longest = 0;
     for_each_engine_particle(folder_, body_.setup, [&](const EngineParticle& one) {

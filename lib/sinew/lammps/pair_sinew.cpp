@@ -171,7 +171,7 @@ int PairSinew::pack_forward_comm(int count, int* which, double* to, int, int*) {
 }
 
 void PairSinew::unpack_forward_comm(int count, int first, double* from) {
-  for (int k = 0; k < count; ++k) body_->neighbors[static_cast<std::size_t>(first + k)] = from[k];
+  std::copy_n(from, count, body_->neighbors.begin() + first);
 }
 
 }  // namespace sinew

@@ -66,6 +66,7 @@ EngineSteps::EngineSteps(Engine engine, const std::filesystem::path& folder,
 void EngineSteps::advance(Simulation& simulation, const std::function<Interruption()>& wanted) {
   const EngineNews news = engine_.next(wanted);
   if (news.steps != simulation.steps()) {
+    on_ranks_ = read_engine_moment(folder_, news.steps).particles;
     simulation.restore(read_engine_state(folder_, news.steps, simulation.save(), ids_));
     remove_engine_state(folder_, news.steps, engine_.ranks);
   }

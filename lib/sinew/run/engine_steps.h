@@ -42,6 +42,8 @@ class EngineSteps {
   /// Brings the simulation to the engine's next state. Throws as Simulation::step() does where the
   /// engine's step fails.
   void advance(Simulation& simulation, const std::function<Interruption()>& wanted);
+  /// Particles on each rank at the last state; none before.
+  const std::vector<std::uint64_t>& on_ranks() const { return on_ranks_; }
   /// Ends the engine and removes its files, which a failed run keeps.
   void finish();
 
@@ -49,6 +51,7 @@ class EngineSteps {
   Engine engine_;
   EngineFolder folder_;
   std::vector<std::int32_t> ids_;
+  std::vector<std::uint64_t> on_ranks_;
 };
 
 }  // namespace sinew

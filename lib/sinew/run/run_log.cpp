@@ -149,6 +149,10 @@ void RunLog::describe(const Engine& engine) {
   log("steps by " + engine.name + " on " + std::to_string(engine.ranks) + " ranks");
 }
 
+void RunLog::describe(const EngineSteps& steps) {
+  record_["particles_on_ranks"] = steps.on_ranks();
+}
+
 void RunLog::spend(const std::string& stage, double seconds) {
   record_["seconds"][stage] = record_["seconds"].value(stage, 0.0) + seconds;
 }

@@ -28,6 +28,8 @@ class RunLog {
   /// That makes the steps in another program.
   void describe(const Engine& engine);
 
+  void describe(const EngineSteps& steps);  ///< how evenly its ranks share the particles
+
   /// Adds to the seconds of a stage.
   void spend(const std::string& stage, double seconds);
   /// Writes run.json with the progress of the run. Throws not written.

@@ -212,7 +212,10 @@ class Run {
   /// Waits for the frames that are still being written.
   void close() {
     Stopwatch watch;
-    if (elsewhere_) elsewhere_->finish();
+    if (elsewhere_) {
+      elsewhere_->finish();
+      log_.describe(*elsewhere_);
+    }
     writer_->close();
     log_.spend("writing", watch.lap());
   }
