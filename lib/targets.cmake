@@ -20,11 +20,12 @@ target_compile_options(sinew_test_options INTERFACE -Wno-conversion)
 set(SINEW_INCLUDED_BY_ALL <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <functional> <map>
   <memory> <optional> <span> <string> <variant> <vector>)
 
-# sinew_library(ROOM [LIGHT] SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets)
-# LIGHT rooms prepare and report: they are compiled fast rather than optimized. CGAL asks for -frounding-math:
+# sinew_library(ROOM [LIGHT] [OWN] SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets)
+# LIGHT rooms prepare and report: they are compiled fast rather than optimized. OWN ones are for one of our
+# programs alone, and not installed. CGAL asks for -frounding-math:
 # only its own sources get that.
 function(sinew_library room)
-  cmake_parse_arguments(ARG "LIGHT" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT;OWN" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(sinew_${room} STATIC ${ARG_SOURCES})
   add_library(sinew::${room} ALIAS sinew_${room})
   set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON
@@ -59,6 +60,9 @@ function(sinew_library room)
     endif()
     target_sources(sinew_${room} PRIVATE $<TARGET_OBJECTS:sinew_${room}_cgal>)
     target_link_libraries(sinew_${room} PRIVATE $<LINK_ONLY:CGAL::CGAL>)
+  endif()
+  if(ARG_OWN)
+    return()
   endif()
   install(TARGETS sinew_${room} EXPORT sinew ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     COMPONENT libsinew-dev)

@@ -13,8 +13,9 @@ from pathlib import Path
 ARROWS = {
     "core": set(), "settings": {"core"}, "mesh": {"core"}, "fill": {"core", "mesh"}, "rig": {"core"},
     "metrics": {"core"}, "physics": {"core", "rig"}, "io": {"core", "rig"}, "render": {"core", "rig"},
+    "engine": {"core", "rig", "physics"}, "lammps": {"core", "rig", "physics", "engine"},
     "scene": {"core", "settings", "mesh", "fill", "rig", "physics", "io"},
-    "run": {"core", "settings", "mesh", "fill", "rig", "physics", "io", "scene", "metrics", "render"},
+    "run": {"core", "settings", "mesh", "fill", "rig", "physics", "engine", "io", "scene", "metrics", "render"},
 }
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
@@ -25,7 +26,9 @@ HEAVY = {
     r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "run/run_log.h"),
     r"(libdeflate|lz4|expat)\.h": ("io",),
     r"X11/": ("render",),
-    r"(fmt|CLI)/": (),
+    r"(lammps|fmt)/": ("lammps", "lammps/lammps_headers.h"),
+    r"mpi\.h": ("lammps",),
+    r"CLI/": (),
 }
 # Pattern of a CMake target -> the rooms that may link it, PRIVATE.
 HEAVY_TARGETS = {
@@ -36,7 +39,8 @@ HEAVY_TARGETS = {
     r"nlohmann_json::": ("io", "metrics", "scene", "run"),
     r"^(deflate|lz4|expat)$": ("io",),
     r"X11::": ("render",),
-    r"fmt::|CLI11::": (),
+    r"LAMMPS::|fmt::": ("lammps",),
+    r"CLI11::": (),
 }
 PARTS = ("SOURCES", "CGAL_SOURCES", "PUBLIC", "PRIVATE", "INTERFACE")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -9,6 +9,7 @@
 #include <sinew/run/run_folder.h>
 #include "command/child.h"
 #include "command/command.h"
+#include "command/engine_process.h"
 #include "command/progress.h"
 #include "command/results.h"
 
@@ -18,6 +19,7 @@ using namespace sinew;
 
 struct Options : RunOptions {
   bool no_movie = false;
+  EngineOptions engine;
 };
 
 using Words = std::vector<std::string>;
@@ -33,6 +35,7 @@ Words simulate_words(const Options& options, const Common& common, const std::st
   words.insert(words.end(), {"--invoked-as", "run"});
   for (const Override& override : common.overrides)
     words.insert(words.end(), {"--set", override.path + '=' + override.value});
+  for (const std::string& word : words_of(options.engine)) words.push_back(word);
   if (options.force) words.push_back("--force");
   if (options.resume) words.push_back("--resume");
   words.insert(words.end(), {"-o", folder, "--", options.scene});
@@ -176,6 +179,7 @@ int main(int argc, char** argv) {
         "sinew run configs/box_bend.yaml -o /tmp/soft --set body.radius=0.014"}},
       [&](OptionList& list) {
         declare(list, options);
+        declare(list, options.engine);
         list.add_flag("--no-movie", options.no_movie, "Pictures only");
       },
       [&](const Common& common) { return run(options, common); });

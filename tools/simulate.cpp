@@ -13,12 +13,17 @@
 
 #include "command/child.h"
 #include "command/command.h"
+#include "command/engine_process.h"
 #include "command/progress.h"
 #include "command/results.h"
 
 namespace {
 
 using namespace sinew;
+
+struct Options : RunOptions {
+  EngineOptions engine;
+};
 
 void print_results(const RunFolder& folder, const std::string& text, const Common& common) {
   const auto record = nlohmann::ordered_json::parse(text);
@@ -48,19 +53,21 @@ std::string shell_word(const std::string& text) {
 }
 
 /// The command that goes on with this run.
-std::string resume_words(const RunOptions& options, const Common& common, const RunFolder& folder) {
+std::string resume_words(const Options& options, const Common& common, const RunFolder& folder) {
   std::string words = "sinew " + options.invoked_as + ' ' + shell_word(options.scene);
+  for (const std::string& word : words_of(options.engine)) words += ' ' + shell_word(word);
   for (const Override& one : common.overrides)
     if (one.path != "solver.wall_time") words += " --set " + shell_word(one.path + '=' + one.value);
   return words + " -o " + shell_word(folder.path.string()) + " --resume";
 }
 
-Exit simulate_scene(int argc, char** argv, const RunOptions& options, const Common& common) {
+Exit simulate_scene(int argc, char** argv, const Options& options, const Common& common) {
   refuse_mesh_as_scene(options.scene);
   const Settings settings = read_scene(options.scene, common.overrides);
   const RunFolder folder = run_folder(options.scene, options.folder);
   std::optional<Progress> progress;
-  SimulateOptions how{options.force, options.resume, {argv, argv + argc}};
+  SimulateOptions how{
+      options.force, options.resume, {argv, argv + argc}, engine_of(options.engine)};
   how.message = [&](const std::string& line) {
     progress.reset();
     say(common, line);
@@ -85,13 +92,17 @@ Exit simulate_scene(int argc, char** argv, const RunOptions& options, const Comm
 }  // namespace
 
 int main(int argc, char** argv) {
-  RunOptions options;
+  Options options;
   return run_command(
       argc, argv,
       {"simulate",
        "Moves the bones of a scene and writes the motion of the body.",
        {"sinew simulate configs/box_bend.yaml",
-        "sinew simulate configs/box_bend.yaml -o /tmp/soft --set material.young_modulus=5000"}},
-      [&](OptionList& list) { declare(list, options); },
+        "sinew simulate configs/box_bend.yaml -o /tmp/soft --set material.young_modulus=5000",
+        "sinew simulate configs/box_bend.yaml --engine lammps --ranks 2"}},
+      [&](OptionList& list) {
+        declare(list, options);
+        declare(list, options.engine);
+      },
       [&](const Common& common) { return simulate_scene(argc, argv, options, common); });
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# make_packages.sh BUILD: the Debian packages sinew, libsinew-dev and python3-sinew, into BUILD/packages. Installs
-# and configures what BUILD lacks for them. What `cmake --build BUILD --target packages` runs.
+# make_packages.sh BUILD: the Debian packages sinew, libsinew-dev, python3-sinew and sinew-lammps, into
+# BUILD/packages. Installs and configures what BUILD lacks for them. What `cmake --build BUILD --target packages` runs.
 set -euo pipefail
 
 build=$(realpath "${1:?usage: make_packages.sh BUILD}")

@@ -24,6 +24,8 @@ struct RunFolder {
   std::filesystem::path blowup() const { return path / "blowup.vtu"; }
   std::filesystem::path body() const { return path / "body.vtu"; }
   std::filesystem::path checkpoints() const { return path / "checkpoint"; }
+  /// What an engine in another program is told and says.
+  std::filesystem::path engine() const { return path / ".engine"; }
   std::filesystem::path pictures() const { return path / "pictures"; }
 
   /// Whether a run has begun here.

@@ -142,6 +142,17 @@ void RunLog::describe(const StepperChoice& choice) {
       name_of(choice.search) + ", instructions " + kernel::name_of(choice.instructions));
 }
 
+void RunLog::describe(const Engine& engine) {
+  record_["stepper"] = engine.name;
+  record_["ranks"] = engine.ranks;
+  write_record(folder_, record_);
+  log("steps by " + engine.name + " on " + std::to_string(engine.ranks) + " ranks");
+}
+
+void RunLog::describe(const EngineSteps& steps) {
+  record_["particles_on_ranks"] = steps.on_ranks();
+}
+
 void RunLog::spend(const std::string& stage, double seconds) {
   record_["seconds"][stage] = record_["seconds"].value(stage, 0.0) + seconds;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sinew/core/file.h>
+#include <sinew/run/engine_steps.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/steps.h>
@@ -24,6 +25,10 @@ class RunLog {
   RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
 
   void describe(const Settings& settings, const Setup& setup);
+  /// That makes the steps in another program.
+  void describe(const Engine& engine);
+
+  void describe(const EngineSteps& steps);  ///< how evenly its ranks share the particles
 
   /// Adds to the seconds of a stage.
   void spend(const std::string& stage, double seconds);

@@ -118,6 +118,8 @@ class Run {
 
   void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
     schedule_ = {ready.setup.frames, ready.setup.plan, scene_.output.interval};
+    const StepChoice steps = ready.setup.steps;
+    const Motion motion = ready.setup.motion;
     std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
     std::vector<Probe> probes = std::move(ready.setup.probes);
     simulation_.emplace(start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
@@ -130,6 +132,10 @@ class Run {
     writer_.emplace(folder_.path, scene_.output, simulation_->body(), ready.surface.triangles,
                     std::move(obstacles), schedule_.times_there(), std::move(ready.look),
                     std::move(probes));
+    if (options_.engine)
+      elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,
+                         stepping_of(scene_.solver, steps.step), schedule_.plan, steps.per_frame,
+                         schedule_.frames);
     simulation_->forces();  // finds the first neighbors: no part of what writing costs
   }
 
@@ -157,7 +163,7 @@ class Run {
   Exit step_through() {
     Stopwatch watch;
     const std::int64_t begun = simulation_->steps();
-    for (int frame = schedule_.there;; simulation_->step()) {
+    for (int frame = schedule_.there;; advance()) {
       if (simulation_->steps() == schedule_.plan.steps_until(frame)) {
         log_.spend("stepping", watch.lap());
         add_frame(frame);
@@ -165,15 +171,27 @@ class Run {
         report(frame++);
       }
       if (frame > schedule_.frames) return Exit::done;
-      // However little time there is, a run that is resumed again and again comes to its end.
-      const bool asked = options_.stop_requested && options_.stop_requested();
-      const bool stop = asked || (checkpoints_.out_of_time() && simulation_->steps() > begun);
+      const bool stop = asked_to_stop(simulation_->steps() > begun);
       if (!stop && !checkpoints_.due()) continue;
       log_.spend("stepping", watch.lap());
       save();
       log_.spend("writing", watch.lap());
       if (stop) return Exit::interrupted;
     }
+  }
+
+  /// However little time there is, a run that is resumed again and again comes to its end.
+  bool asked_to_stop(bool has_stepped) const {
+    const bool asked = options_.stop_requested && options_.stop_requested();
+    return asked || (has_stepped && checkpoints_.out_of_time());
+  }
+
+  void advance() {
+    if (!elsewhere_) return simulation_->step();
+    elsewhere_->advance(*simulation_, [this] {
+      if (asked_to_stop(true)) return Interruption::stop;
+      return checkpoints_.due() ? Interruption::state : Interruption::none;
+    });
   }
 
   void add_frame(int frame) {
@@ -196,6 +214,10 @@ class Run {
   /// Waits for the frames that are still being written.
   void close() {
     Stopwatch watch;
+    if (elsewhere_) {
+      elsewhere_->finish();
+      log_.describe(*elsewhere_);
+    }
     writer_->close();
     log_.spend("writing", watch.lap());
   }
@@ -207,6 +229,7 @@ class Run {
   RunCheckpoints& checkpoints_;
   Schedule schedule_;
   std::optional<Simulation> simulation_;
+  std::optional<EngineSteps> elsewhere_;
   std::optional<FrameWriter> writer_;
 };
 
@@ -272,6 +295,7 @@ void say_what_is_doubtful(const Settings& scene, const ReadyScene& ready,
 
 RunResult simulate(const Settings& given, const RunFolder& folder, const SimulateOptions& options) {
   const Settings scene = with_fit(given);
+  if (options.engine) refuse_for_engine(scene, options.engine->name);
   if (given.skeleton.fit != Fit::none) say(options, fit_text(scene.skeleton));
   refuse_foreign_files(folder);  // before anything is written there, a lock included
   create(folder);
@@ -292,6 +316,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   log.spend("filling", ready.seconds_filling);
   log.spend("binding", ready.seconds_binding);
   log.describe(scene, ready.setup);
+  if (options.engine) log.describe(*options.engine);
   say_what_is_doubtful(scene, ready, options);
   if (options.before_stepping) options.before_stepping();
   const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);

@@ -8,10 +8,12 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <sinew/core/error.h>
+#include <sinew/run/engine_steps.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/settings/settings.h>
 
@@ -29,6 +31,8 @@ struct SimulateOptions {
   bool force = false;                            ///< replace an older run in the folder
   bool resume = false;                           ///< continue a run that was stopped
   std::vector<std::string> command = {"sinew"};  ///< how the run was started, for its record
+
+  std::optional<Engine> engine = {};  ///< that makes the steps; none: this program
 
   // What a caller may listen to; each may be empty.
   std::function<void(const RunProgress&)> progress = {};

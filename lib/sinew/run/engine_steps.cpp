@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/engine_steps.h>
+
+#include <array>
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+struct Unsupported {
+  const char* key;
+  const char* what;
+  const char* cure;
+  bool (*asked)(const Settings&);
+};
+
+constexpr std::array<Unsupported, 12> unsupported = {{
+    {"solver.precision", "single precision", "set it to double",
+     [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
+    {"solver.neighbor_search", "the paper's cells", "set it to lists",
+     [](const Settings& scene) { return scene.solver.neighbor_search != NeighborSearch::lists; }},
+    {"material.model", "bonded_volume", "choose bonded",
+     [](const Settings& scene) { return scene.material.model == MaterialModel::bonded_volume; }},
+    {"material.breaking_strain", "bonds that break", "leave it out",
+     [](const Settings& scene) { return scene.material.breaking_strain.has_value(); }},
+    {"material.fracture_energy", "bonds that break", "leave it out",
+     [](const Settings& scene) { return scene.material.fracture_energy.has_value(); }},
+    {"material.yield_strain", "bonds that creep", "leave it out",
+     [](const Settings& scene) { return scene.material.yield_strain.has_value(); }},
+    {"world.drag", "drag", "leave it out",
+     [](const Settings& scene) { return scene.world.drag != 0; }},
+    {"world.obstacles", "obstacles", "leave them out",
+     [](const Settings& scene) { return !scene.world.obstacles.empty(); }},
+    {"world.pins", "pins", "leave them out",
+     [](const Settings& scene) { return !scene.world.pins.empty(); }},
+    {"world.fields", "fields and muscles", "leave them out",
+     [](const Settings& scene) {
+       return !scene.world.fields.empty() || !scene.world.muscles.empty();
+     }},
+    {"supports", "supports", "leave them out",
+     [](const Settings& scene) { return !scene.supports.empty(); }},
+    {"loads", "loads", "leave them out",
+     [](const Settings& scene) { return !scene.loads.empty(); }},
+}};
+
+}  // namespace
+
+void refuse_for_engine(const Settings& settings, const std::string& engine) {
+  for (const Unsupported& one : unsupported)
+    if (one.asked(settings))
+      throw bad_input(settings.place(one.key), "engine " + engine + " does not support " + one.what,
+                      std::string(one.cure) + ", or run without --engine");
+}
+
+EngineSteps::EngineSteps(Engine engine, const std::filesystem::path& folder,
+                         const Simulation& simulation, const Motion& motion,
+                         const Stepping& stepping, const StepPlan& plan, int steps_per_frame,
+                         int frames)
+    : engine_(std::move(engine)), folder_{folder}, ids_(simulation.particles().id) {
+  std::error_code missing;
+  std::filesystem::remove_all(folder, missing);  // of a run that failed
+  write_engine_run(folder_, {simulation.body(), motion, stepping, plan, steps_per_frame, frames,
+                             simulation.particles().mass, simulation.save(), ids_});
+  engine_.start(folder_);
+}
+
+void EngineSteps::advance(Simulation& simulation, const std::function<Interruption()>& wanted) {
+  const EngineNews news = engine_.next(wanted);
+  if (news.steps != simulation.steps()) {
+    on_ranks_ = read_engine_moment(folder_, news.steps).particles;
+    simulation.restore(read_engine_state(folder_, news.steps, simulation.save(), ids_));
+    remove_engine_state(folder_, news.steps, engine_.ranks);
+  }
+  if (!news.unstable) return;
+  simulation.step();  // fails alike, and says why
+  throw Error(Exit::unstable,
+              "step " + std::to_string(news.steps) + " at " + three_digits(simulation.time()) +
+                  " s: a particle moved too far, by a rounding error only; use "
+                  "solver.time_step " +
+                  three_digits(0.5 * simulation.time() / double(news.steps + 1)) + " or less");
+}
+
+void EngineSteps::finish() {
+  engine_.finish();
+  std::error_code missing;
+  std::filesystem::remove_all(folder_.path, missing);
+}
+
+}  // namespace sinew

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command/engine_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int asked_every = 50, patience = 15000;  // ms
+
+fs::path program_of_engine() {
+  return fs::read_symlink("/proc/self/exe").parent_path() / "sinew-lammps";
+}
+
+bool is_in_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::vector<std::string> mpirun_words(const EngineOptions& options, int ranks,
+                                      const fs::path& folder) {
+  std::vector<std::string> words{"mpirun", "-n", std::to_string(ranks)};
+  if (::geteuid() == 0) words.push_back("--allow-run-as-root");
+  if (!options.hosts.empty()) {
+    words.insert(words.end(), {"--hostfile", options.hosts});
+  } else {  // beside other programs of this machine
+    words.insert(words.end(), {"--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
+    if (ranks > static_cast<int>(std::thread::hardware_concurrency()))
+      words.push_back("--oversubscribe");
+  }
+  words.insert(words.end(), {program_of_engine().string(), folder.string()});
+  return words;
+}
+
+/// In the child: nothing of the terminal reaches mpirun, which would end on Ctrl-C at once.
+[[noreturn]] void become(const std::vector<std::string>& words, int output, const fs::path& errors,
+                         pid_t parent) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(1);
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  ::execvp(arguments[0], arguments.data());
+  ::_exit(127);
+}
+
+/// The first line of a file that contains `part`, from there on; "" for none.
+std::string line_with(const fs::path& file, const std::string& part) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto at = line.find(part); at != std::string::npos) return line.substr(at);
+  return "";
+}
+
+/// The first line that says anything, with the one after it.
+std::string first_words(const fs::path& file) {
+  std::ifstream lines(file);
+  std::string words, line;
+  while (std::getline(lines, line) && (words.empty() || !line.empty()))
+    if (line.find_first_not_of("- ") != std::string::npos)
+      words += (words.empty() ? "" : " ") + line;
+  return words.substr(0, words.find(':'));
+}
+
+class EngineProcess {
+ public:
+  explicit EngineProcess(const EngineOptions& options, int ranks)
+      : options_(options), ranks_(ranks) {}
+  ~EngineProcess() {
+    if (process_ == 0) return;
+    ::kill(process_, SIGTERM);
+    wait();
+  }
+  EngineProcess(const EngineProcess&) = delete;
+  EngineProcess& operator=(const EngineProcess&) = delete;
+
+  void start(const EngineFolder& folder) {
+    folder_ = {fs::absolute(folder.path)};
+    std::array<int, 2> pipe{};
+    const auto words = mpirun_words(options_, ranks_, folder_.path);
+    const pid_t parent = ::getpid();
+    const bool piped = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
+    process_ = piped ? ::fork() : -1;
+    if (process_ == 0) become(words, pipe[1], errors(), parent);
+    if (process_ < 0) throw bad_input("mpirun cannot be started", "free some memory");
+    ::close(pipe[1]);
+    output_ = pipe[0];
+  }
+
+  EngineNews next(const std::function<Interruption()>& wanted) {
+    Interruption asked = Interruption::none;
+    while (true) {
+      if (const auto line = take_line()) {
+        if (const auto news = news_of(*line)) return *news;
+        listens_ |= *line == engine_begins;
+        continue;
+      }
+      const Interruption now = listens_ ? wanted() : Interruption::none;
+      if (now > asked) ::kill(process_, now == Interruption::stop ? SIGUSR1 : SIGUSR2);
+      asked = std::max(asked, now);
+      if (!read_more()) throw failure();
+    }
+  }
+
+  void finish() {
+    ::kill(process_, listens_ ? SIGUSR1 : SIGTERM);  // where there is more to do
+    while (read_more()) {
+    }
+    wait();
+  }
+
+ private:
+  fs::path errors() const { return folder_.path / "errors.txt"; }
+
+  std::optional<std::string> take_line() {
+    const auto end = text_.find('\n');
+    if (end == std::string::npos) return std::nullopt;
+    std::string line = text_.substr(0, end);
+    text_.erase(0, end + 1);
+    return line;
+  }
+
+  /// Waits a moment for output; false at its end.
+  bool read_more() {
+    pollfd ready{output_, POLLIN, 0};
+    if (::poll(&ready, 1, asked_every) <= 0) return true;  // a signal, too, is a reason to ask
+    std::array<char, 4096> part;
+    const ssize_t got = ::read(output_, part.data(), part.size());
+    if (got > 0) text_.append(part.data(), static_cast<std::size_t>(got));
+    return got > 0 || (got < 0 && errno == EINTR);
+  }
+
+  /// Its exit code. Ranks that mpirun does not get to end lose it, and end by that.
+  int wait() {
+    int status = 0;
+    for (int waited = 0; ::waitpid(process_, &status, WNOHANG) == 0; ++waited) {
+      if (waited == patience / asked_every) ::kill(process_, SIGKILL);
+      ::usleep(1000 * asked_every);
+    }
+    ::close(output_);
+    process_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  /// Why the ranks have ended: their own words, LAMMPS's, or mpirun's.
+  Error failure() {
+    const int code = wait();
+    const std::string own = line_with(errors(), "sinew: ");
+    if (!own.empty()) {
+      const bool known = code == static_cast<int>(Exit::not_written);
+      return Error(known ? Exit::not_written : Exit::bad_input, own.substr(7));
+    }
+    std::string why = line_with(folder_.log(), "ERROR");
+    if (why.empty()) why = line_with(errors(), "process rank");
+    if (why.empty()) why = first_words(errors());
+    if (why.empty()) why = "mpirun ended with code " + std::to_string(code);
+    while (!why.empty() && (why.back() == '.' || why.back() == ' ')) why.pop_back();
+    return bad_input("LAMMPS ended before the run did: " + why,
+                     "go on with --resume; " + folder_.path.string() + " has what it said");
+  }
+
+  EngineOptions options_;
+  int ranks_;
+  EngineFolder folder_;
+  pid_t process_ = 0;
+  int output_ = -1;
+  std::string text_;
+  bool listens_ = false;  ///< to signals, which would end it before
+};
+
+void check_installed() {
+  if (::access(program_of_engine().c_str(), X_OK) != 0)
+    throw bad_input(Place{program_of_engine().string()},
+                    "was not built, because LAMMPS was missing",
+                    "install it (Debian: apt-get install liblammps-dev) and build again");
+  if (!is_in_path("mpirun"))
+    throw bad_input("mpirun is not installed", "install it (Debian: apt-get install openmpi-bin)");
+}
+
+}  // namespace
+
+void declare(OptionList& list, EngineOptions& options) {
+  list.add("--engine", options.engine, "Who makes the steps: built-in, or lammps on many machines")
+      .type_name("NAME");
+  list.add("--ranks", options.ranks, "Processes of --engine lammps; by default one per core")
+      .type_name("N")
+      .positive();
+  list.add("--hosts", options.hosts, "Hosts of the ranks, as a host file of mpirun")
+      .type_name("FILE");
+}
+
+std::vector<std::string> words_of(const EngineOptions& options) {
+  std::vector<std::string> words;
+  if (options.chosen()) words.insert(words.end(), {"--engine", options.engine});
+  if (options.ranks > 0) words.insert(words.end(), {"--ranks", std::to_string(options.ranks)});
+  if (!options.hosts.empty()) words.insert(words.end(), {"--hosts", options.hosts});
+  return words;
+}
+
+std::optional<Engine> engine_of(const EngineOptions& options) {
+  if (!options.chosen()) {
+    if (options.ranks > 0 || !options.hosts.empty())
+      throw bad_input("--ranks and --hosts are of --engine lammps", "add it, or leave them out");
+    return std::nullopt;
+  }
+  if (options.engine != "lammps")
+    throw bad_input("there is no engine " + shown(options.engine), "choose built-in or lammps");
+  if (!options.hosts.empty() && !fs::exists(options.hosts))
+    throw bad_input(Place{options.hosts}, "is missing",
+                    "write a line 'HOST slots=CORES' for each host into it");
+  check_installed();
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int ranks = options.ranks > 0 ? options.ranks : cores;
+  const auto process = std::make_shared<EngineProcess>(options, ranks);
+  return Engine{options.engine, ranks,
+                [process](const EngineFolder& folder) { process->start(folder); },
+                [process](const auto& wanted) { return process->next(wanted); },
+                [process] { process->finish(); }};
+}
+
+}  // namespace sinew
