@@ -81,6 +81,17 @@ TEST_F(EngineFiles, TellWhatIsToBeStepped) {
   EXPECT_EQ(next, rest_.size());
 }
 
+TEST_F(EngineFiles, AreNotWrittenOfWhatEnginesDoNotKnow) {
+  settings_.material.breaking_strain = 0.1;
+  simulation_.emplace(test::simulation_from(settings_, rest_, particles_, 1e-4));
+  EXPECT_THROW(write(), Error);
+  settings_.material.breaking_strain.reset();
+  settings_.material.model = MaterialModel::bonded_volume;
+  simulation_.emplace(test::simulation_from(settings_, rest_, particles_, 1e-4));
+  EXPECT_THROW(write(), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path));
+}
+
 TEST_F(EngineFiles, AreRefusedWhereTheyAreTruncated) {
   write();
   for (const auto& file : {folder_.setup(), folder_.particles()}) {
