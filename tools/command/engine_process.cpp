@@ -36,13 +36,20 @@ bool is_in_path(const std::string& program) {
   return false;
 }
 
+/// Whether a job of a cluster says where the ranks go.
+bool is_managed() {
+  for (const char* job : {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "PE_HOSTFILE"})
+    if (std::getenv(job) != nullptr) return true;
+  return false;
+}
+
 std::vector<std::string> mpirun_words(const EngineOptions& options, int ranks,
                                       const fs::path& folder) {
   std::vector<std::string> words{"mpirun", "-n", std::to_string(ranks)};
   if (::geteuid() == 0) words.push_back("--allow-run-as-root");
   if (!options.hosts.empty()) {
     words.insert(words.end(), {"--hostfile", options.hosts});
-  } else {  // beside other programs of this machine
+  } else if (!is_managed()) {  // beside other programs of this machine
     words.insert(words.end(), {"--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
     if (ranks > static_cast<int>(std::thread::hardware_concurrency()))
       words.push_back("--oversubscribe");

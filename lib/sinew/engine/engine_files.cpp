@@ -122,9 +122,22 @@ Error not_a_piece(const fs::path& file) {
   return bad_input(Place{file.string()}, "is no complete piece of a state", "start the run again");
 }
 
+/// Of a scene, refuse_for_engine() says it by name.
+void refuse_unsupported(const Body& body) {
+  const Material& material = body.material;
+  const char* what = body.world                      ? "surroundings"
+                     : material.volume_stiffness > 0 ? "particles that keep their volume"
+                     : bonds_change(material)        ? "bonds that break or creep"
+                                                     : nullptr;
+  if (what != nullptr)
+    throw bad_input(std::string("engines in other programs know no ") + what,
+                    "step this body with the built-in engine");
+}
+
 }  // namespace
 
 void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
+  refuse_unsupported(run.body);
   std::error_code failed;
   fs::create_directories(folder.path, failed);
   if (failed)

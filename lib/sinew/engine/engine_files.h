@@ -80,7 +80,8 @@ struct EngineRun {
   bool with_forces = false;
 };
 
-/// Writes setup and particles into the folder, which is created. Throws not written.
+/// Writes setup and particles into the folder, which is created. Throws not written, and bad input
+/// for bodies in a world and materials that engines do not know.
 void write_engine_run(const EngineFolder& folder, const EngineRun& run);
 
 EngineSetup read_engine_setup(const EngineFolder& folder);
