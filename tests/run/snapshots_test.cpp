@@ -47,6 +47,24 @@ TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
   }
 }
 
+TEST(RunSnapshot, SaysAnAngleOnlyOfBones) {
+  const TempFolder folder;
+  const auto caption = [&](const std::string& scene) {
+    const RunFolder run_at{folder.path() / std::to_string(scene.size())};
+    EXPECT_EQ(simulate(read_scene(folder.write("scene.yaml", scene).string()), run_at).exit,
+              Exit::done);
+    const RunFiles files = open_run(run_at);
+    return snapshot_of(files, read_frame(files, 1), radians(30)).caption;
+  };
+  EXPECT_EQ(caption(stretching_scene()), "0.05 s,  30\u00b0");
+  EXPECT_EQ(caption("body: {mesh: " + source + "/data/meshes/box.obj, radius: 0.03}\n" +
+                    R"(supports: [{name: foot, facing: [0, 0, -1]}]
+solver: {duration: 0.05}
+output: {interval: 0.05}
+)"),
+            "0.05 s");
+}
+
 TEST(FigureSet, RefusesPicturesThatExceedTheMemory) {
   EXPECT_NO_THROW(check_memory(8192, 8192, 4e9));
   EXPECT_NO_THROW(check_memory(1280, 720, 1e9));

@@ -23,8 +23,9 @@ namespace sinew {
 
 Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle) {
   Snapshot snapshot;
-  snapshot.caption = three_digits(frame.time) + " s,  " +
-                     std::to_string(static_cast<int>(std::lround(degrees(angle)))) + "\u00b0";
+  snapshot.caption = three_digits(frame.time) + " s";
+  if (!frame.bones.empty())
+    snapshot.caption += ",  " + std::to_string(std::lround(degrees(angle))) + "\u00b0";
   snapshot.particles = std::move(frame.positions);
   snapshot.radius = run.body.particles.radius;
   snapshot.values = std::move(frame.displacement);
