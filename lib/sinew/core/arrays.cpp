@@ -62,7 +62,7 @@ std::vector<WrittenArray> table_of_particles() {
        "damping force of its neighbors"},
       {"particles", point, "force_bone", "N", xyz, real, plain, "force of its bone"},
       {"particles", point, "force_world", "N", xyz, real, plain,
-       "force of obstacles, drag, fields, muscles and pins, if the scene has any"},
+       "force of obstacles, drag, fields, muscles, pins, supports and loads, if the scene has any"},
       {"particles", point, "neighbors", "1", one, whole, plain,
        "number of neighbors within the range b; of solids, bonded or touching"},
       {"particles", point, "broken_bonds", "1", one, whole, plain,
@@ -79,7 +79,7 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", field, "contact_energy", "J", one, exact, plain,
        "elastic energy of contacts with obstacles"},
       {"particles", field, "work_of_world", "J", one, exact, plain,
-       "work that moving obstacles, pins, fields and muscles have done so far"},
+       "work that moving obstacles, pins, fields, muscles, supports and loads have done so far"},
   };
 }
 

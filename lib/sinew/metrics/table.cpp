@@ -58,9 +58,11 @@ constexpr std::array metric_table = {
            "-integral of damping force . velocity", &M::dissipation},
     Metric{"contact_energy", "J", "Elastic energy of contacts with obstacles",
            "sum k (r - d)^2 / 2", &M::contact_energy},
-    Metric{"work_of_world", "J",
-           "Work that moving obstacles, pins, fields and muscles have done since the start",
-           "integral of force . velocity", &M::work_of_world},
+    Metric{
+        "work_of_world", "J",
+        "Work that moving obstacles, pins, fields, muscles, supports and loads have done since the "
+        "start",
+        "integral of force . velocity", &M::work_of_world},
     Metric{"energy_residual", "J", "Residual of the energy ledger: tests the integrator",
            "change of (kinetic + pair + bone + gravity + contact) - work + dissipation",
            &M::energy_residual, Worse::magnitude},

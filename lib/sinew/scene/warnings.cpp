@@ -64,7 +64,7 @@ void warn_of_step(const StepChoice& steps, Warnings& warnings) {
 
 void warn_of_speed(double speed, Warnings& warnings) {
   if (speed > fastest_bone)
-    warnings.push_back("a bone moves particles by " + three_digits(speed) +
+    warnings.push_back("a bone or a support moves particles by " + three_digits(speed) +
                        " radii in a step: the body cannot follow; slow the motion down or shorten "
                        "solver.time_step");
 }

@@ -172,6 +172,11 @@ def bone_parts(source, radius):
     return tubes(source, "bone", 0, 0, radius), tubes(source, "axes", 1, 3, 1.25 * radius)
 
 
+def has_cells(source):
+    source.UpdatePipeline()
+    return source.GetDataInformation().GetNumberOfCells() > 0
+
+
 def show_bones(parts, view):
     bones = show_plain(parts[0], view, BONE)
     bones.Ambient, bones.Specular = 0.25, 0.4
@@ -258,8 +263,9 @@ def show_all(sources, options, scene):
     parts = bone_parts(sources["bones"], radius)
     for view, opacity in ((left, 0.35), (right, 0.8)):
         show_edges(edges, view, opacity)
-        show_bones(parts, view)
-        show_heads(sources["frames"], view, radius)
+        if has_cells(sources["bones"]):  # a body in a testing machine may have none
+            show_bones(parts, view)
+            show_heads(sources["frames"], view, radius)
         if "obstacles" in sources:
             show_obstacles(sources["obstacles"], view)
         if "supports" in sources:
