@@ -104,7 +104,11 @@ kernel::Step<Real> ListStepper<Real>::job() {
 template <class Real>
 template <class Run>
 void ListStepper<Real>::on_all_pieces(const Run& run) {
-  parallel_split(totals_.size(), pieces_per_thread, run);
+  const bool uneven = surroundings_.any() && totals_.size() >= 2 * pieces_per_thread;
+  if (uneven)  // what they touch takes longer
+    parallel_for(totals_.size(), pieces_at_a_time, run);
+  else
+    parallel_split(totals_.size(), pieces_per_thread, run);
 }
 
 /// Puts what pins hold at its place.

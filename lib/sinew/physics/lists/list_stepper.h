@@ -49,6 +49,7 @@ class ListStepper {
   static constexpr std::size_t particles_per_thread = 8192;
   static constexpr std::size_t pieces_per_thread =
       particles_per_thread / (kernel::blocks_per_piece * BlockState<Real>::block);
+  static constexpr std::size_t pieces_at_a_time = 4;  ///< where some take longer than others
 
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
