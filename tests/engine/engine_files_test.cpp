@@ -55,6 +55,15 @@ class EngineFiles : public testing::Test {
   std::optional<Simulation> simulation_;
 };
 
+TEST_F(EngineFiles, TellTheMaterialOfARandomPacking) {
+  settings_.body.packing = Packing::random;
+  const Material material = test::make_body(settings_, rest_).material;
+  EXPECT_LT(material.order, 1);
+  simulation_.emplace(test::simulation_from(settings_, rest_, particles_, 1e-4));
+  write();
+  EXPECT_EQ(read_engine_setup(folder_).material.young_modulus(), material.young_modulus());
+}
+
 TEST_F(EngineFiles, TellWhatIsToBeStepped) {
   write();
   const EngineSetup setup = read_engine_setup(folder_);

@@ -111,10 +111,14 @@ class EngineProcess {
     const auto words = mpirun_words(options_, ranks_, folder_.path);
     const pid_t parent = ::getpid();
     const bool piped = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
-    process_ = piped ? ::fork() : -1;
-    if (process_ == 0) become(words, pipe[1], errors(), parent);
-    if (process_ < 0) throw bad_input("mpirun cannot be started", "free some memory");
-    ::close(pipe[1]);
+    const pid_t child = piped ? ::fork() : -1;
+    if (child == 0) become(words, pipe[1], errors(), parent);
+    if (piped) ::close(pipe[1]);
+    if (child < 0) {
+      if (piped) ::close(pipe[0]);
+      throw bad_input("mpirun cannot be started", "free some memory");
+    }
+    process_ = child;
     output_ = pipe[0];
   }
 
@@ -134,6 +138,7 @@ class EngineProcess {
   }
 
   void finish() {
+    if (process_ == 0) return;  // as after a failure; a signal to 0 would reach sinew itself
     ::kill(process_, listens_ ? SIGUSR1 : SIGTERM);  // where there is more to do
     while (read_more()) {
     }
@@ -193,7 +198,7 @@ class EngineProcess {
   EngineOptions options_;
   int ranks_;
   EngineFolder folder_;
-  pid_t process_ = 0;
+  pid_t process_ = 0;  ///< never below: a signal to -1 reaches all processes
   int output_ = -1;
   std::string text_;
   bool listens_ = false;  ///< to signals, which would end it before

@@ -37,11 +37,6 @@ void DirectionalStiffness::add(const Vec3& bond) {
   sum_ += squared * n * n.transpose();
 }
 
-DirectionalStiffness& DirectionalStiffness::operator+=(const DirectionalStiffness& other) {
-  sum_ += other.sum_;
-  return *this;
-}
-
 std::array<double, 2> DirectionalStiffness::modulus_range() const {
   const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> solver(sum_);
   if (!solver.isInvertible()) return {0, 0};

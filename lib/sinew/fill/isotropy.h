@@ -19,7 +19,6 @@ class DirectionalStiffness {
  public:
   /// A spring between particles that far apart (any unit).
   void add(const Vec3& bond);
-  DirectionalStiffness& operator+=(const DirectionalStiffness& other);
 
   /// Over the mean of all directions, to a few thousandths; 0 where the springs leave a strain
   /// free.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds filled sites by their place in the lattice.
+// Finds filled sites by their place in an FCC lattice.
 //
 //     const SiteIndex index(filled.lattice, filled.runs);
 //     const std::int64_t site = index.at(place);

@@ -26,8 +26,7 @@ struct Irregular {
 };
 
 /// From `filled`, the same body on a lattice: as many particles in a volume. The same for any
-/// number of threads and, where a body is larger, in what both have in common up to what surrounds
-/// it. Throws bad input where the surface does not allow the packing.
+/// number of threads. Throws bad input where the surface does not allow the packing.
 Irregular irregular_packing(const BodySpace& space, const PackOptions& options,
                             const FilledSites& filled);
 
