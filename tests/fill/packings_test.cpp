@@ -8,6 +8,8 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
+#include <sinew/fill/fill_limits.h>
 #include <sinew/fill/isotropy.h>
 #include <sinew/fill/pack.h>
 #include <sinew/fill/packings/relax.h>
@@ -177,6 +179,15 @@ TEST(ConformalPacking, RefusesWhatHasNoOneSurface) {
   PackOptions verified = options_of(Packing::random, 0.05);
   verified.verify = true;
   test::expect_bad_input([&] { pack(ball(), verified); }, {"lattice", "verification"});
+}
+
+TEST(RandomPacking, RefusesMoreParticlesThanMemoryHolds) {
+  const double fits = std::cbrt(volume(ball().triangles) / volume_per_particle(1) * 300 /
+                                static_cast<double>(available_memory()));
+  EXPECT_NO_THROW(wanted_radius(BodySpace(ball(), options_of(Packing::fcc, fits)),
+                                options_of(Packing::fcc, fits)));
+  test::expect_bad_input([&] { pack(ball(), options_of(Packing::random, fits)); },
+                         {"GB", "of memory", "fits"});
 }
 
 /// Closed forms of the cubic crystal with C11 = 2 C12 = 2 C44.

@@ -34,7 +34,13 @@ namespace {
 // A volume this small relative to area times size is the rounding error of a flat body.
 constexpr double rounding_of_volume = 1e-13;
 // Bytes while filling and writing: positions, velocities, counts and their copies for output.
-constexpr double bytes_per_particle = 150, bytes_per_row = 100;
+// Packings without a lattice hold lists of neighbors, too, and particles around the body.
+constexpr double bytes_on_sites = 150, bytes_elsewhere = 600, bytes_per_row = 100;
+
+double bytes_per_particle(const PackOptions& options) {
+  return is_lattice(options.packing) ? bytes_on_sites : bytes_elsewhere;
+}
+
 constexpr double most_ids = std::numeric_limits<std::int32_t>::max();
 constexpr double farthest_origin = 1e4;  // lengths of the body
 constexpr double enough = 100;           // particles at a proposed radius
@@ -50,8 +56,8 @@ double rounded(double value, double (*to)(double)) {  // to two digits
 double rounded_down(double radius) { return rounded(radius, std::floor); }
 
 /// Bytes needed to fill `volume` in `box`.
-double bytes_needed(const Box& box, double volume, double radius) {
-  return volume / volume_per_particle(radius) * bytes_per_particle +
+double bytes_needed(const Box& box, const PackOptions& options, double volume, double radius) {
+  return volume / volume_per_particle(radius) * bytes_per_particle(options) +
          lattice_size(box, radius).rows * bytes_per_row;
 }
 
@@ -69,12 +75,12 @@ void refuse_without_volume(const Triangles& surface) {
                   std::string("give a solid body, or ") + (thicken + 5));
 }
 
-void refuse_too_many(const Box& box, double volume, double radius) {
+void refuse_too_many(const Box& box, const PackOptions& options, double volume, double radius) {
   const double particles = volume / volume_per_particle(radius), memory = available_memory();
-  const double bytes = bytes_needed(box, volume, radius);
+  const double bytes = bytes_needed(box, options, volume, radius);
   if (particles <= most_ids && bytes <= memory) return;
   double fits = std::max(radius, radius_for_count(volume, most_ids));
-  for (int round = 0; bytes_needed(box, volume, fits) > memory && round < 5000; ++round)
+  for (int round = 0; bytes_needed(box, options, volume, fits) > memory && round < 5000; ++round)
     fits *= 1.02;
   throw bad_input("the radius " + three_digits(radius) + " m gives about " +
                       three_digits(particles) + " particles, which need " + gigabytes(bytes) +
@@ -152,7 +158,7 @@ double wanted_radius(const BodySpace& space, const PackOptions& options) {
     throw bad_input("no volume was found inside the surface, so that a count gives no radius",
                     "give a thickness, or a radius");
   if (space.surface.closed() && !options.thickness) refuse_too_large(about, radius);
-  refuse_too_many(space.box, about, radius);
+  refuse_too_many(space.box, options, about, radius);
   return radius;
 }
 
@@ -168,14 +174,13 @@ void refuse_empty(const BodySpace& space, const PackOptions& options, const Fill
       fits > 0 ? "a radius of " + three_digits(fits) + " m fits" : std::string(thicken));
 }
 
-void refuse_found(const FilledSites& filled) {
+void refuse_found(const FilledSites& filled, const PackOptions& options) {
   const auto count = static_cast<double>(count_of(filled.runs));
-  const double memory = available_memory();
-  if (count <= most_ids && count * bytes_per_particle <= memory) return;
+  const double memory = available_memory(), bytes = count * bytes_per_particle(options);
+  if (count <= most_ids && bytes <= memory) return;
   throw bad_input("the radius " + three_digits(filled.lattice.radius) + " m gives " +
-                      three_digits(count) + " particles, which need " +
-                      gigabytes(count * bytes_per_particle) + " of memory where " +
-                      gigabytes(memory) + " are free",
+                      three_digits(count) + " particles, which need " + gigabytes(bytes) +
+                      " of memory where " + gigabytes(memory) + " are free",
                   "give a larger radius");
 }
 

@@ -39,6 +39,6 @@ double wanted_radius(const BodySpace& space, const PackOptions& options);
                                const FilledSites& filled);
 
 /// Refuses more particles than memory or 32-bit ids hold, once their number is known.
-void refuse_found(const FilledSites& filled);
+void refuse_found(const FilledSites& filled, const PackOptions& options);
 
 }  // namespace sinew

@@ -199,7 +199,7 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   const double wanted = wanted_radius(space, options);
   const FilledSites filled = fill_sites(space, options, wanted);
   if (filled.runs.empty()) refuse_empty(space, options, filled);
-  refuse_found(filled);
+  refuse_found(filled, options);
   report.seconds_inside = watch.lap();
 
   report_surface(surface, report);
