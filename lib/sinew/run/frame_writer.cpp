@@ -260,8 +260,9 @@ void FrameWriter::take_forces(Simulation& simulation, Moved& frame) const {
 
 void FrameWriter::write(Moved& frame) {
   if (support_table_) write_supports(frame);
-  if (probe_table_) write_probes(frame, state_of(frame));
-  if (frame.with_particles) write_particles(frame);
+  const FrameState state = measured_ ? state_of(frame) : FrameState();
+  if (probe_table_) write_probes(frame, state);
+  if (frame.with_particles) write_particles(frame, state);
   write_surfaces(frame);
   bones_.add(bones_dataset(body_.skeleton, frame.pose, frame.moment));
   const std::vector<Reaction> sums = frame.reactions.sums();
@@ -286,12 +287,12 @@ void FrameWriter::write_supports(const Moved& frame) {
   support_series_->add(supports_dataset(frames, frame.moment));
 }
 
-FrameState FrameWriter::state_of(const Moved& frame) const {
+FrameState FrameWriter::state_of(Moved& frame) {
   FrameState state;
   state.positions = frame.positions;
   for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
-  state.bond_rest = frame.bond_rest;
-  state.muscle_stress = frame.muscle_stress;
+  state.bond_rest = std::move(frame.bond_rest);
+  state.muscle_stress = std::move(frame.muscle_stress);
   return state;
 }
 
@@ -307,10 +308,9 @@ void FrameWriter::write_probes(const Moved& frame, const FrameState& state) {
                      std::get<std::vector<double>>(found[1].values), force});
 }
 
-void FrameWriter::write_particles(Moved& frame) {
+void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
   std::vector<Column> requested;
   if (measured_) {
-    const FrameState state = state_of(frame);
     requested = particle_arrays(*measured_, state, arrays_);
     if (bond_series_)
       bond_series_->add(bonds_dataset(bond_values(*measured_, state), frame.positions,

@@ -99,11 +99,12 @@ class FrameWriter {
   Moved take(Simulation& simulation, double time);
   void write(Moved& frame);
   void take_forces(Simulation& simulation, Moved& frame) const;
-  void write_particles(Moved& frame);
+  void write_particles(Moved& frame, const FrameState& state);
   void write_surfaces(const Moved& frame);
   void write_supports(const Moved& frame);
   void write_probes(const Moved& frame, const FrameState& state);
-  FrameState state_of(const Moved& frame) const;
+  /// What is measured, of which it takes all but the positions.
+  static FrameState state_of(Moved& frame);
   std::vector<Series*> all_series();
   void begin_checksums();
   void list_new_frames();
