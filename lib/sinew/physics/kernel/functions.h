@@ -2,6 +2,7 @@
 // The kernel's functions for the instruction set of the source file that includes this.
 #pragma once
 
+#include <sinew/physics/kernel/listing.h>
 #include <sinew/physics/kernel/pruning.h>
 #include <sinew/physics/kernel/step.h>
 #include <sinew/physics/kernel/survey.h>
@@ -58,6 +59,7 @@ constexpr Functions<typename L::Real> functions() {
   add<L, among_neighbors>(all);
   add<L, springs>(all);
   add<L, changing_springs>(all);
+  all.near = near_blocks<lanes::Floats>;
   all.list = list_block<L>;
   all.prune = prune_list<L>;
   all.survey = survey<L>;

@@ -259,6 +259,16 @@ struct SurveyInput {
   const Real* live;  ///< as in Step
 };
 
+/// Axes of bounds: x, y, z, then the diagonals between each two of them, which bound rows of a
+/// lattice closely wherever they turn.
+inline constexpr int bound_axes = 9;
+
+/// Around the particles of each block of a piece, in lengths of the kernel; of blocks that the body
+/// does not have, infinite, the least above the largest.
+struct BlockBounds {
+  float low[bound_axes][blocks_per_piece], high[bound_axes][blocks_per_piece];
+};
+
 /// Prunes the differences of a block's candidates: those with a pair within range are kept.
 template <class Real>
 struct PruneInput {
@@ -289,6 +299,10 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
+  /// Finds the blocks of `pieces`, ascending, whose bounds are within range of those of a block;
+  /// returns how many.
+  std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const std::uint32_t* pieces,
+                      std::size_t count, float range, std::uint32_t* found);
   /// Finds the differences with a pair of the block and one of the others (ascending) within range,
   /// ascending; returns how many. At most twice a block's size for each of the others.
   std::size_t (*list)(const PruneInput<Real>&, std::size_t block, const std::uint32_t* others,

@@ -2,8 +2,9 @@
 #include <sinew/physics/lists/offset_lists.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace sinew {
 
@@ -16,15 +17,6 @@ kernel::PruneInput<Real> prune_input(BlockState<Real>& state, double range) {
   return {state.arrays(), static_cast<Real>(range * range)};
 }
 
-bool in_range(const std::array<float, 6>& a, const std::array<float, 6>& b, float range) {
-  for (int axis = 0; axis < 3; ++axis) {
-    // Bounds were rounded to floats.
-    const float slack = 4e-7F * (std::abs(a[axis]) + std::abs(b[3 + axis])) + range;
-    if (a[axis] - b[3 + axis] > slack || b[axis] - a[3 + axis] > slack) return false;
-  }
-  return true;
-}
-
 /// The blocks of a piece: [first, last).
 struct BlocksOf {
   std::size_t first, last;
@@ -32,21 +24,56 @@ struct BlocksOf {
       : first(piece * blocks_per_piece), last(std::min(first + blocks_per_piece, blocks)) {}
 };
 
+/// Along the axes of bounds.
+struct AxisBounds {
+  double low[kernel::bound_axes], high[kernel::bound_axes];
+
+  AxisBounds() {
+    std::fill_n(low, kernel::bound_axes, std::numeric_limits<double>::infinity());
+    std::fill_n(high, kernel::bound_axes, -std::numeric_limits<double>::infinity());
+  }
+
+  void extend(double x, double y, double z) {
+    const double along[kernel::bound_axes] = {x, y, z, x + y, x - y, y + z, y - z, z + x, z - x};
+    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
+      low[axis] = std::min(low[axis], along[axis]);
+      high[axis] = std::max(high[axis], along[axis]);
+    }
+  }
+
+  /// In floats, rounded outwards; diagonals in lengths.
+  void put(std::size_t block, kernel::BlockBounds& bounds) const {
+    constexpr float rounding = 2e-7F;
+    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
+      const double scale = axis < 3 ? 1 : std::numbers::sqrt2 / 2;
+      const auto least = static_cast<float>(scale * low[axis]);
+      const auto most = static_cast<float>(scale * high[axis]);
+      bounds.low[axis][block] = least - rounding * std::abs(least);
+      bounds.high[axis][block] = most + rounding * std::abs(most);
+    }
+  }
+};
+
 }  // namespace
 
 template <class Real>
 void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes) {
   constexpr std::size_t size = BlockState<Real>::block;
+  constexpr float never = std::numeric_limits<float>::infinity();
   const auto arrays = state.arrays();
   const BlocksOf blocks(piece, state.blocks());
-  for (std::size_t block = blocks.first; block < blocks.last; ++block)
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto* first = arrays.x[axis] + block * size;
-      const auto* last = arrays.x[axis] + std::min((block + 1) * size, state.size());
-      const auto [low, high] = std::minmax_element(first, last);
-      boxes[block][axis] = static_cast<float>(*low);
-      boxes[block][3 + axis] = static_cast<float>(*high);
-    }
+  kernel::BlockBounds& bounds = boxes[piece];
+  for (int axis = 0; axis < kernel::bound_axes; ++axis) {
+    std::fill_n(bounds.low[axis], blocks_per_piece, never);
+    std::fill_n(bounds.high[axis], blocks_per_piece, -never);
+  }
+  for (std::size_t block = blocks.first; block < blocks.last; ++block) {
+    AxisBounds around;
+    for (std::size_t k = block * size; k < std::min((block + 1) * size, state.size()); ++k)
+      around.extend(static_cast<double>(arrays.x[0][k]), static_cast<double>(arrays.x[1][k]),
+                    static_cast<double>(arrays.x[2][k]));
+    around.put(block - blocks.first, bounds);
+  }
 }
 
 template <class Real>
@@ -58,19 +85,14 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
   const auto reach = static_cast<float>(range * (1 + 1e-6));
   OffsetLists lists;
   lists.first.push_back(0);
-  std::vector<std::uint32_t> others;
+  std::vector<std::uint32_t> others(near.size() * blocks_per_piece);
   std::vector<std::int32_t> found;
   const BlocksOf blocks(piece, state.blocks());
   for (std::size_t block = blocks.first; block < blocks.last; ++block) {
-    others.clear();
-    for (const std::uint32_t other : near) {
-      const BlocksOf candidates(other, state.blocks());
-      for (std::size_t k = candidates.first; k < candidates.last; ++k)
-        if (in_range(boxes[block], boxes[k], reach))
-          others.push_back(static_cast<std::uint32_t>(k));
-    }
-    found.resize(std::max(found.size(), most_of_a_block * others.size()));
-    const std::size_t count = kernel.list(input, block, others.data(), others.size(), found.data());
+    const std::size_t blocks_near =
+        kernel.near(boxes.data(), block, near.data(), near.size(), reach, others.data());
+    found.resize(std::max(found.size(), most_of_a_block * blocks_near));
+    const std::size_t count = kernel.list(input, block, others.data(), blocks_near, found.data());
     lists.value.insert(lists.value.end(), found.data(), found.data() + count);
     lists.first.push_back(static_cast<std::uint32_t>(lists.value.size()));
   }

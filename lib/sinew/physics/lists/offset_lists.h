@@ -2,7 +2,6 @@
 // For each block, the distinct differences j - i of its pairs within a range: see kernel/kernel.h.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,10 +23,10 @@ struct OffsetLists {
   }
 };
 
-/// Bounding boxes of blocks, in lengths of the kernel: least x y z, largest x y z.
-using BlockBoxes = std::vector<std::array<float, 6>>;
+/// By piece.
+using BlockBoxes = std::vector<kernel::BlockBounds>;
 
-/// Renews the boxes of a piece's blocks.
+/// Renews the bounds of a piece's blocks.
 template <class Real>
 void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes);
 

@@ -107,7 +107,7 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
   speed_.assign(pieces, 0);
   centers_.assign(pieces, Vec3::Zero());
   fastest_.assign(pieces, 0);
-  boxes_.resize(state.blocks());
+  boxes_.resize(pieces);
   boxed_.assign(pieces, -1);
   near_ = NearPieces(ranges_);
   survey(state);
