@@ -104,19 +104,14 @@ int CellGrid::runs_around(const Vec3& p, std::array<Run, 9>& runs) const {
   return count;
 }
 
-namespace {
-
-/// Adds the neighbors of point i, ascending.
-void add_row(const CellGrid& grid, const Points& points, std::size_t i, double range,
-             std::vector<std::uint32_t>& neighbor) {
+void append_neighbors(const CellGrid& grid, const Points& points, std::size_t i, double range,
+                      std::vector<std::uint32_t>& neighbor) {
   const std::size_t begin = neighbor.size();
   grid.for_each_near(points[i], [&](std::uint32_t j) {
     if (j != i && (points[j] - points[i]).squaredNorm() < range * range) neighbor.push_back(j);
   });
   std::sort(neighbor.begin() + static_cast<std::ptrdiff_t>(begin), neighbor.end());
 }
-
-}  // namespace
 
 NeighborLists neighbors_within(const Points& points, double range) {
   const CellGrid grid(points, range);
@@ -127,7 +122,7 @@ NeighborLists neighbors_within(const Points& points, double range) {
   parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
     auto& neighbor = pieces[begin / points_per_piece];
     for (std::size_t i = begin; i < end; ++i) {
-      add_row(grid, points, i, range, neighbor);
+      append_neighbors(grid, points, i, range, neighbor);
       lists.first[i + 1] = static_cast<std::uint32_t>(neighbor.size());  // in the piece
     }
   });

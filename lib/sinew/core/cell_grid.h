@@ -68,5 +68,8 @@ struct NeighborLists {
 /// Every pair closer than `range` (m), in both directions. Same result as brute force. Throws bad
 /// input for more than 2^32 of them. In parallel.
 NeighborLists neighbors_within(const Points& points, double range);
+/// Appends the neighbors of point i among those of the grid, ascending.
+void append_neighbors(const CellGrid& grid, const Points& points, std::size_t i, double range,
+                      std::vector<std::uint32_t>& neighbor);
 
 }  // namespace sinew

@@ -60,27 +60,36 @@ class Kinds {
   std::map<Key, std::uint32_t> number_;
 };
 
+double factor_of(const BondFactors::Row& row, std::uint32_t id) {
+  return row.empty() ? 1 : row.at(id);
+}
+
 /// The neighbors at rest of a body's particles, by place in the kernel's order.
 struct RestNeighbors {
-  Points rest;  ///< in the kernel's order
-  NeighborLists near;
+  Points rest;           ///< in the kernel's order
   bool kinds;            ///< whether they differ
   double r;              ///< m
   double nearest_range;  ///< m
+  double range;          ///< of those that count, m
   std::span<const std::int32_t> id;
   const BondFactors& factors;
+  CellGrid grid;
 
   RestNeighbors(const Body& body, std::span<const std::int32_t> ids)
-      : kinds(law_of(body.material).has_bonds || has_muscles(body)),
+      : rest(in_order(body.rest, ids)),
+        kinds(law_of(body.material).has_bonds || has_muscles(body)),
         r(body.material.pair.r),
-        nearest_range(rest_neighbor_range(body.material.pair.r)),
+        nearest_range(rest_neighbor_range(r)),
+        range(body.material.bond.second > 0 ? second_neighbor_range * r : nearest_range),
         id(ids),
-        factors(body.factors) {
-    rest.reserve(id.size());
-    for (const std::int32_t i : id) rest.push_back(body.rest[static_cast<std::size_t>(i)]);
-    const bool second = body.material.bond.second > 0;
-    near = neighbors_within(rest,
-                            second ? second_neighbor_range * body.material.pair.r : nearest_range);
+        factors(body.factors),
+        grid(rest, range) {}
+
+  static Points in_order(const Points& rest, std::span<const std::int32_t> ids) {
+    Points ordered;
+    ordered.reserve(ids.size());
+    for (const std::int32_t i : ids) ordered.push_back(rest[static_cast<std::size_t>(i)]);
+    return ordered;
   }
 
   bool is_nearest(const Vec3& X) const { return X.norm() < nearest_range; }
@@ -92,7 +101,7 @@ struct RestNeighbors {
            std::abs(d - second_distance(r)) < about * r;
   }
   double factor(const BondFactors::Row& row, std::uint32_t j) const {
-    return row.empty() ? 1 : row.at(static_cast<std::uint32_t>(id[j]));
+    return factor_of(row, static_cast<std::uint32_t>(id[j]));
   }
 };
 
@@ -102,7 +111,7 @@ struct Piece {
   std::vector<kernel::BondEntry> entries;
   std::vector<Vec3> kinds;
   std::vector<double> kind_factor;
-  std::vector<double> factor;  ///< rows of a block's lanes
+  std::int32_t rows = 0;  ///< entries with a stiffness by lane
 };
 
 /// A bond of one particle.
@@ -116,7 +125,7 @@ bool ascending(const kernel::BondEntry& a, const kernel::BondEntry& b) {
 }
 
 /// Appends entries with the lanes of all that are equal.
-void merge(std::vector<Found>& found, std::size_t block_size, Piece& piece) {
+void merge(std::vector<Found>& found, Piece& piece) {
   std::sort(found.begin(), found.end(),
             [](const Found& a, const Found& b) { return ascending(a.entry, b.entry); });
   const std::size_t before = piece.entries.size();
@@ -125,14 +134,7 @@ void merge(std::vector<Found>& found, std::size_t block_size, Piece& piece) {
       piece.entries.back().lanes |= one.entry.lanes;
     else
       piece.entries.push_back(one.entry);
-    if (one.factor == 1) continue;
-    std::int32_t& own = piece.entries.back().own;
-    if (own < 0) {
-      own = static_cast<std::int32_t>(piece.factor.size() / block_size);
-      piece.factor.resize(piece.factor.size() + block_size, 1);
-    }
-    const auto lane = static_cast<std::size_t>(std::countr_zero(one.entry.lanes));
-    piece.factor[static_cast<std::size_t>(own) * block_size + lane] = one.factor;
+    if (one.factor != 1 && piece.entries.back().own < 0) piece.entries.back().own = piece.rows++;
   }
 }
 
@@ -141,13 +143,16 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
   Piece piece;
   Kinds kinds(unit);
   std::vector<Found> nearest, second;
+  std::vector<std::uint32_t> near;
   for (std::size_t block = begin; block < end; ++block) {
     nearest.clear(), second.clear();
     for (std::size_t lane = 0; lane < block_size; ++lane) {
       const std::size_t k = block * block_size + lane;
       if (k >= of.rest.size()) break;
       const BondFactors::Row row = of.factors.of(static_cast<std::uint32_t>(of.id[k]));
-      for (const std::uint32_t j : of.near.of(k)) {
+      near.clear();
+      append_neighbors(of.grid, of.rest, k, of.range, near);
+      for (const std::uint32_t j : near) {
         const auto difference =
             static_cast<std::int32_t>(static_cast<std::int64_t>(j) - static_cast<std::int64_t>(k));
         const Vec3 X = of.rest[j] - of.rest[k];
@@ -162,9 +167,9 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
       }
     }
     const std::size_t before = piece.entries.size();
-    merge(nearest, block_size, piece);
+    merge(nearest, piece);
     piece.nearest.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
-    merge(second, block_size, piece);
+    merge(second, piece);
     piece.count.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
   }
   piece.kinds = std::move(kinds.met);
@@ -177,6 +182,7 @@ template <class Real>
 void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds) {
   Kinds kinds(unit);
   std::size_t entries = 0;
+  std::int32_t rows = 0;
   for (const Piece& piece : pieces) entries += piece.entries.size();
   bonds.entries.reserve(entries);
   bonds.first.push_back(0);
@@ -186,18 +192,18 @@ void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds)
       number.push_back(piece.kind_factor[k] == Kinds::shared
                            ? kinds.of(piece.kinds[k])
                            : kinds.add(piece.kinds[k], piece.kind_factor[k]));
-    const auto rows = static_cast<std::int32_t>(bonds.factor.size() / kernel::Traits<Real>::block);
     for (kernel::BondEntry entry : piece.entries) {
       entry.kind = number[entry.kind];
       if (entry.own >= 0) entry.own += rows;
       bonds.entries.push_back(entry);
     }
-    bonds.factor.insert(bonds.factor.end(), piece.factor.begin(), piece.factor.end());
+    rows += piece.rows;
     for (std::size_t k = 0; k < piece.count.size(); ++k) {
       bonds.second.push_back(bonds.first.back() + piece.nearest[k]);
       bonds.first.push_back(bonds.first.back() + piece.count[k]);
     }
   }
+  bonds.own.resize(static_cast<std::size_t>(rows) * kernel::Traits<Real>::block);
   bonds.rest = std::move(kinds.met);
   bonds.kind_factor = std::move(kinds.factor);
 }
@@ -215,7 +221,8 @@ void for_each_whole(const BondLists<Real>& bonds, Visit&& visit) {
 }  // namespace
 
 template <class Real>
-void BondLists<Real>::set_units(const Body& body, double mass, const Units& units) {
+void BondLists<Real>::set_units(const Body& body, std::span<const std::int32_t> id, double mass,
+                                const Units& units) {
   const auto stiffness_of = [&](const Vec3& to) {
     const BondStrength& strength = body.material.bond;
     const bool nearest = to.norm() < rest_neighbor_range(body.material.pair.r);
@@ -236,13 +243,32 @@ void BondLists<Real>::set_units(const Body& body, double mass, const Units& unit
     kind.stiffness = static_cast<Real>(of_kind * stiffness_of(to));
     kinds.push_back(kind);
   }
+  set_own(body.factors, id, stiffness_of);
+}
+
+/// Of the bonds of entries that have one by lane.
+template <class Real>
+template <class StiffnessOf>
+void BondLists<Real>::set_own(const BondFactors& factors, std::span<const std::int32_t> id,
+                              const StiffnessOf& stiffness_of) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
-  own.resize(factor.size());
-  for (const kernel::BondEntry& entry : entries)
-    for (std::size_t lane = 0; lane < size && entry.own >= 0; ++lane) {
-      const std::size_t at = static_cast<std::size_t>(entry.own) * size + lane;
-      own[at] = static_cast<Real>(factor[at] * stiffness_of(rest[entry.kind]));
+  if (own.empty()) return;
+  const auto of_block = [&](std::size_t block, std::size_t lane) {
+    const std::size_t k = block * size + lane;
+    if (k >= id.size()) return;
+    const BondFactors::Row row = factors.of(static_cast<std::uint32_t>(id[k]));
+    for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
+      const kernel::BondEntry& entry = entries[e];
+      if (entry.own < 0 || (entry.lanes >> (kernel::rest_lanes + lane) & 1) == 0) continue;
+      const auto j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + entry.difference);
+      own[static_cast<std::size_t>(entry.own) * size + lane] = static_cast<Real>(
+          factor_of(row, static_cast<std::uint32_t>(id[j])) * stiffness_of(rest[entry.kind]));
     }
+  };
+  parallel_for(first.size() - 1, blocks_per_search, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block)
+      for (std::size_t lane = 0; lane < size; ++lane) of_block(block, lane);
+  });
 }
 
 template <class Real>
@@ -343,7 +369,7 @@ BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::i
     pieces[begin / blocks_per_search] = entries_of(of, size, unit, begin, end);
   });
   join(pieces, unit, bonds);
-  bonds.set_units(body, mass, units);
+  bonds.set_units(body, id, mass, units);
   if (!law_of(body.material).has_bonds) return bonds;
   const BondStrength& strength = body.material.bond;
   if (strength.yield_shear > 0) {

@@ -27,16 +27,16 @@ struct BondLists {
   std::vector<Vec3> rest;                  ///< by kind, m
   std::vector<double> kind_factor;         ///< on its stiffness; 0: of several bonds, none
   std::vector<kernel::BondKind<Real>> kinds;
-  std::vector<double> factor;        ///< rows x block, on the kind's stiffness
-  std::vector<Real> own;             ///< the stiffness with it
+  std::vector<Real> own;             ///< rows x block: stiffness by lane, with the body's factors
   std::vector<Real> creep;           ///< entries x block; empty: none creeps
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
   /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
   std::array<std::vector<Real>, 6> flow;
   std::vector<Real> flows;
 
-  /// The lengths in these units.
-  void set_units(const Body& body, double mass, const Units& units);
+  /// Lengths and stiffness in these units; `id` in the kernel's order.
+  void set_units(const Body& body, std::span<const std::int32_t> id, double mass,
+                 const Units& units);
   /// For steps of `step` (s).
   kernel::Bonds<Real> arrays(const Material& material, double step);
   /// Lanes of a block that are bonded to nearest neighbors at a difference.
@@ -49,6 +49,11 @@ struct BondLists {
   void save(SimulationState& state) const;
   /// Of the same particles in the same order. Throws bad input where they are not these bonds.
   void restore(const SimulationState& state);
+
+ private:
+  template <class StiffnessOf>
+  void set_own(const BondFactors& factors, std::span<const std::int32_t> id,
+               const StiffnessOf& stiffness_of);
 };
 
 /// Of particles of `mass` (kg), `id` in the kernel's order. None where no force depends on the

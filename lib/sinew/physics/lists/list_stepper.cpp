@@ -292,7 +292,7 @@ void ListStepper<Real>::add_moved() {
 template <class Real>
 void ListStepper<Real>::follow_units() {
   find_slots();
-  bonds_.set_units(*body_, mass_, layout_.units());
+  bonds_.set_units(*body_, layout_.id(), mass_, layout_.units());
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
 }
 
