@@ -16,6 +16,7 @@ ARROWS = {
     "engine": {"core", "rig", "physics"}, "lammps": {"core", "rig", "physics", "engine"},
     "scene": {"core", "settings", "mesh", "fill", "rig", "physics", "io"},
     "run": {"core", "settings", "mesh", "fill", "rig", "physics", "engine", "io", "scene", "metrics", "render"},
+    "study": {"core", "settings", "mesh", "metrics", "run"},
 }
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
@@ -23,7 +24,7 @@ HEAVY = {
     r"vtk\w*\.h": ("render",),
     r"yaml-cpp/": ("settings",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
-    r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "run/run_log.h"),
+    r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "study", "run/run_log.h"),
     r"(libdeflate|lz4|expat)\.h": ("io",),
     r"X11/": ("render",),
     r"(lammps|fmt)/": ("lammps", "lammps/lammps_headers.h"),
@@ -36,7 +37,7 @@ HEAVY_TARGETS = {
     r"VTK::": ("render",),
     r"yaml-cpp": ("settings",),
     r"TBB::": ("core",),
-    r"nlohmann_json::": ("io", "metrics", "scene", "run"),
+    r"nlohmann_json::": ("io", "metrics", "scene", "run", "study"),
     r"^(deflate|lz4|expat)$": ("io",),
     r"X11::": ("render",),
     r"LAMMPS::|fmt::": ("lammps",),

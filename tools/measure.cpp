@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
-// run; or a comparison of two runs.
+// run; a comparison of two runs; a study of more.
 #include <cmath>
 
 #include <sinew/core/arrays.h>
@@ -9,16 +9,20 @@
 #include <sinew/core/text.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
-#include <sinew/run/compare_runs.h>
 #include <sinew/run/report_input.h>
 #include <sinew/run/run_record.h>
+#include <sinew/study/compare_runs.h>
+#include <sinew/study/study_files.h>
 #include "command/command.h"
 #include "command/progress.h"
 #include "command/results.h"
+#include "command/study_results.h"
 
 namespace {
 
 using namespace sinew;
+
+constexpr int most_runs = 1000;
 
 struct Options {
   std::vector<std::string> folders;
@@ -28,10 +32,10 @@ struct Options {
 };
 
 void declare(OptionList& list, Options& options) {
-  list.add("DIR", options.folders, "Folder of the run, or folders of two runs to compare")
+  list.add("DIR", options.folders, "Folder of the run, or folders of runs to compare")
       .required()
-      .expected(1, 2);
-  list.add("-o", options.out, "Folder for the comparison of two runs").type_name("DIR");
+      .expected(1, most_runs);
+  list.add("-o", options.out, "Folder for the comparison of several runs").type_name("DIR");
   list.add("--fail-on", options.limits,
            "Exit with code 1 if this holds in any frame, such as 'volume_error > 0.05'; for "
            "two runs a metric is the second's minus the first's")
@@ -122,7 +126,8 @@ void write_tables(const RunFolder& folder, const Measured& measured) {
 
 Exit measure_folder(const Options& options, const Common& common) {
   if (!options.out.empty())
-    throw bad_input("-o is for the comparison of two runs", "leave it out, or name two runs");
+    throw bad_input("-o is for the comparison of several runs",
+                    "leave it out, or name two runs or more");
   StageProgress progress("measuring", progress_style(common.quiet));
   MeasureOptions how = how_to_measure(options, common);
   how.progress = [&](std::size_t done, std::size_t of) { progress.at(done, of); };
@@ -176,6 +181,22 @@ Exit compare_folders(const Options& options, const Common& common) {
   return told(comparison.checks);
 }
 
+Exit study_folders(const Options& options, const Common& common) {
+  if (options.out.empty())
+    throw bad_input("several runs are compared into a folder of its own", "name it with -o");
+  if (!options.arrays.empty() || !options.limits.empty())
+    throw bad_input("--arrays and --fail-on are for one or two runs", "leave them out");
+  const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  refuse_folders_of_runs(options.out, folders);
+  StageProgress progress("measuring", progress_style(common.quiet));
+  MeasureOptions how = how_to_measure(options, common);
+  how.progress = [&](std::size_t done, std::size_t of) { progress.at(done, of); };
+  const Study study = study_runs(folders, how);
+  write_study(study, options.out);
+  print_study(study, options.out, common);
+  return Exit::done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -183,15 +204,18 @@ int main(int argc, char** argv) {
   About about{
       "measure",
       "Measures a run: metrics.csv, metrics_bones.csv, sections.csv, metrics.json, report.html. "
-      "Compares two runs: compare.csv, metrics.json, report.html.",
+      "Compares two runs: compare.csv, metrics.json, report.html; and more: study.csv, study.json, "
+      "report.html.",
       {"sinew measure out/box_bend", "sinew measure out/box_bend --fail-on 'volume_error > 0.05'",
        "sinew measure out/paper out/bonded -o out/paper_bonded",
+       "sinew measure out/soft out/middle out/stiff -o out/stiffness",
        "sinew measure out/coarse --reference out/fine/surface.pvd",
        "sinew measure out/box_bend --arrays 'J, strain, stress'"}};
   about.takes_scene = false;
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) {
+        if (options.folders.size() > 2) return study_folders(options, common);
         return options.folders.size() == 2 ? compare_folders(options, common)
                                            : measure_folder(options, common);
       });

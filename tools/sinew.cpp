@@ -24,12 +24,13 @@ struct Known {
   std::string_view name, purpose;
 };
 
-constexpr std::array<Known, 10> commands = {{
+constexpr std::array<Known, 11> commands = {{
     {"new", "write a scene for a mesh, which runs as it is"},
     {"run", "fill, simulate, render and measure a scene"},
     {"check", "report what a run needs, and doubtful settings"},
     {"fill", "fill a mesh with closest-packed particles"},
     {"simulate", "move the bones and write the motion of the body"},
+    {"converge", "run a scene with particles of several sizes; limits for small ones"},
     {"measure", "write the metrics and the report of a run"},
     {"render", "draw pictures and a movie of a run"},
     {"view", "open a run in ParaView, even while it is in progress"},

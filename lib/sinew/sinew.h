@@ -28,7 +28,6 @@
 #include <sinew/render/figure.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/skeleton.h>
-#include <sinew/run/compare_runs.h>
 #include <sinew/run/export_run.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/measure_run.h>
@@ -37,3 +36,6 @@
 #include <sinew/scene/setup.h>
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/write_scene.h>
+#include <sinew/study/compare_runs.h>
+#include <sinew/study/study.h>
+#include <sinew/study/study_files.h>

@@ -106,12 +106,14 @@ double largest_of(const MachineColumn& column) {
   return most;
 }
 
-/// Leaves out what is nothing but rounding beside other columns of its unit.
+/// Leaves out what is nothing but rounding beside other columns of its unit, and moments that are
+/// rounding beside the forces.
 void leave_out_rounding(std::vector<MachineColumn>& columns) {
-  constexpr double rounding = 1e-10;
+  constexpr double rounding = 1e-10, short_arm = 0.01;  // m
   std::map<std::string, double> most;
   for (const MachineColumn& one : columns)
     most[one.unit] = std::max(most[one.unit], largest_of(one));
+  most["N m"] = std::max(most["N m"], short_arm * most["N"]);
   std::erase_if(columns, [&](const MachineColumn& one) {
     return one.unit != "s" && !(largest_of(one) > rounding * most[one.unit]);
   });

@@ -83,7 +83,7 @@ std::string row(const std::string& first, const std::vector<Cell>& cells) {
   return element("tr", out);
 }
 
-std::string table(std::initializer_list<std::string_view> columns, const std::string& rows) {
+std::string table(const std::vector<std::string_view>& columns, const std::string& rows) {
   std::string heads;
   for (const std::string_view column : columns)
     heads += element("th", escaped(column), heads.empty() ? "" : "class=\"number\"");

@@ -4,7 +4,6 @@
 //     const std::string heading = element("h2", escaped(title));
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,7 +34,7 @@ struct Cell {
 /// A row of a table; `first`: markup.
 std::string row(const std::string& first, const std::vector<Cell>& cells);
 
-std::string table(std::initializer_list<std::string_view> columns, const std::string& rows);
+std::string table(const std::vector<std::string_view>& columns, const std::string& rows);
 
 /// A number for display: four significant digits, a dash for not-a-number.
 std::string readable(double value);

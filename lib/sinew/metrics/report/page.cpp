@@ -154,11 +154,12 @@ std::string without_script(const Page& page) {
 }
 
 std::string footer(const Page& page) {
-  const std::string line = "Written by sinew " + page.version +
-                           ". The same numbers, frame by frame, are in " + page.table +
-                           "; metrics.json has their summary.";
+  const std::string sources = !page.sources.empty()
+                                  ? page.sources
+                                  : "The same numbers, frame by frame, are in " + page.table +
+                                        "; metrics.json has their summary.";
   return element("footer",
-                 element("p", escaped(line)) +
+                 element("p", escaped("Written by sinew " + page.version + ". " + sources)) +
                      folded("Licenses of the libraries in this page", std::string(licenses())));
 }
 

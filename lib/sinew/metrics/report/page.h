@@ -55,6 +55,8 @@ struct Page {
   std::string table;           ///< the file with the numbers of every frame: metrics.csv
   PageData data;
   const Playback& playback;  ///< of no frames: the page has no 3D view
+  /// A sentence on where its numbers are; empty: frame by frame in `table`, and in metrics.json.
+  std::string sources = {};
 };
 
 /// The whole page, UTF-8, with its style, script and libraries.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/run/compare_runs.h>
+#include <sinew/study/compare_runs.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <sinew/core/file.h>
@@ -36,10 +37,6 @@ struct Side {
   Measured measured;
   Playback playback;
 };
-
-std::string name_of(const fs::path& folder) {
-  return fs::absolute(folder / ".").lexically_normal().parent_path().filename();
-}
 
 using Pair = std::array<std::size_t, 2>;
 
@@ -144,36 +141,9 @@ void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, co
 }
 
 ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::size_t which) {
-  ComparedRun run{name_of(side.run.folder.path), {}, side.measured.summary, side.rest.radius};
+  ComparedRun run{name_of_run(side.run.folder.path), {}, side.measured.summary, side.rest.radius};
   for (const Pair& pair : pairs) run.frames.push_back(side.measured.frames[pair[which]]);
   return run;
-}
-
-/// The settings that differ, by section.
-std::vector<FactGroup> differing_settings(const Settings& first, const Settings& second) {
-  std::vector<FactGroup> groups;
-  for (const auto& row : settings_table()) {
-    const std::string one = scene_text(row.get(first), row.absent),
-                      other = scene_text(row.get(second), row.absent);
-    if (one == other) continue;
-    if (groups.empty() || groups.back().title != row.section)
-      groups.push_back({std::string(row.section), {}});
-    std::string change = one;
-    (change += " → ") += other;
-    groups.back().facts.push_back({std::string(row.name), std::move(change)});
-  }
-  return groups;
-}
-
-void refuse_own_folders(const fs::path& out, const fs::path& first, const fs::path& second) {
-  std::error_code none;
-  for (const fs::path& run : {first, second})
-    if (fs::equivalent(out, run, none))
-      throw bad_input(Place{out.string()}, "is one of the runs: their reports would be lost",
-                      "name another folder with -o");
-  if (fs::exists(out / "run.json", none))
-    throw bad_input(Place{out.string()}, "holds a run: its reports would be lost",
-                    "name another folder with -o");
 }
 
 void write_comparison(const RunComparison& compared, const Side& first, const Side& second,
@@ -182,17 +152,58 @@ void write_comparison(const RunComparison& compared, const Side& first, const Si
   write_file(out / "compare.csv", comparison_csv(compared));
   write_file(out / "metrics.json", comparison_json(compared));
   const Playback playback = side_by_side(first.playback, second.playback, {"a: ", "b: "});
-  write_file(out / "report.html",
-             comparison_html({version(), compared, playback,
-                              differing_settings(first.run.settings, second.run.settings),
-                              first.run.scene_text, second.run.scene_text}));
+  write_file(
+      out / "report.html",
+      comparison_html({version(), compared, playback,
+                       facts_of(differing_settings({&first.run.settings, &second.run.settings})),
+                       first.run.scene_text, second.run.scene_text}));
 }
 
 }  // namespace
 
+std::vector<DifferingSetting> differing_settings(const std::vector<const Settings*>& scenes) {
+  std::vector<DifferingSetting> all;
+  for (const auto& row : settings_table()) {
+    DifferingSetting one{row.section, row.name, {}};
+    for (const Settings* scene : scenes)
+      one.values.push_back(scene_text(row.get(*scene), row.absent));
+    const auto differs =
+        std::adjacent_find(one.values.begin(), one.values.end(), std::not_equal_to<>());
+    if (differs != one.values.end()) all.push_back(std::move(one));
+  }
+  return all;
+}
+
+std::vector<FactGroup> facts_of(const std::vector<DifferingSetting>& settings) {
+  std::vector<FactGroup> groups;
+  for (const DifferingSetting& one : settings) {
+    if (groups.empty() || groups.back().title != one.section)
+      groups.push_back({std::string(one.section), {}});
+    std::string change;
+    for (const std::string& value : one.values) (change += change.empty() ? "" : " → ") += value;
+    groups.back().facts.push_back({std::string(one.name), std::move(change)});
+  }
+  return groups;
+}
+
+std::string name_of_run(const fs::path& folder) {
+  return fs::absolute(folder / ".").lexically_normal().parent_path().filename();
+}
+
+void refuse_folders_of_runs(const fs::path& out, const std::vector<fs::path>& runs) {
+  std::error_code none;
+  for (const fs::path& run : runs)
+    if (fs::equivalent(out, run, none))
+      throw bad_input(Place{out.string()}, "is one of the runs: their reports would be lost",
+                      "name another folder with -o");
+  if (fs::exists(out / "run.json", none))
+    throw bad_input(Place{out.string()}, "holds a run: its reports would be lost",
+                    "name another folder with -o");
+}
+
 RunComparison compare_runs(const fs::path& first_folder, const fs::path& second_folder,
                            const MeasureOptions& how, const fs::path& out) {
-  refuse_own_folders(out, first_folder, second_folder);
+  refuse_folders_of_runs(out, {first_folder, second_folder});
   Side first(first_folder), second(second_folder);
   const std::vector<Pair> pairs = matched_frames(first.run, second.run);
   for (Side* side : {&first, &second})
