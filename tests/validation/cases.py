@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies whose deformation is known: from closed forms, and from what others have published.
+
+    for case in cases(): case.write(folder)      # scene.yaml and body.obj
+"""
+import math
+from dataclasses import dataclass, field
+
+BOX = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4),
+       (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7)]
+
+SCENE = """
+body: {{mesh: body.obj, radius: 0.01}}
+material: {material}
+{machine}
+solver: {{method: static, duration: {duration}}}
+output: {{interval: {interval}, only: displacement}}
+"""
+
+
+def prism(outline, low, high):
+    """A quadrilateral in x and y, between two heights."""
+    return [(x, y, z) for z in (low, high) for x, y in outline]
+
+
+def box(size, low=(0, 0, 0)):
+    (x, y, z), (dx, dy, dz) = low, size
+    return prism([(x, y), (x + dx, y), (x + dx, y + dy), (x, y + dy)], z, z + dz)
+
+
+@dataclass
+class Case:
+    name: str
+    title: str
+    points: list            # eight corners: a hexahedron
+    layer: float            # what the layers count across, m
+    layers: list            # odd numbers: the packing fits at each radius
+    material: str
+    machine: str            # supports, loads, probes
+    expected: dict          # (result of the study, kind) -> (value, unit)
+    source: str
+    duration: float = 0
+    interval: float = 1
+    within: float = 0.03    # of the expected value
+    remark: str = ""
+    quick: list = field(default_factory=list)  # layers of the small case of the tests; none: not one
+
+    def radii(self, layers=None):
+        return [round(self.layer / math.sqrt(2) / n, 12) for n in layers or self.layers]
+
+    def write(self, folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "body.obj").write_text(
+            "".join("v %.12f %.12f %.12f\n" % tuple(p) for p in self.points) +
+            "".join("f %d %d %d\n" % tuple(k + 1 for k in face) for face in BOX))
+        scene = folder / f"{self.name}.yaml"
+        scene.write_text(SCENE.format(material=self.material, machine=self.machine, duration=self.duration,
+                                      interval=self.interval))
+        return scene
+
+
+def elastic(modulus, ratio=0.25, density=1000):
+    model = "bonded" if ratio == 0.25 else f"bonded_volume, poisson_ratio: {ratio}"
+    return f"{{model: {model}, young_modulus: {modulus}, density: {density}}}"
+
+
+def elastica(load):
+    """Deflection over length of a clamped rod with P L^2 / (E I) = load at its end, dead across: by shooting."""
+    steps = 2000
+
+    def shot(curvature):
+        angle, y, h = 0.0, 0.0, 1 / steps
+        for _ in range(steps):  # the middle point's rule: angle'' = -load cos(angle)
+            half = angle + h / 2 * curvature
+            middle = curvature - h / 2 * load * math.cos(angle)
+            angle, y = angle + h * middle, y + h * math.sin(half)
+            curvature -= h * load * math.cos(half)
+        return curvature, y
+
+    low, high = 0.0, 2 * load
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if shot(middle)[0] < 0 else (low, middle)
+    return shot(low)[1]
+
+
+def bars():
+    """W wide, E, isotropic bonds: a Poisson's ratio of 1/4."""
+    W, E = 0.1, 1e5
+    G = E / 2.5
+    held = "supports:\n  - {name: below, facing: [0, 0, -1]}\n"
+    L = 5 * W
+    yield Case("pull", "A bar pulled by 0.1 %, free to contract", box((W, W, L), (-W / 2, -W / 2, 0)), W, [5, 7, 9, 11],
+               elastic(E),
+               "supports:\n  - {name: below, hold: z, facing: [0, 0, -1]}\n"
+               f"  - {{name: above, hold: z, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, translation: [0, 0, {L / 1000}]}}]}}\n"
+               "  - {name: left, hold: x, facing: [-1, 0, 0]}\n  - {name: front, hold: y, facing: [0, -1, 0]}\n",
+               {("above: force_z", "final"): (E * W * W / 1000, "N")}, "E A times the strain", duration=1, quick=[3, 5, 7])
+    angle = 1
+    yield Case("twist", "A bar twisted by 1 degree, free to warp", box((W, W, L), (-W / 2, -W / 2, 0)), W, [5, 7, 9, 11],
+               elastic(E),
+               "supports:\n  - {name: below, hold: xy, facing: [0, 0, -1]}\n"
+               f"  - {{name: above, hold: xy, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, angle: {angle}}}]}}\n"
+               "  - {name: foot, hold: z, low: [-0.02, -0.02, -1], high: [0.02, 0.02, 0.02]}\n",
+               {("above: moment_z", "final"): (0.1406 * G * W**4 * math.radians(angle) / L, "N m")},
+               "0.1406 G W^4 per length (Timoshenko and Goodier, Theory of Elasticity)", duration=1)
+    L = 11 * W
+    for load in (0.25, 1, 2):
+        force = load * E * W**4 / 12 / L**2
+        yield Case(f"elastica_{load}".replace(".", "_"), f"A cantilever with P L^2/(E I) = {load} at its end",
+                   box((W, W, L), (-W / 2, -W / 2, 0)), W, [5, 7, 9, 11], elastic(E),
+                   held + "loads:\n" + f"  - {{name: end, force: [{force}, 0, 0], facing: [0, 0, 1]}}\n" +
+                   f"probes:\n  - {{name: tip, facing: [0, 0, 1]}}\n",
+                   {("tip: displacement_x", "final"): (elastica(load) * L, "m")},
+                   "the elastica, without shear (0.6 % more, small loads)")
+
+
+def turek_hron():
+    """Their beam, from the cylinder's rear to its end: plane strain by rollers on both faces."""
+    thick, end = 0.02, 0.6
+    start = 0.2 + math.sqrt(0.05**2 - (thick / 2)**2)
+    for name, modulus, down, back in ("csm1", 1.4e6, -66.1023e-3, -7.18767e-3), ("csm2", 5.6e6, -16.9739e-3, -0.469e-3):
+        depth = thick
+        yield Case(f"turek_{name}", f"Turek and Hron's {name.upper()}: a beam under its weight, plane strain",
+                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth), thick, [7, 9, 11, 13],
+                   elastic(modulus, 0.4),
+                   "supports:\n  - {name: cylinder, facing: [-1, 0, 0]}\n"
+                   "  - {name: front, hold: z, facing: [0, 0, 1]}\n  - {name: back, hold: z, facing: [0, 0, -1]}\n"
+                   "loads:\n  - {name: weight, gravity: [0, -2, 0]}\n"
+                   f"probes:\n  - {{name: A, at: [{end}, {thick / 2}, {depth / 2}]}}\n",
+                   {("A: displacement_y", "final"): (down, "m"), ("A: displacement_x", "final"): (back, "m")},
+                   "Turek and Hron 2006, doi 10.1007/3-540-34596-5_15")
+
+
+def cook():
+    """Cook's membrane in plane stress: a thin plate, sheared at its end. Linear: the load is small."""
+    scale, thin = 1e-3, 4
+    yield Case("cook", "Cook's membrane, plane stress, Poisson's ratio 1/3",
+               prism([(0, 0), (48, 44), (48, 60), (0, 44)], 0, thin), thin, [3, 5, 7],
+               elastic(1, 1 / 3, 1),
+               "supports:\n  - {name: wall, facing: [-1, 0, 0]}\n"
+               f"loads:\n  - {{name: shear, force: [0, {scale * thin}, 0], facing: [1, 0, 0]}}\n"
+               f"probes:\n  - {{name: tip, at: [48, 52, {thin / 2}]}}\n",
+               {("tip: displacement_y", "final"): (23.96 * scale, "m")},
+               "Cook's test; 23.96 by fine meshes for a load of 1")
+
+
+def cases():
+    return [*bars(), *cook(), *turek_hron()]

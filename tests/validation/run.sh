@@ -1,0 +1,13 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs all cases and writes their results into README.md.
+#   tests/validation/run.sh            # a quarter of an hour
+#   tests/validation/run.sh --check    # fails where a result is not within its share, or README.md differs
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+source=$(cd "$here/../.." && pwd)
+out=$source/build/validation
+[ -x "$source/build/bin/sinew" ] || { echo "build sinew first: cmake --build build" >&2; exit 2; }
+/usr/bin/python3 "$here/validate.py" "$source/build/bin" "$out" || failed=1
+/usr/bin/python3 "$here/validate.py" --page "$out/results.json" "$here/README.md" ${1:+"$1"}
+exit "${failed:-0}"
