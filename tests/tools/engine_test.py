@@ -134,18 +134,21 @@ class OnLammps(SmallRun):
 
     def test_a_killed_rank_ends_the_run_which_goes_on_with_another_number(self):
         words = ["--set", "output.checkpoint_interval=0", "--set", "solver.duration=2"]
-        with self.start(*ON_LAMMPS, 2, *words) as child:
-            self.wait_for(child, "checkpoint/b.bin")
-            os.kill(ranks_of(self.out)[-1], signal.SIGKILL)
-            begun = time.time()
-            said = child.stderr.read()
-            self.assertEqual(child.wait(30), 2)
-        self.assertLess(time.time() - begun, 20)
-        self.assertIn("sinew: LAMMPS ended before the run did: process rank", said)
-        self.assertIn("signal 9", said)
-        self.assertIn("--resume", said)
-        self.assertEqual(self.record()["status"], "failed")
-        self.assert_nothing_left()
+        for rank in (0, 1):
+            self.out = self.folder / f"killed{rank}"
+            with self.start(*ON_LAMMPS, 2, *words) as child:
+                self.wait_for(child, "checkpoint/b.bin")
+                os.kill(sorted(ranks_of(self.out))[rank], signal.SIGKILL)
+                begun = time.time()
+                said = child.stderr.read()
+                self.assertEqual(child.wait(30), 2)
+            self.assertLess(time.time() - begun, 20)
+            self.assertIn("sinew: LAMMPS ended before the run did: process rank", said)
+            self.assertIn("signal 9", said)
+            self.assertIn("--resume", said)
+            self.assertEqual(self.record()["status"], "failed")
+            self.assert_nothing_left()
+            self.assert_series_are_whole(self.record()["frames"])
         self.assertIn("going on from step", self.simulate(*ON_LAMMPS, 3, *words, "--resume").stderr)
         whole = self.folder / "whole"
         sinew("simulate", self.scene, "-o", whole, *words, check=0)
@@ -201,4 +204,4 @@ class OnLammps(SmallRun):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
