@@ -48,7 +48,13 @@ class OnLammps(SmallRun):
                                 stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
 
     def points(self, folder, frame):
-        return meshio.read(folder / f"particles/particles_{frame:06}.vtu").points
+        """Of a frame in one file, or in several, whose particles follow each other."""
+        whole = folder / f"particles/particles_{frame:06}.vtu"
+        pieces = [whole] if whole.exists() else sorted(whole.parent.glob(f"{whole.stem}.[0-9]*.vtu"))[:-1]
+        parts = [meshio.read(piece) for piece in pieces]
+        ids = np.concatenate([part.point_data["id"] for part in parts])
+        self.assertEqual(ids.tolist(), list(range(len(ids))))
+        return np.concatenate([part.points for part in parts])
 
     def largest_distance(self, a, b, frame):
         return np.abs(self.points(a, frame) - self.points(b, frame)).max() / RADIUS
@@ -87,6 +93,36 @@ class OnLammps(SmallRun):
             shares = self.record()["particles_on_ranks"]
             self.assertEqual(len(shares), ranks)
             self.assertLess(max(shares), 1.1 * sum(shares) / ranks)  # a layer is 2 % of the body
+
+    def test_each_rank_writes_its_part_of_a_frame(self):
+        words = ["--set", "output.every=2", "--set", "material.model=bonded"]
+        self.simulate(*ON_LAMMPS, 3, *words)
+        gathered = self.folder / "gathered"
+        sinew("simulate", self.scene, "-o", gathered, *ON_LAMMPS, 3, *words, "--gather", check=0)
+        self.assertEqual([path for path in (gathered / "particles").iterdir() if path.suffix != ".vtu"], [])
+        frames = len(list((gathered / "particles").iterdir()))
+        for name in (f"particles_{frame:06}" for frame in range(1, frames)):
+            self.assertTrue((self.out / f"particles/{name}.pvtu").exists())
+            self.assertEqual(len(list((self.out / "particles").glob(name + ".[0-9].vtu"))), 4)  # energies
+        self.assertLess(self.largest_distance(self.out, gathered, frames - 1), 1e-6)
+        for folder in (self.out, gathered):
+            sinew("measure", folder, check=0)
+        self.assert_same_numbers(*(folder / "metrics.csv" for folder in (self.out, gathered)))
+        self.assertNotIn("damaged", sinew("info", self.out, check=0).stdout)
+        points = self.folder / "points.xyz"
+        sinew("export", self.out, "--to", "xyz", "-o", points, check=0)
+        self.assertTrue(points.stat().st_size > 1000)
+
+    def assert_same_numbers(self, a, b):
+        rows = [[line.split(",") for line in path.read_text().splitlines()] for path in (a, b)]
+        self.assertEqual(rows[0][0], rows[1][0])
+        for ours, others in zip(*(row[1:] for row in rows), strict=True):
+            for name, x, y in zip(rows[0][0], map(float, ours), map(float, others)):
+                self.assertTrue(x == y or x != x and y != y or abs(x - y) <= 1e-3 * max(abs(x), abs(y)) or abs(x - y) < 1e-5, (name, x, y))
+
+    def test_frames_are_gathered_where_they_need_the_whole_body(self):
+        self.simulate(*ON_LAMMPS, 2, "--set", "output.arrays=J")
+        self.assertEqual([path for path in (self.out / "particles").iterdir() if path.suffix != ".vtu"], [])
 
     def test_shorter_steps_where_bones_are_fast_are_taken_on_both(self):
         fast = self.folder / "fast.yaml"
@@ -160,7 +196,7 @@ class OnLammps(SmallRun):
         for name in (signal.SIGINT, signal.SIGTERM):
             self.out = self.folder / name.name
             with self.start(*ON_LAMMPS, 2, *ENDLESS) as child:
-                self.wait_for(child, "particles/particles_000002.vtu")
+                self.wait_for(child, "particles/particles_000002.pvtu")
                 child.send_signal(name)
                 begun = time.time()
                 said = child.stderr.read()
@@ -191,7 +227,7 @@ class OnLammps(SmallRun):
 
     def test_ranks_end_with_a_run_that_is_killed(self):
         with self.start(*ON_LAMMPS, 2, *ENDLESS) as child:
-            self.wait_for(child, "particles/particles_000002.vtu")
+            self.wait_for(child, "particles/particles_000002.pvtu")
             self.assertEqual(len(ranks_of(self.out)), 2)
             child.kill()
         self.assert_nothing_left()
@@ -200,6 +236,10 @@ class OnLammps(SmallRun):
     def test_a_whole_run_goes_through(self):
         sinew("run", self.scene, "-o", self.out, "--no-movie", *ON_LAMMPS, 2, check=0)
         self.assertEqual(self.record()["stepper"], "lammps")
+        self.assertTrue(self.record()["engine_version"].startswith("LAMMPS "))
+        self.assertNotIn("instruction_set", self.record())
+        self.assertTrue((self.out / "particles/particles_000002.pvtu").exists())
+        self.assertIn("pictures", sinew("render", self.out, "--no-movie", check=0).stdout)
         self.assertTrue((self.out / "report.html").exists())
 
 

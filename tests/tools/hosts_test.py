@@ -116,7 +116,7 @@ class OnTwoHosts(SmallRun):
         with self.on_hosts(scene, *words) as child:
             said = child.stderr.read()
             self.assertEqual(child.wait(60), 0, said)
-        last = f"particles/particles_{self.record()['frames'] - 1:06}.vtu"
+        last = f"surface/surface_{self.record()['frames'] - 1:06}.vtu"
         apart = np.abs(meshio.read(self.out / last).points - meshio.read(whole / last).points).max()
         self.assertLess(apart / 0.010, 1e-9)
 

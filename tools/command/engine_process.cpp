@@ -235,6 +235,8 @@ void declare(OptionList& list, EngineOptions& options) {
       .positive();
   list.add("--hosts", options.hosts, "Hosts of the ranks, as a host file of mpirun")
       .type_name("FILE");
+  list.add_flag("--gather", options.gather,
+                "Particles of a frame in one file, not in one of each rank");
 }
 
 std::vector<std::string> words_of(const EngineOptions& options) {
@@ -242,13 +244,15 @@ std::vector<std::string> words_of(const EngineOptions& options) {
   if (options.chosen()) words.insert(words.end(), {"--engine", options.engine});
   if (options.ranks > 0) words.insert(words.end(), {"--ranks", std::to_string(options.ranks)});
   if (!options.hosts.empty()) words.insert(words.end(), {"--hosts", options.hosts});
+  if (options.gather) words.push_back("--gather");
   return words;
 }
 
 std::optional<Engine> engine_of(const EngineOptions& options) {
   if (!options.chosen()) {
-    if (options.ranks > 0 || !options.hosts.empty())
-      throw bad_input("--ranks and --hosts are of --engine lammps", "add it, or leave them out");
+    if (options.ranks > 0 || !options.hosts.empty() || options.gather)
+      throw bad_input("--ranks, --hosts and --gather are of --engine lammps",
+                      "add it, or leave them out");
     return std::nullopt;
   }
   if (options.engine != "lammps")
@@ -260,7 +264,9 @@ std::optional<Engine> engine_of(const EngineOptions& options) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int ranks = options.ranks > 0 ? options.ranks : cores;
   const auto process = std::make_shared<EngineProcess>(options, ranks);
-  return Engine{options.engine, ranks,
+  return Engine{options.engine,
+                ranks,
+                options.gather,
                 [process](const EngineFolder& folder) { process->start(folder); },
                 [process](const auto& wanted) { return process->next(wanted); },
                 [process] { process->finish(); }};

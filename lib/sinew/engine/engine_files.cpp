@@ -156,8 +156,9 @@ void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
   setup.steps_per_frame = run.steps_per_frame;
   setup.frames = run.frames;
   for (int frame = 0; frame < run.frames; ++frame) setup.parts.push_back(run.plan.parts(frame));
-  setup.start = {run.state.steps, run.state.kicked, run.state.ledger, {}};
+  setup.start = {run.state.steps, run.state.kicked, run.state.ledger, {}, 0, ""};
   setup.with_forces = run.with_forces;
+  setup.pieces = run.pieces;
   write_particles(folder.particles(), run, rows);
   write_file(folder.setup(), archived(setup));
 }

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,12 +44,23 @@ struct EngineFolder {
   std::filesystem::path log() const { return path / "log.lammps"; }
 };
 
+/// Frames whose particles each rank writes itself, for its own: see io's piece_of_frame().
+struct EnginePieces {
+  std::string folder;  ///< of the series
+  Encoding encoding = Encoding::zlib;
+  bool double_precision = false;
+  std::vector<std::string> arrays;  ///< empty: all
+  std::int32_t every = 1;           ///< of so many frames, one is written
+};
+
 /// A moment of a run, without its particles.
 struct EngineMoment {
   std::int64_t steps = 0;
   bool kicked = false;  ///< velocities are half a step ahead (velocity Verlet)
   LedgerEntries ledger;
   std::vector<std::uint64_t> particles;  ///< on each rank
+  std::int32_t pieces = 0;               ///< of the frame of this moment, which are written
+  std::string engine;                    ///< which version of which
 };
 
 struct EngineSetup {
@@ -63,6 +75,7 @@ struct EngineSetup {
   std::vector<int> parts;  ///< of each frame's steps, see StepPlan
   EngineMoment start;
   bool with_forces = false;
+  std::optional<EnginePieces> pieces;
 
   StepPlan plan() const { return StepPlan(stepping.step, steps_per_frame, parts); }
 };
@@ -78,6 +91,7 @@ struct EngineRun {
   const SimulationState& state;       ///< where it begins, in double precision
   std::span<const std::int32_t> ids;  ///< of the particles in the caller's order
   bool with_forces = false;
+  std::optional<EnginePieces> pieces = {};  ///< none: frames are written by whoever reads states
 };
 
 /// Writes setup and particles into the folder, which is created. Throws not written, and bad input

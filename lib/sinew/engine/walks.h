@@ -104,11 +104,22 @@ void walk(LedgerEntries& ledger, Transfer& transfer) {
 }
 
 template <class Transfer>
+void walk(EnginePieces& pieces, Transfer& transfer) {
+  transfer(pieces.folder);
+  transfer(pieces.encoding);
+  transfer(pieces.double_precision);
+  transfer(pieces.arrays);
+  transfer(pieces.every);
+}
+
+template <class Transfer>
 void walk(EngineMoment& moment, Transfer& transfer) {
   transfer(moment.steps);
   transfer(moment.kicked);
   transfer(moment.ledger);
   transfer(moment.particles);
+  transfer(moment.pieces);
+  transfer(moment.engine);
 }
 
 template <class Transfer>
@@ -126,6 +137,7 @@ void walk(EngineSetup& setup, Transfer& transfer) {
   transfer(setup.parts);
   transfer(setup.start);
   transfer(setup.with_forces);
+  transfer(setup.pieces);
 }
 
 }  // namespace sinew

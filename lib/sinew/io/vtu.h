@@ -23,6 +23,7 @@ struct VtuFormat {
   bool double_precision = false;  ///< Float64 for every real number
   std::string series;             ///< which rows of the table apply
   double radius = 0;              ///< of the particles, m; beyond 1e4 radii Float32 is too coarse
+  bool double_points = false;     ///< Float64 for the points
   bool finite = false;  ///< refuses values that are not finite, or become so in Float32; of partial
                         ///< arrays infinite ones alone
 };
@@ -31,13 +32,22 @@ struct VtuFormat {
 /// array for a value that the format refuses.
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format);
 
+/// Writes `path` (.pvtu) atomically: the arrays of `data` as they are in `pieces`, the names of
+/// files beside it, which have them for a part of the points each. Throws as write_vtu() does.
+void write_pieced_vtu(const std::filesystem::path& path, const Dataset& data,
+                      const VtuFormat& format, const std::vector<std::string>& pieces);
+
+/// Whether points are so far out that Float32 is too coarse for particles of `radius` (m).
+bool beyond_float32(const Points& points, double radius);
+
 /// VTK's number for cells of this kind.
 int vtk_type(CellKind kind);
 
 /// Reads a VTU file whose cells are all vertices, all lines of two points or all triangles.
 /// Integers beyond Int32 become doubles; a field array becomes one row. Arrays may be of any number
 /// type, as text, base64 or appended data, compressed by ZLib, LZ4 or not, with counts of 32 or 64
-/// bits. Throws bad input, naming the file, for anything else, however damaged.
+/// bits. Throws bad input, naming the file, for anything else, however damaged. Of a .pvtu file,
+/// whose pieces hold particles, these are in the order of their array "id".
 Dataset read_vtu(const std::filesystem::path& path);
 
 /// The same with only the named point arrays, where they exist: much faster.

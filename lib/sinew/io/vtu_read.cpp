@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <new>
+#include <numeric>
 #include <optional>
 
 #include <sinew/core/file.h>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;  // bytes
 
-using Names = std::initializer_list<const char*>;
+using Names = std::vector<std::string_view>;
 
 /// The elements of the file, whose grid is to be one piece.
 struct VtuFile : VtkXmlFile {
@@ -117,9 +118,94 @@ Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
   return data;
 }
 
+// Files in several pieces.
+
+/// The same columns of a part of the points, behind those of the parts before.
+void append(const Column& part, Column& whole) {
+  if (part.name != whole.name || part.components != whole.components ||
+      part.values.index() != whole.values.index())
+    throw vtu_refused("its pieces do not have the same arrays");
+  std::visit(
+      [&](auto& values) {
+        const auto& more = std::get<std::remove_reference_t<decltype(values)>>(part.values);
+        values.insert(values.end(), more.begin(), more.end());
+      },
+      whole.values);
+}
+
+void append(const Dataset& part, Dataset& whole) {
+  whole.time = part.time;
+  whole.cycle = part.cycle;
+  if (!part.meta.empty()) whole.meta = part.meta;
+  for (const Column& column : part.field_columns)
+    if (!find(whole.field_columns, column.name)) whole.field_columns.push_back(column);
+  if (part.points.empty()) return;
+  if (part.kind != CellKind::vertex) throw vtu_refused("its pieces do not hold particles");
+  if (whole.points.empty()) {
+    whole.point_columns = part.point_columns;
+  } else {
+    if (part.point_columns.size() != whole.point_columns.size())
+      throw vtu_refused("its pieces do not have the same arrays");
+    for (std::size_t k = 0; k < part.point_columns.size(); ++k)
+      append(part.point_columns[k], whole.point_columns[k]);
+  }
+  whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+}
+
+template <class Rows>
+void reorder(const std::vector<std::uint32_t>& order, std::size_t width, Rows& rows) {
+  Rows ordered;
+  ordered.reserve(rows.size());
+  for (const std::uint32_t from : order)
+    for (std::size_t k = 0; k < width; ++k) ordered.push_back(rows[width * from + k]);
+  rows = std::move(ordered);
+}
+
+void sort_by_id(Dataset& data) {
+  if (data.points.empty()) return;
+  const std::vector<std::int32_t>& ids = integers(data.point_columns, "id");
+  std::vector<std::uint32_t> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return ids[a] < ids[b]; });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (ids[order[k]] == ids[order[k - 1]])
+      throw vtu_refused("particle " + std::to_string(ids[order[k]]) + " is in it twice");
+  reorder(order, 1, data.points);
+  for (Column& column : data.point_columns) {
+    const auto width = static_cast<std::size_t>(column.components);
+    std::visit([&](auto& values) { reorder(order, width, values); }, column.values);
+  }
+}
+
+Dataset read_named(const std::filesystem::path& path, const std::optional<Names>& names);
+
+Dataset read_pieces(std::string_view text, const std::optional<Names>& names,
+                    const std::filesystem::path& path) {
+  const VtkXmlFile file = vtk_xml_file(text);
+  if (file.type != "PUnstructuredGrid")
+    throw vtu_refused("it holds " + shown(file.type) + ", not a PUnstructuredGrid");
+  Dataset data;
+  std::optional<Names> with_id = names;
+  if (with_id) with_id->push_back("id");
+  for (const auto& piece : file.pieces()) {
+    const std::filesystem::path name = piece.front().attribute("Source");
+    if (name.empty() || name != name.filename() || name.extension() != ".vtu")
+      throw vtu_refused("a piece of it is " + shown(name.string()) + ", not a .vtu file beside it");
+    append(read_named(path.parent_path() / name, with_id), data);
+  }
+  sort_by_id(data);
+  data.connectivity = vertex_cells(data.points.size());
+  if (names)
+    std::erase_if(data.point_columns, [&](const Column& column) {
+      return std::find(names->begin(), names->end(), column.name) == names->end();
+    });
+  return data;
+}
+
 Dataset read_text(std::string_view text, const std::optional<Names>& names,
                   const std::filesystem::path& path) {
   try {
+    if (path.extension() == ".pvtu") return read_pieces(text, names, path);
     return dataset_of(VtuFile(text), names);
   } catch (const Error& error) {
     throw error.with_context({path.string()});
@@ -140,7 +226,7 @@ Dataset read_vtu(const std::filesystem::path& path) { return read_named(path, st
 
 Dataset read_vtu(const std::filesystem::path& path,
                  std::initializer_list<const char*> point_arrays) {
-  return read_named(path, point_arrays);
+  return read_named(path, Names(point_arrays.begin(), point_arrays.end()));
 }
 
 }  // namespace sinew

@@ -20,15 +20,6 @@ constexpr double float32_reach = 1e4;
 constexpr std::size_t points_per_piece = 8192;
 constexpr std::size_t bytes_per_write = 1 << 20;
 
-bool beyond_float32(const Points& points, double radius) {
-  if (!(radius > 0)) return false;
-  const double reach = float32_reach * radius;
-  return parallel_sum(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
-           return std::count_if(points.begin() + begin, points.begin() + end,
-                                [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() > reach; });
-         }) > 0;
-}
-
 /// An array with the attributes of its element.
 struct Element {
   std::string name;
@@ -96,7 +87,8 @@ std::vector<Element> field_elements(const Dataset& data, const VtuFormat& format
 
 Element points_element(const Dataset& data, const VtuFormat& format) {
   const WrittenArray* row = find_written(format.series, ArrayPlace::point, "Points");
-  const bool float64 = as_float64(row, format) || beyond_float32(data.points, format.radius);
+  const bool float64 =
+      as_float64(row, format) || format.double_points || beyond_float32(data.points, format.radius);
   const double* first = data.points.empty() ? nullptr : data.points.front().data();
   const std::size_t count = 3 * data.points.size();
   return {"Points", 3, row, float64 ? float64_array(first, count) : float32_array(first, count)};
@@ -171,6 +163,20 @@ class VtuText {
     add("</" + tag + ">\n");
   }
 
+  /// Arrays whose values are in the pieces of a file.
+  void add_declarations(const std::string& tag, const std::string& attributes,
+                        const std::vector<Element>& elements) {
+    add('<' + tag + attributes + ">\n");
+    for (const Element& element : elements) {
+      const ValueRange range = range_of(element.values, element.components);
+      check_finite(element, range);
+      add("<PDataArray" + attributes_of(element, false, range) + ">\n");
+      add_unit(element);
+      add("</PDataArray>\n");
+    }
+    add("</" + tag + ">\n");
+  }
+
   /// Raw data, in the order of its elements.
   void add_appended(const std::vector<const std::vector<Element>*>& groups) {
     if (format_.encoding != Encoding::raw) return;
@@ -202,12 +208,15 @@ class VtuText {
       add_parts(std::move(text));
       add("\n");
     }
-    if (element.row) {
-      add("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\n");
-      add(element.row->unit);
-      add("\n</InformationKey>\n");
-    }
+    add_unit(element);
     add("</DataArray>\n");
+  }
+
+  void add_unit(const Element& element) {
+    if (!element.row) return;
+    add("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\n");
+    add(element.row->unit);
+    add("\n</InformationKey>\n");
   }
 
   /// Large arrays are written by another thread while the next one is encoded.
@@ -228,11 +237,15 @@ class VtuText {
     if (writing_.valid()) writing_.get();
   }
 
-  void add_opening(const Element& element, bool in_field, const ValueRange& range) {
+  void check_finite(const Element& element, const ValueRange& range) const {
     const bool partial = element.row != nullptr && element.row->partial;
     const bool infinite = range.low <= range.high && !std::isfinite(range.high - range.low);
     if (format_.finite && (partial ? infinite : !range.finite)) throw not_finite(element.name);
-    add("<DataArray" + attributes_of(element, in_field, range) + ">\n");
+  }
+
+  void add_opening(const Element& element, bool in_field, const ValueRange& range) {
+    check_finite(element, range);
+    add("<DataArray" + attributes_of(element, in_field, range) + place_of(element) + ">\n");
   }
 
   std::string attributes_of(const Element& element, bool in_field, const ValueRange& range) {
@@ -248,10 +261,14 @@ class VtuText {
     if (range.low <= range.high)
       text += attribute("RangeMin", number_text(range.low)) +
               attribute("RangeMax", number_text(range.high));
-    if (format_.encoding != Encoding::raw) return text += attribute("format", "binary");
-    text += attribute("format", "appended") + attribute("offset", std::to_string(offset_));
-    offset_ += sizeof(std::uint64_t) + element.values.bytes();
     return text;
+  }
+
+  std::string place_of(const Element& element) {
+    if (format_.encoding != Encoding::raw) return attribute("format", "binary");
+    const std::uint64_t offset = offset_;
+    offset_ += sizeof(std::uint64_t) + element.values.bytes();
+    return attribute("format", "appended") + attribute("offset", std::to_string(offset));
   }
 
   void add_raw(const FileArray& values) {
@@ -282,16 +299,24 @@ class VtuText {
 };
 
 /// All parts up to the field data.
-std::string vtu_opening(Encoding encoding) {
-  std::string tag =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\"";
+std::string vtu_opening(Encoding encoding, const std::string& type) {
+  std::string tag = "<?xml version=\"1.0\"?>\n<VTKFile" + attribute("type", type) +
+                    " version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
   if (encoding == Encoding::zlib) tag += " compressor=\"vtkZLibDataCompressor\"";
   if (encoding == Encoding::lz4) tag += " compressor=\"vtkLZ4DataCompressor\"";
-  return tag + ">\n<UnstructuredGrid>\n";
+  return tag + ">\n<" + type + (type.starts_with('P') ? " GhostLevel=\"0\"" : "") + ">\n";
 }
 
 }  // namespace
+
+bool beyond_float32(const Points& points, double radius) {
+  if (!(radius > 0)) return false;
+  const double reach = float32_reach * radius;
+  return parallel_sum(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+           return std::count_if(points.begin() + begin, points.begin() + end,
+                                [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() > reach; });
+         }) > 0;
+}
 
 int vtk_type(CellKind kind) {
   return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;
@@ -307,7 +332,7 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read
   // appended data, not even in base64: only data in the elements is safe.
   VtuText text(file, format, data.time);
-  text.add(vtu_opening(format.encoding));
+  text.add(vtu_opening(format.encoding, "UnstructuredGrid"));
   text.add_group("FieldData", "", field);
   text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
            std::to_string(data.cells()) + "\">\n");
@@ -318,6 +343,20 @@ void write_vtu(const std::filesystem::path& path, const Dataset& data, const Vtu
   text.add("</Piece>\n</UnstructuredGrid>\n");
   text.add_appended({&field, &of_points, &of_cells, &points, &cells});
   text.add("</VTKFile>\n");
+  text.end();
+  file.finish();
+}
+
+void write_pieced_vtu(const std::filesystem::path& path, const Dataset& data,
+                      const VtuFormat& format, const std::vector<std::string>& pieces) {
+  const auto of_points = point_elements(data, format);
+  NewFile file(path);
+  VtuText text(file, format, data.time);
+  text.add(vtu_opening(format.encoding, "PUnstructuredGrid"));
+  text.add_declarations("PPointData", active_arrays(of_points), of_points);
+  text.add_declarations("PPoints", "", {points_element(data, format)});
+  for (const std::string& piece : pieces) text.add("<Piece" + attribute("Source", piece) + "/>\n");
+  text.add("</PUnstructuredGrid>\n</VTKFile>\n");
   text.end();
   file.finish();
 }

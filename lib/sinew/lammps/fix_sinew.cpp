@@ -39,6 +39,13 @@ Vec3 FixSinew::acceleration(int i) const {
          body_->setup.stepping.gravity;
 }
 
+/// Those of velocity Verlet are half a step ahead.
+Vec3 FixSinew::velocity_of(int i) const {
+  const bool behind =
+      body_->setup.stepping.integrator == Integrator::velocity_verlet && moment_.kicked;
+  return behind ? Vec3(velocity(i) + step_ / 2 * acceleration(i)) : velocity(i);
+}
+
 void FixSinew::post_force(int) {
   const EngineSetup& setup = body_->setup;
   const Pose& pose = pose_->at(plan_.time(moment_.steps));

@@ -28,6 +28,8 @@ class FixSinew : public LAMMPS_NS::Fix {
   double step() const { return step_; }
 
   std::int64_t steps() const { return moment_.steps; }
+  /// At the moment of the positions, m/s.
+  Vec3 velocity_of(int i) const;
   /// With this rank's part of the energies.
   const EngineMoment& moment() const { return moment_; }
   /// Why the last stretch ended.

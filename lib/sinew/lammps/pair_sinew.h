@@ -18,6 +18,8 @@ class PairSinew : public LAMMPS_NS::Pair {
   /// The body must outlive the pair style. Before `pair_coeff`.
   void attach(LocalBody& body);
 
+  bool has_bonds() const { return law_->has_bonds; }
+
   void settings(int, char**) override {}
   void coeff(int, char**) override;
   double init_one(int, int) override;

@@ -58,19 +58,20 @@ void refuse_for_engine(const Settings& settings, const std::string& engine) {
 EngineSteps::EngineSteps(Engine engine, const std::filesystem::path& folder,
                          const Simulation& simulation, const Motion& motion,
                          const Stepping& stepping, const StepPlan& plan, int steps_per_frame,
-                         int frames)
+                         int frames, std::optional<EnginePieces> pieces)
     : engine_(std::move(engine)), folder_{folder}, ids_(simulation.particles().id) {
   std::error_code missing;
   std::filesystem::remove_all(folder, missing);  // of a run that failed
-  write_engine_run(folder_, {simulation.body(), motion, stepping, plan, steps_per_frame, frames,
-                             simulation.particles().mass, simulation.save(), ids_});
+  write_engine_run(
+      folder_, {simulation.body(), motion, stepping, plan, steps_per_frame, frames,
+                simulation.particles().mass, simulation.save(), ids_, false, std::move(pieces)});
   engine_.start(folder_);
 }
 
 void EngineSteps::advance(Simulation& simulation, const std::function<Interruption()>& wanted) {
   const EngineNews news = engine_.next(wanted);
   if (news.steps != simulation.steps()) {
-    on_ranks_ = read_engine_moment(folder_, news.steps).particles;
+    moment_ = read_engine_moment(folder_, news.steps);
     simulation.restore(read_engine_state(folder_, news.steps, simulation.save(), ids_));
     remove_engine_state(folder_, news.steps, engine_.ranks);
   }

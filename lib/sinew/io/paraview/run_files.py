@@ -6,7 +6,7 @@ import re
 import sys
 
 from paraview.simple import *
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
 from camera import *
 
@@ -61,10 +61,16 @@ def range_in(array):
     return float(array.get("RangeMin", 0)), float(array.get("RangeMax", 1))
 
 
+def reader_of(path):
+    """Of a frame in one file, or of the file that names its pieces."""
+    reader = vtkXMLPUnstructuredGridReader() if path.endswith(".pvtu") else vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    return reader
+
+
 def body_at_rest(folder):
     """The bounds and the number of its particles."""
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(os.path.join(folder, "body.vtu"))
+    reader = reader_of(os.path.join(folder, "body.vtu"))
     reader.Update()
     return reader.GetOutput().GetBounds(), reader.GetOutput().GetNumberOfPoints()
 
