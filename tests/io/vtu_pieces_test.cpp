@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames whose particles are in several files are read as one, in the order of their ids.
+// Frames in whose file several processes write their part of the particles are read as any other.
 #include <sinew/core/file.h>
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
@@ -28,71 +28,71 @@ Dataset particles(const std::vector<std::int32_t>& ids) {
 
 class Pieces : public Scratch {
  protected:
-  void write(const std::vector<std::vector<std::int32_t>>& ids) {
-    Series series(folder, format);
-    std::vector<std::int32_t> all;
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      Dataset piece = particles(ids[k]);
-      piece.field_columns.clear();
-      write_vtu(folder / "particles" / piece_of_frame("particles", 0, static_cast<int>(k)), piece,
-                format);
-      all.insert(all.end(), ids[k].begin(), ids[k].end());
+  void write(const std::vector<Dataset>& pieces, const VtuFormat& how = format) {
+    Series series(folder, how);
+    file = folder / frame_name("particles", 0);
+    std::vector<std::string> parts{vtu_beginning(how)};
+    std::vector<std::uint64_t> places{0};
+    for (const Dataset& piece : pieces) {
+      places.push_back(places.back() + parts.back().size());
+      parts.push_back(vtu_piece(piece, how));
     }
-    series.add_pieced(particles(all), static_cast<int>(ids.size()));
+    write_part(file, 0, parts[0]);
+    for (std::size_t k = parts.size(); k-- > 1;) write_part(file, places[k], parts[k]);
+    EXPECT_FALSE(std::filesystem::exists(file));
+    series.finish(particles({}));
     series.close();
-    file = folder / read_pvd(folder / "particles.pvd").front().file;
+    EXPECT_EQ(read_pvd(folder / "particles.pvd").size(), 1u);
   }
   std::filesystem::path file;
 };
 
-TEST_F(Pieces, AreReadAsOneInTheOrderOfIds) {
-  write({{4, 1}, {}, {0, 2, 3}});
-  EXPECT_EQ(file.filename(), "particles_000000.pvtu");
-  const Dataset found = read_vtu(file), expected = particles({0, 1, 2, 3, 4});
-  EXPECT_EQ(found.points, expected.points);
-  EXPECT_EQ(found.connectivity, expected.connectivity);
-  EXPECT_EQ(integers(found.point_columns, "id"), integers(expected.point_columns, "id"));
-  EXPECT_EQ(vectors(found.point_columns, "velocity"), vectors(expected.point_columns, "velocity"));
-  EXPECT_EQ(numbers(found.field_columns, "kinetic_energy"), std::vector<double>{1.5});
-  EXPECT_EQ(found.time, 0.25);
-  EXPECT_EQ(found.cycle, 7);
-}
-
-TEST_F(Pieces, AreSortedAlsoWhereIdsAreNotAskedFor) {
-  write({{2, 0}, {1}});
-  const Dataset found = read_vtu(file, {"velocity"});
-  ASSERT_EQ(found.point_columns.size(), 1u);
-  EXPECT_EQ(vectors(found.point_columns, "velocity")[1].x(), 0.5);
-}
-
-TEST_F(Pieces, ThatDoNotMakeOneBodyAreRefused) {
-  write({{0, 1}, {1}});
-  test::expect_bad_input([&] { read_vtu(file); }, {"particle 1", "twice"});
-  std::filesystem::remove(folder / "particles" / piece_of_frame("particles", 0, 1));
-  test::expect_bad_input([&] { read_vtu(file); }, {"particles_000000.1.vtu"});
-}
-
-TEST_F(Pieces, LieBesideTheFileThatNamesThem) {
-  write({{0}, {1}});
-  std::string text = read_file(file);
-  const std::string name = piece_of_frame("particles", 0, 1);
-  write_file(file, text.replace(text.find(name), name.size(), "../" + name));
-  test::expect_bad_input([&] { read_vtu(file); }, {"beside"});
-}
-
-TEST_F(Pieces, StayWithTheirFrameAndGoWithIt) {
-  write({{0}, {1}});
-  const auto piece = folder / "particles" / piece_of_frame("particles", 0, 1);
-  {
-    const std::vector<double> kept{0.25};
-    const Series series(folder, format, kept);
-    EXPECT_EQ(series.rows().front().file, "particles/particles_000000.pvtu");
-    EXPECT_EQ(series.pieces().size(), 3u);  // the last one has no points
-    EXPECT_TRUE(std::filesystem::exists(piece));
+TEST_F(Pieces, AreReadAsOne) {
+  for (const Encoding encoding : {Encoding::zlib, Encoding::lz4, Encoding::none}) {
+    VtuFormat how = format;
+    how.encoding = encoding;
+    write({particles({0, 1}), particles({2}), particles({3, 4})}, how);
+    const Dataset found = read_vtu(file), expected = particles({0, 1, 2, 3, 4});
+    EXPECT_EQ(found.points, expected.points);
+    EXPECT_EQ(found.connectivity, expected.connectivity);
+    EXPECT_EQ(integers(found.point_columns, "id"), integers(expected.point_columns, "id"));
+    EXPECT_EQ(vectors(found.point_columns, "velocity"),
+              vectors(expected.point_columns, "velocity"));
+    EXPECT_EQ(numbers(found.field_columns, "kinetic_energy"), std::vector<double>{1.5});
+    EXPECT_EQ(found.time, 0.25);
+    EXPECT_EQ(found.cycle, 7);
+    EXPECT_EQ(read_vtu(file, {"velocity"}).point_columns.size(), 1u);
   }
-  const Series series(folder, format);
-  EXPECT_FALSE(std::filesystem::exists(piece));
-  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(Pieces, AreReplacedWhole) {
+  write({particles({0, 1}), particles({2, 3, 4})});
+  write_part(file, 0, std::string(100000, '-'));  // what a process left that was killed
+  write({particles({0})});
+  EXPECT_EQ(read_vtu(file).points.size(), 1u);
+}
+
+TEST_F(Pieces, HaveTheSameArrays) {
+  Dataset other = particles({2});
+  other.point_columns.pop_back();
+  write({particles({0, 1}), other});
+  test::expect_bad_input([&] { read_vtu(file); }, {"particles_000000.vtu", "same arrays"});
+  other.point_columns.push_back(column("velocity", std::vector<double>{1}));
+  write({particles({0, 1}), other});
+  test::expect_bad_input([&] { read_vtu(file); }, {"same arrays"});
+}
+
+TEST_F(Pieces, AreOfParticles) {
+  Dataset line = particles({2, 3});
+  line.kind = CellKind::line;
+  write({particles({0, 1}), line});
+  test::expect_bad_input([&] { read_vtu(file); }, {"more than vertices"});
+}
+
+TEST_F(Pieces, ThatAreNotThereAreNamed) {
+  Series series(folder, format);
+  test::expect_error(Exit::not_written, [&] { series.finish(particles({})); },
+                     {"particles_000000.vtu"});
 }
 
 }  // namespace sinew::vtu_pieces_test

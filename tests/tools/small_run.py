@@ -88,21 +88,13 @@ class SmallRun(unittest.TestCase):
     def assert_series_are_whole(self, frames):
         """Every series has these frames, in the order of their times, and nothing torn beside."""
         for name in SERIES:
-            expected = [f"{name}/{name}_{i:06}" for i in range(frames)]
+            expected = [f"{name}/{name}_{i:06}.vtu" for i in range(frames)]
             pvd = (self.out / f"{name}.pvd").read_text()
-            found = re.findall(r'file="([^"]*)"', pvd)
-            self.assertEqual([file.rsplit(".", 1)[0] for file in found], expected)
+            self.assertEqual(re.findall(r'file="([^"]*)"', pvd), expected)
             times = [float(time) for time in re.findall(r'timestep="([^"]*)"', pvd)]
             self.assertEqual(times, sorted(times))
-            pieces = [piece for file in found for piece in self.pieces_of(file)]
-            for file in found + pieces:
+            for file in expected:
                 self.assertTrue((self.out / file).read_bytes().endswith(b"</VTKFile>\n"), file)
-            there = {f"{name}/{path.name}" for path in (self.out / name).iterdir()}
-            beside = {file for file in there - {*found, *pieces} if not f"{name}_{frames:06}." in file}
-            self.assertEqual(beside, set(), "but for the pieces of a frame that was not completed")
-
-    def pieces_of(self, file):
-        if not file.endswith(".pvtu"):
-            return []
-        names = re.findall(r'<Piece Source="([^"]*)"', (self.out / file).read_text())
-        return [f"{file.split('/')[0]}/{name}" for name in names]
+            beside = [path.name for path in (self.out / name).iterdir() if f"{name}/{path.name}" not in expected]
+            # The next one that several ranks were writing as one of them was killed.
+            self.assertIn(beside, ([], [f".{name}_{frames:06}.vtu.tmp"]))

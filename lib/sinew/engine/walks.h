@@ -4,6 +4,7 @@
 
 #include <sinew/engine/archive.h>
 #include <sinew/engine/engine_files.h>
+#include <sinew/engine/world_walks.h>
 
 namespace sinew {
 
@@ -117,8 +118,10 @@ void walk(EngineMoment& moment, Transfer& transfer) {
   transfer(moment.steps);
   transfer(moment.kicked);
   transfer(moment.ledger);
+  transfer(moment.world_ledger);
+  transfer(moment.held_at_start);
   transfer(moment.particles);
-  transfer(moment.pieces);
+  transfer(moment.in_frame);
   transfer(moment.engine);
 }
 
@@ -138,6 +141,7 @@ void walk(EngineSetup& setup, Transfer& transfer) {
   transfer(setup.start);
   transfer(setup.with_forces);
   transfer(setup.pieces);
+  transfer(setup.world);
 }
 
 }  // namespace sinew

@@ -85,42 +85,6 @@ namespace fs = std::filesystem;
 /// Often enough to follow a run, rarely enough to be negligible beside the frames.
 constexpr std::chrono::seconds pvd_pause{1};
 
-/// All of it but the points and what they have.
-Dataset without_points(const Dataset& data) {
-  Dataset rest;
-  rest.time = data.time;
-  rest.cycle = data.cycle;
-  rest.field_columns = data.field_columns;
-  rest.meta = data.meta;
-  const auto declare = [&](const auto& column) {
-    Column empty{column.name, column.components, {}};
-    if (column.values.index() == 1) empty.values = std::vector<double>();
-    rest.point_columns.push_back(std::move(empty));
-  };
-  for (const ComputedColumn& column : data.computed) declare(column);
-  for (const Column& column : data.point_columns) declare(column);
-  return rest;
-}
-
-std::string numbered(const std::string& series, std::size_t number) {
-  char digits[24];
-  std::snprintf(digits, sizeof digits, "_%06zu", number);
-  return series + digits;
-}
-
-std::string frame_name(const std::string& series, std::size_t number, bool pieced = false) {
-  return series + '/' + numbered(series, number) + (pieced ? ".pvtu" : ".vtu");
-}
-
-/// Names of the files that a .pvtu file names, in its folder.
-std::vector<std::string> pieces_named(const fs::path& file) {
-  std::vector<std::string> names;
-  for (const XmlElement& element : xml_elements(read_file(file, largest_pvd)))
-    if (element.path == "VTKFile/PUnstructuredGrid/Piece")
-      names.emplace_back(element.attribute("Source"));
-  return names;
-}
-
 /// Whether a series of this name writes a file of this name: "body_000016.vtu", or its beginnings.
 bool is_frame_of(const std::string& series, std::string_view name) {
   const auto takes = [&](std::string_view part) {
@@ -132,11 +96,7 @@ bool is_frame_of(const std::string& series, std::string_view name) {
   if (!takes(series + "_")) return false;
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
   name.remove_prefix(digits);
-  if (digits < 6) return false;
-  if (const std::size_t piece = name.find_first_not_of("0123456789", 1);
-      name.starts_with('.') && piece > 1 && piece < name.size())
-    name.remove_prefix(piece);
-  if (!takes(".vtu") && !takes(".pvtu")) return false;
+  if (digits < 6 || !takes(".vtu")) return false;
   takes(".tmp");
   return name.empty();
 }
@@ -145,11 +105,7 @@ bool is_frame_of(const std::string& series, std::string_view name) {
 void remove_older(const fs::path& folder, const std::string& series,
                   const std::vector<PvdRow>& kept) {
   std::set<std::string> stay;
-  for (const PvdRow& row : kept) {
-    stay.insert(fs::path(row.file).filename().string());
-    if (row.file.ends_with(".pvtu"))
-      for (const std::string& piece : pieces_named(folder / row.file)) stay.insert(piece);
-  }
+  for (const PvdRow& row : kept) stay.insert(fs::path(row.file).filename().string());
   if (kept.empty()) fs::remove(folder / (series + ".pvd"));
   for (const auto& entry : fs::directory_iterator(folder / series))
     if (const std::string name = entry.path().filename().string();
@@ -159,8 +115,10 @@ void remove_older(const fs::path& folder, const std::string& series,
 
 }  // namespace
 
-std::string piece_of_frame(const std::string& series, std::size_t number, int piece) {
-  return numbered(series, number) + '.' + std::to_string(piece) + ".vtu";
+std::string frame_name(const std::string& series, std::size_t number) {
+  char digits[24];
+  std::snprintf(digits, sizeof digits, "_%06zu", number);
+  return series + '/' + series + digits + ".vtu";
 }
 
 void refuse_link(const fs::path& folder) {
@@ -187,17 +145,13 @@ Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
 }
 
 void Series::keep(std::span<const double> times) {
-  const auto refuse_missing = [](const fs::path& file) {
+  for (const double time : times) {
+    rows_.push_back({time, frame_name(format_.series, rows_.size())});
+    const fs::path file = folder_ / rows_.back().file;
     if (!fs::exists(file))
       throw bad_input({file.string()}, "is missing, and the run cannot go on without it",
                       "begin again with --force");
-  };
-  for (const double time : times) {
-    const bool pieced = fs::exists(folder_ / frame_name(format_.series, rows_.size(), true));
-    rows_.push_back({time, frame_name(format_.series, rows_.size(), pieced)});
-    refuse_missing(folder_ / rows_.back().file);
   }
-  for (const std::string& piece : pieces()) refuse_missing(folder_ / piece);
 }
 
 Series::~Series() {
@@ -214,28 +168,14 @@ void Series::add(const Dataset& frame) {
   add_row(frame.time, file);
 }
 
-void Series::add_pieced(const Dataset& frame, int pieces) {
-  const std::string file = frame_name(format_.series, rows_.size(), true);
-  std::vector<std::string> names;
-  for (int piece = 0; piece <= pieces; ++piece)
-    names.push_back(piece_of_frame(format_.series, rows_.size(), piece));
-  // ParaView takes field data from pieces alone.
-  write_vtu(folder_ / format_.series / names.back(), without_points(frame), format_);
-  write_pieced_vtu(folder_ / file, frame, format_, names);
+void Series::finish(const Dataset& frame) {
+  const std::string file = frame_name(format_.series, rows_.size());
+  finish_vtu(folder_ / file, frame, format_);
   add_row(frame.time, file);
 }
 
-std::vector<std::string> Series::pieces(std::size_t first) const {
-  std::vector<std::string> files;
-  for (std::size_t row = first; row < rows_.size(); ++row)
-    if (rows_[row].file.ends_with(".pvtu"))
-      for (const std::string& piece : pieces_named(folder_ / rows_[row].file))
-        files.push_back(format_.series + '/' + piece);
-  return files;
-}
-
-void Series::add_row(double time, const std::string& file) {
-  rows_.push_back({time, file});
+void Series::add_row(double time, std::string file) {
+  rows_.push_back({time, std::move(file)});
   if (std::chrono::steady_clock::now() - pvd_written_ >= pvd_pause) write_pvd();
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A series of frames: DIR/NAME.pvd, with one row per time, and DIR/NAME/NAME_000000.vtu and so on;
-// or .pvtu for frames in several pieces, which others write.
+// A series of frames: DIR/NAME.pvd, with one row per time, and DIR/NAME/NAME_000000.vtu and so on.
 //
 //     Series particles("out/bend", {.series = "particles"});
 //     particles.add(frame);
@@ -29,9 +28,8 @@ std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
 /// The text of a PVD with these rows.
 std::string pvd_text(const std::vector<PvdRow>& rows);
 
-/// "particles_000012.3.vtu", in the folder of the series: a part of a frame, which
-/// particles_000012.pvtu names.
-std::string piece_of_frame(const std::string& series, std::size_t number, int piece);
+/// "particles/particles_000012.vtu".
+std::string frame_name(const std::string& series, std::size_t number);
 
 /// Throws bad input where a folder of frames is a link: what it leads to is of no run.
 void refuse_link(const std::filesystem::path& folder);
@@ -52,21 +50,17 @@ class Series {
   /// Writes one frame, later than the one before. Throws not written, and Error (unstable) naming
   /// the array for a value that is not finite, or becomes so in Float32.
   void add(const Dataset& frame);
-  /// The same of a frame whose pieces are written, by the names of piece_of_frame(): one more,
-  /// without points but with the field columns, and the file that names all of them. Throws as
-  /// add() does.
-  void add_pieced(const Dataset& frame, int pieces);
+  /// The same of a frame whose points are in the file already, in several pieces: see finish_vtu().
+  void finish(const Dataset& frame);
   /// Brings the PVD up to date. Throws not written.
   void close();
 
   const std::vector<PvdRow>& rows() const { return rows_; }
-  /// Beside the files of the rows, those of their pieces from row `first` on.
-  std::vector<std::string> pieces(std::size_t first = 0) const;
   const std::string& name() const { return format_.series; }
 
  private:
   void keep(std::span<const double> times);
-  void add_row(double time, const std::string& file);
+  void add_row(double time, std::string file);
   void write_pvd();
 
   std::filesystem::path folder_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <future>
+#include <type_traits>
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/base64.h>
@@ -146,9 +148,29 @@ std::string attribute(const std::string& name, const std::string& value) {
   return text += '"';
 }
 
+/// Text in memory, written as a NewFile is.
+class TextInMemory {
+ public:
+  void write(const void* bytes, std::size_t count) {
+    text_.append(static_cast<const char*>(bytes), count);
+  }
+  std::uint64_t extend(std::uint64_t count) {
+    text_.resize(text_.size() + count);
+    return text_.size() - count;
+  }
+  void write_at(std::uint64_t place, const void* bytes, std::size_t count) {
+    std::memcpy(text_.data() + place, bytes, count);
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+template <class File>
 class VtuText {
  public:
-  VtuText(NewFile& file, const VtuFormat& format, double time)
+  VtuText(File& file, const VtuFormat& format, double time)
       : file_(file), format_(format), time_(time) {}
 
   void add(std::string_view text) {
@@ -160,20 +182,6 @@ class VtuText {
                  const std::vector<Element>& elements) {
     add('<' + tag + attributes + ">\n");
     for (const Element& element : elements) add_element(element, tag == "FieldData");
-    add("</" + tag + ">\n");
-  }
-
-  /// Arrays whose values are in the pieces of a file.
-  void add_declarations(const std::string& tag, const std::string& attributes,
-                        const std::vector<Element>& elements) {
-    add('<' + tag + attributes + ">\n");
-    for (const Element& element : elements) {
-      const ValueRange range = range_of(element.values, element.components);
-      check_finite(element, range);
-      add("<PDataArray" + attributes_of(element, false, range) + ">\n");
-      add_unit(element);
-      add("</PDataArray>\n");
-    }
     add("</" + tag + ">\n");
   }
 
@@ -208,15 +216,12 @@ class VtuText {
       add_parts(std::move(text));
       add("\n");
     }
-    add_unit(element);
+    if (element.row) {
+      add("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\n");
+      add(element.row->unit);
+      add("\n</InformationKey>\n");
+    }
     add("</DataArray>\n");
-  }
-
-  void add_unit(const Element& element) {
-    if (!element.row) return;
-    add("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\n");
-    add(element.row->unit);
-    add("\n</InformationKey>\n");
   }
 
   /// Large arrays are written by another thread while the next one is encoded.
@@ -228,7 +233,7 @@ class VtuText {
         file_.write_at(begin + place, piece.data(), piece.size());
       });
     };
-    if (size < bytes_per_write) return write();
+    if (size < bytes_per_write || std::is_same_v<File, TextInMemory>) return write();
     wait();
     writing_ = std::async(std::launch::async, std::move(write));
   }
@@ -237,15 +242,11 @@ class VtuText {
     if (writing_.valid()) writing_.get();
   }
 
-  void check_finite(const Element& element, const ValueRange& range) const {
+  void add_opening(const Element& element, bool in_field, const ValueRange& range) {
     const bool partial = element.row != nullptr && element.row->partial;
     const bool infinite = range.low <= range.high && !std::isfinite(range.high - range.low);
     if (format_.finite && (partial ? infinite : !range.finite)) throw not_finite(element.name);
-  }
-
-  void add_opening(const Element& element, bool in_field, const ValueRange& range) {
-    check_finite(element, range);
-    add("<DataArray" + attributes_of(element, in_field, range) + place_of(element) + ">\n");
+    add("<DataArray" + attributes_of(element, in_field, range) + ">\n");
   }
 
   std::string attributes_of(const Element& element, bool in_field, const ValueRange& range) {
@@ -261,14 +262,10 @@ class VtuText {
     if (range.low <= range.high)
       text += attribute("RangeMin", number_text(range.low)) +
               attribute("RangeMax", number_text(range.high));
-    return text;
-  }
-
-  std::string place_of(const Element& element) {
-    if (format_.encoding != Encoding::raw) return attribute("format", "binary");
-    const std::uint64_t offset = offset_;
+    if (format_.encoding != Encoding::raw) return text += attribute("format", "binary");
+    text += attribute("format", "appended") + attribute("offset", std::to_string(offset_));
     offset_ += sizeof(std::uint64_t) + element.values.bytes();
-    return attribute("format", "appended") + attribute("offset", std::to_string(offset));
+    return text;
   }
 
   void add_raw(const FileArray& values) {
@@ -290,7 +287,7 @@ class VtuText {
                                      "shorter");
   }
 
-  NewFile& file_;
+  File& file_;
   const VtuFormat& format_;
   double time_;  ///< s
   std::string pending_;
@@ -299,13 +296,40 @@ class VtuText {
 };
 
 /// All parts up to the field data.
-std::string vtu_opening(Encoding encoding, const std::string& type) {
-  std::string tag = "<?xml version=\"1.0\"?>\n<VTKFile" + attribute("type", type) +
-                    " version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
+std::string vtu_opening(Encoding encoding) {
+  std::string tag =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\"";
   if (encoding == Encoding::zlib) tag += " compressor=\"vtkZLibDataCompressor\"";
   if (encoding == Encoding::lz4) tag += " compressor=\"vtkLZ4DataCompressor\"";
-  return tag + ">\n<" + type + (type.starts_with('P') ? " GhostLevel=\"0\"" : "") + ">\n";
+  return tag + ">\n<UnstructuredGrid>\n";
 }
+
+/// All arrays of a piece.
+struct Piece {
+  const Dataset& data;
+  std::vector<Element> of_points, of_cells, points, cells;
+
+  Piece(const Dataset& given, const VtuFormat& format)
+      : data(given),
+        of_points(point_elements(data, format)),
+        of_cells(elements_of(data.cell_columns, ArrayPlace::cell, format)),
+        points{points_element(data, format)},
+        cells(cell_elements(data)) {}
+
+  template <class File>
+  void add_to(VtuText<File>& text) const {
+    text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) +
+             "\" NumberOfCells=\"" + std::to_string(data.cells()) + "\">\n");
+    text.add_group("PointData", active_arrays(of_points), of_points);
+    text.add_group("CellData", active_arrays(of_cells), of_cells);
+    text.add_group("Points", "", points);
+    text.add_group("Cells", "", cells);
+    text.add("</Piece>\n");
+  }
+};
+
+constexpr std::string_view end_of_grid = "</UnstructuredGrid>\n", end_of_file = "</VTKFile>\n";
 
 }  // namespace
 
@@ -324,41 +348,39 @@ int vtk_type(CellKind kind) {
 
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
   const auto field = field_elements(data, format);
-  const auto of_points = point_elements(data, format);
-  const auto of_cells = elements_of(data.cell_columns, ArrayPlace::cell, format);
-  const std::vector<Element> points{points_element(data, format)};
-  const auto cells = cell_elements(data);
+  const Piece piece(data, format);
   NewFile file(path);
   // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read
   // appended data, not even in base64: only data in the elements is safe.
   VtuText text(file, format, data.time);
-  text.add(vtu_opening(format.encoding, "UnstructuredGrid"));
+  text.add(vtu_beginning(format));
   text.add_group("FieldData", "", field);
-  text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
-           std::to_string(data.cells()) + "\">\n");
-  text.add_group("PointData", active_arrays(of_points), of_points);
-  text.add_group("CellData", active_arrays(of_cells), of_cells);
-  text.add_group("Points", "", points);
-  text.add_group("Cells", "", cells);
-  text.add("</Piece>\n</UnstructuredGrid>\n");
-  text.add_appended({&field, &of_points, &of_cells, &points, &cells});
-  text.add("</VTKFile>\n");
+  piece.add_to(text);
+  text.add(end_of_grid);
+  text.add_appended({&field, &piece.of_points, &piece.of_cells, &piece.points, &piece.cells});
+  text.add(end_of_file);
   text.end();
   file.finish();
 }
 
-void write_pieced_vtu(const std::filesystem::path& path, const Dataset& data,
-                      const VtuFormat& format, const std::vector<std::string>& pieces) {
-  const auto of_points = point_elements(data, format);
-  NewFile file(path);
-  VtuText text(file, format, data.time);
-  text.add(vtu_opening(format.encoding, "PUnstructuredGrid"));
-  text.add_declarations("PPointData", active_arrays(of_points), of_points);
-  text.add_declarations("PPoints", "", {points_element(data, format)});
-  for (const std::string& piece : pieces) text.add("<Piece" + attribute("Source", piece) + "/>\n");
-  text.add("</PUnstructuredGrid>\n</VTKFile>\n");
+std::string vtu_beginning(const VtuFormat& format) { return vtu_opening(format.encoding); }
+
+std::string vtu_piece(const Dataset& data, const VtuFormat& format) {
+  TextInMemory memory;
+  VtuText text(memory, format, data.time);
+  Piece(data, format).add_to(text);
   text.end();
-  file.finish();
+  return memory.take();
+}
+
+void finish_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
+  TextInMemory memory;
+  VtuText text(memory, format, data.time);
+  text.add_group("FieldData", "", field_elements(data, format));
+  text.add(end_of_grid);
+  text.add(end_of_file);
+  text.end();
+  finish_parts(path, memory.take());
 }
 
 }  // namespace sinew

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <sinew/core/file.h>
 #include <sinew/core/particles.h>
 #include <sinew/io/particle_frame.h>
 #include <sinew/io/vtu.h>
+#include <sinew/lammps/lammps_run.h>
 #include <sinew/physics/laws.h>
 
 namespace sinew {
@@ -55,10 +57,12 @@ struct Columns {
   Binding binding;
   Particles particles;
 
-  Columns(const std::vector<PieceRow>& rows, const Material& material) {
+  Columns(const std::vector<PieceRow>& rows, const EngineSetup& setup) {
+    const Material& material = setup.material;
     binding.first.push_back(0);
     for (const PieceRow& row : rows) add(row);
     if (!law_of(material).has_bonds) broken_bonds.clear();
+    if (!setup.world) world.clear();
     particles = particles_at(position, material.pair.r, material.mass);
     for (std::size_t i = 0; i < rows.size(); ++i) particles.set_velocity(i, rows[i].velocity);
   }
@@ -71,6 +75,7 @@ struct Columns {
     pair.push_back(row.pair);
     damping.push_back(row.damping);
     bone.push_back(row.on_bones);
+    world.push_back(row.world);
     neighbors.push_back(row.neighbors);
     broken_bonds.push_back(row.broken_bonds);
     if (row.bone != no_bone) binding.influences.push_back({row.bone, row.weight, 0, 0});
@@ -83,14 +88,25 @@ VtuFormat format_of(const EngineSetup& setup, const Points& positions) {
   const bool here = beyond_float32(positions, setup.material.pair.r);
   bool far = false;
   MPI_Allreduce(&here, &far, 1, MPI_CXX_BOOL, MPI_LOR, MPI_COMM_WORLD);
-  return {setup.pieces->encoding, setup.pieces->double_precision, "particles", 0, far, true};
+  return {setup.pieces->encoding, setup.pieces->double_precision, "particles", 0, far};
+}
+
+/// One after the other, the first with the beginning of the file.
+void write_in_turn(const std::filesystem::path& file, const std::string& text) {
+  const std::uint64_t size = text.size();
+  std::uint64_t place = 0;
+  MPI_Exscan(&size, &place, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  const bool first = Ranks::first();
+  if (first) write_part(file, 0, text);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (!first && size > 0) write_part(file, place, text);
 }
 
 }  // namespace
 
 void write_frame_piece(const std::filesystem::path& file, const EngineSetup& setup,
                        std::vector<PieceRow> rows, Moment moment) {
-  Columns own(exchanged(std::move(rows), setup.particles), setup.material);
+  Columns own(exchanged(std::move(rows), setup.particles), setup);
   const VtuFormat format = format_of(setup, own.position);
   const std::vector<std::string>& names = setup.pieces->arrays;
   const ParticleSelection selection{{}, {names.begin(), names.end()}};
@@ -98,8 +114,8 @@ void write_frame_piece(const std::filesystem::path& file, const EngineSetup& set
                             own.damping,   own.bone,         own.neighbors, {},
                             own.world,     own.broken_bonds, own.ids};
   Dataset data = particles_dataset(frame, std::move(own.position), moment, selection);
-  data.field_columns.clear();  // energies: Series::add_pieced() has those of the body
-  write_vtu(file, data, format);
+  const std::string beginning = Ranks::first() ? vtu_beginning(format) : "";
+  write_in_turn(file, own.ids.empty() ? beginning : beginning + vtu_piece(data, format));
 }
 
 }  // namespace sinew

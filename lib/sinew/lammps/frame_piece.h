@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The particles of a frame, of which each rank writes a part as a file beside those of the others.
-// Particles move from rank to rank, but those of a file are the same ones in every frame: rank k
-// of n writes the k-th n-th of all ids, so that one file after the other they are in order.
+// The particles of a frame, of which each rank writes a part into the same file, as a piece of it.
+// Particles move from rank to rank, but those of a piece are the same ones in every frame: rank k
+// of n writes the k-th n-th of all ids, so that one piece after the other they are in order.
 //
 //     write_frame_piece(file, setup, rows, moment);
 #pragma once
@@ -22,7 +22,8 @@ struct PieceRow {
   Vec3 pair, damping, on_bones, world;  ///< N
 };
 
-/// Called by all ranks, each with the rows of its own particles. Throws what write_vtu() does.
+/// Called by all ranks, each with the rows of its own particles. The file's end is left to
+/// Series::finish(). Throws not written.
 void write_frame_piece(const std::filesystem::path& file, const EngineSetup& setup,
                        std::vector<PieceRow> rows, Moment moment);
 

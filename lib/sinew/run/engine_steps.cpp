@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/engine_steps.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -17,7 +18,12 @@ struct Unsupported {
   bool (*asked)(const Settings&);
 };
 
-constexpr std::array<Unsupported, 12> unsupported = {{
+template <class List, class Test>
+bool any_of(const List& list, Test&& test) {
+  return std::any_of(list.begin(), list.end(), test);
+}
+
+constexpr std::array<Unsupported, 9> unsupported = {{
     {"solver.precision", "single precision", "set it to double",
      [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
     {"solver.neighbor_search", "the paper's cells", "set it to lists",
@@ -30,20 +36,17 @@ constexpr std::array<Unsupported, 12> unsupported = {{
      [](const Settings& scene) { return scene.material.fracture_energy.has_value(); }},
     {"material.yield_strain", "bonds that creep", "leave it out",
      [](const Settings& scene) { return scene.material.yield_strain.has_value(); }},
-    {"world.drag", "drag", "leave it out",
-     [](const Settings& scene) { return scene.world.drag != 0; }},
-    {"world.obstacles", "obstacles", "leave them out",
-     [](const Settings& scene) { return !scene.world.obstacles.empty(); }},
-    {"world.pins", "pins", "leave them out",
-     [](const Settings& scene) { return !scene.world.pins.empty(); }},
-    {"world.fields", "fields and muscles", "leave them out",
+    {"world.obstacles", "obstacles of meshes", "choose another shape",
      [](const Settings& scene) {
-       return !scene.world.fields.empty() || !scene.world.muscles.empty();
+       return any_of(scene.world.obstacles,
+                     [](const auto& one) { return one.shape == ObstacleShape::mesh; });
      }},
-    {"supports", "supports", "leave them out",
-     [](const Settings& scene) { return !scene.supports.empty(); }},
-    {"loads", "loads", "leave them out",
-     [](const Settings& scene) { return !scene.loads.empty(); }},
+    {"world.muscles", "muscles", "leave them out",
+     [](const Settings& scene) { return !scene.world.muscles.empty(); }},
+    {"loads", "pressures", "leave them out",
+     [](const Settings& scene) {
+       return any_of(scene.loads, [](const auto& one) { return one.pressure.has_value(); });
+     }},
 }};
 
 }  // namespace

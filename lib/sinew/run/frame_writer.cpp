@@ -149,7 +149,6 @@ void FrameWriter::begin_checksums() {
   std::set<std::string> begun{"body.vtu", "scene.yaml"}, stay = begun;
   for (const Series* series : all_series()) {
     for (const PvdRow& row : series->rows()) stay.insert(row.file);
-    for (const std::string& piece : series->pieces()) stay.insert(piece);
     listed_.push_back(series->rows().size());
   }
   std::vector<Checksum> kept;
@@ -164,7 +163,6 @@ void FrameWriter::begin_checksums() {
 void FrameWriter::list_new_frames() {
   const std::vector<Series*> all = all_series();
   for (std::size_t k = 0; k < all.size(); ++k) {
-    for (const std::string& piece : all[k]->pieces(listed_[k])) checksums_->add(piece);
     for (const auto& rows = all[k]->rows(); listed_[k] < rows.size(); ++listed_[k])
       checksums_->add(rows[listed_[k]].file);
   }
@@ -219,10 +217,10 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles, ready.setup.obstacles,
                   {}, ready.look, ready.setup.probes) {}
 
-void FrameWriter::add(Simulation& simulation, double time, int pieces) {
+void FrameWriter::add(Simulation& simulation, double time, bool begun) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does
     const auto frame = std::make_shared<Moved>(take(simulation, time));
-    frame->pieces = pieces;
+    frame->begun = begun;
     return [this, frame] { write(*frame); };
   });
 }
@@ -328,8 +326,8 @@ void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
       all ? std::move(frame.positions) : frame.positions, frame.moment, selection_);
   for (Column& array : requested)
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
-  if (frame.pieces > 0)
-    particles_.add_pieced(particles, frame.pieces);
+  if (frame.begun)
+    particles_.finish(particles);
   else
     particles_.add(particles);
   if (all) frame.positions = std::move(particles.points);

@@ -32,7 +32,7 @@ bool written_by_a_run(const fs::path& relative) {
       "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)\\.pvd)("
       "\\.tmp)?|"
       "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)/"
-      "\\.?[a-z_]+_[0-9]{6,}(\\.pvtu|(\\.[0-9]+)?\\.vtu)(\\.tmp)?|"
+      "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/\\.?((compare_)?(body|surface|particles|section|strain|forces|bones)"
       "_([0-9]{6,}|sheet)\\.png|(contact_sheet|scene)\\.png|(movie|(compare_)?(body|surface|"

@@ -142,11 +142,12 @@ class Run {
 
   /// Several ranks write the particles of frames themselves.
   std::optional<EnginePieces> pieces() const {
-    if (options_.engine->ranks == 1 || options_.engine->gathers || !writer_->can_be_pieced())
+    if (options_.engine->ranks == 1 || options_.engine->gathers || !writer_->can_be_begun() ||
+        scene_.output.encoding == Encoding::raw)
       return std::nullopt;
     const OutputSettings& output = scene_.output;
     const auto arrays = frame_arrays(output.only);
-    return EnginePieces{std::filesystem::absolute(folder_.path / "particles").string(),
+    return EnginePieces{std::filesystem::absolute(folder_.path).string(),
                         output.encoding,
                         output.double_precision,
                         {arrays.begin(), arrays.end()},
@@ -211,7 +212,7 @@ class Run {
   void add_frame(int frame) {
     const double time = frame * schedule_.interval;
     const bool moved = elsewhere_ && elsewhere_->moment().steps == simulation_->steps();
-    writer_->add(*simulation_, time, moved ? elsewhere_->moment().pieces : 0);
+    writer_->add(*simulation_, time, moved && elsewhere_->moment().in_frame);
     log_.frame(frame, time);
   }
 

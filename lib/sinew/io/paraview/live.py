@@ -33,8 +33,7 @@ class Follower:
             self.series = SERIES
 
     def path(self, series, number):
-        frame = os.path.join(self.folder, series, f"{series}_{number:06d}")
-        return frame + ".vtu" if os.path.exists(frame + ".vtu") else frame + ".pvtu"
+        return os.path.join(self.folder, series, f"{series}_{number:06d}.vtu")
 
     def complete(self, number):
         return all(os.path.exists(self.path(series, number)) for series in self.series)
@@ -84,7 +83,8 @@ class Follower:
             stamp = self.stamp(series)
         except OSError:
             return
-        reader = reader_of(self.path(series, self.number))
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(self.path(series, self.number))
         reader.Update()
         output.ShallowCopy(reader.GetOutput())
         self.shown[series] = stamp
