@@ -47,6 +47,10 @@ TEST_P(ForcesOnLammps, EqualTheBuiltInEngines) {
 
 void initial_neighbors(Bar& bar) { bar.settings.material.cohesion = Cohesion::initial_neighbors; }
 void bonded(Bar& bar) { bar.settings.material.model = MaterialModel::bonded; }
+void bonded_volume(Bar& bar) {
+  bar.settings.material.model = MaterialModel::bonded_volume;
+  bar.shake = 0.2;
+}
 void twelve_bonds(Bar& bar) {
   bonded(bar);
   bar.settings.material.isotropic = false;
@@ -58,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Choice{"paper", [](Bar&) {}}, Choice{"initial_neighbors", initial_neighbors},
         Choice{"bonded", bonded}, Choice{"twelve_bonds", twelve_bonds},
+        Choice{"bonded_volume", bonded_volume},
         Choice{"torn",
                [](Bar& bar) {
                  bonded(bar);

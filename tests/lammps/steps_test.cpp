@@ -56,6 +56,15 @@ TEST_P(StepsOnLammps, OfBondsAreThoseOfTheBuiltInEngine) {
   expect_equal_steps(bar, 0, 200, 2);
 }
 
+TEST_P(StepsOnLammps, OfVolumesAreThoseOfTheBuiltInEngine) {
+  Bar bar;
+  bar.settings.solver.integrator = GetParam();
+  bar.settings.binding.bone_damping = 2;
+  bar.settings.material.model = MaterialModel::bonded_volume;
+  expect_equal_steps(bar, 0, 300, 2);
+  expect_equal_steps(bar, 10, 100, 3);
+}
+
 TEST_P(StepsOnLammps, InSurroundingsAreThoseOfTheBuiltInEngine) {
   Bar bar;
   bar.settings.solver.integrator = GetParam();

@@ -24,6 +24,51 @@ ENDLESS = ["--set", "solver.duration=1000"]
 RADIUS = 0.025
 
 
+SURROUNDINGS = {
+    "volume": "material:\n  model: bonded_volume\n",
+    "world": """
+world:
+  drag: 0.5
+  obstacles:
+    - name: floor
+      shape: plane
+      point: [0.2, 0, 0]
+      normal: [-1, 0, 0]
+      friction: 0.5
+    - name: ball
+      shape: sphere
+      center: [0.25, 0, 0.5]
+      radius: 0.1
+      keys:
+        - time: 0
+        - time: 0.4
+          translation: [-0.05, 0, 0]
+  pins:
+    - low: [-1, -1, -1]
+      high: [1, 1, 0.05]
+  fields:
+    - name: wind
+      shape: uniform
+      acceleration: [0, 2, 0]
+""",
+    "machine": """
+supports:
+  - name: grip
+    low: [-1, -1, -1]
+    high: [1, 1, 0.05]
+    keys:
+      - time: 0
+      - time: 0.4
+        translation: [0, 0, -0.01]
+loads:
+  - name: pull
+    force: [0, 1, 0]
+    low: [-1, -1, 0.6]
+    high: [1, 1, 1]
+""",
+}
+
+
 def ranks_of(folder):
     """The processes of sinew-lammps that work for a run."""
     ranks = []
@@ -40,6 +85,7 @@ def ranks_of(folder):
 class OnLammps(SmallRun):
     def setUp(self):
         super().setUp()
+        self.text = self.scene.read_text()
         # Open MPI removes the folder of its sessions when it ends, also from under another that begins.
         os.environ["OMPI_MCA_orte_tmpdir_base"] = self.temporary.name
 
@@ -115,6 +161,22 @@ class OnLammps(SmallRun):
             for name, x, y in zip(rows[0][0], map(float, ours), map(float, others)):
                 self.assertTrue(x == y or x != x and y != y or abs(x - y) <= 1e-3 * max(abs(x), abs(y)) or abs(x - y) < 1e-5, (name, x, y))
 
+    def test_what_surrounds_a_body_acts_as_in_the_built_in_engine(self):
+        words = ["--set", "output.double_precision=true", "--set", "solver.duration=0.8"]
+        for name, more in SURROUNDINGS.items():
+            self.scene.write_text(self.text + more)
+            whole, self.out = self.folder / f"{name}_whole", self.folder / name
+            sinew("simulate", self.scene, "-o", whole, *words, check=0)
+            self.simulate(*ON_LAMMPS, 2, *words)
+            last, steps = self.record(whole)["frames"] - 1, self.record(whole)["steps"]
+            self.assertEqual((self.record()["steps"], self.record()["status"]), (steps, "finished"), name)
+            self.assertGreaterEqual(steps, 200, name)
+            self.assertLess(self.largest_distance(self.out, whole, last), 1e-9, name)
+            ours, theirs = (meshio.read(run / f"particles/particles_{last:06}.vtu") for run in (self.out, whole))
+            for array in set(ours.point_data) & {"force", "force_world"}:
+                apart = np.abs(ours.point_data[array] - theirs.point_data[array]).max()
+                self.assertLess(apart, 1e-8 * np.abs(theirs.point_data[array]).max(), (name, array))
+
     def test_frames_are_gathered_where_they_need_the_whole_body(self):
         self.simulate(*ON_LAMMPS, 2, "--set", "output.arrays=J")
         self.assertEqual((self.out / "particles/particles_000002.vtu").read_bytes().count(b"<Piece "), 1)
@@ -131,8 +193,8 @@ class OnLammps(SmallRun):
 
     def test_what_it_cannot_do_is_refused_by_name_before_the_start(self):
         for setting, name in [("solver.precision=single", "single precision"),
-                              ("material.model=bonded_volume", "bonded_volume"),
-                              ("solver.neighbor_search=cells", "cells"), ("world.drag=1", "drag")]:
+                              ("material.yield_strain=0.1", "creep"), ("material.breaking_strain=0.1", "break"),
+                              ("solver.neighbor_search=cells", "cells")]:
             done = self.simulate(*ON_LAMMPS, 2, "--set", setting, check=2)
             self.assert_one_line(done, 2, "engine lammps does not support", name, "without --engine")
             self.assertFalse(self.out.exists())

@@ -127,10 +127,9 @@ Error not_a_piece(const fs::path& file) {
 void refuse_unsupported(const Body& body) {
   const Material& material = body.material;
   const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;
-  const char* what = unknown != nullptr              ? unknown
-                     : material.volume_stiffness > 0 ? "particles that keep their volume"
-                     : bonds_change(material)        ? "bonds that break or creep"
-                                                     : nullptr;
+  const char* what = unknown != nullptr       ? unknown
+                     : bonds_change(material) ? "bonds that break or creep"
+                                              : nullptr;
   if (what != nullptr)
     throw bad_input(std::string("engines in other programs know no ") + what,
                     "step this body with the built-in engine");
