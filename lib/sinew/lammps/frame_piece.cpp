@@ -59,6 +59,11 @@ struct Columns {
 
   Columns(const std::vector<PieceRow>& rows, const EngineSetup& setup) {
     const Material& material = setup.material;
+    for (Points* vectors : {&rest, &position, &pair, &damping, &bone, &world})
+      vectors->reserve(rows.size());
+    for (auto* numbers : {&ids, &neighbors, &broken_bonds}) numbers->reserve(rows.size());
+    binding.first.reserve(rows.size() + 1);
+    binding.influences.reserve(rows.size());
     binding.first.push_back(0);
     for (const PieceRow& row : rows) add(row);
     if (!law_of(material).has_bonds) broken_bonds.clear();
