@@ -13,7 +13,7 @@ from pathlib import Path
 ARROWS = {
     "core": set(), "settings": {"core"}, "mesh": {"core"}, "fill": {"core", "mesh"}, "rig": {"core"},
     "metrics": {"core"}, "physics": {"core", "rig"}, "io": {"core", "rig"}, "render": {"core", "rig"},
-    "engine": {"core", "rig", "physics"}, "lammps": {"core", "rig", "physics", "engine"},
+    "engine": {"core", "rig", "physics"}, "lammps": {"core", "rig", "physics", "engine", "io"},
     "scene": {"core", "settings", "mesh", "fill", "rig", "physics", "io"},
     "run": {"core", "settings", "mesh", "fill", "rig", "physics", "engine", "io", "scene", "metrics", "render"},
     "study": {"core", "settings", "mesh", "metrics", "run"},

@@ -32,7 +32,7 @@ void print_results(const RunFolder& folder, const std::string& text, const Commo
   for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",
                           "time_step_factor", "precision", "neighbor_search", "instruction_set",
                           "particle_steps_per_second", "state_hash"})
-    results.add(key, record[key]);
+    if (record.contains(key)) results.add(key, record[key]);
   results.add_headline("status", record["status"]);
   results.add_headline("particles", std::to_string(record["particles"].get<std::int64_t>()));
   results.add_headline("frames", std::to_string(record["frames"].get<std::int64_t>()) + " (" +

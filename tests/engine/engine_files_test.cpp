@@ -7,6 +7,8 @@
 #include <sinew/core/file.h>
 #include <sinew/engine/engine_files.h>
 #include <sinew/engine/engine_talk.h>
+#include <sinew/engine/engine_world.h>
+#include <sinew/engine/walks.h>
 #include "world.h"
 
 namespace sinew::engine_files_test {
@@ -95,10 +97,79 @@ TEST_F(EngineFiles, AreNotWrittenOfWhatEnginesDoNotKnow) {
   simulation_.emplace(test::simulation_from(settings_, rest_, particles_, 1e-4));
   EXPECT_THROW(write(), Error);
   settings_.material.breaking_strain.reset();
-  settings_.material.model = MaterialModel::bonded_volume;
+  settings_.material.yield_strain = 0.1;
   simulation_.emplace(test::simulation_from(settings_, rest_, particles_, 1e-4));
   EXPECT_THROW(write(), Error);
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path));
+}
+
+World moving_world() {
+  World world;
+  Obstacle ball{"ball", SphereShape{Vec3(1, 2, 3), 0.5}, {}, 2e3, 0.3, 0.4, 0.2};
+  ball.motion = [](double time, const Pose& pose) {
+    ObstaclePose now;
+    now.frame = pose[1].frame;
+    now.velocity = Vec3(time, 0, 1);
+    return now;
+  };
+  world.obstacles = {ball};
+  world.fields = {{"swirl",
+                   Swirl{Vec3(1, 0, 0), Vec3::UnitY(), 3, 0.2},
+                   Region{BoxShape{Vec3::Ones()}, 0.1},
+                   {{0, 1}, {2, 4}}}};
+  world.supports = {{"grip", {3, 4}, {true, false, true}, {}, Vec3(1, 1, 1)}};
+  world.loads = {{"load", {}, {5, 7}, {0.25, 0.75}, Vec3(0, 0, 8)}};
+  world.pins = {{1, 1}, {2}};
+  hold(world, 10);
+  return world;
+}
+
+TEST_F(EngineFiles, HoldAWorld) {
+  const World world = moving_world();
+  const World read = unarchived<World>(archived(engine_world(world)));
+  EXPECT_EQ(std::get<SphereShape>(read.obstacles[0].shape).center, Vec3(1, 2, 3));
+  EXPECT_EQ(read.obstacles[0].stick, 0.2);
+  EXPECT_EQ(std::get<Swirl>(read.fields[0].form).core, 0.2);
+  EXPECT_TRUE(std::holds_alternative<BoxShape>(*read.fields[0].region.shape));
+  EXPECT_EQ(read.pins.size(), world.pins.size());
+  EXPECT_EQ(read.supports[0].holds, world.supports[0].holds);
+}
+
+TEST_F(EngineFiles, SayWhereObstaclesAndSupportsAreAtEveryStep) {
+  const World world = moving_world(), told = engine_world(world);
+  const Skeleton& skeleton = simulation().body().skeleton;
+  const Motion motion = motion_of(settings_, skeleton);
+  const StepPlan plan(1e-3, 10, std::vector<int>(100, 2));
+  write_engine_poses(folder_.path / "poses", world, skeleton, motion, plan, 100, 900);
+  EngineWorld there(folder_.path / "poses", told, 100);
+  for (const std::int64_t step : {100, 101, 355, 356, 357, 899, 900, 120}) {
+    const double time = plan.time(step);
+    there.go_to(step, time);
+    const WorldNow now = world_at(world, time, pose_at(skeleton, motion, time));
+    EXPECT_EQ(there.now().obstacles[0].frame.rotation, now.obstacles[0].frame.rotation);
+    EXPECT_EQ(there.now().obstacles[0].velocity, now.obstacles[0].velocity);
+    EXPECT_EQ(there.now().supports[0].frame.origin, now.supports[0].frame.origin);
+    EXPECT_EQ(there.now().scales, now.scales);
+    EXPECT_EQ(there.load(7), Vec3(0, 0, 6));
+  }
+  EXPECT_THROW(there.go_to(901, plan.time(901)), Error);
+  EXPECT_EQ(there.held(0), nullptr);
+  EXPECT_EQ(there.held(1)->bone, 1);
+  EXPECT_FALSE(there.held(4)->holds(1));
+}
+
+TEST_F(EngineFiles, KnowNoMeshesMusclesAndPressures) {
+  World world;
+  EXPECT_EQ(unknown_to_engines(world), nullptr);
+  world.obstacles.push_back({"mesh", MeshShape{}, {}});
+  EXPECT_STREQ(unknown_to_engines(world), "obstacles of meshes");
+  world = {};
+  world.loads.resize(1);
+  world.loads[0].faces.push_back({0, 1, 2});
+  EXPECT_STREQ(unknown_to_engines(world), "pressures");
+  world = {};
+  world.muscles.active = {0};
+  EXPECT_STREQ(unknown_to_engines(world), "muscles");
 }
 
 TEST_F(EngineFiles, AreRefusedWhereTheyAreTruncated) {

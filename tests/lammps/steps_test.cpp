@@ -35,6 +35,7 @@ void expect_equal_steps(const Bar& bar, int before, int steps, int ranks) {
   EXPECT_NEAR(found.work_of_bones, expected.work_of_bones, 1e-9 * expected.kinetic);
   EXPECT_NEAR(found.dissipation, expected.dissipation, 1e-9 * expected.dissipation);
   EXPECT_NEAR(found.kinetic, expected.kinetic, 1e-9 * expected.kinetic);
+  EXPECT_NEAR(found.work_of_world, expected.work_of_world, 1e-9 * expected.kinetic);
 }
 
 class StepsOnLammps : public testing::TestWithParam<Integrator> {};
@@ -53,6 +54,26 @@ TEST_P(StepsOnLammps, OfBondsAreThoseOfTheBuiltInEngine) {
   bar.settings.binding.bone_damping = 2;
   bar.settings.material.model = MaterialModel::bonded;
   expect_equal_steps(bar, 0, 200, 2);
+}
+
+TEST_P(StepsOnLammps, OfVolumesAreThoseOfTheBuiltInEngine) {
+  Bar bar;
+  bar.settings.solver.integrator = GetParam();
+  bar.settings.binding.bone_damping = 2;
+  bar.settings.material.model = MaterialModel::bonded_volume;
+  expect_equal_steps(bar, 0, 300, 2);
+  expect_equal_steps(bar, 10, 100, 3);
+}
+
+TEST_P(StepsOnLammps, InSurroundingsAreThoseOfTheBuiltInEngine) {
+  Bar bar;
+  bar.settings.solver.integrator = GetParam();
+  bar.settings.binding.bone_damping = 2;
+  test::add_obstacles(bar.surroundings());
+  test::add_fields(bar.surroundings());
+  test::add_grips(bar.surroundings(), bar.rest.size());
+  expect_equal_steps(bar, 0, 300, 2);
+  expect_equal_steps(bar, 10, 100, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, StepsOnLammps,

@@ -24,6 +24,51 @@ ENDLESS = ["--set", "solver.duration=1000"]
 RADIUS = 0.025
 
 
+SURROUNDINGS = {
+    "volume": "material:\n  model: bonded_volume\n",
+    "world": """
+world:
+  drag: 0.5
+  obstacles:
+    - name: floor
+      shape: plane
+      point: [0.2, 0, 0]
+      normal: [-1, 0, 0]
+      friction: 0.5
+    - name: ball
+      shape: sphere
+      center: [0.25, 0, 0.5]
+      radius: 0.1
+      keys:
+        - time: 0
+        - time: 0.4
+          translation: [-0.05, 0, 0]
+  pins:
+    - low: [-1, -1, -1]
+      high: [1, 1, 0.05]
+  fields:
+    - name: wind
+      shape: uniform
+      acceleration: [0, 2, 0]
+""",
+    "machine": """
+supports:
+  - name: grip
+    low: [-1, -1, -1]
+    high: [1, 1, 0.05]
+    keys:
+      - time: 0
+      - time: 0.4
+        translation: [0, 0, -0.01]
+loads:
+  - name: pull
+    force: [0, 1, 0]
+    low: [-1, -1, 0.6]
+    high: [1, 1, 1]
+""",
+}
+
+
 def ranks_of(folder):
     """The processes of sinew-lammps that work for a run."""
     ranks = []
@@ -40,6 +85,7 @@ def ranks_of(folder):
 class OnLammps(SmallRun):
     def setUp(self):
         super().setUp()
+        self.text = self.scene.read_text()
         # Open MPI removes the folder of its sessions when it ends, also from under another that begins.
         os.environ["OMPI_MCA_orte_tmpdir_base"] = self.temporary.name
 
@@ -88,6 +134,53 @@ class OnLammps(SmallRun):
             self.assertEqual(len(shares), ranks)
             self.assertLess(max(shares), 1.1 * sum(shares) / ranks)  # a layer is 2 % of the body
 
+    def test_each_rank_writes_its_part_of_a_frame(self):
+        words = ["--set", "output.every=2", "--set", "material.model=bonded"]
+        self.simulate(*ON_LAMMPS, 3, *words)
+        gathered = self.folder / "gathered"
+        sinew("simulate", self.scene, "-o", gathered, *ON_LAMMPS, 3, *words, "--gather", check=0)
+        frames = len(list((self.out / "particles").iterdir()))
+        for folder, pieces in ((self.out, 3), (gathered, 1)):
+            text = (folder / f"particles/particles_{frames - 1:06}.vtu").read_bytes()
+            self.assertEqual(text.count(b"<Piece "), pieces)
+        ids = meshio.read(self.out / f"particles/particles_{frames - 1:06}.vtu").point_data["id"]
+        self.assertEqual(ids.tolist(), list(range(len(ids))))
+        self.assertLess(self.largest_distance(self.out, gathered, frames - 1), 1e-6)
+        for folder in (self.out, gathered):
+            sinew("measure", folder, check=0)
+        self.assert_same_numbers(*(folder / "metrics.csv" for folder in (self.out, gathered)))
+        self.assertNotIn("damaged", sinew("info", self.out, check=0).stdout)
+        points = self.folder / "points.xyz"
+        sinew("export", self.out, "--to", "xyz", "-o", points, check=0)
+        self.assertTrue(points.stat().st_size > 1000)
+
+    def assert_same_numbers(self, a, b):
+        rows = [[line.split(",") for line in path.read_text().splitlines()] for path in (a, b)]
+        self.assertEqual(rows[0][0], rows[1][0])
+        for ours, others in zip(*(row[1:] for row in rows), strict=True):
+            for name, x, y in zip(rows[0][0], map(float, ours), map(float, others)):
+                self.assertTrue(x == y or x != x and y != y or abs(x - y) <= 1e-3 * max(abs(x), abs(y)) or abs(x - y) < 1e-5, (name, x, y))
+
+    def test_what_surrounds_a_body_acts_as_in_the_built_in_engine(self):
+        words = ["--set", "output.double_precision=true", "--set", "solver.duration=0.8"]
+        for name, more in SURROUNDINGS.items():
+            self.scene.write_text(self.text + more)
+            whole, self.out = self.folder / f"{name}_whole", self.folder / name
+            sinew("simulate", self.scene, "-o", whole, *words, check=0)
+            self.simulate(*ON_LAMMPS, 2, *words)
+            last, steps = self.record(whole)["frames"] - 1, self.record(whole)["steps"]
+            self.assertEqual((self.record()["steps"], self.record()["status"]), (steps, "finished"), name)
+            self.assertGreaterEqual(steps, 200, name)
+            self.assertLess(self.largest_distance(self.out, whole, last), 1e-9, name)
+            ours, theirs = (meshio.read(run / f"particles/particles_{last:06}.vtu") for run in (self.out, whole))
+            for array in set(ours.point_data) & {"force", "force_world"}:
+                apart = np.abs(ours.point_data[array] - theirs.point_data[array]).max()
+                self.assertLess(apart, 1e-8 * np.abs(theirs.point_data[array]).max(), (name, array))
+
+    def test_frames_are_gathered_where_they_need_the_whole_body(self):
+        self.simulate(*ON_LAMMPS, 2, "--set", "output.arrays=J")
+        self.assertEqual((self.out / "particles/particles_000002.vtu").read_bytes().count(b"<Piece "), 1)
+
     def test_shorter_steps_where_bones_are_fast_are_taken_on_both(self):
         fast = self.folder / "fast.yaml"
         fast.write_text(self.scene.read_text().replace("angle: 30", "angle: 30\n          translation: [0.5, 0, 0]"))
@@ -100,8 +193,8 @@ class OnLammps(SmallRun):
 
     def test_what_it_cannot_do_is_refused_by_name_before_the_start(self):
         for setting, name in [("solver.precision=single", "single precision"),
-                              ("material.model=bonded_volume", "bonded_volume"),
-                              ("solver.neighbor_search=cells", "cells"), ("world.drag=1", "drag")]:
+                              ("material.yield_strain=0.1", "creep"), ("material.breaking_strain=0.1", "break"),
+                              ("solver.neighbor_search=cells", "cells")]:
             done = self.simulate(*ON_LAMMPS, 2, "--set", setting, check=2)
             self.assert_one_line(done, 2, "engine lammps does not support", name, "without --engine")
             self.assertFalse(self.out.exists())
@@ -134,18 +227,21 @@ class OnLammps(SmallRun):
 
     def test_a_killed_rank_ends_the_run_which_goes_on_with_another_number(self):
         words = ["--set", "output.checkpoint_interval=0", "--set", "solver.duration=2"]
-        with self.start(*ON_LAMMPS, 2, *words) as child:
-            self.wait_for(child, "checkpoint/b.bin")
-            os.kill(ranks_of(self.out)[-1], signal.SIGKILL)
-            begun = time.time()
-            said = child.stderr.read()
-            self.assertEqual(child.wait(30), 2)
-        self.assertLess(time.time() - begun, 20)
-        self.assertIn("sinew: LAMMPS ended before the run did: process rank", said)
-        self.assertIn("signal 9", said)
-        self.assertIn("--resume", said)
-        self.assertEqual(self.record()["status"], "failed")
-        self.assert_nothing_left()
+        for rank in (0, 1):
+            self.out = self.folder / f"killed{rank}"
+            with self.start(*ON_LAMMPS, 2, *words) as child:
+                self.wait_for(child, "checkpoint/b.bin")
+                os.kill(sorted(ranks_of(self.out))[rank], signal.SIGKILL)
+                begun = time.time()
+                said = child.stderr.read()
+                self.assertEqual(child.wait(30), 2)
+            self.assertLess(time.time() - begun, 20)
+            self.assertIn("sinew: LAMMPS ended before the run did: process rank", said)
+            self.assertIn("signal 9", said)
+            self.assertIn("--resume", said)
+            self.assertEqual(self.record()["status"], "failed")
+            self.assert_nothing_left()
+            self.assert_series_are_whole(self.record()["frames"])
         self.assertIn("going on from step", self.simulate(*ON_LAMMPS, 3, *words, "--resume").stderr)
         whole = self.folder / "whole"
         sinew("simulate", self.scene, "-o", whole, *words, check=0)
@@ -197,8 +293,12 @@ class OnLammps(SmallRun):
     def test_a_whole_run_goes_through(self):
         sinew("run", self.scene, "-o", self.out, "--no-movie", *ON_LAMMPS, 2, check=0)
         self.assertEqual(self.record()["stepper"], "lammps")
+        self.assertTrue(self.record()["engine_version"].startswith("LAMMPS "))
+        self.assertNotIn("instruction_set", self.record())
+        self.assertEqual((self.out / "particles/particles_000002.vtu").read_bytes().count(b"<Piece "), 2)
+        self.assertIn("pictures", sinew("render", self.out, "--no-movie", check=0).stdout)
         self.assertTrue((self.out / "report.html").exists())
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -95,4 +95,6 @@ class SmallRun(unittest.TestCase):
             self.assertEqual(times, sorted(times))
             for file in expected:
                 self.assertTrue((self.out / file).read_bytes().endswith(b"</VTKFile>\n"), file)
-            self.assertEqual(len(list((self.out / name).iterdir())), frames, name)
+            beside = [path.name for path in (self.out / name).iterdir() if f"{name}/{path.name}" not in expected]
+            # The next one that several ranks were writing as one of them was killed.
+            self.assertIn(beside, ([], [f".{name}_{frames:06}.vtu.tmp"]))

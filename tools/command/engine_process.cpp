@@ -23,6 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int asked_every = 50, patience = 15000;  // ms
+// Seconds after which mpirun gives up a host that does not answer: 4 + 3 x 2; its own are 480.
+constexpr std::array<std::array<const char*, 2>, 3> watch_over_hosts = {
+    {{"oob_tcp_keepalive_time", "4"},
+     {"oob_tcp_keepalive_intvl", "2"},
+     {"oob_tcp_keepalive_probes", "3"}}};
 
 fs::path program_of_engine() {
   return fs::read_symlink("/proc/self/exe").parent_path() / "sinew-lammps";
@@ -36,6 +41,9 @@ bool is_in_path(const std::string& program) {
   return false;
 }
 
+/// What mpirun says of each signal that it passes on.
+constexpr std::string_view forwarding = "mpirun: Forwarding signal";
+
 /// Whether a job of a cluster says where the ranks go.
 bool is_managed() {
   for (const char* job : {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "PE_HOSTFILE"})
@@ -46,6 +54,8 @@ bool is_managed() {
 std::vector<std::string> mpirun_words(const EngineOptions& options, int ranks,
                                       const fs::path& folder) {
   std::vector<std::string> words{"mpirun", "-n", std::to_string(ranks)};
+  for (const auto& [name, value] : watch_over_hosts)
+    words.insert(words.end(), {"--mca", name, value});
   if (::geteuid() == 0) words.push_back("--allow-run-as-root");
   if (!options.hosts.empty()) {
     words.insert(words.end(), {"--hostfile", options.hosts});
@@ -88,7 +98,7 @@ std::string first_words(const fs::path& file) {
   std::ifstream lines(file);
   std::string words, line;
   while (std::getline(lines, line) && (words.empty() || !line.empty()))
-    if (line.find_first_not_of("- ") != std::string::npos)
+    if (line.find_first_not_of("- ") != std::string::npos && !line.starts_with(forwarding))
       words += (words.empty() ? "" : " ") + line;
   return words.substr(0, words.find(':'));
 }
@@ -188,6 +198,8 @@ class EngineProcess {
     }
     std::string why = line_with(folder_.log(), "ERROR");
     if (why.empty()) why = line_with(errors(), "process rank");
+    if (why.empty() && listens_ && !line_with(errors(), "ORTE").empty())
+      why = "a host, or the network to it, does not answer any more";
     if (why.empty()) why = first_words(errors());
     if (why.empty()) why = "mpirun ended with code " + std::to_string(code);
     while (!why.empty() && (why.back() == '.' || why.back() == ' ')) why.pop_back();
@@ -223,6 +235,8 @@ void declare(OptionList& list, EngineOptions& options) {
       .positive();
   list.add("--hosts", options.hosts, "Hosts of the ranks, as a host file of mpirun")
       .type_name("FILE");
+  list.add_flag("--gather", options.gather,
+                "Particles of a frame in one file, not in one of each rank");
 }
 
 std::vector<std::string> words_of(const EngineOptions& options) {
@@ -230,13 +244,15 @@ std::vector<std::string> words_of(const EngineOptions& options) {
   if (options.chosen()) words.insert(words.end(), {"--engine", options.engine});
   if (options.ranks > 0) words.insert(words.end(), {"--ranks", std::to_string(options.ranks)});
   if (!options.hosts.empty()) words.insert(words.end(), {"--hosts", options.hosts});
+  if (options.gather) words.push_back("--gather");
   return words;
 }
 
 std::optional<Engine> engine_of(const EngineOptions& options) {
   if (!options.chosen()) {
-    if (options.ranks > 0 || !options.hosts.empty())
-      throw bad_input("--ranks and --hosts are of --engine lammps", "add it, or leave them out");
+    if (options.ranks > 0 || !options.hosts.empty() || options.gather)
+      throw bad_input("--ranks, --hosts and --gather are of --engine lammps",
+                      "add it, or leave them out");
     return std::nullopt;
   }
   if (options.engine != "lammps")
@@ -248,7 +264,9 @@ std::optional<Engine> engine_of(const EngineOptions& options) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int ranks = options.ranks > 0 ? options.ranks : cores;
   const auto process = std::make_shared<EngineProcess>(options, ranks);
-  return Engine{options.engine, ranks,
+  return Engine{options.engine,
+                ranks,
+                options.gather,
                 [process](const EngineFolder& folder) { process->start(folder); },
                 [process](const auto& wanted) { return process->next(wanted); },
                 [process] { process->finish(); }};

@@ -17,6 +17,7 @@ namespace sinew {
 struct EngineOptions {
   std::string engine = "built-in", hosts;
   int ranks = 0;  ///< 0: one per core
+  bool gather = false;
 
   bool chosen() const { return engine != "built-in"; }
 };

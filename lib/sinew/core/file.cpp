@@ -62,15 +62,17 @@ void write_all(int file, const fs::path& path, const void* bytes, std::size_t co
   }
 }
 
+fs::path temporary_of(const fs::path& path) {
+  return path.parent_path() / ("." + path.filename().string() + ".tmp");
+}
+
 }  // namespace
 
-NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_.parent_path() / ".") {
+NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
   std::error_code ignored;
   const auto there = fs::status(path_, ignored);
   if (fs::exists(there) && !fs::is_regular_file(there))
     throw not_written(path_.string(), "is there, and no regular file", "choose another name");
-  temporary_ += path_.filename();
-  temporary_ += ".tmp";
   file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file_ < 0) throw refused(path_, errno);
 }
@@ -95,6 +97,27 @@ void NewFile::finish(Durability durability) {
     throw refused(path_, errno);
   temporary_.clear();
   if (durability == Durability::synced) sync_folder_of(path_);
+}
+
+void write_part(const fs::path& path, std::uint64_t place, std::string_view bytes) {
+  const int begins = place == 0 ? O_CREAT | O_TRUNC : 0;
+  const int file = ::open(temporary_of(path).c_str(), O_WRONLY | begins | O_CLOEXEC, 0666);
+  if (file < 0) throw refused(path, errno);
+  try {
+    write_all(file, path, bytes.data(), bytes.size(), place);
+  } catch (const Error&) {
+    ::close(file);
+    throw;
+  }
+  if (::close(file) != 0) throw refused(path, errno);
+}
+
+void finish_parts(const fs::path& path, std::string_view last) {
+  std::error_code failed;
+  const auto size = fs::file_size(temporary_of(path), failed);
+  if (failed) throw refused(path, failed.value());
+  write_part(path, size, last);
+  if (::rename(temporary_of(path).c_str(), path.c_str()) != 0) throw refused(path, errno);
 }
 
 GrowingFile::GrowingFile(fs::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {

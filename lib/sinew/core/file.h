@@ -42,6 +42,14 @@ class NewFile {
   std::uint64_t size_ = 0;
 };
 
+// A file that several processes write, each a part, and that appears atomically as well.
+
+/// Writes `bytes` at `place` of the temporary file of `path`. Who writes the beginning, at 0,
+/// creates it; only then come the others. Throws not written.
+void write_part(const std::filesystem::path& path, std::uint64_t place, std::string_view bytes);
+/// Adds the last part behind all others and moves the file to its place. Throws not written.
+void finish_parts(const std::filesystem::path& path, std::string_view last);
+
 /// A file that grows record by record and can be read at any moment. If the program dies or the
 /// disk fills up, what is left is a prefix of it.
 class GrowingFile {

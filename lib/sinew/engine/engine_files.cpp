@@ -7,6 +7,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/engine/engine_world.h>
 #include <sinew/engine/walks.h>
 #include <sinew/physics/laws.h>
 #include <sinew/physics/solid.h>
@@ -125,10 +126,10 @@ Error not_a_piece(const fs::path& file) {
 /// Of a scene, refuse_for_engine() says it by name.
 void refuse_unsupported(const Body& body) {
   const Material& material = body.material;
-  const char* what = body.world                      ? "surroundings"
-                     : material.volume_stiffness > 0 ? "particles that keep their volume"
-                     : bonds_change(material)        ? "bonds that break or creep"
-                                                     : nullptr;
+  const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;
+  const char* what = unknown != nullptr       ? unknown
+                     : bonds_change(material) ? "bonds that break or creep"
+                                              : nullptr;
   if (what != nullptr)
     throw bad_input(std::string("engines in other programs know no ") + what,
                     "step this body with the built-in engine");
@@ -156,9 +157,23 @@ void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
   setup.steps_per_frame = run.steps_per_frame;
   setup.frames = run.frames;
   for (int frame = 0; frame < run.frames; ++frame) setup.parts.push_back(run.plan.parts(frame));
-  setup.start = {run.state.steps, run.state.kicked, run.state.ledger, {}};
+  setup.start.steps = run.state.steps;
+  setup.start.kicked = run.state.kicked;
+  setup.start.ledger = run.state.ledger;
+  setup.start.world_ledger = run.state.world_ledger;
+  setup.start.held_at_start = run.state.held_at_start;
   setup.with_forces = run.with_forces;
+  setup.pieces = run.pieces;
   write_particles(folder.particles(), run, rows);
+  if (run.body.world) {
+    const World& world = *run.body.world;
+    setup.world = engine_world(world);
+    const StepPlan plan = setup.plan();
+    const std::int64_t first = run.state.steps;
+    const std::int64_t last = run.frames > 0 ? plan.steps_until(run.frames) : first;
+    if (!world.obstacles.empty() || !world.supports.empty())
+      write_engine_poses(folder.poses(), world, setup.skeleton, setup.motion, plan, first, last);
+  }
   write_file(folder.setup(), archived(setup));
 }
 
@@ -216,6 +231,8 @@ SimulationState read_engine_state(const EngineFolder& folder, std::int64_t steps
   state.steps = moment.steps;
   state.kicked = moment.kicked;
   state.ledger = moment.ledger;
+  state.world_ledger = moment.world_ledger;
+  state.held_at_start = moment.held_at_start;
   auto& moving = std::get<MovingInDouble>(state.moving);
   const std::vector<std::uint32_t> place = places_of(state, ids);
   std::size_t found = 0;

@@ -4,11 +4,12 @@
 //
 //     FOLDER/setup         the run but for its particles (EngineSetup)
 //     FOLDER/particles     of each particle by id: position, velocity, and its row, as doubles
+//     FOLDER/poses         of obstacles and supports, see engine_world.h; without them none
 //     FOLDER/state_N       after N steps (EngineMoment)
 //     FOLDER/state_N.R     the particles of rank R there, as doubles: id, position, velocity
 //     FOLDER/forces_N.R    the forces on them, where the setup requests it: id, pair, damping,
 //     bone,
-//                          count of neighbors
+//                          world, count of neighbors
 //
 // A state is complete once FOLDER/state_N is there.
 #pragma once
@@ -16,6 +17,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +27,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/step_plan.h>
 #include <sinew/physics/stepper.h>
+#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
 
 namespace sinew {
@@ -34,6 +37,7 @@ struct EngineFolder {
 
   std::filesystem::path setup() const { return path / "setup"; }
   std::filesystem::path particles() const { return path / "particles"; }
+  std::filesystem::path poses() const { return path / "poses"; }
   std::filesystem::path state(std::int64_t steps) const {
     return path / ("state_" + std::to_string(steps));
   }
@@ -43,12 +47,24 @@ struct EngineFolder {
   std::filesystem::path log() const { return path / "log.lammps"; }
 };
 
+/// Frames in whose files each rank writes its part of the particles, as a piece.
+struct EnginePieces {
+  std::string folder;  ///< of the run
+  Encoding encoding = Encoding::zlib;
+  bool double_precision = false;
+  std::vector<std::string> arrays;  ///< empty: all
+  std::int32_t every = 1;           ///< of so many frames, one is written
+};
+
 /// A moment of a run, without its particles.
 struct EngineMoment {
   std::int64_t steps = 0;
   bool kicked = false;  ///< velocities are half a step ahead (velocity Verlet)
-  LedgerEntries ledger;
+  LedgerEntries ledger, world_ledger;
+  double held_at_start = 0;              ///< kinetic energy of what is held, J
   std::vector<std::uint64_t> particles;  ///< on each rank
+  bool in_frame = false;                 ///< they are written in the file of this moment's frame
+  std::string engine;                    ///< which version of which
 };
 
 struct EngineSetup {
@@ -63,6 +79,8 @@ struct EngineSetup {
   std::vector<int> parts;  ///< of each frame's steps, see StepPlan
   EngineMoment start;
   bool with_forces = false;
+  std::optional<EnginePieces> pieces;
+  std::optional<World> world;  ///< without motions
 
   StepPlan plan() const { return StepPlan(stepping.step, steps_per_frame, parts); }
 };
@@ -78,10 +96,11 @@ struct EngineRun {
   const SimulationState& state;       ///< where it begins, in double precision
   std::span<const std::int32_t> ids;  ///< of the particles in the caller's order
   bool with_forces = false;
+  std::optional<EnginePieces> pieces = {};  ///< none: frames are written by whoever reads states
 };
 
 /// Writes setup and particles into the folder, which is created. Throws not written, and bad input
-/// for bodies in a world and materials that engines do not know.
+/// for surroundings and materials that engines do not know.
 void write_engine_run(const EngineFolder& folder, const EngineRun& run);
 
 EngineSetup read_engine_setup(const EngineFolder& folder);
@@ -100,7 +119,7 @@ void for_each_engine_particle(const EngineFolder& folder, const EngineSetup& set
 /// One rank's part of a state or of its forces: rows of `width` numbers, the id first.
 void write_engine_piece(const std::filesystem::path& file, const std::vector<double>& numbers);
 std::vector<double> read_engine_piece(const std::filesystem::path& file);
-inline constexpr std::size_t state_width = 7, forces_width = 11;
+inline constexpr std::size_t state_width = 7, forces_width = 14;
 
 void write_engine_moment(const EngineFolder& folder, const EngineMoment& moment);
 EngineMoment read_engine_moment(const EngineFolder& folder, std::int64_t steps);

@@ -4,6 +4,7 @@
 
 #include <sinew/engine/archive.h>
 #include <sinew/engine/engine_files.h>
+#include <sinew/engine/world_walks.h>
 
 namespace sinew {
 
@@ -104,11 +105,24 @@ void walk(LedgerEntries& ledger, Transfer& transfer) {
 }
 
 template <class Transfer>
+void walk(EnginePieces& pieces, Transfer& transfer) {
+  transfer(pieces.folder);
+  transfer(pieces.encoding);
+  transfer(pieces.double_precision);
+  transfer(pieces.arrays);
+  transfer(pieces.every);
+}
+
+template <class Transfer>
 void walk(EngineMoment& moment, Transfer& transfer) {
   transfer(moment.steps);
   transfer(moment.kicked);
   transfer(moment.ledger);
+  transfer(moment.world_ledger);
+  transfer(moment.held_at_start);
   transfer(moment.particles);
+  transfer(moment.in_frame);
+  transfer(moment.engine);
 }
 
 template <class Transfer>
@@ -126,6 +140,8 @@ void walk(EngineSetup& setup, Transfer& transfer) {
   transfer(setup.parts);
   transfer(setup.start);
   transfer(setup.with_forces);
+  transfer(setup.pieces);
+  transfer(setup.world);
 }
 
 }  // namespace sinew

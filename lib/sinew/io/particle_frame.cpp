@@ -119,7 +119,9 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points&
       columns.add<std::int32_t>(name, [counts](const Row& row) { return counts[row.place]; });
   };
   const Binding& binding = frame.binding;
-  columns.add<std::int32_t>("id", [](const Row& row) { return static_cast<std::int32_t>(row.id); });
+  columns.add<std::int32_t>("id", [ids = frame.ids](const Row& row) {
+    return ids.empty() ? static_cast<std::int32_t>(row.id) : ids[row.id];
+  });
   columns.add<std::int32_t>("bone", [&binding](const Row& row) { return binding.bone(row.id); });
   columns.add<double>("weight", [&binding](const Row& row) { return binding.weight(row.id); });
   columns.add<double>("radius", [radius = frame.now.radius](const Row&) { return radius; });

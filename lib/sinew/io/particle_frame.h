@@ -32,6 +32,8 @@ struct ParticleFrame {
   Energies energies;
   std::span<const Vec3> force_world = {};           ///< N; empty without a world
   std::span<const std::int32_t> broken_bonds = {};  ///< of each; empty where there are no bonds
+  /// What is written as their ids, for a part of a body, whose own begin with 0; empty: these.
+  std::span<const std::int32_t> ids = {};
 };
 
 /// What a frame contains.

@@ -85,12 +85,6 @@ namespace fs = std::filesystem;
 /// Often enough to follow a run, rarely enough to be negligible beside the frames.
 constexpr std::chrono::seconds pvd_pause{1};
 
-std::string frame_name(const std::string& series, std::size_t number) {
-  char digits[24];
-  std::snprintf(digits, sizeof digits, "_%06zu", number);
-  return series + '/' + series + digits + ".vtu";
-}
-
 /// Whether a series of this name writes a file of this name: "body_000016.vtu", or its beginnings.
 bool is_frame_of(const std::string& series, std::string_view name) {
   const auto takes = [&](std::string_view part) {
@@ -120,6 +114,12 @@ void remove_older(const fs::path& folder, const std::string& series,
 }
 
 }  // namespace
+
+std::string frame_name(const std::string& series, std::size_t number) {
+  char digits[24];
+  std::snprintf(digits, sizeof digits, "_%06zu", number);
+  return series + '/' + series + digits + ".vtu";
+}
 
 void refuse_link(const fs::path& folder) {
   std::error_code unreachable;
@@ -165,7 +165,17 @@ Series::~Series() {
 void Series::add(const Dataset& frame) {
   const std::string file = frame_name(format_.series, rows_.size());
   write_vtu(folder_ / file, frame, format_);
-  rows_.push_back({frame.time, file});
+  add_row(frame.time, file);
+}
+
+void Series::finish(const Dataset& frame) {
+  const std::string file = frame_name(format_.series, rows_.size());
+  finish_vtu(folder_ / file, frame, format_);
+  add_row(frame.time, file);
+}
+
+void Series::add_row(double time, std::string file) {
+  rows_.push_back({time, std::move(file)});
   if (std::chrono::steady_clock::now() - pvd_written_ >= pvd_pause) write_pvd();
 }
 

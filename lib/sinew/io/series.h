@@ -28,6 +28,9 @@ std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
 /// The text of a PVD with these rows.
 std::string pvd_text(const std::vector<PvdRow>& rows);
 
+/// "particles/particles_000012.vtu".
+std::string frame_name(const std::string& series, std::size_t number);
+
 /// Throws bad input where a folder of frames is a link: what it leads to is of no run.
 void refuse_link(const std::filesystem::path& folder);
 
@@ -47,6 +50,8 @@ class Series {
   /// Writes one frame, later than the one before. Throws not written, and Error (unstable) naming
   /// the array for a value that is not finite, or becomes so in Float32.
   void add(const Dataset& frame);
+  /// The same of a frame whose points are in the file already, in several pieces: see finish_vtu().
+  void finish(const Dataset& frame);
   /// Brings the PVD up to date. Throws not written.
   void close();
 
@@ -55,6 +60,7 @@ class Series {
 
  private:
   void keep(std::span<const double> times);
+  void add_row(double time, std::string file);
   void write_pvd();
 
   std::filesystem::path folder_;

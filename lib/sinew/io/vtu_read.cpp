@@ -16,30 +16,29 @@ constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;  // bytes
 
 using Names = std::initializer_list<const char*>;
 
-/// The elements of the file, whose grid is to be one piece.
 struct VtuFile : VtkXmlFile {
   explicit VtuFile(std::string_view text) : VtkXmlFile(vtk_xml_file(text)) {
     if (type != "UnstructuredGrid")
       throw vtu_refused("it holds " + shown(type) + ", not an UnstructuredGrid");
   }
+};
 
+/// The elements of one of its pieces.
+struct VtuPiece {
+  const VtuFile& file;
+  std::span<const XmlElement> elements;
+
+  const VtuArrays& arrays() const { return file.arrays; }
   std::vector<const XmlElement*> group(const std::string& name) const {
-    return arrays_in(elements, name);
+    return file.arrays_in(elements, name);
   }
 };
 
-const XmlElement& piece_of(const VtuFile& file) {
-  const auto pieces = file.pieces();
-  if (pieces.size() != 1)
-    throw vtu_refused("it has " + std::to_string(pieces.size()) + " pieces, not one");
-  return pieces.front().front();
-}
-
 /// The integers of one of the arrays that make up the cells.
-std::vector<std::int32_t> of_cells(const VtuFile& file, const char* name, std::uint64_t count) {
-  for (const XmlElement* array : file.group("Piece/Cells")) {
+std::vector<std::int32_t> of_cells(const VtuPiece& piece, const char* name, std::uint64_t count) {
+  for (const XmlElement* array : piece.group("Piece/Cells")) {
     if (array->attribute("Name") != name) continue;
-    Column column = file.arrays.column(*array, count);
+    Column column = piece.arrays().column(*array, count);
     if (auto* integers = std::get_if<std::vector<std::int32_t>>(&column.values))
       return std::move(*integers);
     throw vtu_refused("array " + quoted(name) + " does not hold integers of 32 bits");
@@ -56,25 +55,25 @@ CellKind kind_of(const std::vector<std::int32_t>& types) {
                     ", not vertices, lines or triangles");
 }
 
-void read_cells(const VtuFile& file, std::uint64_t cells, Dataset& data) {
+void read_cells(const VtuPiece& piece, std::uint64_t cells, Dataset& data) {
   if (cells == 0) return;
-  data.kind = kind_of(of_cells(file, "types", cells));
+  data.kind = kind_of(of_cells(piece, "types", cells));
   const auto size = static_cast<std::int64_t>(data.kind);
-  const auto ends = of_cells(file, "offsets", cells);
+  const auto ends = of_cells(piece, "offsets", cells);
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (ends[i] != static_cast<std::int64_t>(i + 1) * size)
       throw vtu_refused("a cell does not have " + std::to_string(size) + " point(s)");
-  data.connectivity = of_cells(file, "connectivity", cells * static_cast<std::uint64_t>(size));
+  data.connectivity = of_cells(piece, "connectivity", cells * static_cast<std::uint64_t>(size));
   for (const std::int32_t id : data.connectivity)
     if (id < 0 || static_cast<std::size_t>(id) >= data.points.size())
       throw vtu_refused("a cell names a point that is not there");
 }
 
-void read_points(const VtuFile& file, std::uint64_t points, Dataset& data) {
-  const auto arrays = file.group("Piece/Points");
+void read_points(const VtuPiece& piece, std::uint64_t points, Dataset& data) {
+  const auto arrays = piece.group("Piece/Points");
   if (points == 0) return;
   if (arrays.size() != 1) throw vtu_refused("its points are not one array");
-  data.points = file.arrays.points(*arrays.front(), points);
+  data.points = piece.arrays().points(*arrays.front(), points);
   for (std::size_t i = 0; i < data.points.size(); ++i)
     if (!data.points[i].allFinite())
       throw vtu_refused("point " + std::to_string(i) + " is not finite");
@@ -102,18 +101,58 @@ bool is_wanted(const XmlElement& array, const std::optional<Names>& names) {
 }
 
 /// All point arrays where `names` is nullptr.
-Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
-  const XmlElement& piece = piece_of(file);
-  const auto points = file.arrays.count(piece, "NumberOfPoints");
-  const auto cells = file.arrays.count(piece, "NumberOfCells");
+Dataset dataset_of(const VtuPiece& piece, const std::optional<Names>& names) {
+  const XmlElement& counts = piece.elements.front();
+  const auto points = piece.arrays().count(counts, "NumberOfPoints");
+  const auto cells = piece.arrays().count(counts, "NumberOfCells");
   Dataset data;
-  read_points(file, points, data);
-  read_cells(file, cells, data);
-  for (const XmlElement* array : file.group("Piece/PointData"))
-    if (is_wanted(*array, names)) data.point_columns.push_back(file.arrays.column(*array, points));
-  for (const XmlElement* array : file.group("Piece/CellData"))
-    data.cell_columns.push_back(file.arrays.column(*array, cells));
-  for (const XmlElement* array : file.group("FieldData")) take_field(*array, file.arrays, data);
+  read_points(piece, points, data);
+  read_cells(piece, cells, data);
+  for (const XmlElement* array : piece.group("Piece/PointData"))
+    if (is_wanted(*array, names))
+      data.point_columns.push_back(piece.arrays().column(*array, points));
+  for (const XmlElement* array : piece.group("Piece/CellData"))
+    data.cell_columns.push_back(piece.arrays().column(*array, cells));
+  return data;
+}
+
+Error unlike_pieces() { return vtu_refused("its pieces do not have the same arrays"); }
+
+void append(const Column& part, Column& whole) {
+  if (part.name != whole.name || part.components != whole.components) throw unlike_pieces();
+  const auto add = [](auto& values, const auto& more) {
+    values.insert(values.end(), more.begin(), more.end());
+  };
+  std::visit(
+      [&](auto& values) {
+        const auto* more = std::get_if<std::remove_reference_t<decltype(values)>>(&part.values);
+        if (more == nullptr) throw unlike_pieces();
+        add(values, *more);
+      },
+      whole.values);
+}
+
+/// Behind the pieces before.
+void append(const Dataset& part, Dataset& whole) {
+  if (part.kind != CellKind::vertex || whole.kind != CellKind::vertex ||
+      !part.cell_columns.empty() || !whole.cell_columns.empty())
+    throw vtu_refused("it has several pieces, and more than vertices");
+  const auto before = static_cast<std::int32_t>(whole.points.size());
+  for (const std::int32_t point : part.connectivity) whole.connectivity.push_back(before + point);
+  whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+  if (part.point_columns.size() != whole.point_columns.size()) throw unlike_pieces();
+  for (std::size_t k = 0; k < part.point_columns.size(); ++k)
+    append(part.point_columns[k], whole.point_columns[k]);
+}
+
+Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
+  const auto pieces = file.pieces();
+  if (pieces.empty()) throw vtu_refused("it has no piece");
+  Dataset data = dataset_of(VtuPiece{file, pieces.front()}, names);
+  for (std::size_t k = 1; k < pieces.size(); ++k)
+    append(dataset_of(VtuPiece{file, pieces[k]}, names), data);
+  for (const XmlElement* array : file.arrays_in(file.elements, "FieldData"))
+    take_field(*array, file.arrays, data);
   return data;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <future>
+#include <type_traits>
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/base64.h>
@@ -19,15 +21,6 @@ namespace {
 constexpr double float32_reach = 1e4;
 constexpr std::size_t points_per_piece = 8192;
 constexpr std::size_t bytes_per_write = 1 << 20;
-
-bool beyond_float32(const Points& points, double radius) {
-  if (!(radius > 0)) return false;
-  const double reach = float32_reach * radius;
-  return parallel_sum(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
-           return std::count_if(points.begin() + begin, points.begin() + end,
-                                [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() > reach; });
-         }) > 0;
-}
 
 /// An array with the attributes of its element.
 struct Element {
@@ -96,7 +89,8 @@ std::vector<Element> field_elements(const Dataset& data, const VtuFormat& format
 
 Element points_element(const Dataset& data, const VtuFormat& format) {
   const WrittenArray* row = find_written(format.series, ArrayPlace::point, "Points");
-  const bool float64 = as_float64(row, format) || beyond_float32(data.points, format.radius);
+  const bool float64 =
+      as_float64(row, format) || format.double_points || beyond_float32(data.points, format.radius);
   const double* first = data.points.empty() ? nullptr : data.points.front().data();
   const std::size_t count = 3 * data.points.size();
   return {"Points", 3, row, float64 ? float64_array(first, count) : float32_array(first, count)};
@@ -154,9 +148,29 @@ std::string attribute(const std::string& name, const std::string& value) {
   return text += '"';
 }
 
+/// Text in memory, written as a NewFile is.
+class TextInMemory {
+ public:
+  void write(const void* bytes, std::size_t count) {
+    text_.append(static_cast<const char*>(bytes), count);
+  }
+  std::uint64_t extend(std::uint64_t count) {
+    text_.resize(text_.size() + count);
+    return text_.size() - count;
+  }
+  void write_at(std::uint64_t place, const void* bytes, std::size_t count) {
+    std::memcpy(text_.data() + place, bytes, count);
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+template <class File>
 class VtuText {
  public:
-  VtuText(NewFile& file, const VtuFormat& format, double time)
+  VtuText(File& file, const VtuFormat& format, double time)
       : file_(file), format_(format), time_(time) {}
 
   void add(std::string_view text) {
@@ -219,7 +233,7 @@ class VtuText {
         file_.write_at(begin + place, piece.data(), piece.size());
       });
     };
-    if (size < bytes_per_write) return write();
+    if (size < bytes_per_write || std::is_same_v<File, TextInMemory>) return write();
     wait();
     writing_ = std::async(std::launch::async, std::move(write));
   }
@@ -273,7 +287,7 @@ class VtuText {
                                      "shorter");
   }
 
-  NewFile& file_;
+  File& file_;
   const VtuFormat& format_;
   double time_;  ///< s
   std::string pending_;
@@ -291,7 +305,42 @@ std::string vtu_opening(Encoding encoding) {
   return tag + ">\n<UnstructuredGrid>\n";
 }
 
+/// All arrays of a piece.
+struct Piece {
+  const Dataset& data;
+  std::vector<Element> of_points, of_cells, points, cells;
+
+  Piece(const Dataset& given, const VtuFormat& format)
+      : data(given),
+        of_points(point_elements(data, format)),
+        of_cells(elements_of(data.cell_columns, ArrayPlace::cell, format)),
+        points{points_element(data, format)},
+        cells(cell_elements(data)) {}
+
+  template <class File>
+  void add_to(VtuText<File>& text) const {
+    text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) +
+             "\" NumberOfCells=\"" + std::to_string(data.cells()) + "\">\n");
+    text.add_group("PointData", active_arrays(of_points), of_points);
+    text.add_group("CellData", active_arrays(of_cells), of_cells);
+    text.add_group("Points", "", points);
+    text.add_group("Cells", "", cells);
+    text.add("</Piece>\n");
+  }
+};
+
+constexpr std::string_view end_of_grid = "</UnstructuredGrid>\n", end_of_file = "</VTKFile>\n";
+
 }  // namespace
+
+bool beyond_float32(const Points& points, double radius) {
+  if (!(radius > 0)) return false;
+  const double reach = float32_reach * radius;
+  return parallel_sum(points.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+           return std::count_if(points.begin() + begin, points.begin() + end,
+                                [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() > reach; });
+         }) > 0;
+}
 
 int vtk_type(CellKind kind) {
   return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;
@@ -299,27 +348,39 @@ int vtk_type(CellKind kind) {
 
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
   const auto field = field_elements(data, format);
-  const auto of_points = point_elements(data, format);
-  const auto of_cells = elements_of(data.cell_columns, ArrayPlace::cell, format);
-  const std::vector<Element> points{points_element(data, format)};
-  const auto cells = cell_elements(data);
+  const Piece piece(data, format);
   NewFile file(path);
   // ParaView 5.11 with an expat of 2024 or later, as in Debian 12 with updates, cannot read
   // appended data, not even in base64: only data in the elements is safe.
   VtuText text(file, format, data.time);
-  text.add(vtu_opening(format.encoding));
+  text.add(vtu_beginning(format));
   text.add_group("FieldData", "", field);
-  text.add("<Piece NumberOfPoints=\"" + std::to_string(data.points.size()) + "\" NumberOfCells=\"" +
-           std::to_string(data.cells()) + "\">\n");
-  text.add_group("PointData", active_arrays(of_points), of_points);
-  text.add_group("CellData", active_arrays(of_cells), of_cells);
-  text.add_group("Points", "", points);
-  text.add_group("Cells", "", cells);
-  text.add("</Piece>\n</UnstructuredGrid>\n");
-  text.add_appended({&field, &of_points, &of_cells, &points, &cells});
-  text.add("</VTKFile>\n");
+  piece.add_to(text);
+  text.add(end_of_grid);
+  text.add_appended({&field, &piece.of_points, &piece.of_cells, &piece.points, &piece.cells});
+  text.add(end_of_file);
   text.end();
   file.finish();
+}
+
+std::string vtu_beginning(const VtuFormat& format) { return vtu_opening(format.encoding); }
+
+std::string vtu_piece(const Dataset& data, const VtuFormat& format) {
+  TextInMemory memory;
+  VtuText text(memory, format, data.time);
+  Piece(data, format).add_to(text);
+  text.end();
+  return memory.take();
+}
+
+void finish_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {
+  TextInMemory memory;
+  VtuText text(memory, format, data.time);
+  text.add_group("FieldData", "", field_elements(data, format));
+  text.add(end_of_grid);
+  text.add(end_of_file);
+  text.end();
+  finish_parts(path, memory.take());
 }
 
 }  // namespace sinew

@@ -22,9 +22,14 @@ void FixSinew::attach(LocalBody& body, std::function<Interruption()> interruptio
   pose_.emplace(setup.skeleton, setup.motion);
   plan_ = setup.plan();
   moment_ = setup.start;
-  if (comm->me > 0) moment_.ledger = {0, 0, 0, setup.start.ledger.begun};
+  if (comm->me > 0) {
+    moment_.ledger = {0, 0, 0, setup.start.ledger.begun};
+    moment_.world_ledger = {0, 0, 0, setup.start.world_ledger.begun};
+    moment_.held_at_start = 0;
+  }
   step_ = plan_.step(std::max<std::int64_t>(0, moment_.steps - 1));
   ledger_.restore(moment_.ledger, step_);
+  world_ledger_.restore(moment_.world_ledger, step_);
   maxexchange = static_cast<int>(body.width);
   grow_arrays(atom->nmax);
 }
@@ -37,6 +42,13 @@ int FixSinew::setmask() {
 Vec3 FixSinew::acceleration(int i) const {
   return Eigen::Map<const Vec3>(atom->f[i]) / body_->setup.material.mass +
          body_->setup.stepping.gravity;
+}
+
+/// Those of velocity Verlet are half a step ahead.
+Vec3 FixSinew::velocity_of(int i) const {
+  const bool behind =
+      body_->setup.stepping.integrator == Integrator::velocity_verlet && moment_.kicked;
+  return behind ? Vec3(velocity(i) + step_ / 2 * acceleration(i)) : velocity(i);
 }
 
 void FixSinew::post_force(int) {
@@ -62,6 +74,7 @@ void FixSinew::post_force(int) {
     }
     Eigen::Map<Vec3>(atom->f[i]) += body_->bone[static_cast<std::size_t>(i)];
   }
+  if (around_) find_world_forces();
 }
 
 /// To damping at the moment of the positions, W. Velocities are half a step behind the forces.
@@ -81,8 +94,9 @@ bool FixSinew::is_sound(int i, const Vec3& kicked, const Pose& pose) const {
   const ParticleRow row = body_->row(i);
   const Vec3 before = position(i), v = velocity(i);
   const Vec3 carried =
-      row.bones() == 0 ? v
-                       : pose[static_cast<std::size_t>(row.influence(0).bone)].velocity_at(before);
+      row.bones() == 0 || (around_ && around_->held(id_of(atom->tag[i])))
+          ? v
+          : pose[static_cast<std::size_t>(row.influence(0).bone)].velocity_at(before);
   const double most = most_radii_per_step * body_->setup.material.pair.r;
   const bool drifts_first = body_->setup.stepping.integrator == Integrator::explicit_euler;
   return (step_ * (kicked - carried)).squaredNorm() <= most * most &&
@@ -120,11 +134,11 @@ void FixSinew::initial_integrate(int) {
   MPI_Allreduce(&here, &interrupted_, 1, MPI_INT, MPI_MAX, world);
   if (interrupted_ != Interruption::none) timer->force_timeout();
   if (interrupted_ == Interruption::unstable) return;
-  ledger_.add_step(power_, lost());
-  moment_.ledger = ledger_.entries();
+  add_to_ledgers();
   drift();
   moment_.kicked = true;
   ++moment_.steps;
+  hold();
 }
 
 void FixSinew::change_step(double step) {
@@ -135,6 +149,7 @@ void FixSinew::change_step(double step) {
       Eigen::Map<Vec3>(atom->v[i]) += (step_ - step) / 2 * acceleration(i);
   step_ = step;
   ledger_.set_step(step);
+  world_ledger_.set_step(step);
 }
 
 /// Ghosts reach as far as the longest bond can be before lists are made again.

@@ -4,9 +4,11 @@
 // model says.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 
 #include <sinew/engine/engine_talk.h>
+#include <sinew/engine/engine_world.h>
 #include <sinew/lammps/lammps_headers.h>
 #include <sinew/lammps/local_body.h>
 #include <sinew/rig/motion.h>
@@ -22,12 +24,19 @@ class FixSinew : public LAMMPS_NS::Fix {
   /// outlive the fix.
   void attach(LocalBody& body, std::function<Interruption()> interruption);
 
+  /// The world around it, whose poses are in that file. Before positions of particles are used.
+  void surround(const std::filesystem::path& poses);
+  /// Moves what is held to its place at the present moment.
+  void hold();
+
   /// Of the steps that follow, s. Forces must be those of the present moment, and are obsolete
   /// afterwards: velocities change where they are half a step behind.
   void change_step(double step);
   double step() const { return step_; }
 
   std::int64_t steps() const { return moment_.steps; }
+  /// At the moment of the positions, m/s.
+  Vec3 velocity_of(int i) const;
   /// With this rank's part of the energies.
   const EngineMoment& moment() const { return moment_; }
   /// Why the last stretch ended.
@@ -54,6 +63,8 @@ class FixSinew : public LAMMPS_NS::Fix {
   bool kick(double kick);
   void drift();
   double lost() const;
+  void find_world_forces();
+  void add_to_ledgers();
 
   LocalBody* body_ = nullptr;
   std::function<Interruption()> interruption_;
@@ -63,7 +74,11 @@ class FixSinew : public LAMMPS_NS::Fix {
   EngineMoment moment_;
   EnergyLedger ledger_{0};
   double power_ = 0, damping_power_ = 0;  ///< of the bones on own particles, W
-  Points kicked_;                         ///< velocities after the step
+  std::optional<EngineWorld> around_;
+  std::vector<ParticleWorld> on_;  ///< by local index
+  Points load_;
+  EnergyLedger world_ledger_{0};
+  Points kicked_;  ///< velocities after the step
   Interruption interrupted_ = Interruption::none;
 };
 

@@ -8,13 +8,15 @@
 #include <cstdlib>
 #include <thread>
 
+#include <sinew/io/series.h>
 #include <sinew/lammps/fix_sinew.h>
+#include <sinew/lammps/frame_piece.h>
 #include <sinew/lammps/pair_sinew.h>
 
 namespace sinew {
 namespace {
 
-constexpr std::size_t created_at_once = 1 << 20;
+constexpr std::size_t created_at_once = 1 << 16;
 constexpr double skin = 0.6;       // of neighbor lists, in radii
 constexpr double bond_growth = 2;  // of the longest bond until it is measured
 // LAMMPS refuses boxes much thinner than the range of forces. That of a thin body never shrinks.
@@ -132,6 +134,7 @@ class LammpsRun {
     order("fix body all sinew/body");
     fix_ = dynamic_cast<FixSinew*>(lammps_.modify->fix[lammps_.modify->find_fix("body")]);
     fix_->attach(body_, talk_.interruption);
+    fix_->surround(folder_.poses());
   }
 
   static std::string exact(double value) { return fmt::format("{:.17g}", value); }
@@ -155,6 +158,7 @@ class LammpsRun {
       for (int k = 0; k < row.bonds(); ++k) longest = std::max(longest, row.bond(k).spring.length);
     });
     body_.longest_bond = bond_growth * longest;
+    fix_->hold();
   }
 
   void run(std::int64_t steps) {
@@ -205,18 +209,59 @@ class LammpsRun {
     if (body_.setup.with_forces)
       write_engine_piece(folder_.piece("forces", fix_->steps(), me), force_rows());
     EngineMoment moment = fix_->moment();
+    moment.in_frame = write_piece();
+    moment.engine = std::string("LAMMPS ") + lammps_.version;
     const std::uint64_t own = static_cast<std::uint64_t>(lammps_.atom->nlocal);
     moment.particles.resize(static_cast<std::size_t>(count));
     MPI_Gather(&own, 1, MPI_UINT64_T, moment.particles.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-    std::array<double, 3> sums = {moment.ledger.work, moment.ledger.dissipation,
-                                  moment.ledger.power};
-    MPI_Reduce(me == 0 ? MPI_IN_PLACE : sums.data(), sums.data(), 3, MPI_DOUBLE, MPI_SUM, 0,
-               MPI_COMM_WORLD);
+    add_up(moment, me);
     if (me > 0) return;
-    moment.ledger.work = sums[0], moment.ledger.dissipation = sums[1],
-    moment.ledger.power = sums[2];
     write_engine_moment(folder_, moment);
     if (talk_.news) talk_.news({moment.steps, fix_->interrupted() == Interruption::unstable});
+  }
+
+  /// The particles of the frame of this moment, if there is one and it is to contain them.
+  bool write_piece() {
+    const auto& pieces = body_.setup.pieces;
+    const int frame = plan_.intervals_begun(fix_->steps());
+    if (!pieces || fix_->steps() != plan_.steps_until(frame) || frame % pieces->every != 0)
+      return false;
+    const auto number = static_cast<std::size_t>(frame / pieces->every);
+    write_frame_piece(std::filesystem::path(pieces->folder) / frame_name("particles", number),
+                      body_.setup, rows_of_piece(),
+                      {plan_.time(fix_->steps()), static_cast<std::int32_t>(fix_->steps())});
+    return true;
+  }
+
+  /// As write_frame_piece() takes them.
+  std::vector<PieceRow> rows_of_piece() const {
+    const LAMMPS_NS::Atom& atoms = *lammps_.atom;
+    std::vector<PieceRow> rows(static_cast<std::size_t>(atoms.nlocal));
+    for (int i = 0; i < atoms.nlocal; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const ParticleRow row = body_.row(i);
+      PieceRow& one = rows[at];
+      one.id = id_of(atoms.tag[i]);
+      one.bone = row.bones() > 0 ? row.influence(0).bone : no_bone;
+      one.weight = row.bones() > 0 ? row.influence(0).weight : 0;
+      one.rest = row.rest();
+      one.position = Vec3(atoms.x[i][0], atoms.x[i][1], atoms.x[i][2]);
+      one.velocity = fix_->velocity_of(i);
+      one.pair = body_.pair[at];
+      one.damping = body_.damping[at];
+      one.on_bones = body_.bone[at];
+      one.world = body_.world.empty() ? Vec3(Vec3::Zero()) : body_.world[at];
+      one.neighbors = static_cast<std::int32_t>(body_.neighbors[at]);
+    }
+    return rows;
+  }
+
+  /// The energies of all ranks, on the first.
+  static void add_up(EngineMoment& moment, int me) {
+    for (double* value : {&moment.ledger.work, &moment.ledger.dissipation, &moment.ledger.power,
+                          &moment.world_ledger.work, &moment.world_ledger.dissipation,
+                          &moment.world_ledger.power, &moment.held_at_start})
+      MPI_Reduce(me == 0 ? MPI_IN_PLACE : value, value, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
   }
 
   std::vector<double> state_rows() const {
@@ -237,6 +282,8 @@ class LammpsRun {
       rows.push_back(id_of(lammps_.atom->tag[i]));
       for (const Points* forces : {&body_.pair, &body_.damping, &body_.bone})
         rows.insert(rows.end(), (*forces)[i].begin(), (*forces)[i].end());
+      const Vec3 world = body_.world.empty() ? Vec3(Vec3::Zero()) : body_.world[i];
+      rows.insert(rows.end(), world.begin(), world.end());
       rows.push_back(body_.neighbors[i]);
     }
     return rows;

@@ -23,6 +23,7 @@ struct LocalBody {
   std::vector<double> rows;  ///< by local index
   Points pair, damping;      ///< on own particles, N
   Points bone, bone_damping;
+  Points world;                   ///< empty without one
   std::vector<double> neighbors;  ///< how many, of ghosts too where damping is pairwise
   double longest_bond = 0;        ///< of own particles, m
 

@@ -11,7 +11,7 @@ PairSinew::PairSinew(LAMMPS_NS::LAMMPS* lammps) : Pair(lammps) {
   restartinfo = 0;
   one_coeff = 1;
   no_virial_fdotr_compute = 1;
-  comm_forward = 1;
+  comm_forward = 9;  // at most: a thrust
 }
 
 PairSinew::~PairSinew() {
@@ -129,6 +129,7 @@ void PairSinew::compute(int energies, int virials) {
     longest = std::max(longest, pair.d);
   });
   body_->longest_bond = longest;
+  add_volume_forces();
   if (body_->setup.material.damping > 0) {
     if (body_->setup.material.damping_form == DampingForm::paper)
       mean_damping(velocities);
@@ -152,7 +153,7 @@ void PairSinew::mean_damping(const Points& velocities) {
 void PairSinew::pairwise_damping() {
   const Material& material = body_->setup.material;
   const bool central = material.damping_form == DampingForm::central;
-  comm->forward_comm_pair(this);
+  send(Sent::counts);
   for_each_meeting([&](const Meeting& pair) {
     if (!pair.partners) return;
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
@@ -163,15 +164,6 @@ void PairSinew::pairwise_damping() {
     body_->damping[i] += drag;
     if (pair.of_both) body_->damping[j] -= drag;
   });
-}
-
-int PairSinew::pack_forward_comm(int count, int* which, double* to, int, int*) {
-  for (int k = 0; k < count; ++k) to[k] = body_->neighbors[static_cast<std::size_t>(which[k])];
-  return count;
-}
-
-void PairSinew::unpack_forward_comm(int count, int first, double* from) {
-  std::copy_n(from, count, body_->neighbors.begin() + first);
 }
 
 }  // namespace sinew

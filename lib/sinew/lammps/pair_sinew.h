@@ -18,6 +18,8 @@ class PairSinew : public LAMMPS_NS::Pair {
   /// The body must outlive the pair style. Before `pair_coeff`.
   void attach(LocalBody& body);
 
+  bool has_bonds() const { return law_->has_bonds; }
+
   void settings(int, char**) override {}
   void coeff(int, char**) override;
   double init_one(int, int) override;
@@ -48,14 +50,28 @@ class PairSinew : public LAMMPS_NS::Pair {
   void for_each_bond(Visit&& visit) const;
   template <class Visit>
   void for_each_meeting(Visit&& visit) const;
+  template <class Visit>
+  void for_each_nearest(Visit&& visit) const;
   void find_partners();
   void mean_damping(const Points& velocities);
   void pairwise_damping();
+
+  enum class Sent { counts, rest, thrust };
+  void send(Sent what);
+  void find_rest_shapes();
+  void find_thrusts();
+  void add_volume_forces();
 
   LocalBody* body_ = nullptr;
   const ForceLaw* law_ = nullptr;
   double range_ = 0;           ///< of forces between particles that are not bonded, m
   std::vector<int> partners_;  ///< of the bonds of own particles, local indices
+  Sent sent_ = Sent::counts;   ///< from particles to their ghosts
+  // Where volumes are kept:
+  Points rest_;                 ///< of ghosts as well, m
+  std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2
+  std::vector<double> weight_;  ///< w_i
+  std::vector<Mat3> thrust_;    ///< K_v V0 w_i (J_i - 1) cof(F_i) A_i^-1, of ghosts as well, N/m
 };
 
 }  // namespace sinew

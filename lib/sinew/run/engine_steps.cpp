@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/engine_steps.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -17,33 +18,33 @@ struct Unsupported {
   bool (*asked)(const Settings&);
 };
 
-constexpr std::array<Unsupported, 12> unsupported = {{
+template <class List, class Test>
+bool any_of(const List& list, Test&& test) {
+  return std::any_of(list.begin(), list.end(), test);
+}
+
+constexpr std::array<Unsupported, 8> unsupported = {{
     {"solver.precision", "single precision", "set it to double",
      [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
     {"solver.neighbor_search", "the paper's cells", "set it to lists",
      [](const Settings& scene) { return scene.solver.neighbor_search != NeighborSearch::lists; }},
-    {"material.model", "bonded_volume", "choose bonded",
-     [](const Settings& scene) { return scene.material.model == MaterialModel::bonded_volume; }},
     {"material.breaking_strain", "bonds that break", "leave it out",
      [](const Settings& scene) { return scene.material.breaking_strain.has_value(); }},
     {"material.fracture_energy", "bonds that break", "leave it out",
      [](const Settings& scene) { return scene.material.fracture_energy.has_value(); }},
     {"material.yield_strain", "bonds that creep", "leave it out",
      [](const Settings& scene) { return scene.material.yield_strain.has_value(); }},
-    {"world.drag", "drag", "leave it out",
-     [](const Settings& scene) { return scene.world.drag != 0; }},
-    {"world.obstacles", "obstacles", "leave them out",
-     [](const Settings& scene) { return !scene.world.obstacles.empty(); }},
-    {"world.pins", "pins", "leave them out",
-     [](const Settings& scene) { return !scene.world.pins.empty(); }},
-    {"world.fields", "fields and muscles", "leave them out",
+    {"world.obstacles", "obstacles of meshes", "choose another shape",
      [](const Settings& scene) {
-       return !scene.world.fields.empty() || !scene.world.muscles.empty();
+       return any_of(scene.world.obstacles,
+                     [](const auto& one) { return one.shape == ObstacleShape::mesh; });
      }},
-    {"supports", "supports", "leave them out",
-     [](const Settings& scene) { return !scene.supports.empty(); }},
-    {"loads", "loads", "leave them out",
-     [](const Settings& scene) { return !scene.loads.empty(); }},
+    {"world.muscles", "muscles", "leave them out",
+     [](const Settings& scene) { return !scene.world.muscles.empty(); }},
+    {"loads", "pressures", "leave them out",
+     [](const Settings& scene) {
+       return any_of(scene.loads, [](const auto& one) { return one.pressure.has_value(); });
+     }},
 }};
 
 }  // namespace
@@ -58,19 +59,20 @@ void refuse_for_engine(const Settings& settings, const std::string& engine) {
 EngineSteps::EngineSteps(Engine engine, const std::filesystem::path& folder,
                          const Simulation& simulation, const Motion& motion,
                          const Stepping& stepping, const StepPlan& plan, int steps_per_frame,
-                         int frames)
+                         int frames, std::optional<EnginePieces> pieces)
     : engine_(std::move(engine)), folder_{folder}, ids_(simulation.particles().id) {
   std::error_code missing;
   std::filesystem::remove_all(folder, missing);  // of a run that failed
-  write_engine_run(folder_, {simulation.body(), motion, stepping, plan, steps_per_frame, frames,
-                             simulation.particles().mass, simulation.save(), ids_});
+  write_engine_run(
+      folder_, {simulation.body(), motion, stepping, plan, steps_per_frame, frames,
+                simulation.particles().mass, simulation.save(), ids_, false, std::move(pieces)});
   engine_.start(folder_);
 }
 
 void EngineSteps::advance(Simulation& simulation, const std::function<Interruption()>& wanted) {
   const EngineNews news = engine_.next(wanted);
   if (news.steps != simulation.steps()) {
-    on_ranks_ = read_engine_moment(folder_, news.steps).particles;
+    moment_ = read_engine_moment(folder_, news.steps);
     simulation.restore(read_engine_state(folder_, news.steps, simulation.save(), ids_));
     remove_engine_state(folder_, news.steps, engine_.ranks);
   }

@@ -20,6 +20,7 @@ namespace sinew {
 struct Engine {
   std::string name;  ///< "lammps"
   int ranks = 1;
+  bool gathers = false;  ///< frames are written by this program alone
   /// Begins to step the run in the folder.
   std::function<void(const EngineFolder& folder)> start;
   /// Waits for the next state. `wanted` is asked several times a second meanwhile. Throws where the
@@ -37,13 +38,13 @@ class EngineSteps {
   /// simulation, which goes on by that plan.
   EngineSteps(Engine engine, const std::filesystem::path& folder, const Simulation& simulation,
               const Motion& motion, const Stepping& stepping, const StepPlan& plan,
-              int steps_per_frame, int frames);
+              int steps_per_frame, int frames, std::optional<EnginePieces> pieces = {});
 
   /// Brings the simulation to the engine's next state. Throws as Simulation::step() does where the
   /// engine's step fails.
   void advance(Simulation& simulation, const std::function<Interruption()>& wanted);
-  /// Particles on each rank at the last state; none before.
-  const std::vector<std::uint64_t>& on_ranks() const { return on_ranks_; }
+  /// Of the last state, without its ledger; with nothing before.
+  const EngineMoment& moment() const { return moment_; }
   /// Ends the engine and removes its files, which a failed run keeps.
   void finish();
 
@@ -51,7 +52,7 @@ class EngineSteps {
   Engine engine_;
   EngineFolder folder_;
   std::vector<std::int32_t> ids_;
-  std::vector<std::uint64_t> on_ranks_;
+  EngineMoment moment_;
 };
 
 }  // namespace sinew

@@ -162,9 +162,10 @@ void FrameWriter::begin_checksums() {
 
 void FrameWriter::list_new_frames() {
   const std::vector<Series*> all = all_series();
-  for (std::size_t k = 0; k < all.size(); ++k)
+  for (std::size_t k = 0; k < all.size(); ++k) {
     for (const auto& rows = all[k]->rows(); listed_[k] < rows.size(); ++listed_[k])
       checksums_->add(rows[listed_[k]].file);
+  }
 }
 
 void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const double> kept) {
@@ -216,9 +217,10 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles, ready.setup.obstacles,
                   {}, ready.look, ready.setup.probes) {}
 
-void FrameWriter::add(Simulation& simulation, double time) {
+void FrameWriter::add(Simulation& simulation, double time, bool begun) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does
     const auto frame = std::make_shared<Moved>(take(simulation, time));
+    frame->begun = begun;
     return [this, frame] { write(*frame); };
   });
 }
@@ -324,7 +326,10 @@ void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
       all ? std::move(frame.positions) : frame.positions, frame.moment, selection_);
   for (Column& array : requested)
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
-  particles_.add(particles);
+  if (frame.begun)
+    particles_.finish(particles);
+  else
+    particles_.add(particles);
   if (all) frame.positions = std::move(particles.points);
 }
 

@@ -53,8 +53,11 @@ class FrameWriter {
               const ReadyScene& ready);
 
   /// Takes the frame at `time` (s) from the simulation; waits until the frame before is written.
-  /// Throws not written, also for an earlier frame: then nothing more is written.
-  void add(Simulation& simulation, double time);
+  /// `begun`: others have written its particles, see Series::finish(). Throws not
+  /// written, also for an earlier frame: then nothing more is written.
+  void add(Simulation& simulation, double time, bool begun = false);
+  /// Whether others may write the particles of frames, each a piece of them.
+  bool can_be_begun() const { return arrays_.empty() && selection_.ids.empty(); }
   /// Runs the job that make() returns once all earlier frames are written, unless that fails.
   void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
   /// Waits until all frames are written and named by the PVDs. Throws not written.
@@ -71,6 +74,7 @@ class FrameWriter {
   struct Moved {
     Moment moment;
     bool with_particles = false;  ///< else without forces and counts
+    bool begun = false;           ///< the particles are written already
     Points positions;             ///< by id
     Particles particles;          ///< without positions
     Forces forces;

@@ -145,12 +145,14 @@ void RunLog::describe(const StepperChoice& choice) {
 void RunLog::describe(const Engine& engine) {
   record_["stepper"] = engine.name;
   record_["ranks"] = engine.ranks;
+  record_.erase("instruction_set");  // of the built-in kernels
   write_record(folder_, record_);
   log("steps by " + engine.name + " on " + std::to_string(engine.ranks) + " ranks");
 }
 
 void RunLog::describe(const EngineSteps& steps) {
-  record_["particles_on_ranks"] = steps.on_ranks();
+  record_["particles_on_ranks"] = steps.moment().particles;
+  record_["engine_version"] = steps.moment().engine;
 }
 
 void RunLog::spend(const std::string& stage, double seconds) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
@@ -135,8 +136,22 @@ class Run {
     if (options_.engine)
       elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,
                          stepping_of(scene_.solver, steps.step), schedule_.plan, steps.per_frame,
-                         schedule_.frames);
+                         schedule_.frames, pieces());
     simulation_->forces();  // finds the first neighbors: no part of what writing costs
+  }
+
+  /// Several ranks write the particles of frames themselves.
+  std::optional<EnginePieces> pieces() const {
+    if (options_.engine->ranks == 1 || options_.engine->gathers || !writer_->can_be_begun() ||
+        scene_.output.encoding == Encoding::raw)
+      return std::nullopt;
+    const OutputSettings& output = scene_.output;
+    const auto arrays = frame_arrays(output.only);
+    return EnginePieces{std::filesystem::absolute(folder_.path).string(),
+                        output.encoding,
+                        output.double_precision,
+                        {arrays.begin(), arrays.end()},
+                        output.every};
   }
 
   /// Steps through and closes the series; the sound frames of an unstable run too.
@@ -196,7 +211,8 @@ class Run {
 
   void add_frame(int frame) {
     const double time = frame * schedule_.interval;
-    writer_->add(*simulation_, time);
+    const bool moved = elsewhere_ && elsewhere_->moment().steps == simulation_->steps();
+    writer_->add(*simulation_, time, moved && elsewhere_->moment().in_frame);
     log_.frame(frame, time);
   }
 

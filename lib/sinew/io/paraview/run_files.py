@@ -41,19 +41,32 @@ def run_folder():
 
 
 def described_array(path, name):
-    """The attributes and the unit of a point array in a VTU file, without its data. None where there
-    is no such array."""
+    """The attributes and the unit of a point array in a VTU file, without its data; its range in all
+    pieces. None where there is no such array."""
     with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as text:
-        begin = text.find(b'Name="' + name.encode() + b'"', max(0, text.find(b"<PointData")))
-        if begin < 0:
-            return None
-        tag = text[text.rfind(b"<", 0, begin):text.find(b">", begin)]
-        array = {key.decode(): value.decode()
-                 for key, value in re.findall(rb'(\w+)="([^"]*)"', tag)}
-        end = text.find(b"</DataArray>", begin)
-        label = re.search(rb'"UNITS_LABEL"[^>]*>\s*([^<]*?)\s*<', text[max(begin, end - 4096):end])
-        array["unit"] = label[1].decode() if label else "1"
+        array = array_at(text, max(0, text.find(b"<PointData")), name)
+        if array is None or b"<FieldData" in text[:4096]:  # one piece: the field data come first
+            return array
+        piece = text.find(b"<PointData", array["end"])
+        while piece >= 0:
+            other = array_at(text, piece, name)
+            (low, high), (least, most) = range_in(array), range_in(other)
+            array["RangeMin"], array["RangeMax"] = min(low, least), max(high, most)
+            piece = text.find(b"<PointData", other["end"])
         return array
+
+
+def array_at(text, begin, name):
+    """The next one of that name."""
+    begin = text.find(b'Name="' + name.encode() + b'"', begin)
+    if begin < 0:
+        return None
+    tag = text[text.rfind(b"<", 0, begin):text.find(b">", begin)]
+    array = {key.decode(): value.decode() for key, value in re.findall(rb'(\w+)="([^"]*)"', tag)}
+    array["end"] = text.find(b"</DataArray>", begin)
+    label = re.search(rb'"UNITS_LABEL"[^>]*>\s*([^<]*?)\s*<', text[max(begin, array["end"] - 4096):array["end"]])
+    array["unit"] = label[1].decode() if label else "1"
+    return array
 
 
 def range_in(array):
