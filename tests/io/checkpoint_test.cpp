@@ -118,8 +118,8 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 3;
-  expect_refused(resealed(other), {"version 3, not 2"});
+  other[12] = 4;
+  expect_refused(resealed(other), {"version 4, not 3"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});

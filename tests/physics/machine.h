@@ -8,6 +8,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
+#include <sinew/scene/world.h>
 
 #include "world.h"
 
@@ -55,6 +56,31 @@ class Machine {
   /// A force shared equally by particles.
   Load pull(const std::vector<std::uint32_t>& on, const Vec3& force) const {
     return force_load("pull", on, std::vector<double>(on.size(), 1.0), force, rest);
+  }
+
+  Body body() const {
+    Body body = test::make_body(settings, rest);
+    World made = world;
+    hold(made, rest.size());
+    body.world = std::make_shared<const World>(std::move(made));
+    return body;
+  }
+
+  /// Iterations that bring it to rest at one moment after another.
+  Simulation relaxing(LoadSteps steps) const {
+    const Body made = undamped(body());
+    const Particles particles = particles_at(rest, r, made.material.mass);
+    const double limit = step_limit(Integrator::symplectic_euler, made, load_of(made));
+    Simulation simulation(made, {}, particles,
+                          stepping_of(settings.solver, relaxing_step_factor * limit));
+    simulation.relax(std::move(steps));
+    return simulation;
+  }
+
+  Simulation at_rest(LoadSteps steps = {}) const {
+    Simulation simulation = relaxing(std::move(steps));
+    while (!simulation.relaxation()->done()) simulation.step();
+    return simulation;
   }
 
   Simulation begin() const {

@@ -171,6 +171,14 @@ class Chance {
     drawn.skeleton.forward.reset();
     drawn.motion.end = drawn.motion.start + 1;
     drawn.output.interval = std::min(drawn.output.interval, drawn.solver.duration);
+    if (drawn.solver.method == Method::dynamic) {
+      drawn.solver.residual.reset();
+    } else {
+      drawn.solver.integrator = Integrator::symplectic_euler;
+      drawn.solver.time_step.reset();
+      drawn.solver.neighbor_search = NeighborSearch::lists;
+      drawn.binding.twist_form = TwistForm::servo;
+    }
   }
 
   std::mt19937 random_;

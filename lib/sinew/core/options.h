@@ -228,6 +228,7 @@ struct BindingOptions {
 };
 
 enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
+enum class Method { dynamic, static_equilibrium };
 enum class Precision { binary64, binary32 };
 enum class NeighborSearch { lists, cells };
 

@@ -16,7 +16,8 @@
 
 namespace sinew {
 
-// The ledger of a body's energy, J.
+// The ledger of a body's energy, J. Work and dissipation are NaN where the body does not move in
+// time, but from one equilibrium to another.
 
 struct Energies {
   double kinetic = 0;
@@ -56,6 +57,18 @@ struct WholeNumbers {
   double traveled = 0;         ///< upper bound since then, m
 };
 
+/// Of a body that is brought to rest at one moment after another.
+struct RelaxationState {
+  std::int64_t at_rest = 0;     ///< moments at which it has been
+  std::int64_t iterations = 0;  ///< for the next of them
+  double shortened = 1;         ///< factor on the step
+  double damping = 0;           ///< c, 1/s
+  double pushed = 0;            ///< a.v after the last iteration, m^2/s^3
+  double largest = 0;           ///< force applied where the body was at rest, N
+  double applied = 0;           ///< in the last iteration, N
+  double unbalanced = 0;        ///< forces in the last iteration that nothing answered, N
+};
+
 struct SimulationState {
   std::int64_t steps = 0;
   LedgerEntries ledger;
@@ -70,6 +83,7 @@ struct SimulationState {
   // Of lists, where bonds change:
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel
+  RelaxationState relaxation = {};
 };
 
 }  // namespace sinew

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
-constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 2;
+constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 3;
 constexpr std::size_t name_size = 8;
 // Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
@@ -63,6 +63,14 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("bonds", state.rest_length);
   transfer("lanes", state.bonded_lanes);
   transfer("creep", state.creep);
+  transfer("atrest", state.relaxation.at_rest);
+  transfer("iterate", state.relaxation.iterations);
+  transfer("shorter", state.relaxation.shortened);
+  transfer("damping", state.relaxation.damping);
+  transfer("pushed", state.relaxation.pushed);
+  transfer("largest", state.relaxation.largest);
+  transfer("applied", state.relaxation.applied);
+  transfer("unbal", state.relaxation.unbalanced);
 }
 
 template <class Value>

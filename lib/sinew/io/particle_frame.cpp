@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -97,14 +99,16 @@ std::vector<Column> columns_of(const Energies& energies) {
   const auto single = [](const char* name, double value) {
     return column(name, std::vector<double>{value});
   };
-  return {single("kinetic_energy", energies.kinetic),
-          single("pair_energy", energies.pair),
-          single("bone_energy", energies.bone),
-          single("gravity_energy", energies.gravity),
-          single("work_of_bones", energies.work_of_bones),
-          single("dissipation", energies.dissipation),
-          single("contact_energy", energies.contact),
-          single("work_of_world", energies.work_of_world)};
+  std::vector<Column> columns = {
+      single("kinetic_energy", energies.kinetic), single("pair_energy", energies.pair),
+      single("bone_energy", energies.bone), single("gravity_energy", energies.gravity),
+      single("contact_energy", energies.contact)};
+  const Column of_motion[] = {single("work_of_bones", energies.work_of_bones),
+                              single("dissipation", energies.dissipation),
+                              single("work_of_world", energies.work_of_world)};
+  if (!std::isnan(energies.dissipation))
+    columns.insert(columns.end(), std::begin(of_motion), std::end(of_motion));
+  return columns;
 }
 
 /// `positions`: of the rows; where they are in memory must stay the same.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <sinew/core/error.h>
@@ -67,6 +68,77 @@ void Simulation::follow(StepPlan plan) {
   set_step(plan_.step(0));
 }
 
+namespace {
+
+/// What rounding leaves of the forces on all particles, N: in units of positions.
+double noise_of(const Body& body, double unit) {
+  constexpr double each = 10;  // of a particle's bonds together, measured at rest
+  return each * static_cast<double>(body.rest.size()) * body.material.stiffness() * unit;
+}
+
+}  // namespace
+
+void Simulation::relax(LoadSteps steps) {
+  const SimulationState state = save();
+  if (std::holds_alternative<CellStepper>(stepper_))
+    throw bad_input("the reference stepper relaxes nothing", "search neighbors by lists");
+  const double extent = bounds(body_->rest).diagonal().norm();
+  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
+                          ? state.whole_numbers.length
+                          : extent * std::numeric_limits<double>::epsilon();
+  relaxation_.emplace(
+      std::move(steps),
+      Relaxation::Iteration{stepping_.step, noise_of(*body_, unit), body_->material.pair.r});
+}
+
+double Simulation::time() const { return relaxation_ ? relaxation_->time() : plan_.time(steps_); }
+
+/// What relaxes stands still, and so do its bones at each moment.
+const Pose& Simulation::pose_of_stepper() const {
+  if (!relaxation_) return pose();
+  still_ = pose();
+  for (BonePose& bone : still_) {
+    bone.velocity = bone.angular_velocity = Vec3::Zero();
+    bone.stretch_rate = 0;
+  }
+  return still_;
+}
+
+void Simulation::halt() {
+  std::visit(
+      [](auto& stepper) {
+        if constexpr (requires { stepper.halt(); }) stepper.halt();
+      },
+      stepper_);
+}
+
+void Simulation::relax_once() {
+  relaxation_->begin_iteration();
+  const Pose& now = pose_of_stepper();
+  set_time();
+  StepSums sums;
+  bool at_rest = false;
+  const auto iterate = [&](auto& stepper) {
+    if constexpr (requires { stepper.halt(); }) {
+      sums = stepper.try_step(now, relaxation_->keep());
+      if (sums.failure) return;
+      at_rest = relaxation_->take(sums);
+      if (at_rest) return;
+      stepper.accept();
+      ++steps_;
+    }
+  };
+  std::visit(iterate, stepper_);
+  if (sums.failure) {
+    offenders_ = std::move(sums.failure->all);
+    halt();
+    if (!relaxation_->shorten())
+      fail(*std::max_element(offenders_.begin(), offenders_.end(), moved_less));
+    set_step(relaxation_->step());
+  }
+  if (at_rest) halt();
+}
+
 void Simulation::play(Motion motion) {
   motion_ = std::make_shared<const Motion>(std::move(motion));
   cursor_ = PoseCursor(body_->skeleton, *motion_);
@@ -107,6 +179,9 @@ void Simulation::change_step(double step) {
 }
 
 void Simulation::step() {
+  evaluated_ = false;
+  if (read_) forget_read();
+  if (relaxation_) return relax_once();
   if (const double next = plan_.step(steps_); next != stepping_.step) change_step(next);
   const Pose& now = pose();
   set_time();
@@ -119,8 +194,6 @@ void Simulation::step() {
   world_ledger_.add_step(sums.world_power, 0);
   if (steps_ == 0) held_at_start_ = sums.held_kinetic;
   ++steps_;
-  evaluated_ = false;
-  if (read_) forget_read();
 }
 
 void Simulation::set_time() const {
@@ -156,7 +229,7 @@ void Simulation::fail(const Offender& worst) {
 
 const Particles& Simulation::particles() const {
   if (!read_) {
-    const Pose& now = pose();
+    const Pose& now = pose_of_stepper();
     set_time();
     std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
     read_ = true;
@@ -166,7 +239,7 @@ const Particles& Simulation::particles() const {
 
 void Simulation::evaluate() {
   if (evaluated_) return;
-  const Pose& now = pose();
+  const Pose& now = pose_of_stepper();
   set_time();
   balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
   evaluated_ = true;
@@ -232,6 +305,11 @@ Energies Simulation::energies() {
   energies.work_of_bones = ledger_.work_until(balance_.power);
   energies.dissipation = ledger_.dissipation_until(balance_.lost);
   energies.contact = balance_.contact_energy;
+  if (relaxation_) {  // no moment follows from the one before by a motion
+    energies.work_of_bones = energies.work_of_world = energies.dissipation =
+        std::numeric_limits<double>::quiet_NaN();
+    return energies;
+  }
   // Held particles move as prescribed: pins and supports supply their kinetic energy.
   energies.work_of_world = world_ledger_.work_until(balance_.world_power) + balance_.held_kinetic -
                            (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
@@ -282,6 +360,7 @@ SimulationState Simulation::save() const {
   state.ledger = ledger_.entries();
   state.world_ledger = world_ledger_.entries();
   state.held_at_start = held_at_start_;
+  if (relaxation_) state.relaxation = relaxation_->state();
   return state;
 }
 
@@ -290,7 +369,9 @@ void Simulation::restore(const SimulationState& state) {
   if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
-  const double last = plan_.step(std::max<std::int64_t>(0, state.steps - 1));
+  if (relaxation_) relaxation_->restore(state.relaxation);
+  const double last =
+      relaxation_ ? relaxation_->step() : plan_.step(std::max<std::int64_t>(0, state.steps - 1));
   set_step(last);
   std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
   steps_ = state.steps;

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -19,6 +20,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/lists/list_stepper.h>
 #include <sinew/physics/reference/cell_stepper.h>
+#include <sinew/physics/relaxation.h>
 #include <sinew/physics/step_plan.h>
 #include <sinew/physics/stepper.h>
 #include <sinew/rig/motion.h>
@@ -37,6 +39,13 @@ class Simulation {
   /// From the start on, steps are of the sizes in the plan. Call it before the first step.
   void follow(StepPlan plan);
 
+  /// From the start on, steps are iterations that bring an undamped() body to rest at one moment
+  /// after another; time() is that of its bones and surroundings. Call it before the first step.
+  /// Throws bad input for the reference stepper.
+  void relax(LoadSteps steps);
+  /// What it has come to; none where it was not asked to.
+  const Relaxation* relaxation() const { return relaxation_ ? &*relaxation_ : nullptr; }
+
   /// From now on the bones move so; at the present moment the pose should be the same.
   void play(Motion motion);
 
@@ -48,7 +57,7 @@ class Simulation {
   /// Of the step that failed, in the order of the particles.
   const std::vector<Offender>& offenders() const { return offenders_; }
 
-  double time() const { return plan_.time(steps_); }  ///< s
+  double time() const;  ///< s
   std::int64_t steps() const { return steps_; }
   const Body& body() const { return *body_; }
   const Particles& particles() const;
@@ -100,6 +109,9 @@ class Simulation {
   static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
                               const Particles& particles, kernel::InstructionSet instructions);
   void evaluate();
+  void relax_once();
+  void halt();
+  const Pose& pose_of_stepper() const;
   void forget_read();
   void set_time() const;
   void set_step(double step);
@@ -111,6 +123,8 @@ class Simulation {
   mutable PoseCursor cursor_;
   Stepping stepping_;  ///< with the step made last
   StepPlan plan_;
+  std::optional<Relaxation> relaxation_;
+  mutable Pose still_;   ///< the pose without its velocities
   double unit_of_time_;  ///< of velocities in single precision, s
   std::int64_t steps_ = 0;
   mutable Stepper stepper_;

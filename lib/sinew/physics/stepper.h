@@ -85,6 +85,17 @@ struct Failure {
   std::vector<Offender> all;
 };
 
+/// How far from equilibrium a body is at the positions that a step began with: sums over what is
+/// free to move.
+struct Imbalance {
+  double aa = 0, av = 0, vv = 0;  ///< of accelerations a and velocities v, m^2/s^4 to m^2/s^2
+  double flowing = 0;             ///< energy lost to bonds that flow or break, W
+  double unbalanced = 0;  ///< the lengths of all forces on particles that nothing answers, N
+  /// The largest of these, N: the lengths of all forces of loads, obstacles and (half) pins; the
+  /// weight; half those of bones and fibers; a support's force, and its moment over the extent.
+  double applied = 0;
+};
+
 /// Contributions of a step to the ledger, at the moment of the positions it began with.
 struct StepSums {
   double power = 0;  ///< of the bones, W
@@ -92,6 +103,7 @@ struct StepSums {
   std::optional<Failure> failure;
   double world_power = 0;   ///< of moving obstacles, fields, muscles and pins, W
   double held_kinetic = 0;  ///< of particles that pins hold, J
+  Imbalance imbalance;      ///< only of steps that relax
 };
 
 /// The ledger at one moment.

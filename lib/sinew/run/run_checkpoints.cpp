@@ -28,7 +28,8 @@ std::vector<DecidingLine> deciding_lines(const std::string& resolved) {
   for (std::string line; std::getline(text, line);) {
     line = line.substr(0, line.find("  # "));
     if (!line.starts_with(' ')) section = line.substr(0, line.find(':'));
-    if (!line.starts_with("  checkpoint_interval:") && !line.starts_with("  wall_time:"))
+    if (!line.starts_with("  checkpoint_interval:") && !line.starts_with("  wall_time:") &&
+        !line.starts_with("  iterations:"))
       lines.push_back({section, line});
   }
   return lines;
@@ -80,7 +81,7 @@ std::uint64_t body_hash(const Body& body, const Triangles& surface) {
 /// The bones at sampled times of the run, and the obstacles around it.
 std::uint64_t motion_hash(const Setup& setup) {
   constexpr int moments = 1000;
-  const double end = setup.steps.step * setup.steps.per_frame * setup.frames;
+  const double end = setup.plan.time(setup.plan.steps_until(setup.frames));
   Hash hash;
   for (int i = 0; i <= moments; ++i)
     for (const BonePose& bone : pose_at(setup.body.skeleton, setup.motion, end * i / moments)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -87,10 +88,21 @@ double field(const Dataset& data, const char* name) {
   return value;
 }
 
+/// Runs of the static method know no work and no dissipation.
+double field_of_motion(const Dataset& data, const char* name) {
+  return find(data.field_columns, name) ? field(data, name)
+                                        : std::numeric_limits<double>::quiet_NaN();
+}
+
 Energies energies_of(const Dataset& data) {
-  return {field(data, "kinetic_energy"), field(data, "pair_energy"),   field(data, "bone_energy"),
-          field(data, "gravity_energy"), field(data, "work_of_bones"), field(data, "dissipation"),
-          field(data, "contact_energy"), field(data, "work_of_world")};
+  return {field(data, "kinetic_energy"),
+          field(data, "pair_energy"),
+          field(data, "bone_energy"),
+          field(data, "gravity_energy"),
+          field_of_motion(data, "work_of_bones"),
+          field_of_motion(data, "dissipation"),
+          field(data, "contact_energy"),
+          field_of_motion(data, "work_of_world")};
 }
 
 /// From the displacements, where they are written: these are exact for small ones.

@@ -5,6 +5,7 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
+#include <sinew/core/text.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/warnings.h>
 #include <sinew/settings/table.h>
@@ -58,7 +59,7 @@ std::uint64_t size_of(const std::filesystem::path& file) {
 
 /// Restores the times that a resumed run has spent and when it began.
 void go_on_from(const Json& before, Json& record) {
-  for (const char* key : {"started", "seconds"})
+  for (const char* key : {"started", "seconds", "load_steps"})
     if (before.contains(key)) record[key] = before[key];
   record["resumed"] = 1 + before.value("resumed", 0);
 }
@@ -170,7 +171,19 @@ void RunLog::frame(int frame, double time) {
   log("frame " + std::to_string(frame) + " at " + number_text(time) + " s");
 }
 
-void RunLog::frames(int written) { record_["frames"] = written; }
+void RunLog::load_step(int frame, const Equilibrium& found) {
+  record_["load_steps"].push_back(
+      {{"frame", frame}, {"iterations", found.iterations}, {"residual", found.residual}});
+  log("at rest after " + std::to_string(found.iterations) + " iterations, with a residual of " +
+      three_digits(found.residual));
+}
+
+void RunLog::frames(int written) {
+  record_["frames"] = written;
+  if (!record_.contains("load_steps")) return;
+  auto& steps = record_["load_steps"];
+  while (steps.size() > static_cast<std::size_t>(written)) steps.erase(steps.size() - 1);
+}
 
 void RunLog::end(const std::string& status, const Simulation& simulation) {
   const double stepping = record_["seconds"].value("stepping", 0.0);

@@ -35,6 +35,8 @@ class RunLog {
   /// Writes run.json with the progress of the run. Throws not written.
   void checkpoint(std::int64_t steps);
   void frame(int frame, double time);
+  /// How the body came to rest in a frame.
+  void load_step(int frame, const Equilibrium& found);
   /// Sets the number of frames, where a failure has left fewer than were begun.
   void frames(int written);
 

@@ -46,8 +46,9 @@ bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
 struct Schedule {
   int frames = 0;  ///< after the first
   StepPlan plan;
-  double interval = 0;  ///< s between frames
-  int there = 0;        ///< frames that are written already
+  double interval = 0;   ///< s between frames
+  bool relaxes = false;  ///< steps are iterations, as many as each frame takes
+  int there = 0;         ///< frames that are written already
 
   std::vector<double> times_there() const {
     std::vector<double> times;
@@ -58,6 +59,7 @@ struct Schedule {
 
   /// Frames up to a state; one that lies after the end is not of this run.
   int frames_until(const SimulationState& state) const {
+    if (relaxes) return static_cast<int>(state.relaxation.at_rest);
     const std::int64_t last = plan.steps_until(frames);
     if (state.steps > last)
       throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
@@ -118,7 +120,8 @@ class Run {
   }
 
   void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
-    schedule_ = {ready.setup.frames, ready.setup.plan, scene_.output.interval};
+    schedule_ = {ready.setup.frames, ready.setup.plan, scene_.output.interval,
+                 ready.setup.load_steps.has_value()};
     const StepChoice steps = ready.setup.steps;
     const Motion motion = ready.setup.motion;
     std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
@@ -163,8 +166,10 @@ class Run {
     } catch (const Error& error) {
       log_.frames(writer_->written());
       if (error.exit() != Exit::unstable) throw;
+      if (is_unfinished()) save();
       close();
       log_.frames(writer_->written());
+      if (is_unfinished()) throw;
       write_last_state(*simulation_, folder_.blowup());
       say(options_, "the body before the step that failed is in " + folder_.blowup().string());
       throw;
@@ -174,12 +179,17 @@ class Run {
     }
   }
 
+  /// Whether a relaxation was given up that can go on: no step of it failed.
+  bool is_unfinished() const {
+    return simulation_->relaxation() != nullptr && simulation_->offenders().empty();
+  }
+
   /// Stops after any step. A checkpoint comes after the frame of its moment.
   Exit step_through() {
     Stopwatch watch;
     const std::int64_t begun = simulation_->steps();
     for (int frame = schedule_.there;; advance()) {
-      if (simulation_->steps() == schedule_.plan.steps_until(frame)) {
+      if (is_there(frame)) {
         log_.spend("stepping", watch.lap());
         add_frame(frame);
         log_.spend("writing", watch.lap());  // what the stepping waited for it
@@ -193,6 +203,13 @@ class Run {
       log_.spend("writing", watch.lap());
       if (stop) return Exit::interrupted;
     }
+  }
+
+  /// Whether the simulation has come to the moment of a frame.
+  bool is_there(int frame) const {
+    if (const Relaxation* relaxation = simulation_->relaxation())
+      return relaxation->moments() > frame;
+    return simulation_->steps() == schedule_.plan.steps_until(frame);
   }
 
   /// However little time there is, a run that is resumed again and again comes to its end.
@@ -214,6 +231,8 @@ class Run {
     const bool moved = elsewhere_ && elsewhere_->moment().steps == simulation_->steps();
     writer_->add(*simulation_, time, moved && elsewhere_->moment().in_frame);
     log_.frame(frame, time);
+    if (const Relaxation* relaxation = simulation_->relaxation())
+      log_.load_step(frame, relaxation->last());
   }
 
   void report(int frame) const {

@@ -8,6 +8,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/read_surface.h>
+#include <sinew/physics/held_motion.h>
 #include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
@@ -105,6 +106,10 @@ Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skel
 
 namespace {
 
+bool is_static(const Settings& settings) {
+  return settings.solver.method == Method::static_equilibrium;
+}
+
 constexpr double most_steps = 2e9;  // files count them in 32 bits
 
 int frames_of(const Settings& settings) {
@@ -116,10 +121,10 @@ int frames_of(const Settings& settings) {
 }
 
 /// Of a scene that asks for a damping ratio: what gives it to the body.
-void set_damping_ratio(const MaterialOptions& settings, Body& body) {
-  if (!settings.damping_ratio) return;
+void set_damping_ratio(const Settings& settings, Body& body) {
+  if (!settings.material.damping_ratio || is_static(settings)) return;
   const ElasticModes modes = elastic_modes(body);
-  if (!modes.empty()) body.material.damping = modes.damping_for(*settings.damping_ratio);
+  if (!modes.empty()) body.material.damping = modes.damping_for(*settings.material.damping_ratio);
 }
 
 /// Of a rig that gives both bones and motion only once.
@@ -153,7 +158,7 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.share = std::move(local.share);
   body.stiffness = std::move(local.stiffness);
   body.factors = bond_factors(body.rest, body.material, body.share, body.stiffness);
-  set_damping_ratio(settings.material, body);
+  set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   return body;
 }
@@ -171,6 +176,15 @@ void check_packing(const Settings& settings) {
     throw bad_input(settings.place("material.isotropic"),
                     "only a lattice can have bonds of nearest neighbors alone",
                     "remove it, or set body.packing to fcc");
+}
+
+/// A body in equilibrium is held.
+void refuse_free(const Settings& settings, const Body& body) {
+  const auto free = free_motion(body);
+  if (!free) return;
+  throw bad_input(settings.place("solver.method"),
+                  "no equilibrium: " + free->text() + ", and nothing holds it",
+                  "add supports, pins or bones that do, or set solver.method to dynamic");
 }
 
 }  // namespace
@@ -191,8 +205,13 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.file_warnings = warnings_of(files);
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
+  if (is_static(settings)) {
+    refuse_free(settings, setup.body);
+    setup.body = undamped(std::move(setup.body));
+  }
   setup.steps = steps_of(settings, setup.body);
   setup.plan = plan_of(settings, setup);
+  if (is_static(settings)) setup.load_steps = load_steps_of(settings, setup);
   with_context(settings, "output.region",
                [&] { written_particles(settings.output, setup.body.rest); });
   if (static_cast<double>(setup.plan.steps_until(setup.frames)) > most_steps)
@@ -227,7 +246,10 @@ Simulation start(const Settings& settings, const ReadyScene& ready) {
 Simulation start(const Settings& settings, Setup setup, Particles particles) {
   Simulation simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
                         stepping_of(settings.solver, setup.steps.step));
-  simulation.follow(std::move(setup.plan));
+  if (setup.load_steps)
+    simulation.relax(*std::move(setup.load_steps));
+  else
+    simulation.follow(std::move(setup.plan));
   return simulation;
 }
 

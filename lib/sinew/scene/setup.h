@@ -48,6 +48,7 @@ struct Setup {
   Motion motion;
   StepChoice steps;
   StepPlan plan;
+  std::optional<LoadSteps> load_steps = {};  ///< of the static method
   std::vector<Triangles> obstacles;  ///< of the world, as surfaces in coordinates of their shapes
   std::vector<Probe> probes;
   double joint_zone = 0;       ///< in square roots of the bones' cross-section

@@ -21,6 +21,19 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
   return choose_step(solver.time_step, solver.time_step_factor, limit, interval);
 }
 
+namespace {
+
+/// Frames are single steps of a plan, each of which takes many iterations of this step.
+StepChoice relaxing_steps(double limit) {
+  StepChoice choice;
+  choice.limit = limit;
+  choice.step = relaxing_step_factor * limit;
+  choice.per_frame = 1;
+  return choice;
+}
+
+}  // namespace
+
 StepChoice steps_of(const Settings& settings, const Body& body) {
   const double limit = step_limit(settings.solver.integrator, body, load_of(body));
   if (!(limit > 0) && settings.solver.integrator != Integrator::explicit_euler)
@@ -30,6 +43,7 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
                         three_digits(body.material.stiffness()) + " N/m",
                     "give the material a density and a modulus of real ones, as 1000 kg/m^3 and "
                     "1e4 Pa");
+  if (settings.solver.method == Method::static_equilibrium) return relaxing_steps(limit);
   try {
     return choose_step(settings.solver, limit, settings.output.interval);
   } catch (const Error& error) {
@@ -147,6 +161,8 @@ double crossing_time(const Body& body) {
 StepPlan plan_of(const Settings& settings, const Setup& setup) {
   const StepChoice& steps = setup.steps;
   const double interval = settings.output.interval;
+  if (settings.solver.method == Method::static_equilibrium)
+    return StepPlan(interval, 1, std::vector<int>(static_cast<std::size_t>(setup.frames), 1));
   const double kept = std::exp(-interval / crossing_time(setup.body));  // of a speed
   std::vector<int> parts;
   double speed = 0;
@@ -157,6 +173,43 @@ StepPlan plan_of(const Settings& settings, const Setup& setup) {
       parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / most_carried), 1.0, 1e6)));
     }
   return StepPlan(steps.step, steps.per_frame, std::move(parts));
+}
+
+namespace {
+
+/// Whether anything but bones and supports changes from one time to another.
+bool changes(const Body& body, double from, double to) {
+  if (!body.world) return false;
+  const Pose at_rest = rest_pose(body.skeleton);
+  const WorldNow a = world_at(*body.world, from, at_rest), b = world_at(*body.world, to, at_rest);
+  const auto moved = [](const ObstaclePose& one, const ObstaclePose& other) {
+    return one.frame.origin == other.frame.origin && one.frame.rotation == other.frame.rotation;
+  };
+  return a.loads != b.loads || a.scales != b.scales || a.activations.level != b.activations.level ||
+         !std::equal(a.obstacles.begin(), a.obstacles.end(), b.obstacles.begin(), moved);
+}
+
+}  // namespace
+
+LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
+  // Slow beside waves, which would strain the body more than its load does.
+  constexpr double carried_in_radii = 0.02, crossings = 4;
+  const double interval = settings.output.interval, r = setup.body.material.pair.r;
+  LoadSteps steps;
+  steps.interval = interval;
+  steps.count = setup.frames + 1;
+  steps.most_iterations = settings.solver.iterations;
+  const bool single = settings.solver.precision == Precision::binary32;
+  steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
+  const double crossing = crossings * crossing_time(setup.body) / setup.steps.step;
+  for (const double speed : bone_speeds(setup, interval)) {
+    const auto frame = static_cast<double>(steps.ramp.size());
+    const bool loads = changes(setup.body, frame * interval, (frame + 1) * interval);
+    const double carried = speed * interval / (carried_in_radii * r);
+    const double ramp = carried > 0 || loads ? std::max(carried, crossing) : 1;
+    steps.ramp.push_back(static_cast<int>(std::clamp(std::ceil(ramp), 1.0, 1e8)));
+  }
+  return steps;
 }
 
 double farthest_carried(const Setup& setup, double interval) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sinew/physics/kernel/kernel.h>
+#include <sinew/physics/relaxation.h>
 #include <sinew/physics/step_plan.h>
 #include <sinew/physics/stepper.h>
 #include <sinew/physics/time_step.h>
@@ -37,6 +38,9 @@ inline constexpr double most_carried = 0.2;
 
 /// An upper bound of how far bones carry any particle in one step, in radii.
 double farthest_carried(const Setup& setup, double interval);
+
+/// Of a scene of the static method: its frames are moments at which the body is at rest.
+LoadSteps load_steps_of(const Settings& settings, const Setup& setup);
 
 // The stepper that a run uses.
 

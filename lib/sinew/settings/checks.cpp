@@ -143,6 +143,32 @@ void check_clip(const Settings& settings) {
                     "give an end after motion.start");
 }
 
+/// What the static method does not know.
+void check_static(const Settings& settings) {
+  const SolverSettings& solver = settings.solver;
+  const auto refuse = [&](const char* key, const char* what, const char* cure) {
+    throw bad_input(settings.place(key), what, cure);
+  };
+  if (solver.method == Method::dynamic) {
+    if (is_given(settings, "solver.residual"))
+      refuse("solver.residual", "the dynamic method brings nothing to a residual",
+             "set solver.method to static, or remove it");
+    return;
+  }
+  if (solver.integrator != Integrator::symplectic_euler)
+    refuse("solver.integrator", "the static method integrates no motion in time",
+           "remove solver.integrator, or set solver.method to dynamic");
+  if (is_given(settings, "solver.time_step"))
+    refuse("solver.time_step", "the static method has no time step",
+           "remove solver.time_step, or set solver.method to dynamic");
+  if (solver.neighbor_search == NeighborSearch::cells)
+    refuse("solver.neighbor_search", "the static method searches neighbors by lists only",
+           "remove solver.neighbor_search, or set solver.method to dynamic");
+  if (settings.binding.twist_form == TwistForm::open_loop)
+    refuse("binding.twist_form", "nothing balances the twist of open_loop",
+           "set binding.twist_form to servo, or solver.method to dynamic");
+}
+
 }  // namespace
 
 std::span<const EitherOr> either_or() {
@@ -187,6 +213,7 @@ void check_together(const Settings& settings) {
   check_axes(settings);
   check_clip(settings);
   check_output(settings);
+  check_static(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

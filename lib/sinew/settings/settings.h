@@ -151,6 +151,7 @@ struct BoundSettings {
 };
 
 struct SolverSettings {
+  Method method = Method::dynamic;
   Integrator integrator = Integrator::symplectic_euler;
   std::optional<double> time_step;
   double time_step_factor = 0.5;
@@ -159,6 +160,8 @@ struct SolverSettings {
   Precision precision = Precision::binary64;
   NeighborSearch neighbor_search = NeighborSearch::lists;
   std::optional<double> wall_time;
+  std::optional<double> residual;  ///< of the static method
+  int iterations = 200'000;        ///< of the static method, for each frame
 };
 
 struct OutputSettings {

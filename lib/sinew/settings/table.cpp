@@ -258,6 +258,9 @@ std::vector<Field<Settings>> make_world() {
 std::vector<Field<Settings>> make_solver() {
   using S = Settings;
   return {
+      choice<S>("solver", "method", SINEW_AT(S, solver.method), {"dynamic", "static"},
+                "dynamic: motion in time; static: brings the body to rest in each frame, with its "
+                "supports, loads and bones as they are at that time"),
       choice<S>("solver", "integrator", SINEW_AT(S, solver.integrator),
                 {"symplectic_euler", "explicit_euler", "velocity_verlet"},
                 "time integration of positions and velocities"),
@@ -279,6 +282,15 @@ std::vector<Field<Settings>> make_solver() {
       field<S>("solver", "wall_time", SINEW_AT(S, solver.wall_time), "s",
                "wall-clock time after which the run stops and can be resumed; none: no limit",
                positive, "none"),
+      field<S>(
+          "solver", "residual", SINEW_AT(S, solver.residual), "",
+          "static: the sum of all forces that nothing answers, over the largest load or "
+          "reaction, at which the body counts as at rest; auto: 1e-6, in single precision 0.01",
+          {0, 0.1, true}),
+      field<S>("solver", "iterations", SINEW_AT(S, solver.iterations), "",
+               "static: the most iterations for a frame, after which the run fails and can be "
+               "resumed with more",
+               Range{1, 1e9}),
   };
 }
 

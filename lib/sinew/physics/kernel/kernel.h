@@ -181,6 +181,13 @@ struct Fibers {
   Thrust<Real> thrust;
 };
 
+/// What a step that relaxes tells of its particles, at the positions that it began with: sums of
+/// a . a, a . v and v . v, of the lengths of a, and of those of the forces of bones and fibers.
+struct Relaxing {
+  double aa, av, vv;
+  double unbalanced, pulled;
+};
+
 /// Sums of a piece.
 struct Totals {
   double power;  ///< of the bones
@@ -192,6 +199,7 @@ struct Totals {
   double speed2;       ///< the largest squared speed, of what steps store as fixed point
   bool sound;          ///< none too fast (see most_radii_per_step), all values finite
   bool broke;          ///< a bond
+  Relaxing relaxing;   ///< only of steps that relax
 };
 
 /// Forces of a probe, by particle from `first` on.
@@ -233,11 +241,13 @@ struct Step {
   Volumes<Real> volumes;
   Fibers<Real> fibers;
   Surroundings<Real> surroundings;
-  Real gravity[3];   ///< per time squared
-  Real kick;         ///< v += kick a
+  Real gravity[3];  ///< per time squared
+  Real keep;        ///< v = keep v + kick a; 1 but where a step relaxes
+  Real kick;
   Real drift;        ///< x += drift v, in units of coordinates
   Real middle;       ///< the ledger uses the velocity v + middle a
   bool drift_first;  ///< x moves with the old velocity (explicit Euler)
+  bool relaxes;      ///< fills Totals::relaxing
   Real most;         ///< largest valid squared speed relative to the leading bone
   Totals* totals;    ///< by piece
   Probed<Real> probed;

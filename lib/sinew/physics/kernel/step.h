@@ -20,6 +20,7 @@ struct Sums {
   static constexpr int block = Traits<Real>::block;
   Real power[block] = {}, lost[block] = {}, pair_energy[block] = {}, bone_energy[block] = {};
   Real muscle_power[block] = {}, fastest[block] = {}, speed2[block] = {};
+  Real aa[block] = {}, av[block] = {}, vv[block] = {}, unbalanced[block] = {}, pulled[block] = {};
   bool sound = true, broke = false;
 };
 
@@ -128,6 +129,25 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
     add_to<L>(sums.muscle_power + lane, dot<L>(forces.muscle, middle));
 }
 
+template <class L>
+SINEW_INLINE typename L::V length(const Triple<L>& vector) {
+  return L::root(dot<L>(vector, vector));
+}
+
+/// What tells a relaxation how far from equilibrium the body is.
+template <class L>
+SINEW_INLINE void account_of_relaxing(const Step<typename L::Real>& step, std::size_t block,
+                                      int lane, const Forces<L>& forces, const Triple<L>& velocity,
+                                      Sums<L>& sums) {
+  const typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
+  const Triple<L>& a = forces.acceleration;
+  add_to<L>(sums.aa + lane, live * dot<L>(a, a));
+  add_to<L>(sums.av + lane, live * dot<L>(a, velocity));
+  add_to<L>(sums.vv + lane, live * dot<L>(velocity, velocity));
+  add_to<L>(sums.unbalanced + lane, live * length<L>(a));
+  add_to<L>(sums.pulled + lane, live * (length<L>(forces.bones.spring) + length<L>(forces.muscle)));
+}
+
 /// The largest speed relative to the piece's motion.
 template <class L>
 SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t block, int lane,
@@ -163,7 +183,8 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   const Triple<L> velocity = load<L>(step.before.v, i);
   Forces<L> forces = forces_on<L, pairs, pass, false>(step, law, block, lane, here, velocity);
   surround_if_touched<L>(step, block, i, velocity, forces);
-  const Triple<L> kicked = fused<L>(L::all(step.kick), forces.acceleration, velocity);
+  const Triple<L> kicked =
+      fused<L>(L::all(step.kick), forces.acceleration, L::all(step.keep) * velocity);
   const Triple<L> drifting = step.drift_first ? velocity : kicked;
   const Triple<L> by = L::all(step.drift) * drifting;
   store<L>(step.after.v, i, kicked);
@@ -171,6 +192,7 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   L::store_coord(step.after.x[1] + i, L::moved(here.y, by.y));
   L::store_coord(step.after.x[2] + i, L::moved(here.z, by.z));
   account<L>(step, forces, velocity, lane, sums);
+  if (step.relaxes) account_of_relaxing<L>(step, block, lane, forces, velocity, sums);
   check_speed<L>(step, kicked, forces.bones.carried, sums);
   track_fastest<L>(step, block, lane, here, drifting, sums);
   if constexpr (pairs == changing_springs)
@@ -218,7 +240,9 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
           static_cast<double>(fastest),
           static_cast<double>(speed2),
           sums.sound,
-          sums.broke};
+          sums.broke,
+          {sum_of<L>(sums.aa), sum_of<L>(sums.av), sum_of<L>(sums.vv), sum_of<L>(sums.unbalanced),
+           sum_of<L>(sums.pulled)}};
 }
 
 /// Calls visit(block, lane, sums) for every vector of the pieces, and stores their totals.

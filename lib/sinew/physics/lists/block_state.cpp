@@ -182,6 +182,11 @@ void BlockState<Real>::pad_last_block() {
 }
 
 template <class Real>
+void BlockState<Real>::halt() {
+  for (auto& axis : v_) std::fill(axis.begin(), axis.end(), Real(0));
+}
+
+template <class Real>
 Box BlockState<Real>::box(const Units& units, std::size_t grain) const {
   std::vector<Box> boxes(size_ / grain + 1);
   parallel_for(size_, grain, [&](std::size_t begin, std::size_t end) {

@@ -79,6 +79,8 @@ class BlockState {
   void set_velocity(std::size_t k, const Vec3& v, const Units& units);
   void set_velocity(std::size_t k, int axis, double v, const Units& units);
 
+  void halt();  ///< all velocities become 0
+
   /// Around the particles, m; `grain`: of them a thread takes at a time.
   Box box(const Units& units, std::size_t grain) const;
 

@@ -35,6 +35,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
     : body_(std::move(body)),
       stepping_(stepping),
       mass_(particles.mass),
+      extent_(bounds(body_->rest).diagonal().norm()),
       kernel_(kernel::functions_of<Real>(instructions)),
       law_(pair_law_of(body_->material)),
       layout_(*body_, particles, stepping.step),
@@ -91,6 +92,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(layout_.units().acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
+  step.keep = 1;
   step.kick = real(dt / T * (first_of_verlet ? 0.5 : 1));
   step.drift = real(dt / T);
   step.middle = real(dt / T / 2);
@@ -179,7 +181,13 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
-  const auto now = begin(pose, nullptr);
+  StepSums sums = run(begin(pose, nullptr), pose);
+  if (!sums.failure) accept();
+  return sums;
+}
+
+template <class Real>
+StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
   const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
   StepSums sums = sums_of_totals();
@@ -187,12 +195,15 @@ StepSums ListStepper<Real>::step(const Pose& pose) {
                    [](const kernel::Totals& piece) { return piece.sound; })) {
     sums.failure = failure(pose);
     lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);  // bonds stay broken
-    return sums;
   }
+  return sums;
+}
+
+template <class Real>
+void ListStepper<Real>::accept() {
   layout_.advance(travel_of_step());
   kicked_ = stepped_ = true;
   ++steps_;
-  return sums;
 }
 
 /// The particles that failed, in the caller's order; the fastest one where rounding leaves none.

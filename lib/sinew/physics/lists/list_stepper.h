@@ -28,6 +28,11 @@ class ListStepper {
   /// Of the steps that follow, s; velocities stay as they are.
   void set_step(double step);
   StepSums step(const Pose& pose);
+  /// A step of a relaxation: velocities keep that share of themselves, and gain accordingly less.
+  /// Moves nothing yet: accept() does.
+  StepSums try_step(const Pose& pose, double keep);
+  void accept();
+  void halt();  ///< all velocities become 0
   Balance evaluate(const Pose& pose, Forces& forces);
   void read(const Pose& pose, Particles& particles);
   ListCounts counts() const;
@@ -59,6 +64,8 @@ class ListStepper {
   void hold(const Pose& pose);
   void follow_units();
   kernel::Step<Real> begin(const Pose& pose, Points* world_forces);
+  StepSums run(kernel::Step<Real> now, const Pose& pose);
+  Imbalance imbalance() const;
 
   void update_lists();
   double travel_of_step() const;
@@ -73,7 +80,8 @@ class ListStepper {
 
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
-  double mass_;  ///< of a particle, kg
+  double mass_;    ///< of a particle, kg
+  double extent_;  ///< of the body at rest, m
   kernel::Functions<Real> kernel_;
   kernel::PairLaw law_;
   ParticleLayout<Real> layout_;

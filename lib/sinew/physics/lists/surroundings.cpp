@@ -32,6 +32,7 @@ Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Steppin
       mass_(mass),
       any_(surrounds(*body_)),
       everywhere_(any_ && fills_space(*body_->world)),
+      acts_in_space_(everywhere_ || (any_ && !body_->world->obstacles.empty())),
       pins_on_bones_(any_ && std::any_of(body_->world->pins.begin(), body_->world->pins.end(),
                                          [](const Pinned& pin) { return pin.bone != no_bone; })),
       until_middle_(stepping.step / 2) {
@@ -82,13 +83,15 @@ void Surroundings<Real>::set_pins(std::span<const std::int32_t> id) {
 template <class Real>
 void Surroundings<Real>::set_loads(std::span<const std::int32_t> id) {
   if (loads_.empty()) return;
-  place_.resize(id.size());
-  for (std::uint32_t k = 0; k < id.size(); ++k) place_[static_cast<std::size_t>(id[k])] = k;
+  std::vector<std::uint32_t> place(id.size());
+  for (std::uint32_t k = 0; k < id.size(); ++k) place[static_cast<std::size_t>(id[k])] = k;
   const auto& loads = body_->world->loads;
+  places_.assign(loads.size(), {});
+  for (std::size_t n = 0; n < loads.size(); ++n)
+    for (const std::uint32_t particle : loads[n].particles) places_[n].push_back(place[particle]);
   const auto for_each = [&](const auto& visit) {
     for (std::uint32_t n = 0; n < loads.size(); ++n)
-      for (std::uint32_t at = 0; at < loads[n].particles.size(); ++at)
-        visit(place_[loads[n].particles[at]], Loaded{n, at});
+      for (std::uint32_t at = 0; at < places_[n].size(); ++at) visit(places_[n][at], Loaded{n, at});
   };
   first_load_.assign(id.size() + 1, 0);
   for_each([&](std::uint32_t k, const Loaded&) { ++first_load_[k + 1]; });
@@ -187,7 +190,7 @@ template <class Real>
 void Surroundings<Real>::find_loads() {
   for (std::size_t n = 0; n < loads_.size(); ++n)
     loads_[n].find(body_->world->loads[n], now_.loads[n],
-                   [&](std::uint32_t id) { return state_->position(place_[id], units_); });
+                   [&](std::size_t at) { return state_->position(places_[n][at], units_); });
 }
 
 template <class Real>
@@ -195,7 +198,7 @@ Vec3 Surroundings<Real>::load_on(std::size_t k) const {
   Vec3 sum = Vec3::Zero();
   if (first_load_.empty()) return sum;
   for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n)
-    sum += loads_[loaded_[n].load].forces[loaded_[n].place];
+    sum += loads_[loaded_[n].load].force(loaded_[n].place);
   return sum;
 }
 
@@ -205,7 +208,7 @@ void Surroundings<Real>::add_loads(std::size_t k, const Vec3& position, const Ve
   if (first_load_.empty()) return;
   for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n) {
     const auto& [load, place] = loaded_[n];
-    const Vec3& force = loads_[load].forces[place];
+    const Vec3 force = loads_[load].force(place);
     const Vec3 arm = position - body_->world->loads[load].pivot;
     piece.of_loads[load] += {force, arm.cross(force), force.dot(middle)};
   }
@@ -257,8 +260,9 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
       {}, position, velocity, body_->material.pair.r, static_cast<std::size_t>(id_[k])};
   Piece& piece = pieces_[k / (kernel::blocks_per_piece * BlockState<Real>::block)];
   const Vec3 inner = mass_ * acceleration, load = load_on(k), others = inner + load;
-  const ParticleWorld world =
-      world_on(particle, mass_, *body_->world, now_, others, stepping_.step, piece.reactions);
+  ParticleWorld world;
+  if (acts_in_space_)
+    world = world_on(particle, mass_, *body_->world, now_, others, stepping_.step, piece.reactions);
   const Vec3 given = load + world.force();
   const Pinned* pin = is_held(k) ? &body_->world->pins[pin_[k]] : nullptr;
   acceleration += given / mass_;
@@ -269,7 +273,9 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   sums.power += world.power + (load + world.field).dot(middle);
   sums.lost += world.losing_power - world.losing.dot(middle);
   sums.contact_energy += world.contact_energy;
-  add_loads(k, position, middle, piece);
+  if (acts_in_space_) sums.applied += world.force().norm();
+  if (pin != nullptr && pin->is_pin()) sums.applied += (others + world.force()).norm() / 2;
+  if (forces_ != nullptr) add_loads(k, position, middle, piece);
   if (pin != nullptr)
     answer_of_pins(k, {position, velocity}, others + world.force(), middle, piece);
   if (forces_ == nullptr) return;
@@ -285,7 +291,9 @@ WorldSums Surroundings<Real>::sums() const {
     all.lost += piece.sums.lost;
     all.contact_energy += piece.sums.contact_energy;
     all.held_kinetic += piece.sums.held_kinetic;
+    all.applied += piece.sums.applied;
   }
+  for (const LoadNow& load : loads_) all.applied += load.size();
   return all;
 }
 

@@ -27,6 +27,8 @@ struct WorldSums {
   double power = 0;  ///< of obstacles, fields, pins and loads
   double lost = 0;
   double contact_energy = 0, held_kinetic = 0;
+  /// The lengths of all forces on particles but those of supports, half of those of pins, N.
+  double applied = 0;
 };
 
 template <class Real>
@@ -57,7 +59,7 @@ class Surroundings {
   std::vector<Reaction> reactions() const;          ///< of obstacles
   std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
   std::vector<Reaction> of_supports() const;        ///< on the body, of each
-  std::vector<Reaction> of_loads() const;
+  std::vector<Reaction> of_loads() const;           ///< of the last probe
   bool is_held(std::size_t k) const { return !pin_.empty() && pin_[k] != no_pin; }
 
  private:
@@ -92,6 +94,7 @@ class Surroundings {
   Stepping stepping_;
   double mass_;
   bool any_, everywhere_;
+  bool acts_in_space_;  ///< there is more than pins, supports, loads and muscles
   bool pins_on_bones_;
   std::vector<std::int32_t> id_;       ///< in the kernel's order; empty without surroundings
   std::vector<std::uint32_t> pin_;     ///< by particle in the kernel's order; empty without pins
@@ -99,7 +102,8 @@ class Surroundings {
   std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces
   std::vector<std::uint8_t> touched_;  ///< by block
   std::vector<std::uint8_t> held_;     ///< by block: whether it has pins or loads
-  std::vector<std::uint32_t> place_;   ///< in the kernel's order, by id; empty without loads
+  /// By load: of its particles in the kernel's order.
+  std::vector<std::vector<std::uint32_t>> places_;
   std::vector<std::uint32_t> first_load_;  ///< of particle k; empty without loads
   std::vector<Loaded> loaded_;
   std::vector<LoadNow> loads_;

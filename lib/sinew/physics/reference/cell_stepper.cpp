@@ -61,9 +61,9 @@ void CellStepper::find_loads(const WorldNow& now) {
   for (std::size_t n = 0; n < loads_.size(); ++n) {
     const Load& load = body_->world->loads[n];
     loads_[n].find(load, now.loads[n],
-                   [&](std::uint32_t id) { return particles_.position(place_[id]); });
+                   [&](std::size_t at) { return particles_.position(place_[load.particles[at]]); });
     for (std::size_t k = 0; k < load.particles.size(); ++k)
-      load_[place_[load.particles[k]]] += loads_[n].forces[k];
+      load_[place_[load.particles[k]]] += loads_[n].force(k);
   }
 }
 
@@ -90,10 +90,10 @@ void CellStepper::find_world_forces(const Pose& pose) {
   }
   hold_back(now, pose);
   for (std::size_t n = 0; n < loads_.size(); ++n)
-    for (std::size_t k = 0; k < loads_[n].forces.size(); ++k) {
+    for (std::size_t k = 0; k < world.loads[n].particles.size(); ++k) {
       const Load& load = world.loads[n];
       const std::size_t i = place_[load.particles[k]];
-      const Vec3& force = loads_[n].forces[k];
+      const Vec3 force = loads_[n].force(k);
       of_loads_[n] +=
           {force, (particles_.position(i) - load.pivot).cross(force), force.dot(velocity_now(i))};
     }

@@ -3,8 +3,8 @@
 // keep their direction, and a pressure, which follows the surface.
 //
 //     LoadNow now(load);
-//     now.find(load, load.scale.at(time), [&](std::uint32_t i) { return position_of(i); });
-//     force += now.forces[k];   // on particle load.particles[k]
+//     now.find(load, load.scale.at(time), [&](std::size_t k) { return position_of(k); });
+//     force += now.force(k);   // on particle load.particles[k]
 //
 // A pressure p acts on triangles whose corners y follow the particles: p A n / 3 inward on each
 // corner, with the area and the normal of the moment, and from there by the corner's weights on
@@ -14,10 +14,10 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include <sinew/core/parallel.h>
 #include <sinew/core/triangles.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/world/following_points.h>
@@ -62,16 +62,46 @@ class LoadNow {
  public:
   explicit LoadNow(const Load& load);
 
-  /// `position`: of a particle, by id, m. In parallel; the same bits for any number of threads.
-  void find(const Load& load, double scale, const std::function<Vec3(std::uint32_t)>& position);
+  /// Finds the forces at a moment; `position(k)`: of load.particles[k], m. In parallel; the same
+  /// bits for any number of threads.
+  template <class Position>
+  void find(const Load& load, double scale, const Position& position) {
+    if (!load.faces.empty())
+      parallel_for(load.particles.size(), particles_per_task,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t k = begin; k < end; ++k) at_[k].head<3>() = position(k);
+                   });
+    find_forces(load, scale);
+  }
 
-  Points forces;  ///< on load.particles, N
+  Vec3 force(std::size_t k) const { return forces_[k].head<3>(); }  ///< on load.particles[k], N
+  /// Of its forces, those of a pressure by their lengths, N.
+  double size() const { return size_; }
 
  private:
-  std::vector<std::uint32_t> first_;   ///< of particle k: entries [first_[k], first_[k + 1])
-  std::vector<std::uint32_t> corner_;  ///< corners that follow it
-  std::vector<double> weight_;
-  std::vector<std::uint32_t> first_face_, face_;  ///< of each corner
+  static constexpr std::size_t particles_per_task = 512;
+  using Four = Eigen::Vector4d;  ///< as two pairs: x, y, z, 0
+
+  /// Sums over entries of rows: row k has the entries [first[k], first[k + 1]).
+  struct Weights {
+    std::vector<std::uint32_t> first, source;
+    std::vector<double> weight;
+
+    Four sum(std::size_t k, const std::vector<Four>& of) const {
+      Four all = Four::Zero();
+      for (std::uint32_t e = first[k]; e < first[k + 1]; ++e) all += weight[e] * of[source[e]];
+      return all;
+    }
+  };
+
+  void order_corners(const Load& load);
+  void find_forces(const Load& load, double scale);
+  void find_pressure(const Load& load, double scale);
+
+  Weights of_corners_, of_particles_, of_faces_;  ///< corners from particles, and back; from faces
+  std::vector<std::array<std::uint32_t, 3>> face_;
+  std::vector<Four> at_, corner_, area_, pushed_, forces_;
+  double size_ = 0;
 };
 
 /// An upper bound of the stiffness that a load adds to a particle of `radius` (m), N/m.

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of the static method: every frame is an equilibrium, or the run says that there is none.
+
+usage: static_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import csv
+import functools
+import json
+import math
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import small_run
+
+SOURCE = small_run.SOURCE
+E = 1e5
+
+BAR = """
+body:
+  mesh: {source}/data/meshes/box.obj
+  radius: 0.01
+material: {{model: bonded, young_modulus: 1e5}}
+solver: {{method: static, duration: 0.4}}
+output: {{interval: 0.2}}
+{machine}
+"""
+
+CLAMP = """
+supports:
+  - {name: clamp, facing: [0, 0, -1]}
+loads:
+  - name: side
+    force: [FORCE, 0, 0]
+    facing: [0, 0, 1]
+    keys: [{time: 0, factor: 0}, {time: 0.4, factor: 1}]
+probes:
+  - {name: end, facing: [0, 0, 1]}
+"""
+
+sinew = functools.partial(small_run.sinew, check=0)
+
+
+class Static(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.out = self.folder / "run"
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def scene(self, machine):
+        path = self.folder / "bar.yaml"
+        path.write_text(BAR.format(source=SOURCE, machine=machine))
+        return path
+
+    def run_scene(self, machine, *more, check=0, out=None):
+        return sinew("simulate", self.scene(machine), "-o", out or self.out, *more, check=check)
+
+    def record(self, out=None):
+        return json.loads(((out or self.out) / "run.json").read_text())
+
+    def rows(self, name):
+        with open(self.out / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_a_cantilever_bends_as_timoshenko_says(self):
+        width, length = 0.155563, 0.692965
+        inertia, area = width ** 4 / 12, width ** 2
+        deflection = 0.01 * length
+        shear = 6 / 5 / (E / 2.5 * area)
+        force = deflection / (length ** 3 / (3 * E * inertia) + length * shear)
+        self.run_scene(CLAMP.replace("FORCE", str(force)))
+        end = [float(row["displacement_x"]) for row in self.rows("probes.csv")]
+        self.assertAlmostEqual(end[-1] / deflection, 1, delta=0.12)  # eleven planes, 0.1 at the end
+        self.assertAlmostEqual(end[1] / end[2], 0.5, delta=1e-3)
+        for time in ("0.2", "0.4"):
+            both = [row for row in self.rows("supports.csv") if row["time"] == time]
+            for axis in "xyz":
+                sum_of = sum(float(row["force_" + axis]) for row in both)
+                self.assertLess(abs(sum_of), 1e-6 * force)
+
+    def test_the_record_tells_how_each_frame_came_to_rest(self):
+        self.run_scene(CLAMP.replace("FORCE", "5"))
+        steps = self.record()["load_steps"]
+        self.assertEqual([step["frame"] for step in steps], [0, 1, 2])
+        for step in steps[1:]:
+            self.assertGreater(step["iterations"], 100)
+            self.assertLessEqual(step["residual"], 1e-6)
+        self.assertIn("at rest after", (self.out / "log.txt").read_text())
+        sinew("measure", self.out)
+        metrics = json.loads((self.out / "metrics.json").read_text())
+        self.assertNotIn("nan", json.dumps(metrics).lower())
+
+    def test_what_does_not_come_to_rest_is_kept_and_resumed(self):
+        machine = CLAMP.replace("FORCE", "5")
+        whole = self.folder / "whole"
+        self.run_scene(machine, out=whole)
+        failed = self.run_scene(machine, "--set", "solver.iterations=1000", check=3)
+        self.assertIn("not in equilibrium", failed.stderr)
+        self.assertIn("solver.iterations", failed.stderr)
+        self.assertEqual(self.record()["frames"], 1)
+        self.assertEqual(self.record()["status"], "unstable")
+        self.run_scene(machine, "--resume")
+        self.assertEqual(self.record()["state_hash"], self.record(whole)["state_hash"])
+        self.assertEqual(self.record()["load_steps"], self.record(whole)["load_steps"])
+        self.assertEqual((self.out / "supports.csv").read_text(),
+                         (whole / "supports.csv").read_text())
+
+    def refuse(self, machine, *settings, says):
+        words = [word for one in settings for word in ("--set", one)]
+        refused = self.run_scene(machine, *words, check=2)
+        self.assertEqual(len(refused.stderr.strip().splitlines()), 1, refused.stderr)
+        for word in says:
+            self.assertIn(word, refused.stderr)
+        self.assertFalse((self.out / "particles").exists())
+
+    def test_what_has_no_meaning_is_refused(self):
+        clamp = CLAMP.replace("FORCE", "5")
+        self.refuse(clamp, "solver.integrator=explicit_euler", says=["solver.integrator"])
+        self.refuse(clamp, "solver.time_step=0.001", says=["solver.time_step"])
+        self.refuse(clamp, "solver.neighbor_search=cells", says=["solver.neighbor_search"])
+        self.refuse(clamp, "solver.method=dynamic", "solver.residual=1e-5", says=["residual"])
+
+    def test_bodies_that_are_not_held_are_refused(self):
+        self.refuse("loads: [{name: all, force: [0, 0, 1]}]",
+                    says=["no equilibrium", "the body can", "supports"])
+        self.refuse("supports: [{name: roller, hold: z, facing: [0, 0, -1]}]",
+                    says=["no equilibrium", "nothing holds it"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
