@@ -69,6 +69,13 @@ loads:
 }
 
 
+REFUSED = {
+    "muscles": "world:\n  muscles:\n    - name: flexor\n      bone: upper\n      strength: 100\n",
+    "pressures": "loads:\n  - name: push\n    pressure: 10\n",
+    "obstacles of meshes": f"world:\n  obstacles:\n    - name: wall\n      shape: mesh\n      mesh: {SOURCE}/data/meshes/box.obj\n",
+}
+
+
 def ranks_of(folder):
     """The processes of sinew-lammps that work for a run."""
     ranks = []
@@ -195,9 +202,16 @@ class OnLammps(SmallRun):
         for setting, name in [("solver.precision=single", "single precision"),
                               ("material.yield_strain=0.1", "creep"), ("material.breaking_strain=0.1", "break"),
                               ("solver.neighbor_search=cells", "cells")]:
-            done = self.simulate(*ON_LAMMPS, 2, "--set", setting, check=2)
+            model = "paper" if name in ("single precision", "cells") else "bonded"
+            words = ["--set", setting, "--set", f"material.model={model}"]
+            done = self.simulate(*ON_LAMMPS, 2, *words, check=2)
             self.assert_one_line(done, 2, "engine lammps does not support", name, "without --engine")
             self.assertFalse(self.out.exists())
+        for name, more in REFUSED.items():
+            self.scene.write_text(self.text + more)
+            done = self.simulate(*ON_LAMMPS, 2, check=2)
+            self.assert_one_line(done, 2, "small.yaml:", "engine lammps does not support " + name, "without --engine")
+        self.scene.write_text(self.text)
         self.assert_one_line(self.simulate("--ranks", 2, check=2), 2, "--engine lammps")
         self.assert_one_line(self.simulate("--engine", "gromacs", check=2), 2, "gromacs", "built-in or lammps")
         self.assert_one_line(self.simulate(*ON_LAMMPS, 2, "--hosts", "none.txt", check=2), 2, "none.txt", "slots=")

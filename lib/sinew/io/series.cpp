@@ -174,6 +174,14 @@ void Series::finish(const Dataset& frame) {
   add_row(frame.time, file);
 }
 
+void Series::drop_begun() const {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder_ / format_.series, failed))
+    if (const std::string name = entry.path().filename().string();
+        name.ends_with(".tmp") && is_frame_of(format_.series, name))
+      fs::remove(entry.path(), failed);
+}
+
 void Series::add_row(double time, std::string file) {
   rows_.push_back({time, std::move(file)});
   if (std::chrono::steady_clock::now() - pvd_written_ >= pvd_pause) write_pvd();

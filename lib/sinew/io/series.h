@@ -52,6 +52,8 @@ class Series {
   void add(const Dataset& frame);
   /// The same of a frame whose points are in the file already, in several pieces: see finish_vtu().
   void finish(const Dataset& frame);
+  /// Removes what others began of later frames. Once they do so no more.
+  void drop_begun() const;
   /// Brings the PVD up to date. Throws not written.
   void close();
 

@@ -347,6 +347,7 @@ void FrameWriter::write_surfaces(const Moved& frame) {
 void FrameWriter::close() {
   writer_.finish();
   spare_ = {};
+  particles_.drop_begun();
   for (Series* series : all_series()) {
     series->close();
     checksums_->add(series->name() + ".pvd");
