@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of a scene's body at rest, as materials, supports, loads and probes name them: particles, and
-// faces of the surface.
+// Parts of a scene's body at rest, as materials, supports, loads and probes name them: particles,
+// and faces of the surface.
 //
 //     const Parts parts(settings, body, surface, components);
 //     const auto held = parts.particles(settings.supports[0].part, "supports[0]");
