@@ -202,6 +202,9 @@ void expect_same(const Settings& one, const Settings& other) {
   ASSERT_EQ(one.bodies.size(), other.bodies.size());
   for (std::size_t i = 0; i < one.bodies.size(); ++i)
     expect_same(part_fields(), one.bodies[i], other.bodies[i]);
+  ASSERT_EQ(one.materials.size(), other.materials.size());
+  for (std::size_t i = 0; i < one.materials.size(); ++i)
+    expect_same(material_fields(), one.materials[i], other.materials[i]);
   ASSERT_EQ(one.bound.size(), other.bound.size());
   for (std::size_t i = 0; i < one.bound.size(); ++i)
     expect_same(bound_fields(), one.bound[i], other.bound[i]);

@@ -70,6 +70,7 @@ void add_machine(std::vector<Group>& all) {
   all.push_back(entries("loads[]", load_fields()));
   all.push_back(entries("loads[].keys[]", factor_fields()));
   all.push_back(entries("probes[]", probe_fields()));
+  all.push_back(entries("materials[]", material_fields()));
 }
 
 std::vector<Group> groups() {

@@ -51,6 +51,8 @@ std::vector<WrittenArray> table_of_particles() {
       {"particles", point, "Points", "m", xyz, real, plain, "position of the particle"},
       {"particles", point, "id", "1", one, whole, plain, "number of the particle, from 0"},
       {"particles", point, "bone", "1", one, whole, scalars, "bone it is bound to, -1 for none"},
+      {"particles", point, "material", "1", one, whole, plain,
+       "number of its material in the scene's list materials, from 1, or 0, if the scene has any"},
       {"particles", point, "weight", "1", one, real, plain, "weight of that bone, 0 for none"},
       {"particles", point, "radius", "m", one, real, plain, "radius of the particle"},
       {"particles", point, "displacement", "m", xyz, real, vectors,

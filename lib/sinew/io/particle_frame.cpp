@@ -127,6 +127,9 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points&
     return ids.empty() ? static_cast<std::int32_t>(row.id) : ids[row.id];
   });
   columns.add<std::int32_t>("bone", [&binding](const Row& row) { return binding.bone(row.id); });
+  if (!frame.material.empty())
+    columns.add<std::int32_t>(
+        "material", [material = frame.material](const Row& row) { return material[row.id]; });
   columns.add<double>("weight", [&binding](const Row& row) { return binding.weight(row.id); });
   columns.add<double>("radius", [radius = frame.now.radius](const Row&) { return radius; });
   columns.add_vectors("displacement",

@@ -7,6 +7,7 @@
 //     bone_forces(particles, body, pose, forces);
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,6 +51,8 @@ struct Body {
   /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
   std::vector<double> share = {};
   std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
+  /// Of each particle, its place in the scene's list of materials, from 1, or 0; empty: 0 each.
+  std::vector<std::int32_t> material_number = {};
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
   std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
 };

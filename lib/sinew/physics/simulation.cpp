@@ -73,7 +73,9 @@ namespace {
 /// What rounding leaves of the forces on all particles, N: in units of positions.
 double noise_of(const Body& body, double unit) {
   constexpr double each = 10;  // of a particle's bonds together, measured at rest
-  return each * static_cast<double>(body.rest.size()) * body.material.stiffness() * unit;
+  double relative = body.stiffness.empty() ? static_cast<double>(body.rest.size()) : 0;
+  for (const double stiffness : body.stiffness) relative += stiffness;
+  return each * relative * body.material.stiffness() * unit;
 }
 
 }  // namespace

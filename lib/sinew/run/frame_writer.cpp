@@ -322,7 +322,7 @@ void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
   const bool all = selection_.ids.empty();
   Dataset particles = particles_dataset(
       {frame.particles, body_.rest, body_.binding, forces.pair, forces.damping, forces.bone,
-       forces.neighbors, frame.energies, forces.world, frame.broken_bonds},
+       forces.neighbors, frame.energies, forces.world, body_.material_number, frame.broken_bonds},
       all ? std::move(frame.positions) : frame.positions, frame.moment, selection_);
   for (Column& array : requested)
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));

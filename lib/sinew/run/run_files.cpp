@@ -279,8 +279,8 @@ std::shared_ptr<const World> world_of_run(const RunFiles& run) {
   settings.world.obstacles.clear();  // their meshes need not exist any more
   const BodyFile body = read_body(run.folder.body());
   SceneFiles files = read_rig_files(settings);
-  const Body bound = make_body(settings, files, run.skeleton, body.particles, local_material(body));
   files.surface = run.surface;
+  const Body bound = make_body(settings, files, run.skeleton, body.particles, local_material(body));
   return world_of(settings, files, bound, body.component).world;
 }
 

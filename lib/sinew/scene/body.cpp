@@ -215,6 +215,9 @@ std::string origin_of(const Settings& settings) {
       if (field.name != "mesh") hash.add(scene_text(field.get(options), "") + '\n');
     if (options.young_modulus) hash.add(number_text(settings.material.young_modulus));
   }
+  for (const LocalMaterialSettings& material : settings.materials)
+    for (const auto& field : material_fields())
+      hash.add(scene_text(field.get(material), "") + '\n');
   if (needs_shares(settings)) hash.add("shares of 24 lattices\n");
   return hash_text(hash.value());
 }

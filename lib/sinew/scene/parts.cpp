@@ -149,4 +149,21 @@ Triangles Parts::faces(const PartSettings& part, const std::string& path) const 
                       corner(body.max()) + " m");
 }
 
+void set_local_materials(const Settings& settings, const Parts& parts, Body& body) {
+  if (settings.materials.empty()) return;
+  body.material_number.assign(body.rest.size(), 0);
+  body.stiffness.resize(body.rest.size(), 1);
+  for (std::size_t k = 0; k < settings.materials.size(); ++k) {
+    const LocalMaterialSettings& given = settings.materials[k];
+    const double relative = given.young_modulus / settings.material.young_modulus;
+    for (const std::uint32_t i :
+         parts.particles(given.part, "materials[" + std::to_string(k) + ']')) {
+      body.stiffness[i] = relative;
+      body.material_number[i] = static_cast<std::int32_t>(k + 1);
+    }
+  }
+  if (std::all_of(body.stiffness.begin(), body.stiffness.end(), [](double s) { return s == 1; }))
+    body.stiffness.clear();
+}
+
 }  // namespace sinew

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of a scene's body at rest, as supports, loads and probes name them: particles, and faces of
-// the surface.
+// Parts of a scene's body at rest, as materials, supports, loads and probes name them: particles,
+// and faces of the surface.
 //
 //     const Parts parts(settings, body, surface, components);
 //     const auto held = parts.particles(settings.supports[0].part, "supports[0]");
@@ -45,5 +45,10 @@ class Parts {
   mutable Triangles fine_;                      ///< made when it is first asked for
   mutable std::vector<std::uint32_t> nearest_;  ///< particle of each of its faces
 };
+
+/// The list `materials` of a scene: gives the particles of each part of a bound body its stiffness
+/// and its number; of parts that overlap the last one counts. Throws bad input, with the scene's
+/// line, for parts without particles.
+void set_local_materials(const Settings& settings, const Parts& parts, Body& body);
 
 }  // namespace sinew

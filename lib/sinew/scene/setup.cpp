@@ -14,6 +14,7 @@
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/frame_content.h>
+#include <sinew/scene/parts.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
@@ -157,6 +158,7 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.lattice = lattice_axes(settings.body);
   body.share = std::move(local.share);
   body.stiffness = std::move(local.stiffness);
+  set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
   body.factors = bond_factors(body.rest, body.material, body.share, body.stiffness);
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
@@ -195,7 +197,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   Setup setup;
   setup.frames = frames_of(settings);
   SceneRig rig = rig_of(settings, files);
-  const std::vector<std::int32_t> component = std::move(local.component);
+  const std::vector<std::int32_t> component = local.component;
   setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(local));
   SceneWorld around = world_of(settings, files, setup.body, component);
   setup.body.world = std::move(around.world);
@@ -233,6 +235,7 @@ ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
       body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
   ready.seconds_filling = watch.lap();
   ready.setup = set_up(settings, files, ready.body.particles, local_material(ready.body));
+  if (!ready.setup.body.stiffness.empty()) ready.body.stiffness = ready.setup.body.stiffness;
   ready.body.bone = bones_of_particles(ready.setup.body);
   ready.body.weight = weights_of_particles(ready.setup.body);
   ready.seconds_binding = watch.lap();

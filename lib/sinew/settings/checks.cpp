@@ -57,19 +57,25 @@ void check_isotropy(const Settings& settings) {
                     "give one between, or set material.isotropic to true");
 }
 
-/// Each of several bodies may be as stiff as it likes where bonds have factors of their own.
+/// Parts of a body may be as stiff as they like where bonds have factors of their own.
+void check_local_modulus(const Settings& settings, const std::string& path, const char* what) {
+  const Place place = settings.place(path);
+  if (settings.material.model != MaterialModel::bonded ||
+      !is_isotropic(settings.material, settings.body.packing))
+    throw bad_input(place, std::string("only isotropic bonded ") + what + " differ in stiffness",
+                    "set material.model to bonded, and body.packing to fcc, or remove it");
+  if (settings.material.k1)
+    throw bad_input(place,
+                    std::string(what) + " differ in stiffness, but material.k1 gives that of all",
+                    "give material.young_modulus instead of k1");
+}
+
 void check_bodies(const Settings& settings) {
-  for (std::size_t i = 0; i < settings.bodies.size(); ++i) {
-    if (!settings.bodies[i].young_modulus) continue;
-    const Place place = settings.place("bodies[" + std::to_string(i) + "].young_modulus");
-    if (settings.material.model != MaterialModel::bonded ||
-        !is_isotropic(settings.material, settings.body.packing))
-      throw bad_input(place, "only isotropic bonded bodies differ in stiffness",
-                      "set material.model to bonded, and body.packing to fcc, or remove it");
-    if (settings.material.k1)
-      throw bad_input(place, "bodies differ in stiffness, but material.k1 gives that of all",
-                      "give material.young_modulus instead of k1");
-  }
+  for (std::size_t i = 0; i < settings.bodies.size(); ++i)
+    if (settings.bodies[i].young_modulus)
+      check_local_modulus(settings, "bodies[" + std::to_string(i) + "].young_modulus", "bodies");
+  for (std::size_t i = 0; i < settings.materials.size(); ++i)
+    check_local_modulus(settings, "materials[" + std::to_string(i) + "]", "parts of a body");
 }
 
 void check_material(const Settings& settings) {

@@ -57,8 +57,15 @@ void read_probe(const YamlNode& item, const std::string& path, ProbeSettings& pr
                     "keep one of them");
 }
 
+void read_material(const YamlNode& item, const std::string& path, LocalMaterialSettings& material,
+                   Settings& settings) {
+  read_fields(item, path, material_fields(), "", material, settings.places);
+  check_part(material.part, path, settings);
+}
+
 /// Both share the rows of supports.csv.
 void check_names_of_machine(const Settings& settings) {
+  check_names(settings.materials, "", "materials", settings);
   check_names(settings.supports, "", "supports", settings);
   check_names(settings.loads, "", "loads", settings);
   check_names(settings.probes, "", "probes", settings);
@@ -78,6 +85,7 @@ void read_machine(const YamlNode& scene, Settings& settings) {
       read(item, path, owner, settings);
     };
   };
+  read_entries(scene, "", "materials", settings.materials, settings.places, with(read_material));
   read_entries(scene, "", "supports", settings.supports, settings.places, with(read_support));
   read_entries(scene, "", "loads", settings.loads, settings.places, with(read_load));
   read_entries(scene, "", "probes", settings.probes, settings.places, with(read_probe));
@@ -86,6 +94,11 @@ void read_machine(const YamlNode& scene, Settings& settings) {
 
 std::string machine_text(const Settings& settings) {
   std::string text;
+  if (!settings.materials.empty())
+    text += '\n' + list_text("materials", settings.materials, 0,
+                             [](const LocalMaterialSettings& material, bool first) {
+                               return entry_text(material_fields(), material, 2, first);
+                             });
   if (!settings.supports.empty())
     text += '\n' + list_text("supports", settings.supports, 0,
                              [](const SupportSettings& support, bool first) {

@@ -50,10 +50,12 @@ void read_world(const YamlNode& world, Settings& settings);
 /// The lists as a scene in `folder` writes them; each key has a comment where it first occurs.
 std::string world_text(const Settings& settings, const std::filesystem::path& folder);
 
-// A testing machine: lists of supports, loads and probes of the scene itself.
+// Lists of the scene itself: materials of parts, and a testing machine of supports, loads and
+// probes.
 
 /// The names of its lists.
-inline constexpr std::array<std::string_view, 3> machine_lists = {"supports", "loads", "probes"};
+inline constexpr std::array<std::string_view, 4> machine_lists = {"materials", "supports", "loads",
+                                                                  "probes"};
 
 /// Reads the lists, all of which are optional. Throws bad input, with the scene's line, as
 /// read_world() does, for a support that begins elsewhere than at rest, and for a load of no kind

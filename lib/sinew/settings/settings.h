@@ -115,6 +115,13 @@ struct PartSettings {
   }
 };
 
+/// A part of the body of another material than `material`.
+struct LocalMaterialSettings {
+  std::string name;
+  double young_modulus = 10e3;
+  PartSettings part = {};
+};
+
 enum class HeldAxes { x, y, xy, z, xz, yz, xyz };
 
 struct SupportSettings {
@@ -190,6 +197,7 @@ struct Settings {
   BindingOptions binding;
   WorldSettings world;
   std::vector<BoundSettings> bound;  ///< section binding, list explicit
+  std::vector<LocalMaterialSettings> materials;
   std::vector<SupportSettings> supports;
   std::vector<LoadSettings> loads;
   std::vector<ProbeSettings> probes;

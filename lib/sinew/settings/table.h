@@ -71,6 +71,8 @@ std::span<const Field<ValueKeySettings>> strength_fields();    ///< world.fields
 std::span<const Field<MuscleSettings>> muscle_fields();        ///< world.muscles[]
 std::span<const Field<ValueKeySettings>> activation_fields();  ///< world.muscles[].keys[]
 
+std::span<const Field<LocalMaterialSettings>> material_fields();  ///< materials[]
+
 // Lists of a testing machine, and the keys of their entries; those of supports are as obstacles'.
 std::span<const Field<SupportSettings>> support_fields();  ///< supports[]
 std::span<const Field<LoadSettings>> load_fields();        ///< loads[]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of a testing machine: supports, loads and probes.
+// The rows of lists whose entries name parts of the body: materials, and those of a testing
+// machine, supports, loads and probes.
 #include <sinew/settings/row.h>
 
 namespace sinew {
@@ -42,6 +43,19 @@ void add_part(std::vector<Field<Owner>>& rows) {
 template <class Owner>
 Field<Owner> pivot(std::string_view help) {
   return field<Owner>("", "pivot", SINEW_AT(Owner, pivot), "m", help);
+}
+
+std::vector<Field<LocalMaterialSettings>> make_materials() {
+  using M = LocalMaterialSettings;
+  std::vector<Field<M>> rows = {
+      required(field<M>("", "name", SINEW_AT(M, name), "", "unique name of the material")),
+      required(field<M>("", "young_modulus", SINEW_AT(M, young_modulus), "Pa",
+                        "Young's modulus of its part of the body, instead of "
+                        "material.young_modulus",
+                        positive)),
+  };
+  add_part(rows);
+  return rows;
 }
 
 std::vector<Field<SupportSettings>> make_supports() {
@@ -112,6 +126,11 @@ std::span<const Field<LoadSettings>> load_fields() {
 
 std::span<const Field<ValueKeySettings>> factor_fields() {
   static const auto table = make_factors();
+  return table;
+}
+
+std::span<const Field<LocalMaterialSettings>> material_fields() {
+  static const auto table = make_materials();
   return table;
 }
 

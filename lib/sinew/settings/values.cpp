@@ -234,6 +234,7 @@ std::vector<std::string> homes_of(std::string_view name) {
   search(support_fields(), "supports");
   search(load_fields(), "loads");
   search(factor_fields(), "loads[].keys");
+  search(material_fields(), "materials");
   search(probe_fields(), "probes");
   return homes;
 }

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of a body with moduli of their own: bars in series and in parallel, against closed forms.
+
+usage: materials_test.py BIN SOURCE      folder of the programs, folder of the project
+"""
+import csv
+import functools
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import small_run
+
+SOURCE = small_run.SOURCE
+E, LENGTH, WIDTH, R = 1e5, 0.692965, 0.155563, 0.01
+
+BAR = """
+body: {{mesh: {source}/data/meshes/box.obj, radius: 0.01}}
+material: {{model: bonded, young_modulus: 1e5}}
+{materials}
+supports:
+  - {{name: below, hold: z, facing: [0, 0, -1]}}
+  - {{name: axis, hold: xy, center: [0, 0, 0.35], radius: 0.009}}
+  - {{name: edge, hold: y, center: [0.07, 0, 0.35], radius: 0.012}}
+  - name: above
+    hold: z
+    facing: [0, 0, 1]
+    keys: [{{time: 0}}, {{time: 1, translation: [0, 0, 0.007]}}]
+probes:
+  - {{name: lower, low: [-1, -1, 0.1], high: [1, 1, 0.25]}}
+  - {{name: upper, low: [-1, -1, 0.45], high: [1, 1, 0.6]}}
+solver: {{method: static, duration: 1}}
+output: {{interval: 1}}
+"""
+
+sinew = functools.partial(small_run.sinew, check=0)
+
+
+class Materials(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.out = self.folder / "run"
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def pull(self, materials, out=None, check=0):
+        path = self.folder / "bar.yaml"
+        path.write_text(BAR.format(source=SOURCE, materials=materials))
+        return sinew("simulate", path, "-o", out or self.out, check=check)
+
+    def last(self, name, row_of, column, out=None):
+        with open((out or self.out) / name, newline="") as file:
+            rows = [row for row in csv.DictReader(file) if row["name"] == row_of]
+        return float(rows[-1][column])
+
+    def force(self, out=None):
+        return self.last("supports.csv", "above", "force_z", out)
+
+    def test_in_series_strains_are_as_compliances(self):
+        plain = self.folder / "plain"
+        self.pull("", out=plain)
+        self.pull("materials: [{name: bone, young_modulus: 4e5, point: [0, 0, 0.3465], "
+                  "normal: [0, 0, 1]}]")
+        soft = self.last("probes.csv", "lower", "strain_zz")
+        hard = self.last("probes.csv", "upper", "strain_zz")
+        self.assertAlmostEqual(soft / hard, 4, delta=0.08)
+        self.assertAlmostEqual(self.force() / self.force(plain), 1.6, delta=0.03)
+
+    def test_in_parallel_forces_add(self):
+        plain = self.folder / "plain"
+        self.pull("", out=plain)
+        self.pull("materials: [{name: bone, young_modulus: 4e5, point: [0.0001, 0, 0], "
+                  "normal: [1, 0, 0]}]")
+        # Half of the planes beside the middle one, whose bonds are of both.
+        self.assertAlmostEqual(self.force() / self.force(plain), 2.5, delta=0.35)
+
+    def test_the_same_modulus_makes_no_difference(self):
+        plain = self.folder / "plain"
+        self.pull("", out=plain)
+        self.pull("materials: [{name: bone, young_modulus: 1e5, low: [-1, -1, 0.2], "
+                  "high: [1, 1, 0.4]}]")
+        one, other = (json.loads((out / "run.json").read_text())["state_hash"]
+                      for out in (plain, self.out))
+        self.assertEqual(one, other)
+
+    def test_series_tell_the_material(self):
+        self.pull("materials: [{name: bone, young_modulus: 4e5, point: [0, 0, 0.3465], "
+                  "normal: [0, 0, 1]}, {name: tip, young_modulus: 2e5, facing: [0, 0, 1]}]")
+        import meshio
+        mesh = meshio.read(self.out / "particles" / "particles_000000.vtu")
+        material = mesh.point_data["material"]
+        self.assertEqual(set(material), {0, 1, 2})
+        self.assertTrue(all(mesh.points[material == 1][:, 2] > 0.34))
+        self.assertTrue(all(mesh.points[material == 2][:, 2] > 0.67))
+        sinew("measure", self.out)
+
+    def test_what_cannot_differ_is_refused(self):
+        path = self.folder / "bar.yaml"
+        path.write_text(BAR.format(source=SOURCE,
+                                   materials="materials: [{name: bone, young_modulus: 4e5}]"))
+        refused = sinew("check", path, "--set", "material.model=paper", check=2)
+        self.assertIn("only isotropic bonded parts of a body differ", refused.stderr)
+        path.write_text(BAR.format(source=SOURCE, materials="materials: [{name: none, "
+                                   "young_modulus: 4e5, center: [9, 9, 9], radius: 1}]"))
+        self.assertIn("no particle", sinew("check", path, check=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
