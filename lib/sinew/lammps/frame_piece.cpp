@@ -115,9 +115,9 @@ void write_frame_piece(const std::filesystem::path& file, const EngineSetup& set
   const VtuFormat format = format_of(setup, own.position);
   const std::vector<std::string>& names = setup.pieces->arrays;
   const ParticleSelection selection{{}, {names.begin(), names.end()}};
-  const ParticleFrame frame{own.particles, own.rest,         own.binding,   own.pair,
-                            own.damping,   own.bone,         own.neighbors, {},
-                            own.world,     own.broken_bonds, own.ids};
+  const ParticleFrame frame{own.particles, own.rest, own.binding,      own.pair,
+                            own.damping,   own.bone, own.neighbors,    {},
+                            own.world,     {},       own.broken_bonds, own.ids};
   Dataset data = particles_dataset(frame, std::move(own.position), moment, selection);
   const std::string beginning = Ranks::first() ? vtu_beginning(format) : "";
   write_in_turn(file, own.ids.empty() ? beginning : beginning + vtu_piece(data, format));

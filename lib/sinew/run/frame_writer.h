@@ -57,7 +57,9 @@ class FrameWriter {
   /// written, also for an earlier frame: then nothing more is written.
   void add(Simulation& simulation, double time, bool begun = false);
   /// Whether others may write the particles of frames, each a piece of them.
-  bool can_be_begun() const { return arrays_.empty() && selection_.ids.empty(); }
+  bool can_be_begun() const {
+    return arrays_.empty() && selection_.ids.empty() && body_.material_number.empty();
+  }
   /// Runs the job that make() returns once all earlier frames are written, unless that fails.
   void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
   /// Waits until all frames are written and named by the PVDs. Throws not written.
