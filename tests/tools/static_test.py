@@ -110,6 +110,21 @@ class Static(unittest.TestCase):
         self.assertEqual((self.out / "supports.csv").read_text(),
                          (whole / "supports.csv").read_text())
 
+    def test_the_first_frame_may_fail_too(self):
+        failed = self.run_scene(CLAMP.replace("{time: 0, factor: 0}", "{time: 0, factor: 1}").replace("FORCE", "5"),
+                                "--set", "solver.iterations=10", "--set", "solver.duration=0", check=3)
+        self.assertIn("not in equilibrium", failed.stderr)
+        self.assertEqual(self.record()["frames"], 0)
+
+    def test_rounding_hides_small_residuals_of_small_loads(self):
+        machine = CLAMP.replace("FORCE", "2e-3")
+        self.run_scene(machine)
+        last = self.record()["load_steps"][-1]
+        self.assertGreater(last["residual"], 1e-6)
+        self.assertLess(last["residual"], 1e-4)
+        asked = self.run_scene(machine, "--force", "--set", "solver.residual=1e-6", check=3)
+        self.assertIn("rounding", asked.stderr)
+
     def refuse(self, machine, *settings, says):
         words = [word for one in settings for word in ("--set", one)]
         refused = self.run_scene(machine, *words, check=2)

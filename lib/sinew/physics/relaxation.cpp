@@ -15,7 +15,7 @@ namespace {
 constexpr double shortest = 1.0 / 64;  // of the step, before a body counts as unstable
 // Of the shear beyond yield, what flows in an iteration.
 constexpr double share_of_flow = 0.1;
-constexpr double at_rest_unloaded = 3;  // times the noise, which forces then are
+constexpr double at_rounding = 3;  // times the noise: forces that are nothing else
 
 ObstacleMotion standing(const ObstacleMotion& motion) {
   if (!motion) return motion;
@@ -80,9 +80,11 @@ void Relaxation::find_damping(const Imbalance& sums) {
 bool Relaxation::is_at_rest(const Imbalance& sums) const {
   const double flowing = step() / share_of_flow * sums.flowing;
   if (flowing > steps_.residual * reference() * radius_) return false;
-  const bool loaded = reference() > noise_;
-  if (loaded && steps_.residual * reference() < noise_) refuse_noise();
-  return sums.unbalanced <= (loaded ? steps_.residual * reference() : at_rest_unloaded * noise_);
+  if (reference() <= noise_) return sums.unbalanced <= at_rounding * noise_;
+  const double wanted = steps_.residual * reference();
+  if (wanted >= noise_) return sums.unbalanced <= wanted;
+  if (steps_.acceptable * reference() < at_rounding * noise_) refuse_noise();
+  return sums.unbalanced <= at_rounding * noise_;
 }
 
 bool Relaxation::take(const StepSums& sums) {

@@ -31,6 +31,8 @@ struct LoadSteps {
   /// Before each moment, how many iterations bones and surroundings take to get there from the one
   /// before; none: one each.
   std::vector<int> ramp = {};
+  /// A residual that rounding may leave where it hides the one above; 0: none.
+  double acceptable = 0;
 };
 
 /// The largest step of a relaxation over the step limit: bent bodies rattle beyond.

@@ -350,7 +350,7 @@ void FrameWriter::close() {
   particles_.drop_begun();
   for (Series* series : all_series()) {
     series->close();
-    checksums_->add(series->name() + ".pvd");
+    if (written_ > 0) checksums_->add(series->name() + ".pvd");  // else it has no row, and is none
   }
   bone_table_.close();
   checksums_->add("bones.csv");

@@ -201,6 +201,7 @@ LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
   steps.most_iterations = settings.solver.iterations;
   const bool single = settings.solver.precision == Precision::binary32;
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
+  steps.acceptable = settings.solver.residual ? 0 : 1e-4;
   const double crossing = crossings * crossing_time(setup.body) / setup.steps.step;
   for (const double speed : bone_speeds(setup, interval)) {
     const auto frame = static_cast<double>(steps.ramp.size());

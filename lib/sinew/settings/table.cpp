@@ -285,7 +285,8 @@ std::vector<Field<Settings>> make_solver() {
       field<S>(
           "solver", "residual", SINEW_AT(S, solver.residual), "",
           "static: the sum of all forces that nothing answers, over the largest load or "
-          "reaction, at which the body counts as at rest; auto: 1e-6, in single precision 0.01",
+          "reaction, at which the body counts as at rest; auto: 1e-6, or up to 1e-4 where rounding "
+          "leaves that, in single precision 0.01",
           {0, 0.1, true}),
       field<S>("solver", "iterations", SINEW_AT(S, solver.iterations), "",
                "static: the most iterations for a frame, after which the run fails and can be "
