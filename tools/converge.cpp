@@ -53,8 +53,7 @@ void check_radii(const std::vector<double>& radii) {
 
 std::vector<std::string> words_for(const Options& options, const Common& common,
                                    const fs::path& folder, double radius) {
-  std::vector<std::string> words{"--json", "--threads", std::to_string(common.threads),
-                                 "--invoked-as", "converge"};
+  std::vector<std::string> words{"--json", "--threads", std::to_string(common.threads)};
   if (common.quiet) words.push_back("--quiet");
   for (const Override& override : common.overrides)
     words.insert(words.end(), {"--set", override.path + '=' + override.value});
@@ -103,7 +102,10 @@ Exit run_all(const Options& options, const Common& common, const fs::path& study
     if (options.resume && is_finished(options, common, folder, radius)) continue;
     say(common, "radius " + number_text(radius) + " m:");
     const ChildEnd end = run_child("simulate", words_for(options, common, folder, radius));
-    if (end.exit != 0) return static_cast<Exit>(end.exit);
+    const auto exit = static_cast<Exit>(end.exit);
+    if (exit == Exit::interrupted)
+      say(common, "or with the whole study: the same command and --resume");
+    if (exit != Exit::done) return exit;
   }
   return Exit::done;
 }

@@ -112,7 +112,7 @@ inline const std::vector<Hostile> scenes = {
     {"UnknownKeyOfBone", replaced("tail", "tial"), "8:7", "did you mean tail?"},
     {"UnknownKeyOfTrack", motion("      interpolate: smooth\n"), "12:7", "interpolation?"},
     {"UnknownKeyOfKey", motion("      keys:\n        - tim: 0\n"), "13:11", "did you mean time?"},
-    {"UnknownKeyLikeNone", small_scene + "solver:\n  zzz: 1\n", "10:3", "use one of integrator"},
+    {"UnknownKeyLikeNone", small_scene + "solver:\n  zzz: 1\n", "10:3", "use one of method"},
     {"KeyOutsideItsSection", small_scene + "duration: 1\n", "9:1", "belongs into solver"},
     {"HugeKey", small_scene + "x" + times(900, "y") + ": 1\n", "9:1", "..."},
     {"ControlInKey", small_scene + "\"a\\nb\\e[31m\": 1\n", "9:1", "a?b?[31m"},

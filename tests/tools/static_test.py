@@ -124,6 +124,7 @@ class Static(unittest.TestCase):
         self.assertLess(last["residual"], 1e-4)
         asked = self.run_scene(machine, "--force", "--set", "solver.residual=1e-6", check=3)
         self.assertIn("rounding", asked.stderr)
+        self.assertIn("make the load", asked.stderr)
 
     def refuse(self, machine, *settings, says):
         words = [word for one in settings for word in ("--set", one)]

@@ -155,6 +155,9 @@ class Studies(unittest.TestCase):
             self.assertEqual(done.returncode, 2, words)
             self.assertIn(said, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        done = sinew("simulate", self.scene, "-o", self.at / "x", "--set", "supports.0.hold=xy")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("'supports' is a list", done.stderr)
 
 
 if __name__ == "__main__":

@@ -122,7 +122,7 @@ def turek_hron():
     for name, modulus, down, back in ("csm1", 1.4e6, -66.1023e-3, -7.18767e-3), ("csm2", 5.6e6, -16.9739e-3, -0.469e-3):
         depth = thick / 3
         yield Case(f"turek_{name}", f"Turek and Hron's {name.upper()}: a beam under its weight, plane strain",
-                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth), thick, [9, 15, 21, 27],
+                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth), thick, [9, 15, 21],
                    elastic(modulus, 0.4),
                    "supports:\n  - {name: cylinder, facing: [-1, 0, 0]}\n"
                    "  - {name: front, hold: z, facing: [0, 0, 1]}\n  - {name: back, hold: z, facing: [0, 0, -1]}\n"

@@ -125,8 +125,8 @@ void Relaxation::refuse_noise() const {
                                   three_digits(steps_.residual) +
                                   ": rounding hides what is below " +
                                   three_digits(noise_ / reference()) +
-                                  "; set solver.precision to double, or make solver.residual "
-                                  "larger");
+                                  "; make the load or solver.residual larger, or in single "
+                                  "precision set solver.precision to double");
 }
 
 std::string Relaxation::moment_text() const {

@@ -66,6 +66,10 @@ void apply_override(const Override& given, YamlNode& scene) {
   const auto dot = given.path.find('.');
   YamlNode& section = child(scene, given.path.substr(0, dot), place);
   if (section.kind == Kind::empty) section.kind = Kind::map;
+  if (section.kind == Kind::list)
+    throw bad_input(place,
+                    "'" + given.path.substr(0, dot) + "' is a list, whose entries cannot be set",
+                    "edit them in the scene");
   if (section.kind != Kind::map) return;
   if (!is_absent_word(value)) remove(scene, rival_of(given.path));
   child(section, given.path.substr(dot + 1), place) = std::move(value);

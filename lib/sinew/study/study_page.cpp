@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -15,7 +16,9 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_curves = 12;  // of results over the radius
+constexpr std::size_t most_curves = 30;  // of results over the radius
+// Of the largest result of its unit: less is zero but for rounding and the sides of the packing.
+constexpr double telling = 1e-3;
 
 std::string title_of(const Study& study) {
   std::string title;
@@ -88,11 +91,18 @@ LawCurve curve_of(const Study& study, const StudiedResult& result) {
 }
 
 std::vector<LawCurve> curves_of(const Study& study) {
-  std::vector<LawCurve> curves;
   const bool machine = !study.runs.front().machine.empty();
+  std::map<std::string, double> largest;  // by unit
+  const auto size_of = [](const StudiedResult& result) { return std::abs(result.values.back()); };
+  const auto drawn = [&](const StudiedResult& result) {
+    return has_limit(result) && is_headline(result, machine) && spread_of(result) > 0;
+  };
   for (const StudiedResult& result : study.results)
-    if (curves.size() < most_curves && has_limit(result) && is_headline(result, machine) &&
-        spread_of(result) > 0)
+    if (drawn(result)) largest[result.unit] = std::max(largest[result.unit], size_of(result));
+  std::vector<LawCurve> curves;
+  for (const StudiedResult& result : study.results)
+    if (curves.size() < most_curves && drawn(result) &&
+        size_of(result) > telling * largest[result.unit])
       curves.push_back(curve_of(study, result));
   return curves;
 }
