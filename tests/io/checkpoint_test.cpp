@@ -42,6 +42,8 @@ Checkpoint sample(bool single = false) {
   else
     state.moving = columns<MovingInDouble>();
   state.rest_length = {0.1, 0, 0.3};
+  state.sliding_pairs = {0, 3, 3, 0};
+  state.sliding = {0.1, 0.2, 0.3, -0.1, -0.2, -0.3};
   return sample;
 }
 

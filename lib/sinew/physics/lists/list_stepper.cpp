@@ -247,7 +247,7 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
   const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   const ForceProbe<Real> probe(work, now, layout_, newtons, has_muscles(*body_), of_world);
-  resize(forces, layout_.size(), body_->world != nullptr);
+  resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
   on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
@@ -366,6 +366,7 @@ template <class Real>
 void ListStepper<Real>::save(SimulationState& state) const {
   layout_.save(state);
   bonds_.save(state);
+  surroundings_.save(state);
   state.kicked = kicked_;
   state.mean_when_sorted = mean_when_sorted_;
 }
@@ -381,6 +382,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   bonds_ = std::move(bonds);
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();
+  surroundings_.restore(state);
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;
   steps_ = state.steps;
