@@ -17,6 +17,9 @@
 
 namespace sinew {
 
+/// "from [0, 0, 0] to [1, 1, 2] m": the box around points, as errors name it.
+std::string extent_text(const Points& points);
+
 class Parts {
  public:
   /// `surface`: of the body, as filled; only what is on it needs one. `component`: of each

@@ -63,8 +63,10 @@ Chart chart_of_distances(const RunComparison& compared) {
   return planned_chart(plan, compared.differences, compared.first.radius);
 }
 
-std::vector<Chart> charts_of(const RunComparison& compared) {
-  std::vector<Chart> charts{chart_of_distances(compared)};
+std::vector<Chart> charts_of(const ComparisonInput& input) {
+  const RunComparison& compared = input.comparison;
+  std::vector<Chart> charts = input.charts;
+  charts.push_back(chart_of_distances(compared));
   std::set<std::string_view> drawn;
   for (const ChartPlan& plan : chart_plans())
     for (const std::string_view metric : plan.metrics)
@@ -74,13 +76,14 @@ std::vector<Chart> charts_of(const RunComparison& compared) {
 }
 
 /// The buttons of worst frames show the largest differences.
-PageData drawn_data(const RunComparison& compared) {
+PageData drawn_data(const ComparisonInput& input) {
+  const RunComparison& compared = input.comparison;
   PageData data;
   for (const FrameMetrics& frame : compared.first.frames) {
     data.times.push_back(frame.time);
     data.angles.push_back(frame.bone_angle);
   }
-  data.charts = charts_of(compared);
+  data.charts = charts_of(input);
   Summary worst = compared.summary;
   for (std::size_t i = 0; i < worst.metrics.size(); ++i)
     worst.metrics[i].worst_frame = largest_difference(compared, i);
@@ -231,7 +234,7 @@ std::string comparison_html(const ComparisonInput& input) {
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +
       folded("The resolved scene of " + name_of(compared, true), input.second_scene);
   return page_html({compared.first.name + " and " + compared.second.name, input.version, body,
-                    "compare.csv", drawn_data(compared), input.playback});
+                    "compare.csv", drawn_data(input), input.playback});
 }
 
 }  // namespace sinew
