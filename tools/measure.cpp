@@ -114,7 +114,8 @@ MeasureOptions how_to_measure(const Options& options, const Common& common) {
   MeasureOptions how;
   for (const std::string& text : options.limits) how.limits.push_back(parse_limit(text));
   if (!options.reference.empty()) how.reference = open_surfaces(options.reference);
-  how.arrays = requested_arrays(options.arrays);
+  requested_arrays(options.arrays);  // refuses other names before anything is read
+  how.arrays = options.arrays;
   how.ahead = common.threads != 1;
   return how;
 }

@@ -26,14 +26,14 @@ std::vector<Sample> ascending(std::span<const double> sizes, std::span<const dou
 }
 
 /// A limit and some powers of the size by least squares.
-struct Fit {
+struct SizeFit {
   double at_zero;
   double spread;          ///< standard deviation of the residuals; 0 where it meets all values
   double standard_error;  ///< of at_zero
   Eigen::Index free;      ///< values beyond those that it needs
 };
 
-Fit fitted(std::span<const Sample> samples, const std::vector<int>& powers) {
+SizeFit fitted(std::span<const Sample> samples, const std::vector<int>& powers) {
   const auto rows = static_cast<Eigen::Index>(samples.size());
   const auto columns = static_cast<Eigen::Index>(powers.size());
   Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(rows, columns + 1);
@@ -65,7 +65,7 @@ double student_t(Eigen::Index free) {
 }
 
 /// Half of what tells fits apart: of the likelihood's logarithm, less the price of parameters.
-double evidence(const Fit& fit, double values, double rounding) {
+double evidence(const SizeFit& fit, double values, double rounding) {
   const double parameters = values - static_cast<double>(fit.free) + 1;
   const double squares = static_cast<double>(fit.free) * fit.spread * fit.spread;
   const double few = values < static_cast<double>(to_weigh_parabola)
@@ -75,9 +75,9 @@ double evidence(const Fit& fit, double values, double rounding) {
 }
 
 /// The mean of fits weighted by their evidence; orders: theirs.
-ContinuumLimit weighed(const std::vector<Fit>& fits, double values, double rounding) {
+ContinuumLimit weighed(const std::vector<SizeFit>& fits, double values, double rounding) {
   std::vector<double> weight;
-  for (const Fit& fit : fits) weight.push_back(evidence(fit, values, rounding));
+  for (const SizeFit& fit : fits) weight.push_back(evidence(fit, values, rounding));
   const double most = *std::max_element(weight.begin(), weight.end());
   double sum = 0;
   for (double& one : weight) sum += one = std::exp(one - most);
@@ -135,12 +135,12 @@ ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const do
   const Sample* s = samples.data();
   const double finest = extrapolated(s, 1);
   if (samples.size() == 2) return {finest, std::abs(finest - s[0].value), not_measured};
-  const Fit line = fitted(samples, {1}), square = fitted(samples, {2});
-  const Fit parabola = fitted(samples, {1, 2});
-  const Fit& better = line.spread <= square.spread ? line : square;
+  const SizeFit line = fitted(samples, {1}), square = fitted(samples, {2});
+  const SizeFit parabola = fitted(samples, {1, 2});
+  const SizeFit& better = line.spread <= square.spread ? line : square;
   const bool many = samples.size() >= to_weigh_parabola;
   if (samples.size() > 3 && (many || parabola.spread > better.spread / clearly_better)) {
-    std::vector<Fit> fits = {line, square};
+    std::vector<SizeFit> fits = {line, square};
     if (many) fits.push_back(parabola);
     return weighed(fits, static_cast<double>(samples.size()), rounding_of(samples));
   }

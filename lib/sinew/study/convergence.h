@@ -30,9 +30,9 @@ struct ContinuumLimit {
 /// the parabola is the third), and the order is that of the term that outweighs the other.
 ///
 /// Nine of ten limits of values that scatter are within the error, which includes how far the terms
-/// disagree. That of a parabola is at least the distance from the limit of the better term; of three
-/// sizes, from those of a line, of the line through the smaller two, and of the extrapolation by the
-/// order (Roache's, doi 10.1115/1.2910291) where it is between 1/2 and 3.
+/// disagree. That of a parabola is at least the distance from the limit of the better term; of
+/// three sizes, from those of a line, of the line through the smaller two, and of the extrapolation
+/// by the order (Roache's, doi 10.1115/1.2910291) where it is between 1/2 and 3.
 ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values);
 
 }  // namespace sinew

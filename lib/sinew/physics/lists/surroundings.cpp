@@ -293,7 +293,8 @@ WorldSums Surroundings<Real>::sums() const {
     all.held_kinetic += piece.sums.held_kinetic;
     all.applied += piece.sums.applied;
   }
-  for (const LoadNow& load : loads_) all.applied += load.size();
+  for (const LoadNow& load : loads_) all.loaded += load.size();
+  all.applied += all.loaded;
   return all;
 }
 

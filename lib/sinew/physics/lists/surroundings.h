@@ -29,6 +29,7 @@ struct WorldSums {
   double contact_energy = 0, held_kinetic = 0;
   /// The lengths of all forces on particles but those of supports, half of those of pins, N.
   double applied = 0;
+  double loaded = 0;  ///< of it, of loads
 };
 
 template <class Real>
