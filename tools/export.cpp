@@ -116,7 +116,7 @@ void print(const Deck& deck, const std::filesystem::path& target, const Common& 
   Results results;
   const bool boxes = is_hexahedron(deck.mesh.elements.front().kind);
   results.add("elements", deck.mesh.elements.size());
-  results.add("kind", boxes ? "C3D20R (hexahedra)" : "C3D10 (tetrahedra)");
+  results.add("kind", boxes ? "C3D20 (hexahedra)" : "C3D10 (tetrahedra)");
   results.add("nodes", deck.mesh.nodes.size());
   results.add("steps", deck.steps.size());
   results.add("file", target.string());

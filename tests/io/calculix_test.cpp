@@ -92,7 +92,7 @@ TEST_F(Calculix, ResultsAreReadWithTheirTimes) {
 
 TEST_F(Calculix, DamagedResultsAreRefusedWithTheirLine) {
   const std::string good = tetrahedron();
-  expect_refused(good, "        40\n -3", "        41\n -3", {"a.frd:9", "no node 41"});
+  expect_refused(good, "        40\n -3", "        41\n -3", {"a.frd:10", "no node 41"});
   expect_refused(good, "         7    3", "         7    7", {"type 7", "tetrahedra of 4 or 10"});
   expect_refused(good, "                            4                                     1",
                  "                            4                                     2",
@@ -101,7 +101,7 @@ TEST_F(Calculix, DamagedResultsAreRefusedWithTheirLine) {
   expect_refused(good, "1.500000000", "-1.50000000", {"time runs backward"});
   expect_refused(good, row(20, {1, 0, 0}), row(10, {1, 0, 0}), {"node 10 is there twice"});
   expect_refused(good, row(30, {0.3, 0, -3}), "", {"lacks displacements"});
-  expect_bad_input([&] { read(good.substr(0, good.size() / 2)); }, {"ends within a block"});
+  expect_bad_input([&] { read(good.substr(0, good.rfind(" -3"))); }, {"ends within a block"});
   expect_bad_input([&] { read("nothing"); }, {"holds no elements"});
   expect_bad_input([&] { read(good.substr(0, good.find("    1PSTEP"))); },
                    {"no displacements", "*NODE FILE"});

@@ -13,7 +13,7 @@ SCENE = """
 body: {{mesh: body.obj, radius: 0.01}}
 material: {material}
 {machine}
-solver: {{method: static, duration: {duration}}}
+solver: {{{solver}, duration: {duration}}}
 output: {{interval: {interval}, only: displacement}}
 """
 
@@ -28,11 +28,40 @@ def box(size, low=(0, 0, 0)):
     return prism([(x, y), (x + dx, y), (x + dx, y + dy), (x, y + dy)], z, z + dz)
 
 
+def hexahedron(points):
+    """Eight corners as points and faces."""
+    return points, BOX
+
+
+def revolved(profile, sides):
+    """About z: (radius, z) from the lower end of the axis to its upper one."""
+    low, *rings, high = profile
+    points = [(0, 0, low[1])]
+    for radius, z in rings:
+        turns = [2 * math.pi * k / sides for k in range(sides)]
+        points += [(radius * math.cos(t), radius * math.sin(t), z) for t in turns]
+    points.append((0, 0, high[1]))
+    faces = []
+    for k in range(sides):
+        n = (k + 1) % sides
+        faces += [(0, 1 + n, 1 + k), (len(points) - 1, len(points) - 1 - sides + k, len(points) - 1 - sides + n)]
+        for ring in range(len(rings) - 1):
+            a, b = 1 + ring * sides, 1 + (ring + 1) * sides
+            faces += [(a + k, a + n, b + n), (a + k, b + n, b + k)]
+    return points, faces
+
+
+def half_ball(radius, sides=96):
+    """On its flat side."""
+    angles = [math.pi / 2 * k / (sides // 4) for k in range(sides // 4)]
+    return revolved([(0, 0)] + [(radius * math.cos(a), radius * math.sin(a)) for a in angles] + [(0, radius)], sides)
+
+
 @dataclass
 class Case:
     name: str
     title: str
-    points: list            # eight corners: a hexahedron
+    shape: tuple            # points and triangles
     layer: float            # what the layers count across, m
     layers: list            # odd numbers: the packing fits at each radius
     material: str
@@ -44,6 +73,8 @@ class Case:
     within: float = 0.03    # of the expected value
     remark: str = ""
     quick: list = field(default_factory=list)  # layers of the small case of the tests; none: not one
+    solver: str = "method: static"
+    elements: float = 0     # side of finite elements at the finest radius, in radii; 0: none
 
     def radii(self, layers=None):
         return [round(self.layer / math.sqrt(2) / n, 12) for n in layers or self.layers]
@@ -51,11 +82,11 @@ class Case:
     def write(self, folder):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "body.obj").write_text(
-            "".join("v %.12f %.12f %.12f\n" % tuple(p) for p in self.points) +
-            "".join("f %d %d %d\n" % tuple(k + 1 for k in face) for face in BOX))
+            "".join("v %.12f %.12f %.12f\n" % tuple(p) for p in self.shape[0]) +
+            "".join("f %d %d %d\n" % tuple(k + 1 for k in face) for face in self.shape[1]))
         scene = folder / f"{self.name}.yaml"
-        scene.write_text(SCENE.format(material=self.material, machine=self.machine, duration=self.duration,
-                                      interval=self.interval))
+        scene.write_text(SCENE.format(material=self.material, machine=self.machine, solver=self.solver,
+                                      duration=self.duration, interval=self.interval))
         return scene
 
 
@@ -84,20 +115,43 @@ def elastica(load):
     return shot(low)[1]
 
 
+def bar(wide, length):
+    """Square, upright, its lower end on z = 0."""
+    return hexahedron(box((wide, wide, length), (-wide / 2, -wide / 2, 0)))
+
+
+def beside_elements():
+    """What has no closed form: finite elements alone are the reference."""
+    W, L, E = 0.1, 0.8, 1e5
+    held = "supports:\n  - {name: below, facing: [0, 0, -1]}\n"
+    force = 0.5 * E * W**4 / 12 / L**2
+    end = f"loads:\n  - {{name: end, force: [{force}, 0, 0], facing: [0, 0, 1]}}\nprobes:\n  - {{name: tip, facing: [0, 0, 1]}}\n"
+    yield Case("cantilever", "A cantilever of eight widths, P L^2/(E I) = 0.5", bar(W, L), W, [5, 7, 9, 13, 17],
+               elastic(E), held + end, {}, "", elements=8)
+    yield Case("two_materials", "The same, its upper half four times as soft", bar(W, L), W, [5, 7, 9, 13, 17],
+               elastic(E), held + end +
+               f"materials:\n  - {{name: soft, young_modulus: {E / 4}, low: [-1, -1, {L / 2}], high: [1, 1, {L}]}}\n",
+               {}, "", elements=8)
+    R = 0.1
+    yield Case("half_ball", "Half a ball on its clamped flat side, under its weight", half_ball(R), R, [21, 31, 41, 75],
+               elastic(E), held + "loads:\n  - {name: weight, gravity: [0, 0, -10]}\n"
+               "probes:\n  - {name: top, facing: [0, 0, 1], facing_angle: 15}\n", {}, "", elements=8)
+
+
 def bars():
     """W wide, E, isotropic bonds: a Poisson's ratio of 1/4."""
     W, E = 0.1, 1e5
     G = E / 2.5
     held = "supports:\n  - {name: below, facing: [0, 0, -1]}\n"
     L = 5 * W
-    yield Case("pull", "A bar pulled by 0.1 %, free to contract", box((W, W, L), (-W / 2, -W / 2, 0)), W, [5, 7, 9, 11],
+    yield Case("pull", "A bar pulled by 0.1 %, free to contract", bar(W, L), W, [5, 7, 9, 11],
                elastic(E),
                "supports:\n  - {name: below, hold: z, facing: [0, 0, -1]}\n"
                f"  - {{name: above, hold: z, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, translation: [0, 0, {L / 1000}]}}]}}\n"
                "  - {name: left, hold: x, facing: [-1, 0, 0]}\n  - {name: front, hold: y, facing: [0, -1, 0]}\n",
                {("above: force_z", "final"): (E * W * W / 1000, "N")}, "E A times the strain", duration=1, quick=[3, 5, 7])
     angle = 1
-    yield Case("twist", "A bar twisted by 1 degree, free to warp", box((W, W, L), (-W / 2, -W / 2, 0)), W, [5, 7, 9, 11],
+    yield Case("twist", "A bar twisted by 1 degree, free to warp", bar(W, L), W, [5, 7, 9, 11],
                elastic(E),
                "supports:\n  - {name: below, hold: xy, facing: [0, 0, -1]}\n"
                f"  - {{name: above, hold: xy, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, angle: {angle}}}]}}\n"
@@ -108,7 +162,7 @@ def bars():
     for load in (0.25, 1, 2):
         force = load * E * W**4 / 12 / L**2
         yield Case(f"elastica_{load}".replace(".", "_"), f"A cantilever with P L^2/(E I) = {load} at its end",
-                   box((W, W, L), (-W / 2, -W / 2, 0)), W, [5, 7, 9, 11], elastic(E),
+                   bar(W, L), W, [5, 7, 9, 11], elastic(E),
                    held + "loads:\n" + f"  - {{name: end, force: [{force}, 0, 0], facing: [0, 0, 1]}}\n" +
                    f"probes:\n  - {{name: tip, facing: [0, 0, 1]}}\n",
                    {("tip: displacement_x", "final"): (elastica(load) * L, "m")},
@@ -122,7 +176,7 @@ def turek_hron():
     for name, modulus, down, back in ("csm1", 1.4e6, -66.1023e-3, -7.18767e-3), ("csm2", 5.6e6, -16.9739e-3, -0.469e-3):
         depth = thick / 3
         yield Case(f"turek_{name}", f"Turek and Hron's {name.upper()}: a beam under its weight, plane strain",
-                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth), thick, [9, 15, 21],
+                   hexahedron(prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, [9, 15, 21],
                    elastic(modulus, 0.4),
                    "supports:\n  - {name: cylinder, facing: [-1, 0, 0]}\n"
                    "  - {name: front, hold: z, facing: [0, 0, 1]}\n  - {name: back, hold: z, facing: [0, 0, -1]}\n"
@@ -136,7 +190,7 @@ def cook():
     """Cook's membrane in plane stress: a thin plate, sheared at its end. Linear: the load is small."""
     scale, thin = 1e-3, 48 / 13
     yield Case("cook", "Cook's membrane, plane stress, Poisson's ratio 1/3",
-               prism([(0, 0), (48, 44), (48, 60), (0, 44)], 0, thin), thin, [3, 5, 7, 9],
+               hexahedron(prism([(0, 0), (48, 44), (48, 60), (0, 44)], 0, thin)), thin, [3, 5, 7, 9],
                elastic(1, 1 / 3, 1),
                "supports:\n  - {name: wall, facing: [-1, 0, 0]}\n"
                f"loads:\n  - {{name: shear, force: [0, {scale * thin}, 0], facing: [1, 0, 0]}}\n"
@@ -146,4 +200,4 @@ def cook():
 
 
 def cases():
-    return [*bars(), *cook(), *turek_hron()]
+    return [*bars(), *cook(), *turek_hron(), *beside_elements()]

@@ -26,7 +26,7 @@ std::string_view type_of(ElementKind kind) {
     case ElementKind::hexahedron8:
       return "C3D8I";
     case ElementKind::hexahedron20:
-      return "C3D20R";
+      return "C3D20";
     case ElementKind::tetrahedron4:
       return "C3D4";
     case ElementKind::tetrahedron10:

@@ -62,9 +62,10 @@ struct Deck {
   bool large_displacements = true;  ///< equilibrium in the deformed shape
 };
 
-/// Atomically. Hexahedra of 20 nodes are integrated at 8 points (C3D20R), those of 8 nodes have
-/// incompatible modes (C3D8I). Of each step the .frd file has displacements, stresses and forces at
-/// its end, under the step's time. Throws not written.
+/// Atomically. Hexahedra of 20 nodes are fully integrated (C3D20): with one across, a cantilever of
+/// four widths bends 2.5 % too little, where that of C3D20R bends half as far; with two, both are
+/// within 0.5 %. Those of 8 nodes have incompatible modes (C3D8I). Of each step the .frd file has
+/// displacements, stresses and forces at its end, under the step's time. Throws not written.
 void write_deck(const std::filesystem::path& path, const Deck& deck);
 
 }  // namespace sinew
