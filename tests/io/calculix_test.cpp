@@ -101,6 +101,10 @@ TEST_F(Calculix, DamagedResultsAreRefusedWithTheirLine) {
   expect_refused(good, "1.500000000", "-1.50000000", {"time runs backward"});
   expect_refused(good, row(20, {1, 0, 0}), row(10, {1, 0, 0}), {"node 10 is there twice"});
   expect_refused(good, row(30, {0.3, 0, -3}), "", {"lacks displacements"});
+  expect_refused(good, " 9999", good.substr(0, good.find("    3C")) + " 9999",
+                 {"nodes come after results"});
+  expect_refused(good, row(30, {0, 1, 0}), " -1        30         inf 0.00000E+00 0.00000E+00\n",
+                 {"no place"});
   expect_bad_input([&] { read(good.substr(0, good.rfind(" -3"))); }, {"ends within a block"});
   expect_bad_input([&] { read("nothing"); }, {"holds no elements"});
   expect_bad_input([&] { read(good.substr(0, good.find("    1PSTEP"))); },

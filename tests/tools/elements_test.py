@@ -128,6 +128,25 @@ probes:
         self.assertEqual(done.returncode, 1, done.stderr)
 
     @needs_ccx
+    def test_a_bar_turns_by_a_quarter_without_growing_thin(self):
+        self.write("""
+supports:
+  - {name: below, hold: xy, facing: [0, 0, -1]}
+  - {name: foot, hold: z, low: [-0.01, -0.01, 0], high: [0.01, 0.01, 0.02]}
+  - {name: above, hold: xy, facing: [0, 0, 1], keys: [{time: 0}, {time: 1, angle: 90}]}
+probes:
+  - {name: middle, at: [0.05, 0, 0.2]}
+""")
+        deck = self.deck()
+        self.assertEqual(deck.read_text().count("*STEP"), 6)
+        sinew("simulate", self.scene, "-o", self.out, check=0)
+        sinew("measure", self.out, "--reference", self.ccx(deck), check=0)
+        last = json.loads((self.folder / "run_reference" / "reference.json").read_text())["frames"][-1]
+        for found in last["middle: displacement by elements"], last["middle: displacement"]:  # by half of it
+            self.assertAlmostEqual(found[0], 0.05 * (math.sqrt(0.5) - 1), delta=5e-4)
+            self.assertAlmostEqual(found[1], 0.05 * math.sqrt(0.5), delta=5e-4)
+
+    @needs_ccx
     def test_a_bent_bar_is_near_the_elements_at_every_particle(self):
         self.write("supports:\n  - {name: below, facing: [0, 0, -1]}\n"
                    "loads:\n  - {name: end, force: [0.5, 0, 0], facing: [0, 0, 1]}\n", duration=0)

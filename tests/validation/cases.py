@@ -3,6 +3,7 @@
 
     for case in cases(): case.write(folder)      # scene.yaml and body.obj
 """
+import csv
 import math
 from dataclasses import dataclass, field
 
@@ -75,6 +76,7 @@ class Case:
     quick: list = field(default_factory=list)  # layers of the small case of the tests; none: not one
     solver: str = "method: static"
     elements: float = 0     # side of finite elements at the finest radius, in radii; 0: none
+    measured: dict = field(default_factory=dict)  # result -> (of the folder of a run, value, unit)
 
     def radii(self, layers=None):
         return [round(self.layer / math.sqrt(2) / n, 12) for n in layers or self.layers]
@@ -133,9 +135,9 @@ def beside_elements():
                f"materials:\n  - {{name: soft, young_modulus: {E / 4}, low: [-1, -1, {L / 2}], high: [1, 1, {L}]}}\n",
                {}, "", elements=8)
     R = 0.1
-    yield Case("half_ball", "Half a ball on its clamped flat side, under its weight", half_ball(R), R, [21, 31, 41, 75],
+    yield Case("half_ball", "Half a ball on its clamped flat side, under its weight", half_ball(R), R, [21, 31, 41, 81],
                elastic(E), held + "loads:\n  - {name: weight, gravity: [0, 0, -10]}\n"
-               "probes:\n  - {name: top, facing: [0, 0, 1], facing_angle: 15}\n", {}, "", elements=8)
+               "probes:\n  - {name: top, facing: [0, 0, 1], facing_angle: 15}\n", {}, "", elements=14)
 
 
 def bars():
@@ -158,6 +160,21 @@ def bars():
                "  - {name: foot, hold: z, low: [-0.02, -0.02, -1], high: [0.02, 0.02, 0.02]}\n",
                {("above: moment_z", "final"): (0.1406 * G * W**4 * math.radians(angle) / L, "N m")},
                "0.1406 G W^4 per length (Timoshenko and Goodier, Theory of Elasticity)", duration=1)
+    turned = 45
+    yield Case("torsion", "The same bar twisted by 45 degrees", bar(W, L), W, [5, 7, 9, 11], elastic(E),
+               "supports:\n  - {name: below, hold: xy, facing: [0, 0, -1]}\n"
+               f"  - {{name: above, hold: xy, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, angle: {turned}}}]}}\n"
+               "  - {name: foot, hold: z, low: [-0.02, -0.02, -1], high: [0.02, 0.02, 0.02]}\n",
+               {("above: moment_z", "final"): (0.1406 * G * W**4 * math.radians(turned) / L, "N m")},
+               "the same, for small angles", duration=1, interval=0.25)
+    H = 6 * W
+    yield Case("column", "A column of six widths, Poisson's ratio 0.45, twisted by 180 degrees", bar(W, H), W, [5, 7, 9, 11],
+               elastic(E, 0.45),
+               "supports:\n  - {name: below, facing: [0, 0, -1]}\n"
+               "  - {name: above, facing: [0, 0, 1], keys: [{time: 0}, {time: 1, angle: 180}]}\n"
+               f"probes:\n  - {{name: middle, at: [{W / 2}, 0, {H / 2}]}}\n",
+               {("middle: displacement_x", "final"): (-W / 2, "m"), ("inverted", "worst"): (0, "particles")},
+               "the middle turns by 90 degrees, by symmetry; nothing is turned inside out", duration=1, interval=0.125)
     L = 21 * W
     for load in (0.25, 1, 2):
         force = load * E * W**4 / 12 / L**2
@@ -186,6 +203,47 @@ def turek_hron():
                    "Turek and Hron 2006, doi 10.1007/3-540-34596-5_15")
 
 
+def frequency(run, probe, column):
+    """Of a swing from rest at one of its ends: until it is back there."""
+    with (run / "probes.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["name"] == probe]
+    times, values = ([float(row[name]) for row in rows] for name in ("time", column))
+    far = max(range(len(values)), key=lambda k: abs(values[k]))
+    back = min(range(far, len(values) - 1), key=lambda k: abs(values[k] - values[0]))
+    a, b, c = values[back - 1:back + 2]  # the end of a parabola through three frames
+    return 1 / (times[back] + (a - c) / (2 * (a - 2 * b + c)) * (times[1] - times[0]))
+
+
+def swinging_beam():
+    """Turek and Hron's CSM3: the beam let go, without damping, over a little more than a period."""
+    thick, end, depth, start = 0.02, 0.6, 0.02 / 3, 0.2 + math.sqrt(0.05**2 - 0.01**2)
+    yield Case("turek_csm3", "Turek and Hron's CSM3: the beam of CSM1 let go", hexahedron(
+                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, [9, 15, 21],
+               elastic(1.4e6, 0.4)[:-1] + ", damping: 0}",
+               "supports:\n  - {name: cylinder, facing: [-1, 0, 0]}\n"
+               "  - {name: front, hold: z, facing: [0, 0, 1]}\n  - {name: back, hold: z, facing: [0, 0, -1]}\n"
+               "loads:\n  - {name: weight, gravity: [0, -2, 0]}\n"
+               f"probes:\n  - {{name: A, at: [{end}, {thick / 2}, {depth / 2}]}}\n",
+               {("A: displacement_y", "largest"): (-(63.607 + 65.160) * 1e-3, "m"),
+                ("A: displacement_x", "largest"): (-(14.305 + 14.305) * 1e-3, "m")},
+               "Turek and Hron 2006, mean and amplitude", duration=1.05, interval=0.01, solver="method: dynamic",
+               measured={"frequency": (lambda run: frequency(run, "A", "displacement_y"), 1.0995, "Hz")})
+
+
+def soft_cantilever():
+    """Its grip, half a height deep, ends in a layer of particles."""
+    H, L = 0.04, 0.1
+    yield Case("soft_cantilever", "A soft cantilever under its weight, Poisson's ratio 0.45",
+               hexahedron(box((L + H / 2, H, H), (-H / 2, -H / 2, -H / 2))), H, [9, 13, 17, 25],
+               elastic(5e4, 0.45, 1265),
+               f"supports:\n  - {{name: grip, low: [-1, -1, -1], high: [{H / 1e6}, 1, 1]}}\n"
+               "loads:\n  - {name: weight, gravity: [0, -9.8, 0]}\n"
+               f"probes:\n  - {{name: tip, at: [{L}, 0, 0]}}\n",
+               {("tip: displacement_y", "final"): (-25.86e-3, "m")},
+               "Zhu, Zhang and Hu 2022, doi 10.1016/j.jcp.2022.111105, by SPH of 24 particles across, not extrapolated",
+               within=0.05, elements=6)
+
+
 def cook():
     """Cook's membrane in plane stress: a thin plate, sheared at its end. Linear: the load is small."""
     scale, thin = 1e-3, 48 / 13
@@ -200,4 +258,4 @@ def cook():
 
 
 def cases():
-    return [*bars(), *cook(), *turek_hron(), *beside_elements()]
+    return [*bars(), *cook(), *turek_hron(), *swinging_beam(), *soft_cantilever(), *beside_elements()]

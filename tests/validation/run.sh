@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs all cases and writes their results into README.md.
-#   tests/validation/run.sh            # a quarter of an hour
+#   tests/validation/run.sh            # half an hour
 #   tests/validation/run.sh --check    # fails where a result is not within its share, or README.md differs
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -9,5 +9,6 @@ source=$(cd "$here/../.." && pwd)
 out=$source/build/validation
 [ -x "$source/build/bin/sinew" ] || { echo "build sinew first: cmake --build build" >&2; exit 2; }
 /usr/bin/python3 "$here/validate.py" "$source/build/bin" "$out" || failed=1
+/usr/bin/python3 "$here/paper_figure.py" "$source/build/bin" "$out" "$source/data/pictures/paper_and_elasticity.png" || failed=1
 /usr/bin/python3 "$here/validate.py" --page "$out/results.json" "$here/README.md" ${1:+"$1"}
 exit "${failed:-0}"

@@ -62,19 +62,35 @@ def found(study, name, kind):
     return next(one for one in study["results"] if (one["name"], one["kind"]) == (name, kind))
 
 
-def results_of(case, study, seconds, layers):
+def parabola_at_zero(radii, values):
+    """The limit by three radii, as sinew converge has it, and how far the line through the finest two is off."""
+    (a, b, c), (p, q, r) = radii[-3:], values[-3:]
+    limit = p * b * c / ((a - b) * (a - c)) + q * a * c / ((b - a) * (b - c)) + r * a * b / ((c - a) * (c - b))
+    return limit, abs(limit - (r * b - q * c) / (b - c))
+
+
+def results_of(case, study, seconds, layers, folder):
+    particles = [run["particles"] for run in study["runs"]]
+    about = {"case": case.name, "title": case.title, "source": case.source, "within": case.within,
+             "layers": layers or case.layers, "particles": particles, "seconds": seconds}
+    for name, (of_run, expected, unit) in case.measured.items():
+        values = [of_run(folder / "runs" / run["name"]) for run in study["runs"]]
+        limit, error = parabola_at_zero([run["radius"] for run in study["runs"]], values)
+        yield {**about, "result": name, "unit": unit, "expected": expected, "values": values, "limit": limit,
+               "error": error, "order": None}
     for (name, kind), (expected, unit) in case.expected.items():
         one = found(study, name, kind)
-        yield {"case": case.name, "title": case.title, "result": name, "unit": unit, "expected": expected,
-               "source": case.source, "within": case.within, "layers": layers, "values": one["values"],
-               "limit": one["limit"], "error": one["error"], "order": one["order"],
-               "particles": [run["particles"] for run in study["runs"]], "seconds": seconds}
+        yield {**about, "result": name, "unit": unit, "expected": expected, "values": one["values"],
+               "limit": one["limit"], "error": one["error"], "order": one["order"]}
+
 
 
 def holds(one):
     """Within its share of the expected value; every particle within that of the largest displacement."""
     if "max" in one:
         return one["max"] <= one["within"]
+    if one["expected"] == 0:
+        return not any(one["values"])
     return abs(one["limit"] - one["expected"]) <= one["within"] * abs(one["expected"])
 
 
@@ -82,14 +98,24 @@ def percent(value):
     return f"{100 * value:+.1f} %"
 
 
+def number(value, digits=4):
+    return f"{value:.{digits}g}" if value is not None else "–"
+
+
+def off(value, expected):
+    if value is None:
+        return "–"
+    return percent(value / expected - 1) if expected else f"{value:.3g}"
+
+
 def table(results):
     lines = ["| body | result | expected | layers: off by | limit | off by | order |", "| --- | --- | --: | --- | --: | --: | --: |"]
     for one in results:
         expected = one["expected"]
-        off = [f"{n}: {percent(value / expected - 1)}" for n, value in zip(one["layers"], one["values"])]
+        each = [f"{n}: {off(value, expected)}" for n, value in zip(one["layers"], one["values"])]
         order = "–" if one["order"] is None else f"{one['order']:.1f}"
-        lines.append(f"| {one['title']} | `{one['result']}` | {expected:.4g} {one['unit']} | {', '.join(off)} | "
-                     f"{one['limit']:.4g} ± {abs(one['error']):.2g} | {percent(one['limit'] / expected - 1)} | {order} |")
+        lines.append(f"| {one['title']} | `{one['result']}` | {expected:.4g} {one['unit']} | {', '.join(each)} | "
+                     f"{number(one['limit'])} ± {number(abs(one['error'] or 0), 2)} | {off(one['limit'], expected)} | {order} |")
     lines.append("")
     lines += [f"- {title}: {source}." for title, source in dict((one["title"], one["source"]) for one in results).items()]
     return "\n".join(lines) + "\n"
@@ -106,6 +132,19 @@ def element_table(results):
     return "\n".join(lines) + "\n"
 
 
+def paper_text(file):
+    """What paper_figure.py has found."""
+    one = json.loads(file.read_text())
+    return f"""
+![The load of a pulled and released bar: bonded, paper, and theory](../../data/pictures/paper_and_elasticity.png)
+
+The paper's bar pulls with {100 * one['modulus']:.0f} % of E times the strain at a strain of {100 * one['at']:.1f} %, is
+a tenth below it from {100 * one['leaves']:.1f} % on, and tears at {100 * one['peak']:.1f} %, near the greatest load that
+its lattice bears in uniform strain. Released, it does not return; the bonded bar does, within {100 * one['bonded']:.2g} %
+of E.
+"""
+
+
 def untimed(text):
     """Without what differs from machine to machine."""
     return re.sub(r"[\d.]+ s, \d+ MB", "", text)
@@ -114,6 +153,8 @@ def untimed(text):
 def page(results_file, readme, check):
     results = json.loads(results_file.read_text())
     text = table([one for one in results if "max" not in one]) + element_table([one for one in results if "max" in one])
+    paper = results_file.parent / "paper.json"
+    text += paper_text(paper) if paper.exists() else ""
     before = readme.read_text()
     after = MARK.sub(lambda match: match.group(1) + text + match.group(2), before)
     if check:
@@ -136,7 +177,7 @@ def keep(results, file):
 def run_case(binaries, case, folder, quick):
     layers = case.quick if quick else case.layers
     study, seconds, memory = converged(binaries, case, folder, layers)
-    yield from results_of(case, study, seconds, layers)
+    yield from results_of(case, study, seconds, layers, folder)
     if case.elements and shutil.which("ccx"):
         yield beside_elements(binaries, case, folder, study, memory, layers)
     elif case.elements:
@@ -144,12 +185,12 @@ def run_case(binaries, case, folder, quick):
 
 
 def line_of(one):
-    off = "" if holds(one) else f": NOT WITHIN {percent(one['within'])}"
+    not_within = "" if holds(one) else f": NOT WITHIN {percent(one['within'])}"
     if "max" in one:
         return (f"{one['case']} beside {one['elements']} elements: {percent(one['rms'])} rms, {percent(one['max'])} at most"
-                f"{off} ({one['seconds']:.1f} and {one['ccx_seconds']:.1f} s)")
-    return (f"{one['case']}, {one['result']}: {one['limit']:.6g} ± {abs(one['error']):.2g} for {one['expected']:.6g} "
-            f"{one['unit']}, {percent(one['limit'] / one['expected'] - 1)}{off} ({one['seconds']:.0f} s)")
+                f"{not_within} ({one['seconds']:.1f} and {one['ccx_seconds']:.1f} s)")
+    return (f"{one['case']}, {one['result']}: {number(one['limit'], 6)} ± {number(abs(one['error'] or 0), 2)} for {one['expected']:.6g} "
+            f"{one['unit']}, {off(one['limit'], one['expected'])}{not_within} ({one['seconds']:.0f} s)")
 
 
 def main():

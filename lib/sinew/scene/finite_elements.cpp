@@ -309,11 +309,38 @@ bool is_at_rest(const DeckStep& step) {
          std::all_of(step.pressures.begin(), step.pressures.end(), open);
 }
 
-/// Of each frame, as the static method has them.
-std::vector<double> frame_times(const SolverSettings& solver, double interval) {
+/// Radians by which any of the supports turns, sampled.
+double turn_of(const std::vector<NodeSupport>& supports, double from, double to) {
+  constexpr int samples = 16;
+  double most = 0;
+  for (const NodeSupport& support : supports) {
+    if (!support.motion) continue;
+    double turn = 0;
+    for (int k = 0; k < samples; ++k) {
+      const auto at = [&](int sample) {
+        return support.motion(from + (to - from) * sample / samples, {}).frame.rotation;
+      };
+      turn += Eigen::AngleAxisd(Mat3(at(k + 1) * at(k).transpose())).angle();
+    }
+    most = std::max(most, turn);
+  }
+  return most;
+}
+
+/// Of each frame, as the static method has them; and of moments between, where supports turn: what
+/// goes straight from one place to another does not turn.
+std::vector<double> step_times(const SolverSettings& solver, double interval,
+                               const std::vector<NodeSupport>& supports) {
+  const double most_turn = radians(15);
   const int frames = static_cast<int>(std::ceil(solver.duration / interval - 1e-6));
-  std::vector<double> times;
-  for (int frame = 0; frame <= frames; ++frame) times.push_back(frame * interval);
+  std::vector<double> times = {0};
+  for (int frame = 1; frame <= frames; ++frame) {
+    const double from = (frame - 1) * interval, to = frame * interval;
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(turn_of(supports, from, to) / most_turn - 1e-6)));
+    for (int part = 1; part < parts; ++part) times.push_back(from + (to - from) * part / parts);
+    times.push_back(to);
+  }
   return times;
 }
 
@@ -335,7 +362,7 @@ Deck deck_of(const Settings& settings, const Surface& surface, const ElementOpti
   for (const NodeSupport& support : supports) deck.sets.push_back({support.name, support.nodes});
   const Holders holders = holders_of(settings, supports);
   const std::vector<NodeLoad> loads = loads_of(settings, deck.mesh, parts);
-  for (const double time : frame_times(settings.solver, settings.output.interval)) {
+  for (const double time : step_times(settings.solver, settings.output.interval, supports)) {
     DeckStep step = step_at(time, deck.mesh.nodes, holders, loads);
     if (time == 0 && settings.solver.duration > 0 && is_at_rest(step)) continue;
     deck.steps.push_back(std::move(step));

@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double most_outside = 0.5;  // elements: the rounding of curved sides stays far below
+constexpr double digits_of_results = 1e-5;  // they have six: less is nothing
+constexpr double most_outside = 0.5;        // elements: the corners of curved sides stay far below
 
 /// Places of the run's body in the elements.
 std::vector<ElementPlace> places_of(const FrdResult& result, const Points& points, const char* what,
@@ -231,6 +232,17 @@ class RunInElements {
   ElementComparison out_;
 };
 
+double largest(const ComparedProbe& probe, int axis) {
+  double most = 0;
+  for (const Points* values : {&probe.elements, &probe.run})
+    for (const Vec3& value : *values) most = std::max(most, std::abs(value[axis]));
+  return most;
+}
+
+double largest(const ComparedProbe& probe) {
+  return std::max({largest(probe, 0), largest(probe, 1), largest(probe, 2)});
+}
+
 /// The distances in parts of the largest displacement, then each probe along each axis.
 std::vector<Chart> RunInElements::charts_of(const ElementComparison& compared) {
   Chart apart{"Distance from the elements",
@@ -246,6 +258,7 @@ std::vector<Chart> RunInElements::charts_of(const ElementComparison& compared) {
   std::vector<Chart> charts{std::move(apart)};
   for (const ComparedProbe& probe : compared.probes)
     for (int axis = 0; axis < 3; ++axis) {
+      if (!(largest(probe, axis) > digits_of_results * largest(probe))) continue;
       Chart chart{probe.name + ": displacement " + "xyz"[axis],
                   "Of the probe",
                   "m",

@@ -110,6 +110,7 @@ class FrdReader {
 
   void read_nodes(std::string_view head) {
     check_format(head);
+    if (!result_.steps.empty()) lines_.refuse("nodes come after results");
     while (const auto line = block_line()) {
       if (!is_key(*line, " -1")) lines_.refuse("is no line of a node");
       const int number = parsed_as<int>(columns_of(*line, key_width, number_width), lines_);
@@ -219,10 +220,12 @@ class FrdReader {
 
   /// Every node of an element has a place and a displacement.
   void check_known() const {
+    for (const Vec3& node : result_.mesh.nodes)
+      if (!node.allFinite()) lines_.refuse("a node has no place");
     for (const FrdStep& step : result_.steps)
       for (const VolumeElement& element : result_.mesh.elements)
         for (const std::uint32_t node : element.used())
-          if (!step.displacement[node].allFinite() || !result_.mesh.nodes[node].allFinite())
+          if (!step.displacement[node].allFinite())
             lines_.refuse("lacks displacements of some nodes at " + number_text(step.time) + " s");
   }
 
