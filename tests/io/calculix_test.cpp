@@ -90,6 +90,25 @@ TEST_F(Calculix, ResultsAreReadWithTheirTimes) {
   EXPECT_EQ(result.steps[0].stress[3], (StressComponents{4, 2, 3, 4, 5, 6}));
 }
 
+/// CalculiX GraphiX lists the upright edges before those of the upper face.
+TEST_F(Calculix, NodesOfHexahedraAreReadInTheOrderOfDecks) {
+  std::string text = "    2C                            20                                     1\n";
+  for (int node = 1; node <= 20; ++node) text += row(node, {1.0 * node, 0, 0});
+  text +=
+      " -3\n    3C                             1                                     1\n -1        "
+      " 1    4    0    1\n -2";
+  for (const int node : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) text += padded(std::to_string(node), 10);
+  text += "\n -2";
+  for (const int node : {11, 12, 17, 18, 19, 20, 13, 14, 15, 16})
+    text += padded(std::to_string(node), 10);
+  text +=
+      "\n -3\n  100CL  101 1.000000000          20                     0    1           1\n -4  "
+      "DISP        4    1\n";
+  for (int node = 1; node <= 20; ++node) text += row(node, {0, 0, 0});
+  const FrdResult result = read(text + " -3\n 9999\n");
+  for (std::uint32_t k = 0; k < 20; ++k) EXPECT_EQ(result.mesh.elements[0].nodes[k], k);
+}
+
 TEST_F(Calculix, DamagedResultsAreRefusedWithTheirLine) {
   const std::string good = tetrahedron();
   expect_refused(good, "        40\n -3", "        41\n -3", {"a.frd:10", "no node 41"});

@@ -4,6 +4,7 @@
     for case in cases(): case.write(folder)      # scene.yaml and body.obj
 """
 import csv
+import json
 import math
 from dataclasses import dataclass, field
 
@@ -245,6 +246,38 @@ def soft_cantilever():
                within=0.05, elements=6)
 
 
+KELVIN_VOIGT = {"modulus": 1e5, "density": 1000, "damping": 600}
+
+
+def retardation(run):
+    """The time in which a load's strain comes within 1/e of its end, over that of the bonds: along a cube axis twelve
+    dashpots of c = C / 12 each resist as 2 c, springs of k to first and k / 4 to second neighbors as 3 k."""
+    with (run / "probes.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["name"] == "top"]
+    times, values = ([float(row[name]) for row in rows] for name in ("time", "displacement_z"))
+    part = (1 - math.exp(-1)) * values[-1]
+    after = next(k for k, value in enumerate(values) if abs(value) > abs(part))
+    found = times[after - 1] + (part - values[after - 1]) / (values[after] - values[after - 1]) * (times[after] - times[after - 1])
+    radius = json.loads((run / "run.json").read_text())["radius"]
+    given = KELVIN_VOIGT
+    return found / (given["damping"] / 18 * radius * math.sqrt(5 * given["density"] / given["modulus"]))
+
+
+def creep():
+    """Along the axes, and free of strain across. The load comes at once; its end is that of twenty times."""
+    W, given = 0.1, KELVIN_VOIGT
+    rollers = "".join(f"  - {{name: {name}, hold: {axis}, facing: {facing}}}\n" for name, axis, facing in (
+        ("below", "z", [0, 0, -1]), ("left", "x", [-1, 0, 0]), ("right", "x", [1, 0, 0]), ("front", "y", [0, -1, 0]),
+        ("back", "y", [0, 1, 0])))
+    yield Case("creep", "A confined cube creeps under a load: Kelvin and Voigt's solid", bar(W, W), W, [5, 9, 13],
+               elastic(given["modulus"], density=given["density"])[:-1] +
+               f", damping: {given['damping']}, damping_form: central}}",
+               f"supports:\n{rollers}loads:\n  - {{name: press, traction: [0, 0, -100], facing: [0, 0, 1]}}\n"
+               "probes:\n  - {name: top, facing: [0, 0, 1]}\n", {}, "2 c / (3 k) of its dashpots c = C / 12 and springs k, along a cube axis",
+               duration=0.6, interval=0.002, solver="method: dynamic",
+               measured={"retardation time, over the closed form": (retardation, 1, "")})
+
+
 def cook():
     """Cook's membrane in plane stress: a thin plate, sheared at its end. Linear: the load is small."""
     scale, thin = 1e-3, 48 / 13
@@ -259,4 +292,4 @@ def cook():
 
 
 def cases():
-    return [*bars(), *cook(), *turek_hron(), *swinging_beam(), *soft_cantilever(), *beside_elements()]
+    return [*bars(), *cook(), *turek_hron(), *swinging_beam(), *soft_cantilever(), *creep(), *beside_elements()]
