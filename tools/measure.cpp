@@ -185,7 +185,7 @@ Exit compare_folders(const Options& options, const Common& common) {
   return told(comparison.checks);
 }
 
-bool is_of_elements(const std::string& reference) {
+bool names_elements(const std::string& reference) {
   return lower(std::filesystem::path(reference).extension().string()) == ".frd";
 }
 
@@ -262,7 +262,7 @@ int main(int argc, char** argv) {
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) {
         if (options.folders.size() > 2) return study_folders(options, common);
-        if (options.folders.size() == 1 && is_of_elements(options.reference))
+        if (options.folders.size() == 1 && names_elements(options.reference))
           return compare_with_elements(options, common);
         return options.folders.size() == 2 ? compare_folders(options, common)
                                            : measure_folder(options, common);

@@ -87,6 +87,7 @@ TEST_F(Calculix, ResultsAreReadWithTheirTimes) {
   ASSERT_EQ(result.steps.size(), 2u);
   EXPECT_EQ(result.steps[1].time, 1.5);
   EXPECT_LT((result.steps[1].displacement[2] - Vec3(0.3, 0, -3)).norm(), 1e-12);
+  EXPECT_EQ(result.steps[0].force[2], Vec3(0, 6, 0));
   EXPECT_EQ(result.steps[0].stress[3], (StressComponents{4, 2, 3, 4, 5, 6}));
 }
 

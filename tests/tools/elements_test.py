@@ -81,6 +81,23 @@ class Elements(small_run.SmallRun):
             self.assertLess(abs(force / (E * WIDE**2 * 0.0004 / LENGTH) - 1), 1e-3 if mesh is turned else 1e-6)
 
     @needs_ccx
+    def test_supports_of_both_pull_alike(self):
+        """The run's grips hold layers within the bar: half a layer from each end."""
+        self.write(PULL)
+        sinew("simulate", self.scene, "-o", self.out, "--set", "output.interval=0.25", check=0)
+        frd = self.ccx(self.deck("--set", "output.interval=0.25"))
+        sinew("measure", self.out, "--reference", frd, check=0)
+        frames = json.loads((self.folder / "run_reference" / "reference.json").read_text())["frames"]
+        self.assertEqual(len(frames), 4)
+        for frame in frames:
+            found, expected = frame["above: force"][2], frame["above: force by elements"][2]
+            self.assertGreater(expected, 0)
+            self.assertLess(abs(found / expected - 1), 0.15)
+            self.assertLess(abs(frame["below: force by elements"][2] / expected + 1), 1e-4)
+        self.assertAlmostEqual(frames[-1]["above: force by elements"][2], E * WIDE**2 * 0.0004 / LENGTH, delta=2e-3)
+        self.assertIn("Load over displacement", (self.folder / "run_reference" / "report.html").read_text())
+
+    @needs_ccx
     def test_loads_have_their_sums_and_pressures_push_inward(self):
         self.write("""
 supports:

@@ -31,6 +31,10 @@ Cuts cuts_of(const Settings& settings) {
   return cuts;
 }
 
+bool is_of_elements(const PartSettings& part) {
+  return part.bone.empty() && !part.ids && !part.component;
+}
+
 ElementParts::ElementParts(const Settings& settings, const VolumeMesh& mesh)
     : settings_(settings),
       mesh_(mesh),

@@ -19,6 +19,9 @@ namespace sinew {
 /// Where boxes and planes along the axes, of all parts that a scene names, cut the body.
 Cuts cuts_of(const Settings& settings);
 
+/// Whether elements have such a part: one that names no bone, component or particles.
+bool is_of_elements(const PartSettings& part);
+
 /// Each throws bad input, with the scene's line, for parts by bone, component or numbers of
 /// particles, which elements have not, and for a part in which nothing lies.
 class ElementParts {

@@ -15,8 +15,10 @@
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/report/comparison_page.h>
 #include <sinew/metrics/summary.h>
+#include <sinew/run/machine_columns.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/world_shown.h>
+#include <sinew/scene/element_parts.h>
 #include <sinew/study/compare_runs.h>
 
 namespace sinew {
@@ -24,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double digits_of_results = 1e-5;  // they have six: less is nothing
-constexpr double most_outside = 0.5;        // elements: the corners of curved sides stay far below
+constexpr double most_outside = 0.5;  // elements: the corners of curved sides stay far below
 
 /// Places of the run's body in the elements.
 std::vector<ElementPlace> places_of(const FrdResult& result, const Points& points, const char* what,
@@ -92,6 +93,37 @@ Points moved(Points points, const Points& by) {
   return points;
 }
 
+/// Nodes of the supports whose part elements have.
+struct HeldNodes {
+  std::string name;
+  std::vector<std::uint32_t> nodes;
+};
+
+std::vector<HeldNodes> held_nodes(const Settings& settings, const VolumeMesh& mesh) {
+  const ElementParts parts(settings, mesh);
+  std::vector<HeldNodes> all;
+  for (std::size_t k = 0; k < settings.supports.size(); ++k)
+    if (const SupportSettings& one = settings.supports[k]; is_of_elements(one.part))
+      all.push_back({one.name, parts.nodes(one.part, "supports[" + std::to_string(k) + ']')});
+  return all;
+}
+
+/// A vector of supports.csv at each of these times; 0 where the table leaves it out.
+Points vectors_of(const std::vector<MachineColumn>& columns, const std::string& name,
+                  const std::vector<double>& times) {
+  Points values(times.size(), Vec3::Zero());
+  for (const MachineColumn& column : columns)
+    for (int axis = 0; axis < 3; ++axis)
+      if (column.name == name + "xyz"[axis])
+        for (std::size_t k = 0; k < times.size(); ++k) {
+          const std::vector<double>& all = columns.front().values;
+          const auto later = std::lower_bound(all.begin(), all.end(), times[k] - 1e-9);
+          if (later != all.end())
+            values[k][axis] = column.values[static_cast<std::size_t>(later - all.begin())];
+        }
+  return values;
+}
+
 /// What is compared, with all that is made once.
 class RunInElements {
  public:
@@ -102,12 +134,14 @@ class RunInElements {
         pairs_(pairs_of(run_, result_, file)),
         particles_(places_of(result_, rest_.shape.points, "particle", file)),
         surface_(places_of(result_, run_.surface.points, "point of the surface", file)),
-        probes_(probes_of_run(run_)) {
+        probes_(probes_of_run(run_)),
+        held_(held_nodes(run_.settings, result_.mesh)) {
     out_.name = file.filename().string();
     out_.elements = result_.mesh.elements.size();
     out_.nodes = result_.mesh.nodes.size();
     out_.particles = rest_.shape.points.size();
     for (const Probe& probe : probes_) out_.probes.push_back({probe.name, {}, {}});
+    for (const HeldNodes& held : held_) out_.supports.push_back({held.name, {}, {}, {}, {}});
     for (Playback* one : {&elements_playback_, &run_playback_})
       *one = plan_playback(rest_, pairs_.size(), 0.5);
   }
@@ -124,8 +158,14 @@ class RunInElements {
 
   std::string page(const ElementComparison& compared) const {
     const Playback both = side_by_side(elements_playback_, run_playback_, {"a: ", "b: "});
-    return comparison_html(
-        {version(), compared.metrics, both, {}, "", run_.scene_text, charts_of(compared)});
+    return comparison_html({version(),
+                            compared.metrics,
+                            both,
+                            {},
+                            "",
+                            run_.scene_text,
+                            element_charts(compared),
+                            element_curves(compared)});
   }
 
  private:
@@ -145,6 +185,7 @@ class RunInElements {
     elements_frames_.push_back(one.metrics);
     run_frames_.push_back(other.metrics);
     add_probes(state, elements);
+    add_supports(step);
   }
 
   /// The run's body where the elements put it.
@@ -204,7 +245,30 @@ class RunInElements {
     }
   }
 
+  void add_supports(const FrdStep& step) {
+    for (std::size_t s = 0; s < held_.size(); ++s) {
+      Vec3 force = Vec3::Zero(), moved = Vec3::Zero();
+      for (const std::uint32_t node : held_[s].nodes) {
+        if (!step.force.empty()) force += step.force[node];
+        moved += step.displacement[node] / static_cast<double>(held_[s].nodes.size());
+      }
+      out_.supports[s].elements_force.push_back(force);
+      out_.supports[s].elements_displacement.push_back(moved);
+    }
+  }
+
+  void add_supports_of_run() {
+    const std::vector<MachineColumn> columns = machine_columns(run_.folder.path);
+    std::vector<double> times;
+    for (const ElementFrame& frame : out_.frames) times.push_back(frame.time);
+    for (ComparedSupport& support : out_.supports) {
+      support.run_force = vectors_of(columns, support.name + ": force_", times);
+      support.run_displacement = vectors_of(columns, support.name + ": displacement_", times);
+    }
+  }
+
   void finish(const MeasureOptions& how) {
+    add_supports_of_run();
     const double radius = rest_.radius;
     RunComparison& metrics = out_.metrics;
     metrics = sinew::compare(
@@ -219,58 +283,17 @@ class RunInElements {
       metrics.checks.push_back(check_limit(limit, metrics.differences, metrics.summary));
   }
 
-  static std::vector<Chart> charts_of(const ElementComparison& compared);
-
   RunFiles run_;
   RestBody rest_;
   FrdResult result_;
   std::vector<FrameAndStep> pairs_;
   std::vector<ElementPlace> particles_, surface_;
   std::vector<Probe> probes_;
+  std::vector<HeldNodes> held_;
   std::vector<FrameMetrics> elements_frames_, run_frames_;
   Playback elements_playback_, run_playback_;
   ElementComparison out_;
 };
-
-double largest(const ComparedProbe& probe, int axis) {
-  double most = 0;
-  for (const Points* values : {&probe.elements, &probe.run})
-    for (const Vec3& value : *values) most = std::max(most, std::abs(value[axis]));
-  return most;
-}
-
-double largest(const ComparedProbe& probe) {
-  return std::max({largest(probe, 0), largest(probe, 1), largest(probe, 2)});
-}
-
-/// The distances in parts of the largest displacement, then each probe along each axis.
-std::vector<Chart> RunInElements::charts_of(const ElementComparison& compared) {
-  Chart apart{"Distance from the elements",
-              "Of each particle, over the largest displacement",
-              "%",
-              {0},
-              Drawn::always,
-              {{"rms", {}}, {"largest", {}}}};
-  for (const ElementFrame& frame : compared.frames) {
-    apart.lines[0].values.push_back(100 * frame.rms_relative);
-    apart.lines[1].values.push_back(100 * frame.max_relative);
-  }
-  std::vector<Chart> charts{std::move(apart)};
-  for (const ComparedProbe& probe : compared.probes)
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(largest(probe, axis) > digits_of_results * largest(probe))) continue;
-      Chart chart{probe.name + ": displacement " + "xyz"[axis],
-                  "Of the probe",
-                  "m",
-                  {0},
-                  Drawn::unless_zero,
-                  {{"a: elements", {}}, {"b: run", {}}}};
-      for (const Vec3& value : probe.elements) chart.lines[0].values.push_back(value[axis]);
-      for (const Vec3& value : probe.run) chart.lines[1].values.push_back(value[axis]);
-      charts.push_back(std::move(chart));
-    }
-  return charts;
-}
 
 }  // namespace
 

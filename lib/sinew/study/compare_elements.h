@@ -15,6 +15,8 @@
 #include <vector>
 
 #include <sinew/metrics/comparison.h>
+#include <sinew/metrics/report/charts.h>
+#include <sinew/metrics/report/report.h>
 #include <sinew/run/measure_run.h>
 
 namespace sinew {
@@ -43,11 +45,19 @@ struct ComparedProbe {
   Points elements, run;
 };
 
+/// Of a support of the run's scene, one per frame: its force on the body, N, of elements with the
+/// loads on held nodes, and the mean displacement of its part, m.
+struct ComparedSupport {
+  std::string name;
+  Points elements_force, run_force, elements_displacement, run_displacement;
+};
+
 struct ElementComparison {
   std::string name;  ///< of the result's file
   std::size_t elements = 0, nodes = 0, particles = 0;
   std::vector<ElementFrame> frames;
   std::vector<ComparedProbe> probes;
+  std::vector<ComparedSupport> supports;  ///< those whose part elements have
   RunComparison metrics;  ///< first: the run's body, moved by the elements; second: the run
 };
 
@@ -58,8 +68,13 @@ ElementComparison compare_elements(const std::filesystem::path& run,
                                    const std::filesystem::path& result, const MeasureOptions& how,
                                    const std::filesystem::path& out);
 
-/// A row per frame: the columns above, then of each probe its displacement by the elements and in
-/// the run.
+/// The distances in parts of the largest displacement, then each probe along each axis.
+std::vector<Chart> element_charts(const ElementComparison& compared);
+/// Of supports that move one way: their largest force over their largest displacement.
+std::vector<LawCurve> element_curves(const ElementComparison& compared);
+
+/// A row per frame: the columns above, then of each probe its displacement, and of each support
+/// its force, by the elements and in the run.
 std::string reference_csv(const ElementComparison& compared);
 /// The counts and the same rows, for scripts.
 std::string reference_json(const ElementComparison& compared);

@@ -11,9 +11,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The displacements of a probe, with the ends of their columns' names.
-std::array<std::pair<const char*, const Points*>, 2> sides_of(const ComparedProbe& probe) {
-  return {{{" by elements", &probe.elements}, {"", &probe.run}}};
+/// Vectors of each frame, under "clamp: force by elements" and the like.
+struct NamedVectors {
+  std::string owner, quantity, end;
+  const Points& values;
+};
+
+std::vector<NamedVectors> vectors_of(const ElementComparison& compared) {
+  std::vector<NamedVectors> all;
+  const auto add = [&](const std::string& owner, const std::string& quantity,
+                       const Points& elements, const Points& run) {
+    all.push_back({owner, quantity, " by elements", elements});
+    all.push_back({owner, quantity, "", run});
+  };
+  for (const ComparedProbe& probe : compared.probes)
+    add(probe.name, "displacement", probe.elements, probe.run);
+  for (const ComparedSupport& support : compared.supports)
+    add(support.name, "force", support.elements_force, support.run_force);
+  return all;
 }
 
 Json json_of(const ElementComparison& compared, std::size_t k) {
@@ -22,11 +37,10 @@ Json json_of(const ElementComparison& compared, std::size_t k) {
     const double value = compared.frames[k].*column.value;
     row[std::string(column.name)] = std::isfinite(value) ? Json(value) : Json();
   }
-  for (const ComparedProbe& probe : compared.probes)
-    for (const auto& [end, values] : sides_of(probe)) {
-      const Vec3& moved = (*values)[k];
-      row[probe.name + ": displacement" + end] = {moved.x(), moved.y(), moved.z()};
-    }
+  for (const NamedVectors& one : vectors_of(compared)) {
+    const Vec3& value = one.values[k];
+    row[one.owner + ": " + one.quantity + one.end] = {value.x(), value.y(), value.z()};
+  }
   return row;
 }
 
@@ -36,10 +50,10 @@ std::string reference_csv(const ElementComparison& compared) {
   std::string text;
   for (const ElementColumn& column : element_columns())
     (text += text.empty() ? "" : ",") += column.name;
-  for (const ComparedProbe& probe : compared.probes)
-    for (const auto& [end, values] : sides_of(probe))
-      for (const char axis : {'x', 'y', 'z'})
-        text += ',' + csv_cell(probe.name + ": displacement_" + axis + end);
+  const std::vector<NamedVectors> vectors = vectors_of(compared);
+  for (const NamedVectors& one : vectors)
+    for (const char axis : {'x', 'y', 'z'})
+      text += ',' + csv_cell(one.owner + ": " + one.quantity + '_' + axis + one.end);
   text += '\n';
   for (std::size_t k = 0; k < compared.frames.size(); ++k) {
     std::string line;
@@ -47,9 +61,8 @@ std::string reference_csv(const ElementComparison& compared) {
       (line += line.empty() ? "" : ",") += std::isnan(value) ? "nan" : number_text(value);
     };
     for (const ElementColumn& column : element_columns()) add(compared.frames[k].*column.value);
-    for (const ComparedProbe& probe : compared.probes)
-      for (const auto& [end, values] : sides_of(probe))
-        for (int axis = 0; axis < 3; ++axis) add((*values)[k][axis]);
+    for (const NamedVectors& one : vectors)
+      for (int axis = 0; axis < 3; ++axis) add(one.values[k][axis]);
     text += line + '\n';
   }
   return text;

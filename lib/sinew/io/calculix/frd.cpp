@@ -178,7 +178,9 @@ class FrdReader {
     if (!name || !is_key(*name, " -4")) lines_.refuse("a result lacks its name");
     const std::string_view kind = columns_of(*name, 5, 8);
     if (kind == "DISP")
-      read_displacements(step_at(time));
+      read_vectors(step_at(time).displacement);
+    else if (kind == "FORC")
+      read_vectors(step_at(time).force);
     else if (kind == "STRESS")
       read_stresses(step_at(time));
   }
@@ -189,7 +191,7 @@ class FrdReader {
     if (found != result_.steps.end()) return *found;
     if (!result_.steps.empty() && result_.steps.back().time > time)
       lines_.refuse("time runs backward", "give the result of one job of ccx");
-    return result_.steps.emplace_back(FrdStep{time, {}, {}});
+    return result_.steps.emplace_back(FrdStep{time, {}, {}, {}});
   }
 
   /// Calls take(node, line) for each line of the block's values.
@@ -202,10 +204,10 @@ class FrdReader {
     }
   }
 
-  void read_displacements(FrdStep& step) {
-    step.displacement.assign(result_.mesh.nodes.size(), Vec3::Constant(unknown));
+  void read_vectors(Points& values) {
+    values.assign(result_.mesh.nodes.size(), Vec3::Constant(unknown));
     read_values([&](std::uint32_t node, std::string_view line) {
-      step.displacement[node] = {value(line, 0), value(line, 1), value(line, 2)};
+      values[node] = {value(line, 0), value(line, 1), value(line, 2)};
     });
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Results of finite elements in ASCII .frd files of CalculiX (CalculiX GraphiX user's manual,
-// chapter "Result Format"): the mesh, and displacements and stresses at the end of each step.
+// chapter "Result Format"): the mesh, and displacements, stresses and forces of its
+// nodes at the end of each step.
 //
 //     const FrdResult result = read_frd("beam.frd");
 //     const Vec3 moved = result.steps.back().displacement[node];
@@ -21,6 +22,7 @@ struct FrdStep {
   double time = 0;
   Points displacement;                   ///< of each node, m
   std::vector<StressComponents> stress;  ///< of each node; empty: not written
+  Points force = {};                     ///< of each node, N: what the elements answer; or empty
 };
 
 struct FrdResult {

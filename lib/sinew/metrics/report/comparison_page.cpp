@@ -84,6 +84,7 @@ PageData drawn_data(const ComparisonInput& input) {
     data.angles.push_back(frame.bone_angle);
   }
   data.charts = charts_of(input);
+  data.curves = input.curves;
   Summary worst = compared.summary;
   for (std::size_t i = 0; i < worst.metrics.size(); ++i)
     worst.metrics[i].worst_frame = largest_difference(compared, i);
@@ -99,6 +100,14 @@ std::string playback_section(const ComparisonInput& input) {
   return element("section",
                  element("h2", "Side by side") + element("p", escaped(line), "class=\"quiet\"") +
                      view_section("Largest difference of"),
+                 "class=\"needs-script\"");
+}
+
+std::string curves_section(const ComparisonInput& input) {
+  if (input.curves.empty()) return "";
+  return element("section",
+                 element("h2", "Load over displacement") +
+                     element("div", "", "class=\"charts\" id=\"curves\""),
                  "class=\"needs-script\"");
 }
 
@@ -228,8 +237,9 @@ std::string comparison_html(const ComparisonInput& input) {
   const std::string body =
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
-      playback_section(input) + charts_section(!input.playback.frames.empty()) +
-      differences_table(compared) + element("h2", "Differences between the scenes") +
+      playback_section(input) + curves_section(input) +
+      charts_section(!input.playback.frames.empty()) + differences_table(compared) +
+      element("h2", "Differences between the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +
       folded("The resolved scene of " + name_of(compared, true), input.second_scene);

@@ -29,6 +29,7 @@ struct ComparisonInput {
   std::vector<FactGroup> facts;           ///< what differs between the scenes
   std::string first_scene, second_scene;  ///< resolved
   std::vector<Chart> charts = {};         ///< before those of the metrics
+  std::vector<LawCurve> curves = {};      ///< loads over displacements
 };
 
 /// The whole page, UTF-8.
