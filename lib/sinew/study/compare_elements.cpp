@@ -80,6 +80,7 @@ std::vector<double> von_mises_at(const FrdResult& result, const std::vector<Elem
   if (step.stress.empty()) return {};
   using Six = Eigen::Matrix<double, 6, 1>;
   std::vector<Six> field;
+  field.reserve(step.stress.size());
   for (const StressComponents& stress : step.stress)
     field.push_back(Eigen::Map<const Six>(stress.data()));
   std::vector<double> values;
@@ -321,7 +322,7 @@ ElementComparison compare_elements(const fs::path& run, const fs::path& result,
                                    const MeasureOptions& how, const fs::path& out) {
   refuse_folders_of_runs(out, {run});
   RunInElements comparison(run, result);
-  const ElementComparison compared = comparison.compare(how);
+  ElementComparison compared = comparison.compare(how);
   create({out});
   write_file(out / "reference.csv", reference_csv(compared));
   write_file(out / "reference.json", reference_json(compared));

@@ -81,7 +81,8 @@ void write_materials(NewFile& file, const std::vector<DeckMaterial>& materials) 
     std::string text = "*MATERIAL, NAME=" + name + "\n*ELASTIC\n";
     put_row(text, ',', short_number(material.young_modulus), short_number(material.poisson_ratio));
     text += "*DENSITY\n" + short_number(material.density) + '\n';
-    text += "*SOLID SECTION, ELSET=" + name + ", MATERIAL=" + name + '\n';
+    ((text += "*SOLID SECTION, ELSET=") += name) += ", MATERIAL=";
+    (text += name) += '\n';
     write_text(file, text);
   }
 }
