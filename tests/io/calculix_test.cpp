@@ -55,6 +55,7 @@ std::string tetrahedron() {
     });
     text += result("STRESS", time,
                    [](int node) { return std::vector<double>{1.0 * node, 2, 3, 4, 5, 6}; });
+    text += result("FORC", time, [](int node) { return std::vector<double>{0, 2.0 * node, 0}; });
   }
   return text + " 9999\n";
 }
