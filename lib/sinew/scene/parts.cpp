@@ -44,6 +44,11 @@ Triangles without_other_points(const Triangles& surface,
 
 }  // namespace
 
+std::string extent_text(const Points& points) {
+  const Box box = bounds(points);
+  return "from " + corner(box.min()) + " to " + corner(box.max()) + " m";
+}
+
 /// What a part asks for.
 class Parts::Test {
  public:
@@ -134,10 +139,8 @@ std::vector<std::uint32_t> Parts::particles(const PartSettings& part,
       if (test.holds(i, body_.rest[i])) found.push_back(i);
   }
   if (!found.empty()) return found;
-  const Box body = bounds(body_.rest);
   throw bad_input(settings_.place(path), "no particle is in the part of " + path,
-                  "choose one that reaches into the body, from " + corner(body.min()) + " to " +
-                      corner(body.max()) + " m");
+                  "choose one that reaches into the body, " + extent_text(body_.rest));
 }
 
 Triangles Parts::faces(const PartSettings& part, const std::string& path) const {
@@ -149,10 +152,8 @@ Triangles Parts::faces(const PartSettings& part, const std::string& path) const 
         test.holds(nearest_[f], center_of(fine, fine.faces[f])))
       found.push_back(fine.faces[f]);
   if (!found.empty()) return without_other_points(fine, found);
-  const Box body = bounds(surface_.points);
   throw bad_input(settings_.place(path), "no face of the surface is in the part of " + path,
-                  "choose one that reaches it, from " + corner(body.min()) + " to " +
-                      corner(body.max()) + " m");
+                  "choose one that reaches it, " + extent_text(surface_.points));
 }
 
 void set_local_materials(const Settings& settings, const Parts& parts, Body& body) {
