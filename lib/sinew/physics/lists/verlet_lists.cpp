@@ -16,7 +16,8 @@ namespace sinew {
 namespace {
 
 // In diameters, by measurement: longer lists cost every step, shorter ones are made more often. The
-// inner skin excludes the second neighbors of a packed body. Contacts are few: theirs may be longer.
+// inner skin excludes the second neighbors of a packed body. Contacts are few: theirs may be
+// longer.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
 constexpr double outer_skin_of_contacts = 0.9, inner_skin_of_contacts = 0.3;
 constexpr std::size_t pieces_at_a_time = 4;
