@@ -120,8 +120,8 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 4;
-  expect_refused(resealed(other), {"version 4, not 3"});
+  other[12] = 5;
+  expect_refused(resealed(other), {"version 5, not 4"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});
