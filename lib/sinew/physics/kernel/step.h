@@ -8,6 +8,7 @@
 #include <sinew/physics/kernel/bonds.h>
 #include <sinew/physics/kernel/bones.h>
 #include <sinew/physics/kernel/changing_bonds.h>
+#include <sinew/physics/kernel/fetching.h>
 #include <sinew/physics/kernel/pairs.h>
 #include <sinew/physics/kernel/strain.h>
 
@@ -265,6 +266,8 @@ void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
   for_each_vector<L>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
+        if constexpr (pairs != changing_springs)  // whose many streams leave no room in the caches
+          if (lane == 0) fetch_for_step(step, block);
         advance<L, pairs, pass>(step, law, block, lane, sums);
       });
 }

@@ -129,6 +129,7 @@ void strain_pieces(const Step<typename L::Real>& step, std::size_t begin, std::s
     if (step.volumes.stiffness == nullptr &&
         step.fibers.first[block] == step.fibers.first[block + 1])
       continue;  // what it exerts is zero and remains so
+    fetch_for_strain(step, block);
     for (int lane = 0; lane < size; lane += L::width) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
       typename L::V inverse[6];

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <sinew/core/lines.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/core/vector.h>
@@ -99,8 +100,8 @@ class BlockState {
 
   std::size_t size_ = 0;
   std::array<Real, block> live_{};
-  std::array<std::vector<Coord>, 3> x_;
-  std::array<std::vector<Real>, 3> v_;
+  std::array<Lines<Coord>, 3> x_;
+  std::array<Lines<Real>, 3> v_;
 };
 
 }  // namespace sinew

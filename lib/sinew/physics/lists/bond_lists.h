@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/lines.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
@@ -27,12 +28,12 @@ struct BondLists {
   std::vector<Vec3> rest;                  ///< by kind, m
   std::vector<double> kind_factor;         ///< on its stiffness; 0: of several bonds, none
   std::vector<kernel::BondKind<Real>> kinds;
-  std::vector<Real> own;             ///< rows x block: stiffness by lane, with the body's factors
-  std::vector<Real> creep;           ///< entries x block; empty: none creeps
+  Lines<Real> own;                   ///< rows x block: stiffness by lane, with the body's factors
+  Lines<Real> creep;                 ///< entries x block; empty: none creeps
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
   /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
-  std::array<std::vector<Real>, 6> flow;
-  std::vector<Real> flows;
+  std::array<Lines<Real>, 6> flow;
+  Lines<Real> flows;
 
   /// Lengths and stiffness in these units; `id` in the kernel's order.
   void set_units(const Body& body, std::span<const std::int32_t> id, double mass,

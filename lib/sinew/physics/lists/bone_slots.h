@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/lines.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
@@ -17,7 +18,7 @@ template <class Real>
 struct BoneSlots {
   std::vector<std::uint32_t> first;  ///< blocks + 1 long
   std::vector<kernel::Slot> slots;
-  std::vector<Real> held, shares;
+  Lines<Real> held, shares;
 
   /// Origin of each bone's frame, m from the head along the axis: the mean of the particles it
   /// holds, so that few digits are lost far from a head.

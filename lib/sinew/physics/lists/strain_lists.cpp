@@ -138,7 +138,7 @@ class StrainMaker {
 };
 
 template <class Real>
-void put(std::array<std::vector<Real>, 9>& values, kernel::Thrust<Real>& thrust) {
+void put(std::array<Lines<Real>, 9>& values, kernel::Thrust<Real>& thrust) {
   for (int k = 0; k < 9; ++k)
     thrust[k] = values[k].empty() ? nullptr : values[k].data() + kernel::Traits<Real>::block;
 }

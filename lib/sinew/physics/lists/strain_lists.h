@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/lines.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/bond_lists.h>
@@ -21,9 +22,9 @@ namespace sinew {
 /// By particle, with a block of zeros at each end.
 template <class Real>
 struct StrainLists {
-  std::array<std::vector<Real>, 6> inverse;
-  std::vector<Real> stiffness, growth;  ///< of volumes; empty: none is kept
-  std::array<std::vector<Real>, 9> volume_thrust, fiber_thrust;
+  std::array<Lines<Real>, 6> inverse;
+  Lines<Real> stiffness, growth;  ///< of volumes; empty: none is kept
+  std::array<Lines<Real>, 9> volume_thrust, fiber_thrust;
   std::vector<std::uint32_t> first;       ///< fibers of a block; empty: there are none
   std::vector<std::uint8_t> near_fibers;  ///< by block
   std::vector<std::int32_t> muscle;
