@@ -84,6 +84,8 @@ struct SimulationState {
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel
   RelaxationState relaxation = {};
+  /// Of each group of particles: c, its velocity, F and its rate (column by column).
+  std::vector<double> groups = {};
 };
 
 }  // namespace sinew

@@ -357,7 +357,7 @@ BoneReactions Simulation::reactions_of_bones() {
 
 SimulationState Simulation::save() const {
   SimulationState state;
-  std::visit([&](const auto& stepper) { stepper.save(state); }, stepper_);
+  std::visit([&](auto& stepper) { stepper.save(state); }, stepper_);
   state.steps = steps_;
   state.ledger = ledger_.entries();
   state.world_ledger = world_ledger_.entries();

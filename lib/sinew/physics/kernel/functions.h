@@ -41,6 +41,13 @@ void flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t 
   work(step, begin, end);
 }
 
+template <class L>
+void flushed_pulls(const Step<typename L::Real>& step, const std::uint32_t* blocks,
+                   std::size_t count, const Pulls<typename L::Real>& to) {
+  const FlushedToZero<L> mode;
+  pull_blocks<L>(step, blocks, count, to);
+}
+
 template <class L, PairLaw pairs>
 constexpr void add(Functions<typename L::Real>& functions) {
   functions.count[pairs] = flushed<L, count_pieces<L, pairs>>;
@@ -55,6 +62,7 @@ constexpr Functions<typename L::Real> functions() {
   Functions<typename L::Real> all{};
   all.strain = flushed<L, strain_pieces<L>>;
   all.flow = flushed<L, flow_pieces<L>>;
+  all.pull = flushed_pulls<L>;
   add<L, between_all>(all);
   add<L, among_neighbors>(all);
   add<L, springs>(all);

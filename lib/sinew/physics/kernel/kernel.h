@@ -224,6 +224,26 @@ struct Surroundings {
   void (*act)(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3], Real* held);
 };
 
+/// Particles that move in groups: see ../hierarchy/groups.h. What a block's role is unless it has a
+/// row of accelerations.
+enum Role : std::int32_t { working = -1, idle = -2 };
+
+template <class Real>
+struct Grouped {
+  const std::int32_t* role;    ///< by block: working, idle (a step leaves it out) or a row; null: working
+  const std::uint8_t* asleep;  ///< by block: nobody needs its deformation or its counts
+  Real* acceleration[3];       ///< rows x block
+};
+
+/// Forces of bones on some blocks, blocks x block, per mass.
+template <class Real>
+struct Pulls {
+  Real* force[3];
+  Real* damping[3];     ///< the part of them that is damping
+  Real* power;          ///< from the bones
+  Real* damping_power;  ///< the damping's part of it
+};
+
 template <class Real>
 struct Step {
   State<Real> before, after;
@@ -241,6 +261,7 @@ struct Step {
   Volumes<Real> volumes;
   Fibers<Real> fibers;
   Surroundings<Real> surroundings;
+  Grouped<Real> grouped;
   Real gravity[3];  ///< per time squared
   Real keep;        ///< v = keep v + kick a; 1 but where a step relaxes
   Real kick;
@@ -309,6 +330,9 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
+  /// The forces of bones on these blocks alone.
+  void (*pull)(const Step<Real>&, const std::uint32_t* blocks, std::size_t count,
+               const Pulls<Real>& to);
   /// Finds the blocks of `pieces`, ascending, whose bounds are within range of those of a block;
   /// returns how many.
   std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const std::uint32_t* pieces,

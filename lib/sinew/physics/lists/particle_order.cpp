@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <sinew/core/parallel.h>
+#include <sinew/physics/hierarchy/grouping.h>
 
 namespace sinew {
 
@@ -145,6 +146,21 @@ void sort_by_planes(const Listed& particles, const Vec3& across,
   group = std::move(sorted);
 }
 
+/// The free particles, then each group from its rim to its core, in the same order otherwise.
+void sort_by_layers(const Grouping& grouping, std::span<const std::int32_t> id,
+                    std::vector<std::uint32_t>& order) {
+  const auto rank = [&](std::uint32_t place) {
+    const auto i = static_cast<std::size_t>(id[place]);
+    const auto layer = static_cast<std::size_t>(grouping.layer[i]);
+    return layer == 0 ? 0 : static_cast<std::size_t>(grouping.group[i]) * 3 + layer;
+  };
+  std::vector<std::uint32_t> first(3 * grouping.size() + 2, 0), sorted(order.size());
+  for (const std::uint32_t place : order) ++first[rank(place) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for (const std::uint32_t place : order) sorted[first[rank(place)]++] = place;
+  order = std::move(sorted);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> order_at_rest(const Body& body, std::span<const std::int32_t> id) {
@@ -166,6 +182,7 @@ std::vector<std::uint32_t> order_at_rest(const Body& body, std::span<const std::
   std::vector<std::uint32_t> order;
   order.reserve(id.size());
   for (const auto& group : groups) order.insert(order.end(), group.begin(), group.end());
+  if (body.grouping) sort_by_layers(*body.grouping, id, order);
   return order;
 }
 
