@@ -22,6 +22,9 @@ constexpr double off_center = 1e-6;  // in radii: above rounding of files' coord
 // Mean squares of X along the thinnest direction, in r^2: of two layers it is 0.5 and more.
 constexpr double thinnest = 0.4;
 
+constexpr std::uint8_t unknown = 255, most_levels = 8;
+constexpr int faces_of_level = 6;
+
 bool holds_seconds(const Body& body) { return body.material.bond.second > 0; }
 
 /// Forces on a particle that depend on its neighbors' neighbors.
@@ -40,6 +43,12 @@ class LayerFinder {
         whole_(holds_seconds(body) ? 18 : 12),
         grid_(body.rest, range_) {}
 
+  void fill(Grouping& out) const {
+    out.layer = layers();
+    out.face = faces(out.layer);
+  }
+
+ private:
   std::vector<Layer> layers() const {
     std::vector<std::uint8_t> inner = marked([&](std::uint32_t i, const auto& near) {
       return is_center(i, near) && all(near, [&](auto j) { return group_[j] == group_[i]; });
@@ -56,7 +65,39 @@ class LayerFinder {
     return layers;
   }
 
- private:
+  /// Half-planes from the outside in: each particle's level is one above its neighbors' lowest.
+  std::vector<std::uint8_t> faces(const std::vector<Layer>& layer) const {
+    std::vector<std::uint8_t> level(group_.size(), unknown), face(group_.size(), 0);
+    for (std::uint8_t now = 0; now < most_levels; ++now) {
+      const auto reached = marked([&](std::uint32_t i, const auto& near) {
+        if (level[i] != unknown || layer[i] == Layer::core) return false;
+        Vec3 inwards = Vec3::Zero();
+        std::size_t inside = 0;
+        for (const std::uint32_t j : near) {
+          const Vec3 to = body_.rest[j] - body_.rest[i];
+          if (group_[j] != group_[i] || level[j] != unknown || !is_nearest(to)) continue;
+          inwards += to, ++inside;
+        }
+        if (inside == 12) return false;
+        face[i] = static_cast<std::uint8_t>(faces_of_level * now + face_of(inwards));
+        return true;
+      });
+      for (std::size_t i = 0; i < level.size(); ++i)
+        if (reached[i] != 0) level[i] = now;
+    }
+    return face;
+  }
+
+  /// Of particles whose neighbors farther in lie in this direction.
+  std::uint8_t face_of(const Vec3& inwards) const {
+    const Vec3 along = (body_.lattice.transpose() * inwards / r_).array().round();
+    int axis = 0;
+    along.cwiseAbs().maxCoeff(&axis);
+    return static_cast<std::uint8_t>(2 * axis + (along[axis] > 0 ? 0 : 1));
+  }
+
+  bool is_nearest(const Vec3& X) const { return X.norm() < rest_neighbor_range(r_); }
+
   template <class Range, class Holds>
   static bool all(const Range& range, const Holds& holds) {
     return std::all_of(range.begin(), range.end(), holds);
@@ -154,7 +195,7 @@ std::size_t Grouping::inside() const {
 Grouping make_grouping(const Body& body, std::vector<std::int32_t> group) {
   Grouping made;
   renumber(body, group, made);
-  made.layer = LayerFinder(body, group).layers();
+  LayerFinder(body, group).fill(made);
   made.group = std::move(group);
   return made;
 }

@@ -24,6 +24,10 @@ enum class Layer : std::uint8_t { free, rim, shell, core };
 struct Grouping {
   std::vector<std::int32_t> group;  ///< by particle id; -1: free
   std::vector<Layer> layer;         ///< by particle id
+  /// By particle id: the half-plane in which it is, counted from the outside of its group, times 6,
+  /// and on which of the group's sides; 0 in cores. Next to each other in memory, those of a face
+  /// are neighbors of each other and of the next half-plane's in rows.
+  std::vector<std::uint8_t> face;
   std::vector<std::size_t> sizes;   ///< particles of each group
 
   std::size_t size() const { return sizes.size(); }

@@ -131,6 +131,7 @@ void Groups<Real>::find_roles() {
   role_.assign(blocks, kernel::working);
   always_.assign(blocks, 0);
   asleep_.assign(blocks, 0);
+  whole_.assign(blocks, 0);
   idle_pieces_.assign(pieces, 1);
   shown_.assign(pieces, -1);
   rim_.clear();
@@ -138,15 +139,17 @@ void Groups<Real>::find_roles() {
   std::int32_t rows = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t begin = b * block, end = std::min(begin + block, group_.size());
-    bool some = false, all = true;
+    bool some = false, all = true, whole = true;
     for (std::size_t k = begin; k < end; ++k) {
       some = some || group_[k] >= 0;
+      whole = whole && group_[k] >= 0;
       all = all && grouping.layer[static_cast<std::size_t>(id_[k])] >= Layer::shell;
     }
     if (!all) idle_pieces_[b / blocks_per_piece] = 0;
     if (!some) continue;
     role_[b] = all ? static_cast<std::int32_t>(kernel::idle) : rows++;
     asleep_[b] = all ? 1 : 0;
+    whole_[b] = whole ? 1 : 0;
     for_each_run(begin, end, [&](Run run) {
       if (all) {
         Shape& shape = shapes_[static_cast<std::size_t>(run.group)];
@@ -337,6 +340,7 @@ kernel::Grouped<Real> Groups<Real>::arrays() {
   if (!any()) return {};
   return {role_.data(),
           asleep_.data(),
+          whole_.data(),
           {acceleration_[0].data(), acceleration_[1].data(), acceleration_[2].data()}};
 }
 
@@ -350,10 +354,15 @@ auto Groups<Real>::sum_of(const Run& run) const -> Sum {
     const std::size_t at = k - run.begin;
     const Vec3 f(static_cast<double>(x[at]), static_cast<double>(y[at]),
                  static_cast<double>(z[at]));
-    sum.f += f;
-    sum.fX += f * place_at_rest(k).transpose();
+    sum.add(f, place_at_rest(k));
   }
   return sum;
+}
+
+template <class Real>
+static Vec3 speed_of(const kernel::Step<Real>& step, std::size_t k) {
+  return {static_cast<double>(step.before.v[0][k]), static_cast<double>(step.before.v[1][k]),
+          static_cast<double>(step.before.v[2][k])};
 }
 
 /// Of the samples [begin, end), in units of the kernel.
@@ -366,20 +375,22 @@ void Groups<Real>::add_samples(std::size_t begin, std::size_t end, const kernel:
                 static_cast<double>(pulled_[part + 2][at]));
   };
   for (std::size_t s = begin; s < end; ++s) {
-    const double weight = samples_.weight[s];
     const std::size_t first = samples_.block[s] * block;
-    for (std::size_t k = first; k < std::min(first + block, group_.size()); ++k) {
-      const std::size_t at = s * block + k - first;
-      const auto g = static_cast<std::size_t>(group_[k]);
-      const Vec3 X = place_at_rest(k), f = weight * vector(0, at), d = weight * vector(3, at);
-      const Vec3 v(static_cast<double>(step.before.v[0][k]),
-                   static_cast<double>(step.before.v[1][k]),
-                   static_cast<double>(step.before.v[2][k]));
-      pulls[g].f += f, pulls[g].fX += f * X.transpose();
-      damping[g].f += d, damping[g].fX += d * X.transpose();
-      sums.power += weight * static_cast<double>(pulled_[6][at]);
-      sums.lost += weight * static_cast<double>(pulled_[7][at]) - d.dot(v);
-    }
+    for_each_run(first, first + block, [&](const Run& run) {
+      Sum pull, loss;
+      double power = 0, lost = 0;
+      for (std::size_t k = run.begin; k < run.end; ++k) {
+        const std::size_t at = s * block + k - first;
+        const Vec3 d = vector(3, at);
+        pull.add(vector(0, at), place_at_rest(k)), loss.add(d, place_at_rest(k));
+        power += static_cast<double>(pulled_[6][at]);
+        lost += static_cast<double>(pulled_[7][at]) - d.dot(speed_of(step, k));
+      }
+      const auto g = static_cast<std::size_t>(run.group);
+      const double weight = samples_.weight[s];
+      pulls[g].add(weight, pull), damping[g].add(weight, loss);
+      sums.power += weight * power, sums.lost += weight * lost;
+    });
   }
 }
 

@@ -118,6 +118,9 @@ class Groups {
   struct Sum {
     Vec3 f = Vec3::Zero();
     Mat3 fX = Mat3::Zero();
+
+    void add(const Vec3& force, const Vec3& X) { f += force, fX += force * X.transpose(); }
+    void add(double weight, const Sum& other) { f += weight * other.f, fX += weight * other.fX; }
   };
   /// Around the places at rest of a group's particles in a piece.
   struct PieceBox {
@@ -152,6 +155,7 @@ class Groups {
   std::vector<std::int32_t> id_;           ///< by place
   std::vector<std::int32_t> role_;         ///< by block: kernel::Role, or a row
   std::vector<std::uint8_t> asleep_;       ///< by block
+  std::vector<std::uint8_t> whole_;        ///< by block
   std::vector<std::uint8_t> idle_pieces_;  ///< by piece
   std::vector<Run> rim_;                   ///< of the blocks with rows
   std::vector<Run> steady_;                ///< placed before each step

@@ -205,7 +205,8 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   account<L>(step, forces, velocity, lane, sums);
   if (step.relaxes) account_of_relaxing<L>(step, block, lane, forces, velocity, sums);
   check_speed<L>(step, kicked, forces.bones.carried, sums);
-  track_fastest<L>(step, block, lane, here, drifting, sums);
+  if (step.grouped.role == nullptr || step.grouped.whole[block] == 0)
+    track_fastest<L>(step, block, lane, here, drifting, sums);
   if constexpr (pairs == changing_springs)
     if (forces.strained) [[unlikely]] {
       change_bonds<L, nearest>(step, block, lane, sums.lost + lane, sums.broke);

@@ -146,19 +146,18 @@ void sort_by_planes(const Listed& particles, const Vec3& across,
   group = std::move(sorted);
 }
 
-/// The free particles, then each group from its rim to its core, in the same order otherwise.
+/// The free particles, then each group from its rim to its core, face by face, in the same order
+/// otherwise.
 void sort_by_layers(const Grouping& grouping, std::span<const std::int32_t> id,
                     std::vector<std::uint32_t>& order) {
   const auto rank = [&](std::uint32_t place) {
     const auto i = static_cast<std::size_t>(id[place]);
     const auto layer = static_cast<std::size_t>(grouping.layer[i]);
-    return layer == 0 ? 0 : static_cast<std::size_t>(grouping.group[i]) * 3 + layer;
+    const auto group = static_cast<std::size_t>(grouping.group[i] + 1);
+    return (group * 4 + layer) * 64 + grouping.face[i];
   };
-  std::vector<std::uint32_t> first(3 * grouping.size() + 2, 0), sorted(order.size());
-  for (const std::uint32_t place : order) ++first[rank(place) + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for (const std::uint32_t place : order) sorted[first[rank(place)]++] = place;
-  order = std::move(sorted);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
 }  // namespace
