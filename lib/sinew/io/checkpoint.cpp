@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
-constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 3;
+constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 4;
 constexpr std::size_t name_size = 8;
 // Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
@@ -71,6 +71,7 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("largest", state.relaxation.largest);
   transfer("applied", state.relaxation.applied);
   transfer("unbal", state.relaxation.unbalanced);
+  transfer("groups", state.groups);
 }
 
 template <class Value>

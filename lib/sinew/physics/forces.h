@@ -58,7 +58,7 @@ struct Body {
   /// Of each particle, its place in the scene's list of materials, from 1, or 0; empty: 0 each.
   std::vector<std::int32_t> material_number = {};
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
-  std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
+  std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
   std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
 };
 

@@ -23,13 +23,15 @@ bool any_of(const List& list, Test&& test) {
   return std::any_of(list.begin(), list.end(), test);
 }
 
-constexpr std::array<Unsupported, 9> unsupported = {{
+constexpr std::array<Unsupported, 10> unsupported = {{
     {"solver.precision", "single precision", "set it to double",
      [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
     {"solver.neighbor_search", "the paper's cells", "set it to lists",
      [](const Settings& scene) { return scene.solver.neighbor_search != NeighborSearch::lists; }},
     {"solver.method", "equilibria", "set it to dynamic",
      [](const Settings& scene) { return scene.solver.method != Method::dynamic; }},
+    {"hierarchy.enabled", "groups of particles", "set it to false",
+     [](const Settings& scene) { return scene.hierarchy.enabled; }},
     {"material.breaking_strain", "bonds that break", "leave it out",
      [](const Settings& scene) { return scene.material.breaking_strain.has_value(); }},
     {"material.fracture_energy", "bonds that break", "leave it out",

@@ -58,7 +58,7 @@ class LayerFinder {
     if (reaches_far(body_)) deep = marked_where_all(deep);
     std::vector<Layer> layers(group_.size());
     for (std::size_t i = 0; i < layers.size(); ++i)
-      layers[i] = group_[i] < 0     ? Layer::free
+      layers[i] = group_[i] < 0   ? Layer::free
                   : inner[i] == 0 ? Layer::rim
                   : deep[i] == 0  ? Layer::shell
                                   : Layer::core;
@@ -187,9 +187,15 @@ std::size_t Grouping::grouped() const {
   return count;
 }
 
+std::vector<std::int32_t> Grouping::levels() const {
+  std::vector<std::int32_t> levels;
+  for (const Layer one : layer) levels.push_back(std::min(static_cast<std::int32_t>(one), 2));
+  return levels;
+}
+
 std::size_t Grouping::inside() const {
-  return static_cast<std::size_t>(std::count_if(
-      layer.begin(), layer.end(), [](Layer one) { return one >= Layer::shell; }));
+  return static_cast<std::size_t>(
+      std::count_if(layer.begin(), layer.end(), [](Layer one) { return one >= Layer::shell; }));
 }
 
 Grouping make_grouping(const Body& body, std::vector<std::int32_t> group) {

@@ -28,9 +28,11 @@ struct Grouping {
   /// and on which of the group's sides; 0 in cores. Next to each other in memory, those of a face
   /// are neighbors of each other and of the next half-plane's in rows.
   std::vector<std::uint8_t> face;
-  std::vector<std::size_t> sizes;   ///< particles of each group
+  std::vector<std::size_t> sizes;  ///< particles of each group
 
   std::size_t size() const { return sizes.size(); }
+  /// By particle id: 0 free, 1 on the rim, 2 within.
+  std::vector<std::int32_t> levels() const;
   std::size_t grouped() const;  ///< particles
   std::size_t inside() const;   ///< of the shells and cores
 };

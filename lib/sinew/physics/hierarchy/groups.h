@@ -81,8 +81,9 @@ class Groups {
   void bound(const Units& units, bool drift_first, const kernel::PieceMotion<Real>* motions,
              std::span<kernel::Totals> totals) const;
   void advance();
-  /// Of all groups and directions.
-  double smallest_stretch() const;
+  /// Throws Error (unstable) where a group is squeezed so much that more particles than the layers
+  /// take for neighbors would exert forces on each other.
+  void check_stretch() const;
 
   /// Fills what keeps the groups together, from all other forces and gravity (m/s^2). `caller`: of
   /// each place, that in `forces`.
@@ -101,12 +102,12 @@ class Groups {
   };
   /// Constant.
   struct Shape {
-    Vec3 center = Vec3::Zero();    ///< m
-    double size = 0;               ///< particles
-    Mat3 inverse = Mat3::Zero();   ///< of sum X X^T, 1/m^2
-    double extent = 0;             ///< root mean square of X, m
-    double idle = 0;               ///< particles in idle blocks
-    Vec3 moment = Vec3::Zero();    ///< of those, sum of X, m
+    Vec3 center = Vec3::Zero();   ///< m
+    double size = 0;              ///< particles
+    Mat3 inverse = Mat3::Zero();  ///< of sum X X^T, 1/m^2
+    double extent = 0;            ///< root mean square of X, m
+    double idle = 0;              ///< particles in idle blocks
+    Vec3 moment = Vec3::Zero();   ///< of those, sum of X, m
   };
   /// Places [begin, end) in the kernel's order, all of one group; and the row of the first.
   struct Run {
@@ -120,7 +121,7 @@ class Groups {
     Mat3 fX = Mat3::Zero();
 
     void add(const Vec3& force, const Vec3& X) { f += force, fX += force * X.transpose(); }
-    void add(double weight, const Sum& other) { f += weight * other.f, fX += weight * other.fX; }
+    void add(const double* moments);
   };
   /// Around the places at rest of a group's particles in a piece.
   struct PieceBox {
@@ -139,34 +140,34 @@ class Groups {
   void mark_read(std::ptrdiff_t first, std::ptrdiff_t last);
   void find_steady();
   void put(const Run& run, BlockState<Real>& state, const Units& units) const;
-  Sum sum_of(const Run& run) const;
-  void add_samples(std::size_t begin, std::size_t end, const kernel::Step<Real>& step,
-                   std::vector<Sum>& pulls, std::vector<Sum>& damping, GroupSums& sums) const;
+  Sum sum_of(const Run& run, const kernel::Functions<Real>& kernel) const;
   void add_bones(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
                  std::vector<Sum>& all, std::vector<Sum>& damping);
   Vec3 place_at_rest(std::size_t k) const { return {X_[0][k], X_[1][k], X_[2][k]}; }
 
   std::shared_ptr<const Body> body_;
   double mass_ = 0;
+  double least_stretch_ = 0;
   std::vector<Shape> shapes_;
   std::vector<Motion> motions_, next_;
-  std::vector<std::int32_t> group_;        ///< by place in the kernel's order; -1: free
-  std::array<std::vector<double>, 3> X_;   ///< by place, m
-  std::vector<std::int32_t> id_;           ///< by place
-  std::vector<std::int32_t> role_;         ///< by block: kernel::Role, or a row
-  std::vector<std::uint8_t> asleep_;       ///< by block
-  std::vector<std::uint8_t> whole_;        ///< by block
-  std::vector<std::uint8_t> idle_pieces_;  ///< by piece
-  std::vector<Run> rim_;                   ///< of the blocks with rows
-  std::vector<Run> steady_;                ///< placed before each step
-  std::vector<std::uint8_t> always_;       ///< by block: idle, but read in every step
+  std::vector<std::int32_t> group_;               ///< by place in the kernel's order; -1: free
+  std::array<std::vector<double>, 3> X_;          ///< by place, m
+  std::array<std::vector<Real>, 3> X_of_kernel_;  ///< by place, padded, m
+  std::vector<std::int32_t> id_;                  ///< by place
+  std::vector<std::int32_t> role_;                ///< by block: kernel::Role, or a row
+  std::vector<std::uint8_t> asleep_;              ///< by block
+  std::vector<std::uint8_t> whole_;               ///< by block
+  std::vector<std::uint8_t> idle_pieces_;         ///< by piece
+  std::vector<Run> rim_;                          ///< of the blocks with rows
+  std::vector<Run> steady_;                       ///< placed before each step
+  std::vector<std::uint8_t> always_;              ///< by block: idle, but read in every step
   bool more_are_read_ = true;
-  std::vector<std::int64_t> shown_;        ///< by piece: when all was last placed
+  std::vector<std::int64_t> shown_;  ///< by piece: when all was last placed
   std::int64_t moment_ = 0;
   std::vector<PieceBox> boxes_;
   std::array<std::vector<Real>, 3> acceleration_;
   Quadrature samples_;
-  std::array<std::vector<Real>, 8> pulled_;
+  std::vector<Run> sampled_;  ///< samples [begin, end) of a group
   GroupSums sums_;
 };
 

@@ -9,7 +9,7 @@ namespace sinew {
 namespace {
 
 // Of a kind, at most one block in so many, but no fewer than these in all.
-constexpr std::size_t most_per_sample = 16, least_samples = 96;
+constexpr std::size_t most_per_sample = 64, least_samples = 256;
 constexpr double least_weight = 0.1, most_weight = 4;  // of an equal share
 
 /// The upper bits of a number that looks like chance: rows of a lattice repeat, samples must not.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sinew/physics/kernel/listing.h>
+#include <sinew/physics/kernel/moments.h>
 #include <sinew/physics/kernel/pruning.h>
 #include <sinew/physics/kernel/step.h>
 #include <sinew/physics/kernel/survey.h>
@@ -42,10 +43,10 @@ void flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t 
 }
 
 template <class L>
-void flushed_pulls(const Step<typename L::Real>& step, const std::uint32_t* blocks,
-                   std::size_t count, const Pulls<typename L::Real>& to) {
+void flushed_pulls(const Step<typename L::Real>& step, const PulledBlocks<typename L::Real>& blocks,
+                   PullSums& out) {
   const FlushedToZero<L> mode;
-  pull_blocks<L>(step, blocks, count, to);
+  pull_blocks<L>(step, blocks, out);
 }
 
 template <class L, PairLaw pairs>
@@ -62,6 +63,7 @@ constexpr Functions<typename L::Real> functions() {
   Functions<typename L::Real> all{};
   all.strain = flushed<L, strain_pieces<L>>;
   all.flow = flushed<L, flow_pieces<L>>;
+  all.moments = sum_moments<L>;
   all.pull = flushed_pulls<L>;
   add<L, between_all>(all);
   add<L, among_neighbors>(all);

@@ -230,19 +230,38 @@ enum Role : std::int32_t { working = -1, idle = -2 };
 
 template <class Real>
 struct Grouped {
-  const std::int32_t* role;    ///< by block: working, idle (a step leaves it out) or a row; null: working
+  const std::int32_t*
+      role;  ///< by block: working, idle (a step leaves it out) or a row; null: working
   const std::uint8_t* asleep;  ///< by block: nobody needs its deformation or its counts
   const std::uint8_t* whole;   ///< by block: all of it is grouped, whose speeds are known
   Real* acceleration[3];       ///< rows x block
 };
 
-/// Forces of bones on some blocks, blocks x block, per mass.
+/// The sums of f, then of f X^T row by row.
+inline constexpr int force_moments = 12;
+
+/// Particles of a group that follow each other in memory.
 template <class Real>
-struct Pulls {
-  Real* force[3];
-  Real* damping[3];     ///< the part of them that is damping
-  Real* power;          ///< from the bones
-  Real* damping_power;  ///< the damping's part of it
+struct MomentInput {
+  const Real* force[3];
+  const Real* X[3];  ///< places at rest from the group's center
+  std::size_t count;
+};
+
+/// Blocks of one group, and what each counts.
+template <class Real>
+struct PulledBlocks {
+  const std::uint32_t* block;
+  const double* weight;
+  std::size_t count;
+  const Real* X[3];  ///< of all particles
+};
+
+/// What bones exert on them, per mass.
+struct PullSums {
+  double force[force_moments];
+  double damping[force_moments];  ///< the part of it that is damping
+  double power, lost;             ///< from the bones; of that, by damping
 };
 
 template <class Real>
@@ -331,9 +350,9 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
-  /// The forces of bones on these blocks alone.
-  void (*pull)(const Step<Real>&, const std::uint32_t* blocks, std::size_t count,
-               const Pulls<Real>& to);
+  /// Of groups: force_moments sums; what bones exert.
+  void (*moments)(const MomentInput<Real>&, double* sums);
+  void (*pull)(const Step<Real>&, const PulledBlocks<Real>&, PullSums&);
   /// Finds the blocks of `pieces`, ascending, whose bounds are within range of those of a block;
   /// returns how many.
   std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const std::uint32_t* pieces,

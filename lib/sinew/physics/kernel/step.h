@@ -122,8 +122,8 @@ SINEW_INLINE void gather_if_grouped(const Grouped<typename L::Real>& grouped, st
                                     int lane, const Triple<L>& acceleration) {
   if (grouped.role == nullptr || grouped.role[block] < 0) return;
   constexpr int size = Traits<typename L::Real>::block;
-  store<L>(grouped.acceleration,
-           static_cast<std::ptrdiff_t>(grouped.role[block]) * size + lane, acceleration);
+  store<L>(grouped.acceleration, static_cast<std::ptrdiff_t>(grouped.role[block]) * size + lane,
+           acceleration);
 }
 
 /// The ledger: power of the bones, and losses at the velocity in the middle of the step.
@@ -257,8 +257,8 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
            sum_of<L>(sums.pulled)}};
 }
 
-/// Calls visit(block, lane, sums) for every vector of the pieces but for idle ones, and stores their
-/// totals.
+/// Calls visit(block, lane, sums) for every vector of the pieces but for idle ones, and stores
+/// their totals.
 template <class L, class Visit>
 SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_t begin,
                                   std::size_t end, Visit visit) {
@@ -311,24 +311,6 @@ void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
                L::keep(some, L::all(1) / L::larger(count, L::all(1))));
     }
   }
-}
-
-template <class L>
-void pull_blocks(const Step<typename L::Real>& step, const std::uint32_t* blocks, std::size_t count,
-                 const Pulls<typename L::Real>& to) {
-  constexpr int size = Traits<typename L::Real>::block;
-  for (std::size_t k = 0; k < count; ++k)
-    for (int lane = 0; lane < size; lane += L::width) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(blocks[k]) * size + lane;
-      const auto at = static_cast<std::ptrdiff_t>(k) * size + lane;
-      const BoneSums<L> sums =
-          bone_sums<L, false>(step, blocks[k], lane, load_place<L>(step.before.x, i),
-                              load<L>(step.before.v, i));
-      store<L>(to.force, at, sums.spring + sums.damping);
-      store<L>(to.damping, at, sums.damping);
-      L::store(to.power + at, sums.power);
-      L::store(to.damping_power + at, sums.damping_power);
-    }
 }
 
 }  // namespace sinew::kernel

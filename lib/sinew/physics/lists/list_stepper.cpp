@@ -231,6 +231,7 @@ void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
               {seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
                stepping_.gravity});
   groups_.bound(layout_.units(), now.drift_first, lists_.motions(), totals_);
+  groups_.check_stretch();
 }
 
 template <class Real>
@@ -294,7 +295,8 @@ void ListStepper<Real>::make_lists() {
 /// resumed there, would change nothing.
 template <class Real>
 bool ListStepper<Real>::order_check_due() {
-  return law_ == kernel::between_all && !groups_.any() && steps_ % steps_between_order_checks == 0 &&
+  return law_ == kernel::between_all && !groups_.any() &&
+         steps_ % steps_between_order_checks == 0 &&
          std::exchange(order_checked_, steps_) != steps_;
 }
 

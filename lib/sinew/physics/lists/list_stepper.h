@@ -47,6 +47,9 @@ class ListStepper {
   std::vector<Reaction> of_supports() const { return surroundings_.of_supports(); }
   std::vector<Reaction> of_loads() const { return surroundings_.of_loads(); }
 
+  /// Groups move as their particles do, as nearly as they can.
+  void fit_groups() { groups_.begin(layout_.now, layout_.units()); }
+
   void save(SimulationState& state);
   void restore(const SimulationState& state);
 
@@ -94,7 +97,7 @@ class ListStepper {
   StrainLists<Real> strain_;
   Surroundings<Real> surroundings_;
   Groups<Real> groups_;
-  bool counted_ = false;  ///< the neighbors of all particles, in the present order
+  bool counted_ = false;       ///< the neighbors of all particles, in the present order
   std::vector<double> moved_;  ///< by pins, by piece, since the lists followed, m
   std::vector<Real> share_;    ///< padded; empty unless damping acts pair by pair
   double time_ = 0;

@@ -139,8 +139,8 @@ void VerletLists<Real>::show_around(const std::vector<std::uint32_t>& pieces,
 
 /// Idle ones are overdue from now on.
 template <class Real>
-std::vector<std::uint32_t> VerletLists<Real>::without_idle(
-    const std::vector<std::uint32_t>& pieces, const HiddenParticles& hidden) {
+std::vector<std::uint32_t> VerletLists<Real>::without_idle(const std::vector<std::uint32_t>& pieces,
+                                                           const HiddenParticles& hidden) {
   if (hidden.idle.empty()) return pieces;
   std::vector<std::uint32_t> kept;
   for (const std::uint32_t piece : pieces)
