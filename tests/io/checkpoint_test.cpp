@@ -42,6 +42,7 @@ Checkpoint sample(bool single = false) {
   else
     state.moving = columns<MovingInDouble>();
   state.rest_length = {0.1, 0, 0.3};
+  state.groups = {1, -2, 0.5};
   return sample;
 }
 
@@ -118,8 +119,8 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 4;
-  expect_refused(resealed(other), {"version 4, not 3"});
+  other[12] = 5;
+  expect_refused(resealed(other), {"version 5, not 4"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});
@@ -127,6 +128,20 @@ TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   Checkpoint larger = sample();
   larger.run.particles = particles + 1;
   expect_refused(bytes_of(larger), {"run has 6 particles", "body now 5", "--force"});
+}
+
+TEST_F(CheckpointFile, OfVersion3HasNoGroups) {
+  constexpr std::size_t hash_size = 8, length_at = 16;
+  std::string bytes = bytes_of(sample());
+  const std::size_t groups = bytes.rfind("groups");
+  bytes.erase(groups, bytes.size() - hash_size - groups);
+  bytes[12] = 3;
+  const std::uint64_t length = bytes.size();
+  std::memcpy(bytes.data() + length_at, &length, sizeof length);
+  put(file(), resealed(bytes));
+  const Checkpoint read = read_checkpoint(file(), particles);
+  EXPECT_EQ(read.run, sample().run);
+  EXPECT_TRUE(read.state.groups.empty());
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {
