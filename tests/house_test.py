@@ -16,7 +16,7 @@ ARROWS = {
     "engine": {"core", "rig", "physics"}, "lammps": {"core", "rig", "physics", "engine", "io"},
     "scene": {"core", "settings", "mesh", "fill", "rig", "physics", "io"},
     "run": {"core", "settings", "mesh", "fill", "rig", "physics", "engine", "io", "scene", "metrics", "render"},
-    "study": {"core", "settings", "mesh", "metrics", "run"},
+    "study": {"core", "settings", "mesh", "io", "scene", "metrics", "run"},
 }
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {

@@ -151,6 +151,17 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("bone_speed", speed, "radii per step");
 }
 
+/// Of equilibria: nobody knows before how many iterations one takes.
+void add_load_steps(const Settings& settings, const LoadSteps& steps, double rate,
+                    std::size_t particles, Results& results) {
+  results.add("method", "static");
+  results.add("frames", steps.count);
+  results.add("duration", settings.solver.duration, "s");
+  results.add("residual", steps.residual);
+  results.add("most_iterations_per_frame", steps.most_iterations);
+  results.add("time_of_1000_iterations", 1000 * static_cast<double>(particles) / rate, "s");
+}
+
 void add_stepper(const StepperChoice& choice, Results& results) {
   results.add("precision", name_of(choice.precision));
   results.add("neighbor_search", name_of(choice.search));
@@ -188,13 +199,16 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   add_material(setup.body.material, results);
   add_modes(setup.body, results);
   add_planes(setup.body, results);
-  add_steps(settings, setup, speed, results);
+  if (setup.load_steps)
+    add_load_steps(settings, *setup.load_steps, rate, filling.particles.size(), results);
+  else
+    add_steps(settings, setup, speed, results);
   add_stepper(choice, results);
   results.add("disk", bytes_text(needs.disk));
   results.add("disk_free", bytes_text(free_space(run_folder(scene, "").path)));
   results.add("memory", bytes_text(needs.memory));
   results.add("particle_steps_per_second", rate);
-  results.add("stepping_time", work / rate, "s");
+  if (!setup.load_steps) results.add("stepping_time", work / rate, "s");
   if (!picture.empty()) {
     write_scene_picture(scene_snapshot(setup, skin), {}, {}, picture);
     results.add("picture", picture);

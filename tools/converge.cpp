@@ -51,6 +51,15 @@ void check_radii(const std::vector<double>& radii) {
                     "give two radii, or better three, as in 0.02,0.014,0.01");
 }
 
+/// Which are this command's to choose.
+void refuse_sizes(const std::vector<Override>& overrides) {
+  for (const Override& override : overrides)
+    for (const char* key : {"body.radius", "body.count"})
+      if (override.path == key)
+        throw bad_input("--set " + override.path + " beside --radii",
+                        "leave it out: each run gets its radius from --radii");
+}
+
 std::vector<std::string> words_for(const Options& options, const Common& common,
                                    const fs::path& folder, double radius) {
   std::vector<std::string> words{"--json", "--threads", std::to_string(common.threads)};
@@ -112,6 +121,7 @@ Exit run_all(const Options& options, const Common& common, const fs::path& study
 
 Exit converge(const Options& options, const Common& common) {
   check_radii(options.radii);
+  refuse_sizes(common.overrides);
   const fs::path out = folder_of_study(options);
   refuse_folders_of_runs(out, {});
   refuse_used(options, out);

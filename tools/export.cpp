@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-export: the particles of a run's frames as files of other programs.
+// sinew-export: the particles of a run's frames as files of other programs, and a scene's body as
+// finite elements.
 #include <algorithm>
 #include <filesystem>
 
+#include <sinew/core/text.h>
 #include <sinew/run/export_run.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/finite_elements.h>
+#include <sinew/scene/rig.h>
+#include <sinew/settings/read_scene.h>
 #include "command/command.h"
 #include "command/results.h"
 
@@ -14,12 +20,21 @@ using namespace sinew;
 struct Options {
   std::string folder, format, output;
   std::vector<double> times;
+  ElementOptions elements;
 };
 
+constexpr const char* of_scenes = "calculix";  // not of particles
+
+bool is_deck(const Options& options) {
+  return options.format == of_scenes ||
+         (options.format.empty() && options.output.ends_with(".inp"));
+}
+
 void declare(OptionList& list, Options& options) {
-  list.add("DIR", options.folder, "Folder of the run").required();
+  list.add("DIR", options.folder, "Folder of the run; for calculix a scene (YAML)").required();
   list.add("--to", options.format,
-           "Format, by default that of the file's name: " + help_of_formats())
+           "Format, by default that of the file's name: " + help_of_formats() +
+               ", calculix (of a scene: finite elements, an input deck of CalculiX, .inp)")
       .type_name("FORMAT");
   list.add("--times", options.times, "Times of the frames, s; all frames if not given")
       .comma_separated()
@@ -28,6 +43,11 @@ void declare(OptionList& list, Options& options) {
            "File, or folder of one file per frame where a format has no frames; by default named "
            "after the run")
       .type_name("FILE|DIR");
+  list.add("--size", options.elements.size,
+           "calculix: side of the elements, m; by default 4 radii of the particles")
+      .type_name("LENGTH");
+  list.add_flag("--linear", options.elements.linear,
+                "calculix: equilibrium in the shape at rest, for small displacements");
 }
 
 /// Whether the frames lie in a folder, one file each.
@@ -82,7 +102,52 @@ void print(const ExportedFrames& done, const RunFiles& run, const std::vector<st
                     " broken bonds are written as whole; with output.bonds, they are left out");
 }
 
+void check_deck_options(const Options& options) {
+  if (!is_scene(options.folder))
+    throw bad_input(Place{options.folder}, "is no scene",
+                    "give a scene (.yaml) for calculix; that of a run is DIR/scene.yaml");
+  if (!options.times.empty())
+    throw bad_input("--times is for the frames of a run", "set output.interval of the scene");
+  if (options.elements.size && !(*options.elements.size > 0))
+    throw bad_input("--size is " + number_text(*options.elements.size), "give a length above 0");
+}
+
+void print(const Deck& deck, const std::filesystem::path& target, const Common& common) {
+  Results results;
+  const bool boxes = is_hexahedron(deck.mesh.elements.front().kind);
+  results.add("elements", deck.mesh.elements.size());
+  results.add("kind", boxes ? "C3D20 (hexahedra)" : "C3D10 (tetrahedra)");
+  results.add("nodes", deck.mesh.nodes.size());
+  results.add("steps", deck.steps.size());
+  results.add("file", target.string());
+  results.print(common);
+}
+
+Exit export_scene(const Options& options, const Common& common) {
+  check_deck_options(options);
+  const std::filesystem::path scene = options.folder;
+  const std::filesystem::path target =
+      options.output.empty() ? scene.stem().string() + ".inp" : options.output;
+  const Settings settings = with_fit(read_scene(scene, common.overrides));
+  refuse_output(target.string(), {options.folder, settings.body.mesh}, ".inp");
+  const Deck deck = deck_of(settings, read_mesh(settings), options.elements);
+  write_deck(target, deck);
+  print(deck, target, common);
+  return Exit::done;
+}
+
+void refuse_deck_options(const Options& options, const Common& common) {
+  if (is_scene(options.folder))
+    throw bad_input(Place{options.folder}, "is a scene: particles are exported from a run",
+                    "name the folder of the run, or use sinew fill --to for the body at rest");
+  if (options.elements.size || options.elements.linear)
+    throw bad_input("--size and --linear are for finite elements", "add --to calculix");
+  if (!common.overrides.empty())
+    throw bad_input("--set is for scenes", "leave it out, or add --to calculix");
+}
+
 Exit export_run(const Options& options, const Common& common) {
+  refuse_deck_options(options, common);
   const ParticleFormat& format = chosen_format(options);
   const RunFiles run = open_run({options.folder});
   const std::vector<std::size_t> frames = frames_at(run, options.times);
@@ -100,12 +165,14 @@ Exit export_run(const Options& options, const Common& common) {
 int main(int argc, char** argv) {
   Options options;
   About about{"export",
-              "Writes the particles of a run for other programs.",
+              "Writes the particles of a run, or the body of a scene, for other programs.",
               {"sinew export out/box_bend --to xyz -o box_bend.xyz",
                "sinew export out/box_bend --to lammps --times 1 -o bent.data",
-               "sinew export out/box_bend --to bgeo -o frames"}};
-  about.takes_scene = false;
+               "sinew export out/box_bend --to bgeo -o frames",
+               "sinew export beam.yaml --to calculix -o beam.inp"}};
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
-      [&](const Common& common) { return export_run(options, common); });
+      [&](const Common& common) {
+        return is_deck(options) ? export_scene(options, common) : export_run(options, common);
+      });
 }

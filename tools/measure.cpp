@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-measure: metrics.csv, metrics_bones.csv, sections.csv, metrics.json and report.html of a
 // run; a comparison of two runs; a study of more.
+#include <algorithm>
 #include <cmath>
 
 #include <sinew/core/arrays.h>
@@ -11,6 +12,7 @@
 #include <sinew/metrics/table.h>
 #include <sinew/run/report_input.h>
 #include <sinew/run/run_record.h>
+#include <sinew/study/compare_elements.h>
 #include <sinew/study/compare_runs.h>
 #include <sinew/study/study_files.h>
 #include "command/command.h"
@@ -42,8 +44,9 @@ void declare(OptionList& list, Options& options) {
       .type_name("LIMIT")
       .repeatable();
   list.add("--reference", options.reference,
-           "Also measure the distance to the surfaces of this series")
-      .type_name("FILE.pvd");
+           "Also measure the distance to the surfaces of this series; or compare with this result "
+           "of finite elements")
+      .type_name("FILE.pvd|FILE.frd");
   list.add("--arrays", options.arrays,
            "Also write these arrays of every particle and frame, as values.pvd: F, J, "
            "stress, ...; all")
@@ -111,7 +114,8 @@ MeasureOptions how_to_measure(const Options& options, const Common& common) {
   MeasureOptions how;
   for (const std::string& text : options.limits) how.limits.push_back(parse_limit(text));
   if (!options.reference.empty()) how.reference = open_surfaces(options.reference);
-  how.arrays = requested_arrays(options.arrays);
+  requested_arrays(options.arrays);  // refuses other names before anything is read
+  how.arrays = options.arrays;
   how.ahead = common.threads != 1;
   return how;
 }
@@ -181,6 +185,47 @@ Exit compare_folders(const Options& options, const Common& common) {
   return told(comparison.checks);
 }
 
+bool names_elements(const std::string& reference) {
+  return lower(std::filesystem::path(reference).extension().string()) == ".frd";
+}
+
+void print_elements(const ElementComparison& compared, const std::filesystem::path& out,
+                    const Common& common) {
+  const auto farthest = std::max_element(
+      compared.frames.begin(), compared.frames.end(),
+      [](const ElementFrame& a, const ElementFrame& b) { return a.max_relative < b.max_relative; });
+  Results results;
+  results.add("elements", compared.elements);
+  results.add("particles", compared.particles);
+  results.add("frames", compared.frames.size());
+  for (const ElementColumn& column : element_columns())
+    results.add(std::string(column.name), (*farthest).*column.value, std::string(column.unit));
+  const auto percent = [](double value) { return three_digits(100 * value) + " %"; };
+  results.add_headline("difference", percent(farthest->rms_relative) + " rms, " +
+                                         percent(farthest->max_relative) +
+                                         " at most, of the largest displacement, at " +
+                                         three_digits(farthest->time) + " s");
+  results.add_headline("report", (out / "report.html").string());
+  results.print(common);
+}
+
+/// Into -o, by default a folder beside the run.
+Exit compare_with_elements(const Options& options, const Common& common) {
+  if (!options.arrays.empty())
+    throw bad_input("--arrays is not for a comparison with finite elements", "leave it out");
+  const std::filesystem::path run = options.folders.front();
+  const std::filesystem::path out = options.out.empty()
+                                        ? run.parent_path() / (name_of_run(run) + "_reference")
+                                        : std::filesystem::path(options.out);
+  StageProgress progress("measuring", progress_style(common.quiet));
+  MeasureOptions how;
+  for (const std::string& text : options.limits) how.limits.push_back(parse_limit(text));
+  how.progress = [&](std::size_t done, std::size_t of) { progress.at(done, of); };
+  const ElementComparison compared = compare_elements(run, options.reference, how, out);
+  print_elements(compared, out, common);
+  return told(compared.metrics.checks);
+}
+
 Exit study_folders(const Options& options, const Common& common) {
   if (options.out.empty())
     throw bad_input("several runs are compared into a folder of its own", "name it with -o");
@@ -210,12 +255,15 @@ int main(int argc, char** argv) {
        "sinew measure out/paper out/bonded -o out/paper_bonded",
        "sinew measure out/soft out/middle out/stiff -o out/stiffness",
        "sinew measure out/coarse --reference out/fine/surface.pvd",
+       "sinew measure out/beam --reference beam.frd",
        "sinew measure out/box_bend --arrays 'J, strain, stress'"}};
   about.takes_scene = false;
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) {
         if (options.folders.size() > 2) return study_folders(options, common);
+        if (options.folders.size() == 1 && names_elements(options.reference))
+          return compare_with_elements(options, common);
         return options.folders.size() == 2 ? compare_folders(options, common)
                                            : measure_folder(options, common);
       });

@@ -35,10 +35,13 @@ void print_results(const RunFolder& folder, const std::string& text, const Commo
     if (record.contains(key)) results.add(key, record[key]);
   results.add_headline("status", record["status"]);
   results.add_headline("particles", std::to_string(record["particles"].get<std::int64_t>()));
-  results.add_headline("frames", std::to_string(record["frames"].get<std::int64_t>()) + " (" +
-                                     std::to_string(record["steps"].get<std::int64_t>()) +
-                                     " steps of " +
-                                     three_digits(record["time_step"].get<double>()) + " s)");
+  const std::string steps = std::to_string(record["steps"].get<std::int64_t>());
+  results.add_headline(
+      "frames",
+      std::to_string(record["frames"].get<std::int64_t>()) + " (" +
+          (record.contains("load_steps")
+               ? steps + " iterations)"
+               : steps + " steps of " + three_digits(record["time_step"].get<double>()) + " s)"));
   results.add_headline("folder", folder.path.string());
   results.print(common);
 }
@@ -77,6 +80,8 @@ Exit simulate_scene(int argc, char** argv, const Options& options, const Common&
   how.before_stepping = catch_stop_signals;
   how.progress = [&](const RunProgress& at) {
     if (!progress) progress.emplace(at.frames, progress_style(common.quiet));
+    if (at.iterations > 0)
+      return progress->iterations(at.frame, at.time, at.iterations, at.residual);
     progress->frame(at.frame, at.time, at.steps, at.waited);
     if (at.frame == at.frames) progress.reset();
   };

@@ -4,12 +4,12 @@
 namespace sinew::fuzz {
 
 std::vector<Target> tried_targets() {
-  return {{"bvh", bvh},   {"checkpoint", checkpoint},
-          {"gltf", gltf}, {"obj", obj},
-          {"off", off},   {"ply", ply},
-          {"pvd", pvd},   {"scene", scene},
-          {"stl", stl},   {"vtk", vtk},
-          {"vtu", vtu}};
+  return {{"bvh", bvh},     {"checkpoint", checkpoint},
+          {"frd", frd},     {"gltf", gltf},
+          {"obj", obj},     {"off", off},
+          {"ply", ply},     {"pvd", pvd},
+          {"scene", scene}, {"stl", stl},
+          {"vtk", vtk},     {"vtu", vtu}};
 }
 
 }  // namespace sinew::fuzz

@@ -184,6 +184,20 @@ def vtk_files():
                            '<PointData Scalars="d">' + vtk_array("d", "Float64", distances) + "</PointData></Piece>")
 
 
+def frd(kind):
+    """A result of CalculiX: one element of that type with its nodes on a line, at one moment."""
+    count = {1: 8, 3: 4, 4: 20, 6: 10}[kind]
+    numbers = lambda values: "".join("%12.5E" % value for value in values)
+    nodes = "".join(" -1%10d%s\n" % (k + 1, numbers((k % 3, k % 5, k))) for k in range(count))
+    names = ["%10d" % (k + 1) for k in range(count)]
+    lines = "".join(" -2" + "".join(names[k:k + 10]) + "\n" for k in range(0, count, 10))
+    text = f"    1C\n    2C{count:30d}{1:38d}\n{nodes} -3\n    3C{1:30d}{1:38d}\n -1{1:10d}{kind:5d}    0    1\n{lines} -3\n"
+    for name, width in ("DISP", 3), ("STRESS", 6):
+        text += f"  100CL  101 1.000000000{count:12d}                     0    1           1\n -4  {name:8s}    4    1\n"
+        text += "".join(" -1%10d%s\n" % (k + 1, numbers([0.01 * k] * width)) for k in range(count)) + " -3\n"
+    return (text + " 9999\n").encode()
+
+
 def run_files(binaries, put):
     """What runs of a few particles leave."""
     with tempfile.TemporaryDirectory() as temporary:
@@ -233,6 +247,8 @@ def main():
     put("gltf", "looks.glb", gltf_binary(*gltf_looks()))
     for name, content in vtk_files():
         put("vtk", name, content)
+    for name, kind in ("hexahedron8", 1), ("hexahedron20", 4), ("tetrahedron4", 3), ("tetrahedron10", 6):
+        put("frd", name, frd(kind))
     for name, text in SCENES.items():
         put("scene", name, text.encode())
     run_files(binaries, put)

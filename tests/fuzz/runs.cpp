@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes, and what a run leaves behind.
+// Scenes, what a run leaves behind, and results of finite elements.
 #include <cstring>
 
 #include <sinew/core/hash.h>
+#include <sinew/io/calculix/frd.h>
 #include <sinew/io/checkpoint.h>
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
@@ -59,6 +60,19 @@ void vtu(std::string_view bytes) {
     const auto points = static_cast<std::int32_t>(data.points.size());
     for (const Vec3& point : data.points) require(point.allFinite());
     for (const std::int32_t point : data.connectivity) require(point >= 0 && point < points);
+  });
+}
+
+void frd(std::string_view bytes) {
+  const auto path = file_of(bytes, "fuzz.frd");
+  expect_sound_or_refused([&] {
+    const FrdResult result = read_frd(path);
+    const std::size_t nodes = result.mesh.nodes.size();
+    for (const VolumeElement& element : result.mesh.elements)
+      for (const std::uint32_t node : element.used()) require(node < nodes);
+    for (const FrdStep& step : result.steps)
+      require(step.displacement.size() == nodes &&
+              (step.stress.empty() || step.stress.size() == nodes));
   });
 }
 

@@ -12,6 +12,7 @@ namespace sinew::fuzz {
 
 void bvh(std::string_view bytes);
 void checkpoint(std::string_view bytes);
+void frd(std::string_view bytes);
 void gltf(std::string_view bytes);
 void obj(std::string_view bytes);
 void off(std::string_view bytes);

@@ -173,7 +173,10 @@ def sections_of(whole):
     return sections
 
 
-def sealed(sections, magic=b"SINEWCKP", mark=0x01020304, version=4):
+CHECKPOINT_VERSION = 4
+
+
+def sealed(sections, magic=b"SINEWCKP", mark=0x01020304, version=CHECKPOINT_VERSION):
     """With the right length and checksum, whatever the sections hold."""
     body = b"".join(struct.pack("<8sQQ", name.encode(), size, len(values) // size) + values for name, size, values in sections)
     text = struct.pack("<8sIIQ", magic, mark, version, 24 + len(body) + 8) + body
@@ -217,7 +220,7 @@ def checkpoint(run):
     assert sealed(sections) == whole
     files = FOREIGN | {name: NOT_FILES[name] for name in ("folder", "pipe")} | cut_short(whole, 16)
     files |= {"magic": sealed(sections, b"SINEWCKQ"), "mark": sealed(sections, mark=0x04030201), "version_0": sealed(sections, version=0),
-              "version_5": sealed(sections, version=5), "checksum": whole[:-1] + bytes([whole[-1] ^ 1]), "longer": whole + b"\0",
+              "version_next": sealed(sections, version=CHECKPOINT_VERSION + 1), "checksum": whole[:-1] + bytes([whole[-1] ^ 1]), "longer": whole + b"\0",
               "twice": whole + whole, "head_alone": whole[:24]}
     for k in range(24, len(whole) - 8, max(1, len(whole) // 12)):
         files[f"flipped_{k}"] = whole[:k] + bytes([whole[k] ^ 4]) + whole[k + 1:]

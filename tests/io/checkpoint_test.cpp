@@ -42,6 +42,8 @@ Checkpoint sample(bool single = false) {
   else
     state.moving = columns<MovingInDouble>();
   state.rest_length = {0.1, 0, 0.3};
+  state.sliding_pairs = {0, 3, 3, 0};
+  state.sliding = {0.1, 0.2, 0.3, -0.1, -0.2, -0.3};
   state.groups = {1, -2, 0.5};
   return sample;
 }
@@ -130,17 +132,18 @@ TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   expect_refused(bytes_of(larger), {"run has 6 particles", "body now 5", "--force"});
 }
 
-TEST_F(CheckpointFile, OfVersion3HasNoGroups) {
+TEST_F(CheckpointFile, OfVersion3HasNoFrictionAndNoGroups) {
   constexpr std::size_t hash_size = 8, length_at = 16;
   std::string bytes = bytes_of(sample());
-  const std::size_t groups = bytes.rfind("groups");
-  bytes.erase(groups, bytes.size() - hash_size - groups);
+  const std::size_t newer = bytes.rfind("slidpair");
+  bytes.erase(newer, bytes.size() - hash_size - newer);
   bytes[12] = 3;
   const std::uint64_t length = bytes.size();
   std::memcpy(bytes.data() + length_at, &length, sizeof length);
   put(file(), resealed(bytes));
   const Checkpoint read = read_checkpoint(file(), particles);
   EXPECT_EQ(read.run, sample().run);
+  EXPECT_TRUE(read.state.sliding_pairs.empty());
   EXPECT_TRUE(read.state.groups.empty());
 }
 

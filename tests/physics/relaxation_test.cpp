@@ -158,6 +158,16 @@ TEST(Relaxation, RefusesWhatRoundingHides) {
                      {"load step 1 at 1 s", "rounding", "solver.precision", "solver.residual"});
 }
 
+TEST(Relaxation, RefusesLoadsBelowRoundingButNotNone) {
+  Machine machine = cantilever();
+  machine.settings.solver.gravity.setZero();
+  machine.world.loads = {machine.pull(machine.top(), {0, 0, 1e-19})};
+  test::expect_error(Exit::unstable, [&] { machine.at_rest(); },
+                     {"rounding", "make the load or solver.residual larger"});
+  machine.world.loads = {machine.pull(machine.top(), {0, 0, 0})};
+  EXPECT_EQ(machine.at_rest().relaxation()->last().residual, 0);
+}
+
 TEST(Relaxation, DoesNotCallEquilibriumWhatIsNone) {
   LoadSteps steps = two_moments();
   steps.most_iterations = 60;

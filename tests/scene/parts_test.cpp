@@ -94,7 +94,8 @@ TEST(Parts, ThatAreEmptyAreRefused) {
                          {"no face of the surface is in the part of loads[2]"});
   part = {};
   part.ids = std::vector<double>{1e9};
-  test::expect_bad_input([&] { world.parts.particles(part, ""); }, {"there is no particle 1e+09"});
+  test::expect_bad_input([&] { world.parts.particles(part, ""); },
+                         {"there is no particle 1000000000"});
   part.ids = std::vector<double>{0.5};
   test::expect_bad_input([&] { world.parts.particles(part, ""); }, {"there is no particle 0.5"});
   part = {};

@@ -156,6 +156,8 @@ class Chance {
     drawn.material.a = 2;
     if (drawn.material.damping_ratio) drawn.material.damping = MaterialOptions().damping;
     if (drawn.material.model != MaterialModel::paper) drawn.material.cohesion = Cohesion::all;
+    if (drawn.material.model == MaterialModel::paper && drawn.material.cohesion == Cohesion::all)
+      drawn.material.friction = 0;
     if (drawn.material.model == MaterialModel::paper)
       drawn.material.breaking_strain = drawn.material.yield_strain = std::nullopt;
     if (drawn.material.model == MaterialModel::paper || drawn.material.breaking_strain)
@@ -177,6 +179,7 @@ class Chance {
       drawn.solver.integrator = Integrator::symplectic_euler;
       drawn.solver.time_step.reset();
       drawn.solver.neighbor_search = NeighborSearch::lists;
+      drawn.material.friction = 0;
       drawn.binding.twist_form = TwistForm::servo;
     }
   }

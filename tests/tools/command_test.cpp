@@ -204,6 +204,8 @@ TEST(Progress, TextLeavesOutWhatIsUnknown) {
   EXPECT_EQ(progress_text(30, 90, 1, 0, 0, 0.314),
             "frame 30/90  time 1 s  31 % spent waiting for the disk");
   EXPECT_EQ(progress_text(30, 90, 1, 0, 0, 0.04), "frame 30/90  time 1 s");
+  EXPECT_EQ(iterations_text(1, 2, 0.5, 3000, 0.0012),
+            "frame 1/2  time 0.5 s  3000 iterations, residual 0.0012");
 }
 
 TEST(Progress, OnATerminalOneLineIsRewrittenAndEnded) {

@@ -195,6 +195,15 @@ probes:
             for one, other in zip(self.vector(above, name), self.vector(rows["above"], name)):
                 self.assertLess(abs(one - other), 1e-9 * max(1, abs(other)))
 
+    def test_all_arrays_are_those_that_a_body_without_bones_has(self):
+        self.run_of(PULL.format(by=0.002), "--set", "solver.duration=0.1", "--set", "output.arrays=all")
+        frame = next((self.out / "particles").glob("*.vtu")).read_bytes()
+        self.assertIn(b'"hencky_strain"', frame)
+        self.assertNotIn(b'"pose_error"', frame)
+        sinew("measure", self.out, "--arrays", "all")
+        named = sinew("measure", self.out, "--arrays", "pose_error", check=2)
+        self.assertIn("no particle has a bone", named.stderr)
+
     def test_the_report_offers_any_pair_of_columns(self):
         self.run_of(PULL.format(by=0.002) + "probes:\n  - {name: 'a, b', at: [0, 0, 0.3]}\n",
                     "--set", "solver.duration=0.5")
@@ -238,7 +247,7 @@ probes:
                 ("supports:\n  - {name: a, low: [1, 1, 1], high: [2, 2, 2]}\n",
                  r"no particle is in the part of supports\[0\]; choose one that reaches"),
                 ("supports:\n  - {name: a, bone: lower}\n", "there is no bone 'lower'"),
-                ("supports:\n  - {name: a, ids: [1e6]}\n", r"there is no particle 1e\+06; give"),
+                ("supports:\n  - {name: a, ids: [1e6]}\n", r"there is no particle 1000000; give"),
                 ("loads:\n  - {name: a, pressure: 1, low: [1, 1, 1], high: [2, 2, 2]}\n",
                  "no face of the surface is in the part of"),
                 ("loads:\n  - {name: a, force: [0, 0, 1], component: 3}\n", "no particle is in the part"),

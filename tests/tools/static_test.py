@@ -125,6 +125,13 @@ class Static(unittest.TestCase):
         asked = self.run_scene(machine, "--force", "--set", "solver.residual=1e-6", check=3)
         self.assertIn("rounding", asked.stderr)
         self.assertIn("make the load", asked.stderr)
+        hidden = self.run_scene(CLAMP.replace("FORCE", "1e-12"), "--force", check=3)
+        self.assertIn("rounding", hidden.stderr)
+
+    def test_check_tells_iterations_instead_of_steps(self):
+        said = sinew("check", self.scene(CLAMP.replace("FORCE", "5"))).stdout
+        self.assertIn("most_iterations_per_frame: 200000", said)
+        self.assertNotIn("time_step", said)
 
     def refuse(self, machine, *settings, says):
         words = [word for one in settings for word in ("--set", one)]

@@ -109,6 +109,7 @@ class Studies(unittest.TestCase):
         sinew("measure", *(self.out / f"radius_{radius}" for radius in RADII), "-o", again, check=0)
         self.assertEqual((again / "study.json").read_text(), (self.out / "study.json").read_text())
         page = (again / "report.html").read_text()
+        self.assertIn("<h1>again</h1>", page)
         self.assertIn("Over the radius", page)
         self.assertIn("study.json", page)
 
@@ -147,6 +148,7 @@ class Studies(unittest.TestCase):
         for words, said in [(["converge", self.scene, "--radii", "0.01"], "three"),
                             (["converge", self.scene, "--radii", "0.01,0.01"], "twice"),
                             (["converge", self.scene, "--radii", "0.01,-1"], "above 0"),
+                            (["converge", self.scene, "--radii", "0.02,0.01", "--set", "body.radius=0.1"], "leave it out"),
                             (["measure", *runs], "-o"),
                             (["measure", *runs, "-o", runs[0]], "lost"),
                             (["measure", *runs, runs[0], "-o", self.at / "x"], "twice"),

@@ -10,6 +10,7 @@ namespace sinew {
 namespace {
 
 constexpr double worth_telling = 0.05;  // share of the time that the simulation waits for writing
+constexpr auto between = std::chrono::seconds(10);  // of lines that are not rewritten
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));
@@ -30,8 +31,14 @@ std::string progress_text(int frame, int frames, double time, double steps_per_s
   return text;
 }
 
+std::string iterations_text(int frame, int frames, double time, std::int64_t iterations,
+                            double residual) {
+  return progress_text(frame, frames, time, 0, 0) +
+         fmt::format("  {} iterations, residual {:.2g}", iterations, residual);
+}
+
 void StageProgress::at(std::size_t done, std::size_t of) {
-  constexpr auto until_rewritten = std::chrono::seconds(1), between = std::chrono::seconds(10);
+  constexpr auto until_rewritten = std::chrono::seconds(1);
   const auto now = Clock::now();
   if (done == 0 || now - start_ < until_rewritten) return;
   const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -69,6 +76,15 @@ void Progress::frame(int frame, double time, std::int64_t steps, double waited) 
   else if (tenths > tenths_)
     line_.add(line);
   tenths_ = std::max(tenths_, tenths);
+}
+
+void Progress::iterations(int frame, double time, std::int64_t iterations, double residual) {
+  const std::string line = iterations_text(frame, frames_, time, iterations, residual);
+  const auto now = Clock::now();
+  if (line_.style() == ProgressStyle::rewritten)
+    line_.rewrite(line, false);
+  else if (line_.style() == ProgressStyle::lines && now - told_ >= between)
+    line_.add(line), told_ = now;
 }
 
 }  // namespace sinew

@@ -20,6 +20,10 @@ namespace sinew {
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
                           double seconds_left, double share_waited = 0);
 
+/// "frame 1/2  time 0.5 s  3000 iterations, residual 0.0012"
+std::string iterations_text(int frame, int frames, double time, std::int64_t iterations,
+                            double residual);
+
 /// Of drawing or measuring: "measuring 45 %  0:05 left". On a terminal it appears after a second;
 /// otherwise there is a line every ten seconds.
 class StageProgress {
@@ -45,6 +49,8 @@ class Progress {
   /// Reports frame `frame` at `time` (s of the scene) after `steps` steps of this run, which has
   /// `waited` (s) for frames to be written. The first call starts the clock.
   void frame(int frame, double time, std::int64_t steps, double waited = 0);
+  /// Reports how near an equilibrium, that of frame `frame`, is after so many iterations.
+  void iterations(int frame, double time, std::int64_t iterations, double residual);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -56,6 +62,7 @@ class Progress {
   int first_frame_ = 0;
   std::int64_t first_steps_ = 0;
   int tenths_ = 0;
+  Clock::time_point told_ = Clock::now();
 };
 
 }  // namespace sinew

@@ -68,7 +68,9 @@ std::vector<WrittenArray> table_of_particles() {
        "damping force of its neighbors"},
       {"particles", point, "force_bone", "N", xyz, real, plain, "force of its bone"},
       {"particles", point, "force_world", "N", xyz, real, plain,
-       "force of obstacles, drag, fields, muscles, pins, supports and loads, if the scene has any"},
+       "force of obstacles, drag, fields, muscles, pins, supports, loads and friction of the body "
+       "on "
+       "itself, if the scene has any"},
       {"particles", point, "neighbors", "1", one, whole, plain,
        "number of neighbors within the range b; of solids, bonded or touching"},
       {"particles", point, "broken_bonds", "1", one, whole, plain,

@@ -92,6 +92,7 @@ struct MaterialOptions {
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;
   double creep_rate = 1;
+  double friction = 0;
 };
 
 /// Whether bonds of first and second neighbors, with factors, make the material isotropic in that

@@ -86,6 +86,9 @@ struct SimulationState {
   RelaxationState relaxation = {};
   /// Of each group of particles: c, its velocity, F and its rate (column by column).
   std::vector<double> groups = {};
+  // Of friction between particles that touch: whose springs, and their stretches, m.
+  std::vector<std::int32_t> sliding_pairs;  ///< two ids each
+  std::vector<double> sliding;              ///< three each
 };
 
 }  // namespace sinew

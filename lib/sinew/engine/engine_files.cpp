@@ -129,6 +129,7 @@ void refuse_unsupported(const Body& body) {
   const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;
   const char* what = unknown != nullptr       ? unknown
                      : bonds_change(material) ? "bonds that break or creep"
+                     : material.friction > 0  ? "friction of a body on itself"
                                               : nullptr;
   if (what != nullptr)
     throw bad_input(std::string("engines in other programs know no ") + what,

@@ -72,7 +72,14 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("largest", state.relaxation.largest);
   transfer("applied", state.relaxation.applied);
   transfer("unbal", state.relaxation.unbalanced);
+  transfer("slidpair", state.sliding_pairs);
+  transfer("sliding", state.sliding);
   transfer("groups", state.groups);
+}
+
+/// Sections that version 3 lacks, after all others.
+bool is_of_version_4(std::string_view name) {
+  return name == "slidpair" || name == "sliding" || name == "groups";
 }
 
 template <class Value>
@@ -167,7 +174,7 @@ class Reader {
 
   template <class Value>
   void operator()(std::string_view name, Value& value) {
-    if (name == "groups" && left() == 0) return;  // none in version 3
+    if (left() == 0 && is_of_version_4(name)) return;
     if constexpr (std::is_same_v<Value, bool>) {
       std::uint32_t flag = 0;
       fill(name, &flag, 1);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/metrics/pair_forces.h>
@@ -270,15 +271,23 @@ FrameState state_at_rest(const RestBody& rest) {
   return state;
 }
 
-void refuse_undefined(const RestBody& rest, const FrameState& at_rest,
-                      std::span<const std::string_view> names) {
-  for (const Column& array : particle_arrays(rest, at_rest, names)) {
+std::vector<std::string_view> defined_arrays(const RestBody& rest, const FrameState& at_rest,
+                                             std::string_view words) {
+  const std::vector<std::string_view> names = requested_arrays(words);
+  const bool all = names.size() == requestable_arrays().size();
+  std::vector<std::string_view> defined;
+  const std::vector<Column> columns = particle_arrays(rest, at_rest, names);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Column& array = columns[k];
     const auto* values = std::get_if<std::vector<double>>(&array.values);
-    if (values != nullptr &&
-        std::all_of(values->begin(), values->end(), [](double value) { return std::isnan(value); }))
+    if (values == nullptr || std::any_of(values->begin(), values->end(),
+                                         [](double value) { return !std::isnan(value); }))
+      defined.push_back(names[k]);
+    else if (!all)
       throw bad_input("no particle has a value of " + array.name + ": " + why_undefined(array.name),
                       "leave it out of the arrays");
   }
+  return defined;
 }
 
 }  // namespace sinew

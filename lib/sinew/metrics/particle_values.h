@@ -53,9 +53,9 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
 /// The body at rest as a frame, without velocities.
 FrameState state_at_rest(const RestBody& rest);
 
-/// Throws bad input for an array that no particle of a state at rest has a value of, with the
-/// reason.
-void refuse_undefined(const RestBody& rest, const FrameState& at_rest,
-                      std::span<const std::string_view> names);
+/// Those of requested_arrays(words) that some particle of a state at rest has a value of. Throws
+/// bad input, with the reason, for another one unless it is meant by "all".
+std::vector<std::string_view> defined_arrays(const RestBody& rest, const FrameState& at_rest,
+                                             std::string_view words);
 
 }  // namespace sinew

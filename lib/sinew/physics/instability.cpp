@@ -21,6 +21,16 @@ std::string step_text(double step) { return "solver.time_step " + three_digits(s
 
 std::string in_a_step(double radii) { return three_digits(radii) + " r in one step"; }
 
+/// "fields, loads, muscles": what a world has beside obstacles.
+std::string what_acts(const World& world) {
+  std::vector<std::string_view> names;
+  if (!world.fields.empty()) names.push_back("fields");
+  if (!world.loads.empty()) names.push_back("loads");
+  if (world.drag.rate > 0) names.push_back("drag");
+  if (!world.muscles.muscles.empty()) names.push_back("muscles");
+  return names.empty() ? "surroundings" : listed(names);
+}
+
 /// One particle of a step that failed. Distances in radii.
 class Diagnosis {
  public:
@@ -95,7 +105,7 @@ class Diagnosis {
       return "obstacle '" + strongest->name + "' pushes it out by " + in_a_step(push) +
              "; keep it off the body at rest, move it more slowly, lower its stiffness, or use " +
              step_text(step_for(energy));
-    return "fields and muscles move it " + in_a_step(push) +
+    return what_acts(world) + " move it " + in_a_step(push) +
            "; lower their strength, or choose a stiffer material";
   }
 

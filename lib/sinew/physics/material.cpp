@@ -110,6 +110,7 @@ Material make_material(const MaterialOptions& settings, const PackedBody& body) 
   material.order = order_of(body.packing);
   if (settings.model != MaterialModel::paper) bond(settings, packing, material);
   material.damping_form = settings.damping_form;
+  material.friction = settings.friction;
   material.damping = settings.damping * std::sqrt(pair.contact_stiffness() * body.mass);
   return material;
 }

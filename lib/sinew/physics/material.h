@@ -31,6 +31,7 @@ struct Material {
   double mass = 0;              ///< of a particle, kg
   double damping = 0;           ///< C of eq. 2, kg/s
   DampingForm damping_form = DampingForm::paper;
+  double friction = 0;  ///< coefficient, between particles that touch and are not bonded
 
   double young_modulus() const;  ///< Pa, Hill average over directions
   double stiffness() const;      ///< the stiffest of contact, tension and bonds, N/m

@@ -80,7 +80,10 @@ void Relaxation::find_damping(const Imbalance& sums) {
 bool Relaxation::is_at_rest(const Imbalance& sums) const {
   const double flowing = step() / share_of_flow * sums.flowing;
   if (flowing > steps_.residual * reference() * radius_) return false;
-  if (reference() <= noise_) return sums.unbalanced <= at_rounding * noise_;
+  if (reference() <= noise_) {
+    if (sums.loaded > 0 && sums.unbalanced <= at_rounding * noise_) refuse_noise();
+    return sums.unbalanced <= at_rounding * noise_;
+  }
   const double wanted = steps_.residual * reference();
   if (wanted >= noise_) return sums.unbalanced <= wanted;
   if (steps_.acceptable * reference() < at_rounding * noise_) refuse_noise();

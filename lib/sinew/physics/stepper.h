@@ -94,6 +94,7 @@ struct Imbalance {
   /// The largest of these, N: the lengths of all forces of loads, obstacles and (half) pins; the
   /// weight; half those of bones and fibers; a support's force, and its moment over the extent.
   double applied = 0;
+  double loaded = 0;  ///< of it, by loads and the weight alone: exactly 0 without
 };
 
 /// Contributions of a step to the ledger, at the moment of the positions it began with.

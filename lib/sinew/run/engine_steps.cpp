@@ -38,6 +38,8 @@ constexpr std::array<Unsupported, 10> unsupported = {{
      [](const Settings& scene) { return scene.material.fracture_energy.has_value(); }},
     {"material.yield_strain", "bonds that creep", "leave it out",
      [](const Settings& scene) { return scene.material.yield_strain.has_value(); }},
+    {"material.friction", "friction of a body on itself", "leave it out",
+     [](const Settings& scene) { return scene.material.friction > 0; }},
     {"world.obstacles", "obstacles of meshes", "choose another shape",
      [](const Settings& scene) {
        return any_of(scene.world.obstacles,

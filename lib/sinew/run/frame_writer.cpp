@@ -201,7 +201,7 @@ void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const dou
     bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
                          each(every_, kept));
   try {
-    refuse_undefined(*measured_, measured_at_rest(), arrays_);
+    arrays_ = defined_arrays(*measured_, measured_at_rest(), words_for_arrays(output, body_));
   } catch (const Error& error) {
     throw error.with_context({"output.arrays"});
   }

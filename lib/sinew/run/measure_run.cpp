@@ -133,8 +133,8 @@ struct Course {
 /// Requested arrays, in addition to the run's own series.
 class ValueSeries {
  public:
-  ValueSeries(const RunFiles& run, const std::vector<std::string_view>& arrays)
-      : ids_(run.ids), arrays_(arrays) {
+  ValueSeries(const RunFiles& run, std::vector<std::string_view> arrays)
+      : ids_(run.ids), arrays_(std::move(arrays)) {
     if (arrays_.empty()) return;
     const OutputSettings& output = run.settings.output;
     series_.emplace(run.folder.path, VtuFormat{output.encoding, output.double_precision, "values",
@@ -186,8 +186,7 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   FramesInOrder frames(run, how.ahead);
   FrameState first = state_at_rest(rest);
   first.von_mises = read_frame(run, 0).von_mises;
-  refuse_undefined(rest, first, how.arrays);
-  ValueSeries values(run, how.arrays);
+  ValueSeries values(run, defined_arrays(rest, first, how.arrays));
   for (std::size_t i = 0; i < run.frames(); ++i) {
     const FrameState state = measured_frame(frames.next());
     measure_one(measured, course, rest, run, state, how);

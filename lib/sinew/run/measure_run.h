@@ -57,9 +57,9 @@ struct Measured {
 struct MeasureOptions {
   std::vector<Limit> limits;
   std::optional<SurfaceSeries> reference;
-  std::vector<std::string_view> arrays;  ///< to be written as the series "values"
-  bool ahead = true;                     ///< read the next frame while one is measured
-  bool playback = true;                  ///< make one
+  std::string arrays;    ///< to be written as the series "values": see requested_arrays()
+  bool ahead = true;     ///< read the next frame while one is measured
+  bool playback = true;  ///< make one
   std::function<void(std::size_t done, std::size_t of)> progress = {};  ///< after each frame
 };
 

@@ -271,17 +271,33 @@ Triangles read_obstacles(const RunFiles& run, std::size_t index) {
   return {std::move(data.points), triangles_in(data)};
 }
 
-std::shared_ptr<const World> world_of_run(const RunFiles& run) {
-  if (run.settings.world.pins.empty() && run.settings.world.muscles.empty() &&
-      run.settings.supports.empty() && run.settings.loads.empty())
-    return nullptr;
+namespace {
+
+SceneWorld scene_world(const RunFiles& run) {
   Settings settings = run.settings;
   settings.world.obstacles.clear();  // their meshes need not exist any more
   const BodyFile body = read_body(run.folder.body());
   SceneFiles files = read_rig_files(settings);
   files.surface = run.surface;
   const Body bound = make_body(settings, files, run.skeleton, body.particles, local_material(body));
-  return world_of(settings, files, bound, body.component).world;
+  return world_of(settings, files, bound, body.component);
+}
+
+}  // namespace
+
+std::shared_ptr<const World> world_of_run(const RunFiles& run) {
+  if (run.settings.world.pins.empty() && run.settings.world.muscles.empty() &&
+      run.settings.supports.empty() && run.settings.loads.empty())
+    return nullptr;
+  return scene_world(run).world;
+}
+
+std::vector<Probe> probes_of_run(const RunFiles& run) {
+  if (run.settings.probes.empty()) return {};
+  if (!run.ids.empty())
+    throw bad_input(Place{run.folder.path.string()}, "has not written all particles",
+                    "run the scene without output.region");
+  return scene_world(run).probes;
 }
 
 FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead_(ahead) {

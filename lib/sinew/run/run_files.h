@@ -22,6 +22,7 @@
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/run_folder.h>
+#include <sinew/scene/machine.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -73,6 +74,9 @@ Triangles read_obstacles(const RunFiles& run, std::size_t frame);
 /// The held particles and the muscles of a run's body, by id; null for a run without them. Its
 /// obstacles are in the frames.
 std::shared_ptr<const World> world_of_run(const RunFiles& run);
+
+/// The probes of a run's scene. Throws bad input for a run that has not written all particles.
+std::vector<Probe> probes_of_run(const RunFiles& run);
 
 /// The frames of a run in order; the next ones are read while the caller works on the present one.
 class FramesInOrder {

@@ -196,6 +196,7 @@ class Run {
         report(frame++);
       }
       if (frame > schedule_.frames) return Exit::done;
+      report_iterations(frame);
       const bool stop = asked_to_stop(simulation_->steps() > begun);
       if (!stop && !checkpoints_.due()) continue;
       log_.spend("stepping", watch.lap());
@@ -239,6 +240,15 @@ class Run {
     if (options_.progress)
       options_.progress({frame, schedule_.frames, frame * schedule_.interval, simulation_->steps(),
                          writer_->waited()});
+  }
+
+  void report_iterations(int frame) const {
+    const Relaxation* relaxation = simulation_->relaxation();
+    if (relaxation == nullptr || !options_.progress) return;
+    const std::int64_t iterations = relaxation->state().iterations;
+    if (iterations == 0 || iterations % 1000 != 0) return;
+    options_.progress({frame, schedule_.frames, frame * schedule_.interval, simulation_->steps(),
+                       writer_->waited(), iterations, relaxation->residual()});
   }
 
   void save() {
@@ -315,9 +325,14 @@ std::vector<std::string> fill_warnings(const BodyFile& body) {
 void say_what_is_doubtful(const Settings& scene, const ReadyScene& ready,
                           const SimulateOptions& options) {
   const Setup& setup = ready.setup;
-  say(options, "step " + three_digits(setup.steps.step) + " s, " +
-                   three_digits(setup.steps.factor()) + " of the stability limit " +
-                   three_digits(setup.steps.limit) + " s");
+  if (const auto& relaxed = setup.load_steps)
+    say(options, "equilibria at " + std::to_string(relaxed->count) +
+                     " moments, each to a residual of " + three_digits(relaxed->residual) +
+                     " within " + std::to_string(relaxed->most_iterations) + " iterations");
+  else
+    say(options, "step " + three_digits(setup.steps.step) + " s, " +
+                     three_digits(setup.steps.factor()) + " of the stability limit " +
+                     three_digits(setup.steps.limit) + " s");
   const double speed = farthest_carried(setup, scene.output.interval);
   std::vector<std::string> warnings = fill_warnings(ready.body);
   for (std::string& warning : warnings_of(setup, ready.surface, speed))

@@ -25,6 +25,9 @@ struct RunProgress {
   double time = 0;            ///< of the scene, s
   std::int64_t steps = 0;
   double waited = 0;  ///< s that stepping has waited for the disk
+  /// On the way to the next equilibrium, every thousand; 0: a frame has been written.
+  std::int64_t iterations = 0;
+  double residual = 0;  ///< by then
 };
 
 struct SimulateOptions {

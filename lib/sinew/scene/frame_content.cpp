@@ -24,12 +24,16 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
   return ids;
 }
 
-std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body) {
+std::string words_for_arrays(const OutputSettings& output, const Body& body) {
   std::string words = output.arrays;
   const bool stress_is_lost =
       bonds_change(body.material) || has_muscles(body) || output.region.has_value();
   if (stress_is_lost && output.only.empty()) words += " von_mises";
-  return requested_arrays(words);
+  return words;
+}
+
+std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body) {
+  return requested_arrays(words_for_arrays(output, body));
 }
 
 double written_share(const OutputSettings& output, const Points& rest) {

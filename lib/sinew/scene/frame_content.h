@@ -22,6 +22,8 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
 /// positions alone do not give it later, von_mises: for bonds that break or creep, muscles and a
 /// part of the body. output.only leaves it out.
 std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body);
+/// The words that name them, for requested_arrays().
+std::string words_for_arrays(const OutputSettings& output, const Body& body);
 
 /// The share of all frames' numbers per particle that is written, by output.every and
 /// output.region.

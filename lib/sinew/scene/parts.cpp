@@ -44,6 +44,11 @@ Triangles without_other_points(const Triangles& surface,
 
 }  // namespace
 
+std::string extent_text(const Points& points) {
+  const Box box = bounds(points);
+  return "from " + corner(box.min()) + " to " + corner(box.max()) + " m";
+}
+
 /// What a part asks for.
 class Parts::Test {
  public:
@@ -51,7 +56,8 @@ class Parts::Test {
       : parts_(parts), part_(part) {
     bone_ = bone_at(parts.settings_, path, parts.body_.skeleton, part.bone);
     if (part.facing) direction_ = part.facing->normalized();
-    if (part.ids) set_ids(path);
+    if (part.ids)
+      ids_ = ids_of(parts_.settings_, path + ".ids", *part_.ids, parts_.body_.rest.size());
     if (part.component && parts.component_.empty())
       throw bad_input(parts.settings_.place(path + ".component"),
                       "the components of these particles are not known", "name another part");
@@ -75,24 +81,29 @@ class Parts::Test {
   }
 
  private:
-  void set_ids(const std::string& path) {
-    const std::size_t particles = parts_.body_.rest.size();
-    for (const double number : *part_.ids) {
-      if (number != std::floor(number) || number >= static_cast<double>(particles))
-        throw bad_input(parts_.settings_.place(path + ".ids"),
-                        "there is no particle " + number_text(number),
-                        "give whole numbers from 0 to " + std::to_string(particles - 1));
-      ids_.push_back(static_cast<std::uint32_t>(number));
-    }
-    std::sort(ids_.begin(), ids_.end());
-  }
-
   const Parts& parts_;
   const PartSettings& part_;
   int bone_ = no_bone;
   Vec3 direction_ = Vec3::Zero();
   std::vector<std::uint32_t> ids_;
 };
+
+std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
+                                  const std::vector<double>& numbers, std::size_t particles) {
+  const auto text = [](double number) {
+    const bool whole = number == std::floor(number) && std::abs(number) < 1e15;
+    return whole ? std::to_string(static_cast<std::int64_t>(number)) : number_text(number);
+  };
+  std::vector<std::uint32_t> ids;
+  for (const double number : numbers) {
+    if (number != std::floor(number) || !(number >= 0 && number < static_cast<double>(particles)))
+      throw bad_input(settings.place(path), "there is no particle " + text(number),
+                      "give whole numbers from 0 to " + std::to_string(particles - 1));
+    ids.push_back(static_cast<std::uint32_t>(number));
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
 
 Parts::Parts(const Settings& settings, const Body& body, const Triangles& surface,
              std::span<const std::int32_t> component)
@@ -128,10 +139,8 @@ std::vector<std::uint32_t> Parts::particles(const PartSettings& part,
       if (test.holds(i, body_.rest[i])) found.push_back(i);
   }
   if (!found.empty()) return found;
-  const Box body = bounds(body_.rest);
   throw bad_input(settings_.place(path), "no particle is in the part of " + path,
-                  "choose one that reaches into the body, from " + corner(body.min()) + " to " +
-                      corner(body.max()) + " m");
+                  "choose one that reaches into the body, " + extent_text(body_.rest));
 }
 
 Triangles Parts::faces(const PartSettings& part, const std::string& path) const {
@@ -143,10 +152,8 @@ Triangles Parts::faces(const PartSettings& part, const std::string& path) const 
         test.holds(nearest_[f], center_of(fine, fine.faces[f])))
       found.push_back(fine.faces[f]);
   if (!found.empty()) return without_other_points(fine, found);
-  const Box body = bounds(surface_.points);
   throw bad_input(settings_.place(path), "no face of the surface is in the part of " + path,
-                  "choose one that reaches it, from " + corner(body.min()) + " to " +
-                      corner(body.max()) + " m");
+                  "choose one that reaches it, " + extent_text(surface_.points));
 }
 
 void set_local_materials(const Settings& settings, const Parts& parts, Body& body) {

@@ -17,6 +17,14 @@
 
 namespace sinew {
 
+/// "from [0, 0, 0] to [1, 1, 2] m": the box around points, as errors name it.
+std::string extent_text(const Points& points);
+
+/// Particles by number, ascending. Throws bad input, with the line of the setting at `path`, for
+/// numbers that none of so many particles has.
+std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
+                                  const std::vector<double>& numbers, std::size_t particles);
+
 class Parts {
  public:
   /// `surface`: of the body, as filled; only what is on it needs one. `component`: of each

@@ -41,19 +41,6 @@ BoneWeights weights_of_file(const Settings& settings, const SkinnedRig& rig, con
   return carried_weights(points, rig.weights, rest);
 }
 
-std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
-                                  const std::vector<double>& numbers, std::size_t particles) {
-  std::vector<std::uint32_t> ids;
-  for (const double number : numbers) {
-    if (number != std::floor(number) || number >= static_cast<double>(particles))
-      throw bad_input(settings.place(path), "there is no particle " + number_text(number),
-                      "give whole numbers from 0 to " + std::to_string(particles - 1));
-    ids.push_back(static_cast<std::uint32_t>(number));
-  }
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
-
 void refuse_empty(const BoundRegion& region, const Points& rest, const Place& place) {
   for (std::size_t i = 0; i < rest.size(); ++i)
     if (region.holds(i, rest[i])) return;

@@ -102,6 +102,11 @@ void check_material(const Settings& settings) {
     throw bad_input(settings.place("material.cohesion"),
                     "bonded models attract only through their bonds",
                     "remove material.cohesion, or set material.model to paper");
+  if (material.friction > 0 && !has_bonds && material.cohesion == Cohesion::all)
+    throw bad_input(settings.place("material.friction"),
+                    "parts that touch attract each other, and do not slide",
+                    "set material.cohesion to initial_neighbors or material.model to bonded, or "
+                    "remove it");
   if (!material.modulus_direction) return;
   if (material.modulus_direction->norm() == 0)
     throw bad_input(settings.place("material.modulus_direction"), "a direction without length",
@@ -170,6 +175,9 @@ void check_static(const Settings& settings) {
   if (solver.neighbor_search == NeighborSearch::cells)
     refuse("solver.neighbor_search", "the static method searches neighbors by lists only",
            "remove solver.neighbor_search, or set solver.method to dynamic");
+  if (settings.material.friction > 0)
+    refuse("material.friction", "friction has no one equilibrium",
+           "remove material.friction, or set solver.method to dynamic");
   if (settings.binding.twist_form == TwistForm::open_loop)
     refuse("binding.twist_form", "nothing balances the twist of open_loop",
            "set binding.twist_form to servo, or solver.method to dynamic");

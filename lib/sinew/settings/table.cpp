@@ -158,6 +158,10 @@ std::vector<Field<Settings>> make_damping_and_strength() {
       field<S>("material", "creep_rate", SINEW_AT(S, material.creep_rate), "1/s",
                "fraction of the shear beyond yield_strain that flows per unit of time",
                not_negative),
+      field<S>("material", "friction", SINEW_AT(S, material.friction), "",
+               "coefficient of dry friction between parts of the body that touch, where those do "
+               "not attract: in bonded models, and with cohesion initial_neighbors",
+               not_negative),
   };
 }
 

@@ -9,7 +9,9 @@
 namespace sinew {
 namespace {
 
-constexpr double clearly_better = 5;  // of a parabola, by the spread about a line
+constexpr double clearly_better = 5;          // of a parabola, by the spread about one term
+constexpr std::size_t to_weigh_parabola = 6;  // sizes: what Akaike's correction needs, and one
+constexpr double outweighing = 0.95;
 
 struct Sample {
   double size, value;
@@ -23,30 +25,73 @@ std::vector<Sample> ascending(std::span<const double> sizes, std::span<const dou
   return samples;
 }
 
-/// A polynomial by least squares.
-struct Polynomial {
+/// A limit and some powers of the size by least squares.
+struct SizeFit {
   double at_zero;
   double spread;          ///< standard deviation of the residuals; 0 where it meets all values
   double standard_error;  ///< of at_zero
+  Eigen::Index free;      ///< values beyond those that it needs
 };
 
-Polynomial fitted(std::span<const Sample> samples, Eigen::Index degree) {
+SizeFit fitted(std::span<const Sample> samples, const std::vector<int>& powers) {
   const auto rows = static_cast<Eigen::Index>(samples.size());
-  Eigen::MatrixXd powers(rows, degree + 1);
+  const auto columns = static_cast<Eigen::Index>(powers.size());
+  Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(rows, columns + 1);
   Eigen::VectorXd values(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Sample& sample = samples[static_cast<std::size_t>(i)];
-    double power = 1;
-    for (Eigen::Index k = 0; k <= degree; ++k, power *= sample.size / samples.back().size)
-      powers(i, k) = power;
+    for (Eigen::Index k = 0; k < columns; ++k)
+      terms(i, k + 1) =
+          std::pow(sample.size / samples.back().size, powers[static_cast<std::size_t>(k)]);
     values[i] = sample.value;
   }
-  const Eigen::VectorXd found = powers.colPivHouseholderQr().solve(values);
-  const Eigen::Index free = rows - degree - 1;
-  if (free == 0) return {found[0], 0, 0};
-  const double variance = (powers * found - values).squaredNorm() / static_cast<double>(free);
-  const Eigen::MatrixXd inverse = (powers.transpose() * powers).inverse();
-  return {found[0], std::sqrt(variance), std::sqrt(variance * inverse(0, 0))};
+  const Eigen::VectorXd found = terms.colPivHouseholderQr().solve(values);
+  const Eigen::Index free = rows - columns - 1;
+  if (free == 0) return {found[0], 0, 0, free};
+  const double variance = (terms * found - values).squaredNorm() / static_cast<double>(free);
+  const Eigen::MatrixXd inverse = (terms.transpose() * terms).inverse();
+  return {found[0], std::sqrt(variance), std::sqrt(variance * inverse(0, 0)), free};
+}
+
+/// Student's t that 19 of 20 values do not exceed: Cornish and Fisher's series (Abramowitz and
+/// Stegun 26.7.5), and the table where that is too short.
+double student_t(Eigen::Index free) {
+  if (free == 1) return 12.706;
+  if (free == 2) return 4.303;
+  constexpr double x = 1.95996, cube = x * x * x, fifth = cube * x * x;
+  const auto n = static_cast<double>(free);
+  return x + (cube + x) / (4 * n) + (5 * fifth + 16 * cube + 3 * x) / (96 * n * n) +
+         (3 * fifth * x * x + 19 * fifth + 17 * cube - 15 * x) / (384 * n * n * n);
+}
+
+/// Half of what tells fits apart: of the likelihood's logarithm, less the price of parameters.
+double evidence(const SizeFit& fit, double values, double rounding) {
+  const double parameters = values - static_cast<double>(fit.free) + 1;
+  const double squares = static_cast<double>(fit.free) * fit.spread * fit.spread;
+  const double few = values < static_cast<double>(to_weigh_parabola)
+                         ? 0
+                         : parameters * (parameters + 1) / (values - parameters - 1);
+  return -values / 2 * std::log(squares + rounding * rounding) - parameters - few;
+}
+
+/// The mean of fits weighted by their evidence; orders: theirs.
+ContinuumLimit weighed(const std::vector<SizeFit>& fits, double values, double rounding) {
+  std::vector<double> weight;
+  for (const SizeFit& fit : fits) weight.push_back(evidence(fit, values, rounding));
+  const double most = *std::max_element(weight.begin(), weight.end());
+  double sum = 0;
+  for (double& one : weight) sum += one = std::exp(one - most);
+  ContinuumLimit limit{0, 0, not_measured};
+  for (std::size_t k = 0; k < fits.size(); ++k) limit.value += weight[k] / sum * fits[k].at_zero;
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    const double off = fits[k].at_zero - limit.value, t = student_t(fits[k].free);
+    limit.error +=
+        weight[k] / sum * t * t * (fits[k].standard_error * fits[k].standard_error + off * off);
+  }
+  limit.error = std::sqrt(limit.error);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (weight[k] > outweighing * sum) limit.order = static_cast<double>(k + 1);
+  return limit;
 }
 
 /// What (f3 - f2) / (f2 - f1) is for values that differ from the limit by size^order.
@@ -69,6 +114,13 @@ double order_of(const Sample* s) {
   return (low + high) / 2;
 }
 
+/// Of the values, in their unit.
+double rounding_of(const std::vector<Sample>& samples) {
+  double most = 0;
+  for (const Sample& sample : samples) most = std::max(most, std::abs(sample.value));
+  return 1e-14 * most;
+}
+
 double extrapolated(const Sample* s, double order) {
   const double step = std::pow(s[1].size / s[0].size, order) - 1;
   return s[0].value + (s[0].value - s[1].value) / step;
@@ -83,13 +135,23 @@ ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const do
   const Sample* s = samples.data();
   const double finest = extrapolated(s, 1);
   if (samples.size() == 2) return {finest, std::abs(finest - s[0].value), not_measured};
-  const Polynomial line = fitted(samples, 1), parabola = fitted(samples, 2);
-  if (samples.size() > 3 && parabola.spread > line.spread / clearly_better)
-    return {line.at_zero, 2 * line.standard_error, not_measured};
+  const SizeFit line = fitted(samples, {1}), square = fitted(samples, {2});
+  const SizeFit parabola = fitted(samples, {1, 2});
+  const SizeFit& better = line.spread <= square.spread ? line : square;
+  const bool many = samples.size() >= to_weigh_parabola;
+  if (samples.size() > 3 && (many || parabola.spread > better.spread / clearly_better)) {
+    std::vector<SizeFit> fits = {line, square};
+    if (many) fits.push_back(parabola);
+    return weighed(fits, static_cast<double>(samples.size()), rounding_of(samples));
+  }
   const double value = parabola.at_zero;
-  ContinuumLimit limit{value, std::max(2 * parabola.standard_error, std::abs(value - line.at_zero)),
-                       order_of(s)};
-  if (samples.size() > 3) return limit;
+  ContinuumLimit limit{value, 0, order_of(s)};
+  if (samples.size() > 3) {
+    limit.error = std::max(student_t(parabola.free) * parabola.standard_error,
+                           std::abs(value - better.at_zero));
+    return limit;
+  }
+  limit.error = std::abs(value - line.at_zero);
   limit.error = std::max(limit.error, std::abs(value - finest));
   if (limit.order >= 0.5 && limit.order <= 3)
     limit.error = std::max(limit.error, std::abs(value - extrapolated(s, limit.order)));

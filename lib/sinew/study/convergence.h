@@ -15,8 +15,8 @@ namespace sinew {
 struct ContinuumLimit {
   double value = not_measured;  ///< at size 0
   double error = not_measured;  ///< of it: an estimate, not a bound
-  /// Of the error, by the three smallest sizes: values differ from the limit by size^order.
-  /// Not-a-number where they do not approach a limit from one side.
+  /// Values differ from the limit by size^order; of a parabola, by the three smallest sizes.
+  /// Not-a-number where the values tell none.
   double order = not_measured;
 };
 
@@ -24,13 +24,15 @@ struct ContinuumLimit {
 ///
 /// A body of particles differs from its continuum by a term of its surface, of the first order, and
 /// by terms of the second: the limit is that of a parabola. How well the layers of a packing fit
-/// the mesh differs from size to size, so values may also scatter: of four or more that a parabola
-/// fits hardly better than a line, the limit is that of the line, and there is no order.
+/// the mesh differs from size to size, so values may also scatter. Of four or more that a parabola
+/// fits hardly better than one of the two terms alone, the limit is the mean of those of both, each
+/// weighted by how well it fits (Akaike's weights, doi 10.1109/TAC.1974.1100705; from six sizes on,
+/// the parabola is the third), and the order is that of the term that outweighs the other.
 ///
-/// The error is the largest of: twice the standard error of the limit by the residuals; of a
-/// parabola, the distance from the limit of a line; of three sizes, those from the line through the
-/// smaller two, and from the extrapolation by the order (Roache's, doi 10.1115/1.2910291) where it
-/// is between 1/2 and 3.
+/// Nine of ten limits of values that scatter are within the error, which includes how far the terms
+/// disagree. That of a parabola is at least the distance from the limit of the better term; of
+/// three sizes, from those of a line, of the line through the smaller two, and of the extrapolation
+/// by the order (Roache's, doi 10.1115/1.2910291) where it is between 1/2 and 3.
 ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values);
 
 }  // namespace sinew

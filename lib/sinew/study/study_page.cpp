@@ -20,13 +20,7 @@ constexpr std::size_t most_curves = 30;  // of results over the radius
 // Of the largest result of its unit: less is zero but for rounding and the sides of the packing.
 constexpr double telling = 1e-3;
 
-std::string title_of(const Study& study) {
-  std::string title;
-  for (const StudiedRun& run : study.runs) title += (title.empty() ? "" : ", ") + run.name;
-  return title;
-}
-
-std::string header(const Study& study) {
+std::string header(const Study& study, const std::string& title) {
   const std::vector<FrameMetrics>& frames = study.runs.front().frames;
   std::string line = std::to_string(frames.size()) + " frames of the same times, from " +
                      readable(frames.front().time) + " s to " + readable(frames.back().time) +
@@ -35,8 +29,8 @@ std::string header(const Study& study) {
     line +=
         " The runs differ in the radius of their particles alone: limits are those of the body "
         "without particles.";
-  return element("header", element("h1", escaped(title_of(study))) +
-                               element("p", escaped(line), "class=\"quiet\""));
+  return element("header",
+                 element("h1", escaped(title)) + element("p", escaped(line), "class=\"quiet\""));
 }
 
 std::string remarks(const Study& study) {
@@ -195,16 +189,16 @@ PageData drawn_data(const Study& study) {
 
 }  // namespace
 
-std::string study_html(const Study& study) {
+std::string study_html(const Study& study, const std::string& title) {
   PageData data = drawn_data(study);
   const std::string settings = study.settings.empty() ? element("p", "No setting does.")
                                                       : fact_lists(facts_of(study.settings));
-  const std::string body = header(study) + remarks(study) + runs_table(study) +
+  const std::string body = header(study, title) + remarks(study) + runs_table(study) +
                            element("h2", "Differences between the scenes") + settings +
                            curves_section(data.curves) + charts_section(false) +
                            results_table(study);
   const Playback none;
-  return page_html({title_of(study), version(), body, "study.csv", std::move(data), none,
+  return page_html({title, version(), body, "study.csv", std::move(data), none,
                     "The numbers of this page are in study.csv and study.json, those of every "
                     "frame in the folders of the runs."});
 }

@@ -63,8 +63,10 @@ Chart chart_of_distances(const RunComparison& compared) {
   return planned_chart(plan, compared.differences, compared.first.radius);
 }
 
-std::vector<Chart> charts_of(const RunComparison& compared) {
-  std::vector<Chart> charts{chart_of_distances(compared)};
+std::vector<Chart> charts_of(const ComparisonInput& input) {
+  const RunComparison& compared = input.comparison;
+  std::vector<Chart> charts = input.charts;
+  charts.push_back(chart_of_distances(compared));
   std::set<std::string_view> drawn;
   for (const ChartPlan& plan : chart_plans())
     for (const std::string_view metric : plan.metrics)
@@ -74,13 +76,15 @@ std::vector<Chart> charts_of(const RunComparison& compared) {
 }
 
 /// The buttons of worst frames show the largest differences.
-PageData drawn_data(const RunComparison& compared) {
+PageData drawn_data(const ComparisonInput& input) {
+  const RunComparison& compared = input.comparison;
   PageData data;
   for (const FrameMetrics& frame : compared.first.frames) {
     data.times.push_back(frame.time);
     data.angles.push_back(frame.bone_angle);
   }
-  data.charts = charts_of(compared);
+  data.charts = charts_of(input);
+  data.curves = input.curves;
   Summary worst = compared.summary;
   for (std::size_t i = 0; i < worst.metrics.size(); ++i)
     worst.metrics[i].worst_frame = largest_difference(compared, i);
@@ -96,6 +100,14 @@ std::string playback_section(const ComparisonInput& input) {
   return element("section",
                  element("h2", "Side by side") + element("p", escaped(line), "class=\"quiet\"") +
                      view_section("Largest difference of"),
+                 "class=\"needs-script\"");
+}
+
+std::string curves_section(const ComparisonInput& input) {
+  if (input.curves.empty()) return "";
+  return element("section",
+                 element("h2", "Load over displacement") +
+                     element("div", "", "class=\"charts\" id=\"curves\""),
                  "class=\"needs-script\"");
 }
 
@@ -225,13 +237,14 @@ std::string comparison_html(const ComparisonInput& input) {
   const std::string body =
       header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
-      playback_section(input) + charts_section(!input.playback.frames.empty()) +
-      differences_table(compared) + element("h2", "Differences between the scenes") +
+      playback_section(input) + curves_section(input) +
+      charts_section(!input.playback.frames.empty()) + differences_table(compared) +
+      element("h2", "Differences between the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +
       folded("The resolved scene of " + name_of(compared, false), input.first_scene) +
       folded("The resolved scene of " + name_of(compared, true), input.second_scene);
   return page_html({compared.first.name + " and " + compared.second.name, input.version, body,
-                    "compare.csv", drawn_data(compared), input.playback});
+                    "compare.csv", drawn_data(input), input.playback});
 }
 
 }  // namespace sinew

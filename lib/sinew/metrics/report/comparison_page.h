@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <sinew/metrics/comparison.h>
+#include <sinew/metrics/report/charts.h>
 #include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/report/report.h>
 
@@ -27,6 +28,8 @@ struct ComparisonInput {
   Playback playback;                      ///< of both, see side_by_side(); of no frames: no 3D view
   std::vector<FactGroup> facts;           ///< what differs between the scenes
   std::string first_scene, second_scene;  ///< resolved
+  std::vector<Chart> charts = {};         ///< before those of the metrics
+  std::vector<LawCurve> curves = {};      ///< loads over displacements
 };
 
 /// The whole page, UTF-8.

@@ -50,7 +50,7 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
   const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   const ForceProbe<Real> probe(work, now, layout_, newtons, has_muscles(*body_), of_world);
-  resize(forces, layout_.size(), body_->world != nullptr);
+  resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
   on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
   groups_.constrain(forces, layout_.caller(), stepping_.gravity);
   const StepSums sums = sums_of_totals();

@@ -348,6 +348,7 @@ void ListStepper<Real>::save(SimulationState& state) {
   layout_.save(state);
   groups_.save(state);
   bonds_.save(state);
+  surroundings_.save(state);
   state.kicked = kicked_;
   state.mean_when_sorted = mean_when_sorted_;
 }
@@ -364,6 +365,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();
   groups_.restore(state);
+  surroundings_.restore(state);
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;
   steps_ = state.steps;

@@ -42,7 +42,9 @@ Imbalance ListStepper<Real>::imbalance() const {
   sum.flowing *= newtons * L / T;
   sum.unbalanced *= newtons;
   const double weight = static_cast<double>(layout_.size()) * mass_ * stepping_.gravity.norm();
-  sum.applied = std::max({newtons * pulled / 2, surroundings_.sums().applied, weight});
+  const WorldSums world = surroundings_.sums();
+  sum.applied = std::max({newtons * pulled / 2, world.applied, weight});
+  sum.loaded = world.loaded + weight;
   for (const Reaction& support : surroundings_.of_supports())
     sum.applied = std::max({sum.applied, support.force.norm(), support.moment.norm() / extent_});
   return sum;

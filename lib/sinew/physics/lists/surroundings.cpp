@@ -7,6 +7,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/physics/laws.h>
 
 namespace sinew {
 namespace {
@@ -16,6 +17,7 @@ constexpr std::size_t pieces_per_look = 64;
 bool fills_space(const World& world) { return world.drag.rate > 0 || !world.fields.empty(); }
 
 bool surrounds(const Body& body) {
+  if (body.material.friction > 0) return true;
   if (!body.world) return false;
   const World& world = *body.world;
   return !world.obstacles.empty() || !world.pins.empty() || !world.loads.empty() ||
@@ -28,16 +30,18 @@ template <class Real>
 Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping,
                                  double mass)
     : body_(std::move(body)),
+      world_(body_->world ? body_->world : std::make_shared<const World>()),
       stepping_(stepping),
       mass_(mass),
       any_(surrounds(*body_)),
-      everywhere_(any_ && fills_space(*body_->world)),
-      acts_in_space_(everywhere_ || (any_ && !body_->world->obstacles.empty())),
-      pins_on_bones_(any_ && std::any_of(body_->world->pins.begin(), body_->world->pins.end(),
+      everywhere_(any_ && fills_space(*world_)),
+      acts_in_space_(everywhere_ || (any_ && !world_->obstacles.empty())),
+      pins_on_bones_(any_ && std::any_of(world_->pins.begin(), world_->pins.end(),
                                          [](const Pinned& pin) { return pin.bone != no_bone; })),
       until_middle_(stepping.step / 2) {
   if (!any_) return;
-  for (const Load& load : body_->world->loads) loads_.emplace_back(load);
+  sliding_ = SlidingContacts(*body_);
+  for (const Load& load : world_->loads) loads_.emplace_back(load);
 }
 
 template <class Real>
@@ -63,11 +67,11 @@ template <class Real>
 void Surroundings<Real>::set_pins(std::span<const std::int32_t> id) {
   constexpr std::size_t block = BlockState<Real>::block;
   pinned_.clear();
-  if (body_->world->pins.empty()) return;
+  if (world_->pins.empty()) return;
   pin_.assign(id.size(), no_pin);
   std::vector<std::uint32_t> of_id(body_->rest.size(), no_pin);
-  for (std::uint32_t pin = 0; pin < body_->world->pins.size(); ++pin)
-    of_id[body_->world->pins[pin].particle] = pin;
+  for (std::uint32_t pin = 0; pin < world_->pins.size(); ++pin)
+    of_id[world_->pins[pin].particle] = pin;
   for (std::uint32_t k = 0; k < id.size(); ++k) {
     pin_[k] = of_id[static_cast<std::size_t>(id[k])];
     if (pin_[k] == no_pin) continue;
@@ -85,7 +89,7 @@ void Surroundings<Real>::set_loads(std::span<const std::int32_t> id) {
   if (loads_.empty()) return;
   std::vector<std::uint32_t> place(id.size());
   for (std::uint32_t k = 0; k < id.size(); ++k) place[static_cast<std::size_t>(id[k])] = k;
-  const auto& loads = body_->world->loads;
+  const auto& loads = world_->loads;
   places_.assign(loads.size(), {});
   for (std::size_t n = 0; n < loads.size(); ++n)
     for (const std::uint32_t particle : loads[n].particles) places_[n].push_back(place[particle]);
@@ -108,7 +112,7 @@ template <class Real>
 void Surroundings<Real>::hold(const Pose& pose, double time, BlockState<Real>& state,
                               const Units& units, std::vector<double>& moved) const {
   if (pinned_.empty()) return;
-  const World& world = *body_->world;
+  const World& world = *world_;
   const std::vector<ObstaclePose> supports = poses_of(world.supports, time, pose);
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece)
@@ -138,7 +142,7 @@ Box Surroundings<Real>::box_of(std::size_t first, std::size_t last) const {
 /// Whether an obstacle may touch particles in a box.
 template <class Real>
 bool Surroundings<Real>::may_touch(const Box& box) const {
-  const World& world = *body_->world;
+  const World& world = *world_;
   const double reach = box.diagonal().norm() / 2 + body_->material.pair.r;
   for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
     const RigidFrame& frame = now_.obstacles[k].frame;
@@ -156,7 +160,9 @@ void Surroundings<Real>::find_touched(std::size_t piece, const Box& box) {
   const std::size_t last = std::min(first + kernel::blocks_per_piece, touched_.size());
   const bool some = everywhere_ || may_touch(box);
   for (std::size_t k = first; k < last; ++k) {
-    touched_[k] = everywhere_ || (!held_.empty() && held_[k] != 0) ? 1 : 0;
+    touched_[k] =
+        everywhere_ || (!held_.empty() && held_[k] != 0) || (sliding_.any() && has_contacts(k)) ? 1
+                                                                                                : 0;
     if (some && touched_[k] == 0)
       touched_[k] = may_touch(box_of(k * block, std::min((k + 1) * block, state_->size()))) ? 1 : 0;
   }
@@ -166,9 +172,10 @@ template <class Real>
 void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& state,
                                const Units& units, const VerletLists<Real>& lists, Points* forces) {
   if (!any_) return;
-  now_ = world_at(*body_->world, time, pose);
+  now_ = world_at(*world_, time, pose);
   state_ = &state;
   pose_ = &pose;
+  lists_ = lists.arrays();
   units_ = units;
   forces_ = forces;
   if (forces_ != nullptr) forces_->assign(state.size(), Vec3::Zero());
@@ -176,10 +183,10 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};
-      pieces_[piece].reactions.assign(body_->world->obstacles.size(), {});
+      pieces_[piece].reactions.assign(world_->obstacles.size(), {});
       const bool pins = pins_on_bones_ && first_[piece] < first_[piece + 1];
       pieces_[piece].of_pins.assign(pins ? body_->skeleton.size() : 0, {});
-      pieces_[piece].of_supports.assign(body_->world->supports.size(), {});
+      pieces_[piece].of_supports.assign(world_->supports.size(), {});
       pieces_[piece].of_loads.assign(loads_.size(), {});
       find_touched(piece, lists.box_of(piece, units_));
     }
@@ -187,9 +194,37 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
 }
 
 template <class Real>
+bool Surroundings<Real>::has_contacts(std::size_t block) const {
+  const std::uint32_t* first =
+      lists_[block / kernel::blocks_per_piece].first + block % kernel::blocks_per_piece;
+  return first[0] != first[1];
+}
+
+/// Of what its block's list has within 2r.
+template <class Real>
+Vec3 Surroundings<Real>::friction_on(std::size_t k, const Vec3& position, const Vec3& velocity) {
+  constexpr std::size_t block = BlockState<Real>::block;
+  const kernel::Lists& lists = lists_[k / block / kernel::blocks_per_piece];
+  const std::uint32_t* first = lists.first + k / block % kernel::blocks_per_piece;
+  const Material& material = body_->material;
+  std::vector<Touch> touches;
+  for (std::uint32_t n = first[0]; n != first[1]; ++n) {
+    const std::size_t j = k + static_cast<std::size_t>(lists.value[n]);
+    if ((lists.lanes[n] >> k % block & 1) == 0 || j >= state_->size()) continue;
+    const Vec3 apart = position - state_->position(j, units_);
+    const double d = apart.norm();
+    if (!(d < 2 * material.pair.r) || d == 0 || !sliding_.rub(id_[k], id_[j])) continue;
+    touches.push_back({id_[j], apart / d, law_of(material).force(material, d),
+                       velocity - state_->velocity(j, units_)});
+  }
+  if (touches.empty() && forces_ != nullptr) return Vec3::Zero();
+  return sliding_.force(id_[k], touches, stepping_.step, forces_ == nullptr);
+}
+
+template <class Real>
 void Surroundings<Real>::find_loads() {
   for (std::size_t n = 0; n < loads_.size(); ++n)
-    loads_[n].find(body_->world->loads[n], now_.loads[n],
+    loads_[n].find(world_->loads[n], now_.loads[n],
                    [&](std::size_t at) { return state_->position(places_[n][at], units_); });
 }
 
@@ -209,7 +244,7 @@ void Surroundings<Real>::add_loads(std::size_t k, const Vec3& position, const Ve
   for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n) {
     const auto& [load, place] = loaded_[n];
     const Vec3 force = loads_[load].force(place);
-    const Vec3 arm = position - body_->world->loads[load].pivot;
+    const Vec3 arm = position - world_->loads[load].pivot;
     piece.of_loads[load] += {force, arm.cross(force), force.dot(middle)};
   }
 }
@@ -218,7 +253,7 @@ void Surroundings<Real>::add_loads(std::size_t k, const Vec3& position, const Ve
 template <class Real>
 void Surroundings<Real>::answer_of_pins(std::size_t k, const PinPose& at, const Vec3& unheld,
                                         const Vec3& middle, Piece& piece) const {
-  const Pinned& pin = body_->world->pins[pin_[k]];
+  const Pinned& pin = world_->pins[pin_[k]];
   const Vec3 own = held_part(pin, middle);
   piece.sums.power -= unheld.dot(own);
   piece.sums.held_kinetic += mass_ / 2 * own.squaredNorm();
@@ -259,19 +294,21 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const HeldParticle particle{
       {}, position, velocity, body_->material.pair.r, static_cast<std::size_t>(id_[k])};
   Piece& piece = pieces_[k / (kernel::blocks_per_piece * BlockState<Real>::block)];
-  const Vec3 inner = mass_ * acceleration, load = load_on(k), others = inner + load;
+  const Vec3 inner = mass_ * acceleration, load = load_on(k);
+  const Vec3 friction = sliding_.any() ? friction_on(k, position, velocity) : Vec3(Vec3::Zero());
+  const Vec3 others = inner + load + friction;
   ParticleWorld world;
   if (acts_in_space_)
-    world = world_on(particle, mass_, *body_->world, now_, others, stepping_.step, piece.reactions);
-  const Vec3 given = load + world.force();
-  const Pinned* pin = is_held(k) ? &body_->world->pins[pin_[k]] : nullptr;
+    world = world_on(particle, mass_, *world_, now_, others, stepping_.step, piece.reactions);
+  const Vec3 given = load + friction + world.force();
+  const Pinned* pin = is_held(k) ? &world_->pins[pin_[k]] : nullptr;
   acceleration += given / mass_;
   if (pin != nullptr) acceleration -= held_part(*pin, acceleration);
   held = pin != nullptr ? Real(1) : Real(0);
   const Vec3 middle = velocity + until_middle_ * acceleration;
   WorldSums& sums = piece.sums;
   sums.power += world.power + (load + world.field).dot(middle);
-  sums.lost += world.losing_power - world.losing.dot(middle);
+  sums.lost += world.losing_power - world.losing.dot(middle) - friction.dot(middle);
   sums.contact_energy += world.contact_energy;
   if (acts_in_space_) sums.applied += world.force().norm();
   if (pin != nullptr && pin->is_pin()) sums.applied += (others + world.force()).norm() / 2;
@@ -293,7 +330,8 @@ WorldSums Surroundings<Real>::sums() const {
     all.held_kinetic += piece.sums.held_kinetic;
     all.applied += piece.sums.applied;
   }
-  for (const LoadNow& load : loads_) all.applied += load.size();
+  for (const LoadNow& load : loads_) all.loaded += load.size();
+  all.applied += all.loaded;
   return all;
 }
 
@@ -309,7 +347,7 @@ std::vector<Reaction> Surroundings<Real>::sums_of(std::vector<Reaction> Piece::*
 
 template <class Real>
 std::vector<Reaction> Surroundings<Real>::reactions() const {
-  return sums_of(&Piece::reactions, any_ ? body_->world->obstacles.size() : 0);
+  return sums_of(&Piece::reactions, any_ ? world_->obstacles.size() : 0);
 }
 
 template <class Real>
@@ -319,7 +357,7 @@ std::vector<Reaction> Surroundings<Real>::reactions_of_pins() const {
 
 template <class Real>
 std::vector<Reaction> Surroundings<Real>::of_supports() const {
-  return sums_of(&Piece::of_supports, any_ ? body_->world->supports.size() : 0);
+  return sums_of(&Piece::of_supports, any_ ? world_->supports.size() : 0);
 }
 
 template <class Real>

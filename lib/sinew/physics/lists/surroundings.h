@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What surrounds a body, for the list stepper: obstacles, drag, fields, pins, supports and loads,
-// evaluated in double precision for the blocks of particles that they may touch. ../world/world.h
+// What surrounds a body, for the list stepper: obstacles, drag, fields, pins, supports, loads, and
+// the friction of the body on itself, evaluated in double precision for the blocks of particles
+// that they may touch. ../world/world.h
 // gives the forces.
 //
 //     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
@@ -18,6 +19,7 @@
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/verlet_lists.h>
 #include <sinew/physics/stepper.h>
+#include <sinew/physics/world/sliding_contacts.h>
 #include <sinew/physics/world/world.h>
 
 namespace sinew {
@@ -29,6 +31,7 @@ struct WorldSums {
   double contact_energy = 0, held_kinetic = 0;
   /// The lengths of all forces on particles but those of supports, half of those of pins, N.
   double applied = 0;
+  double loaded = 0;  ///< of it, of loads
 };
 
 template <class Real>
@@ -37,7 +40,7 @@ class Surroundings {
   /// For particles of `mass` (kg), and steps as given.
   Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping, double mass);
 
-  /// Whether there is anything but muscles.
+  /// Whether there is anything but muscles: forces of the world.
   bool any() const { return any_; }
   /// The particles `id` in the kernel's order.
   void set_order(std::span<const std::int32_t> id);
@@ -53,6 +56,9 @@ class Surroundings {
   kernel::Surroundings<Real> calls();
 
   void set_step(double step);  ///< s
+
+  void save(SimulationState& state) const { sliding_.save(state); }
+  void restore(const SimulationState& state) { sliding_.restore(state); }
 
   /// Of the last step or probe, added in the order of the pieces.
   WorldSums sums() const;
@@ -82,6 +88,8 @@ class Surroundings {
   void set_loads(std::span<const std::int32_t> id);
   void find_loads();
   Vec3 load_on(std::size_t k) const;
+  Vec3 friction_on(std::size_t k, const Vec3& position, const Vec3& velocity);
+  bool has_contacts(std::size_t block) const;
   void answer_of_pins(std::size_t k, const PinPose& at, const Vec3& unheld, const Vec3& middle,
                       Piece& piece) const;
   void add_loads(std::size_t k, const Vec3& position, const Vec3& middle, Piece& piece) const;
@@ -91,6 +99,7 @@ class Surroundings {
   Box box_of(std::size_t first, std::size_t last) const;
 
   std::shared_ptr<const Body> body_;
+  std::shared_ptr<const World> world_;  ///< the body's, or an empty one
   Stepping stepping_;
   double mass_;
   bool any_, everywhere_;
@@ -108,11 +117,13 @@ class Surroundings {
   std::vector<Loaded> loaded_;
   std::vector<LoadNow> loads_;
   std::vector<Piece> pieces_;
+  SlidingContacts sliding_;
 
   // Of the moment:
   WorldNow now_;
   BlockState<Real>* state_ = nullptr;
   const Pose* pose_ = nullptr;
+  const kernel::Lists* lists_ = nullptr;
   Units units_;
   double until_middle_ = 0;  ///< of the step, s
   Points* forces_ = nullptr;

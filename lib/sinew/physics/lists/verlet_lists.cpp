@@ -16,9 +16,10 @@ namespace sinew {
 namespace {
 
 // In diameters, by measurement: longer lists cost every step, shorter ones are made more often. The
-// inner skin excludes the second neighbors of a packed body; of contacts, the outer one does.
+// inner skin excludes the second neighbors of a packed body. Contacts are few: theirs may be
+// longer.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
-constexpr double outer_skin_of_contacts = 0.4, inner_skin_of_contacts = 0.1;
+constexpr double outer_skin_of_contacts = 0.9, inner_skin_of_contacts = 0.3;
 constexpr std::size_t pieces_at_a_time = 4;
 constexpr std::size_t pieces_in_sample = 256;
 using kernel::blocks_per_piece;

@@ -6,6 +6,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/physics/laws.h>
+#include <sinew/physics/reference/pair_pass.h>
 
 namespace sinew {
 namespace {
@@ -28,6 +29,7 @@ CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepp
   if (body_->grouping)
     throw bad_input("the reference stepper has no groups", "search neighbors by lists");
   solid_ = solid_of(*body_, particles_);
+  sliding_ = SlidingContacts(*body_);
   if (!body_->world) return;
   place_.resize(particles_.size());
   for (std::size_t i = 0; i < place_.size(); ++i) place_[particles_.id[i]] = i;
@@ -79,6 +81,7 @@ void CellStepper::find_world_forces(const Pose& pose) {
   reactions_.assign(world.obstacles.size(), {});
   around_.resize(particles_.size());
   forces_.world = muscle_;
+  for (std::size_t i = 0; i < friction_.size(); ++i) forces_.world[i] += friction_[i];
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const HeldParticle particle{{},
                                 particles_.position(i),
@@ -120,6 +123,25 @@ void CellStepper::hold_back(const WorldNow& now, const Pose& pose) {
   }
 }
 
+/// Of the body on itself.
+void CellStepper::find_friction() {
+  friction_.assign(particles_.size(), Vec3::Zero());
+  const Material& material = body_->material;
+  const CellGrid cells = cells_of(particles_, 2 * material.pair.r);
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    std::vector<Touch> touches;
+    const std::int32_t id = particles_.id[i];
+    for_each_neighbor(
+        particles_, cells, 2 * material.pair.r, i,
+        [&](std::uint32_t j, const Vec3& apart, double d) {
+          if (d > 0 && sliding_.rub(id, particles_.id[j]))
+            touches.push_back({particles_.id[j], apart / d, law_of(material).force(material, d),
+                               particles_.velocity(i) - particles_.velocity(j)});
+        });
+    friction_[i] = sliding_.force(id, touches, stepping_.step, stepping_now_);
+  }
+}
+
 void CellStepper::find_forces(const Pose& pose) {
   hold(pose);
   if (solid_)
@@ -128,7 +150,12 @@ void CellStepper::find_forces(const Pose& pose) {
     pair_forces(particles_, body_->material, forces_);
   bone_forces(particles_, *body_, pose, forces_);
   forces_.world.clear();
-  if (body_->world) find_world_forces(pose);
+  friction_.clear();
+  if (sliding_.any()) find_friction();
+  if (body_->world)
+    find_world_forces(pose);
+  else
+    forces_.world = friction_;
 }
 
 double CellStepper::stored_in_pairs() {
@@ -159,6 +186,7 @@ void CellStepper::save(SimulationState& state) const {
   const Particles& now = particles_;
   state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
   state.kicked = kicked_;
+  sliding_.save(state);
   if (!solid_) return;
   state.rest_length = solid_->rest_lengths();
 }
@@ -171,6 +199,7 @@ void CellStepper::restore(const SimulationState& state) {
     solid_->restore(state.rest_length);
   else if (!state.rest_length.empty())
     throw not_a_state("it has bonds");
+  sliding_.restore(state);
   Particles& now = particles_;
   now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
   now.u = moving->v[0], now.v = moving->v[1], now.w = moving->v[2];
@@ -196,7 +225,8 @@ void CellStepper::add_world(StepSums& sums) const {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const std::size_t i = held_[k];
     const Vec3 own = held_part(body_->world->pins[k], velocity_now(i));
-    const Vec3 others = around_[i].force() + load_[i] + muscle_[i];
+    Vec3 others = around_[i].force() + load_[i] + muscle_[i];
+    if (!friction_.empty()) others += friction_[i];
     sums.world_power += (forces_.world[i] - others).dot(own);
     sums.held_kinetic += particles_.mass / 2 * own.squaredNorm();
   }
@@ -219,6 +249,7 @@ StepSums CellStepper::sums() const {
     }
     return sum;
   });
+  for (std::size_t i = 0; i < friction_.size(); ++i) sums.lost -= friction_[i].dot(velocity_now(i));
   if (body_->world) add_world(sums);
   return sums;
 }
@@ -266,7 +297,9 @@ Failure CellStepper::take_back(const Pose& pose) {
 }
 
 StepSums CellStepper::step(const Pose& pose) {
+  stepping_now_ = true;
   find_forces(pose);
+  stepping_now_ = false;
   StepSums sums = this->sums();
   if (solid_) sums.lost += solid_->evolve(particles_, stepping_.step) / stepping_.step;
   const bool half = stepping_.integrator == Integrator::velocity_verlet && !kicked_;

@@ -12,6 +12,7 @@
 
 #include <sinew/physics/solid.h>
 #include <sinew/physics/stepper.h>
+#include <sinew/physics/world/sliding_contacts.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/pose.h>
 
@@ -52,6 +53,7 @@ class CellStepper {
   void find_forces(const Pose& pose);
   void find_world_forces(const Pose& pose);
   void find_loads(const WorldNow& now);
+  void find_friction();
   void hold_back(const WorldNow& now, const Pose& pose);
   void hold(const Pose& pose);
   double stored_in_pairs();
@@ -72,7 +74,9 @@ class CellStepper {
   MovingInDouble before_;  ///< the step
   double time_ = 0;
   std::vector<ParticleWorld> around_;
-  Points muscle_, load_;
+  Points muscle_, load_, friction_;
+  SlidingContacts sliding_;
+  bool stepping_now_ = false;  ///< the forces are those of a step, not only looked at
   std::vector<LoadNow> loads_;
   std::vector<Reaction> reactions_;  ///< of obstacles
   std::vector<Reaction> of_pins_;    ///< on bones

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/finite_elements.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <sinew/core/text.h>
+#include <sinew/fill/fill_limits.h>
+#include <sinew/mesh/volume_meshing.h>
+#include <sinew/physics/world/region.h>
+#include <sinew/scene/context.h>
+#include <sinew/scene/element_parts.h>
+#include <sinew/scene/world.h>
+
+namespace sinew {
+namespace {
+
+constexpr double bonded_ratio = 0.25;  // Poisson's, of central forces
+constexpr double default_size = 4;     // radii: as many nodes as particles, or fewer
+constexpr double most_elements = 500'000;
+
+// What elements cannot hold.
+
+struct Refusal {
+  bool holds;
+  const char *key, *what, *cure;
+};
+
+std::vector<Refusal> refusals(const Settings& settings) {
+  constexpr const char* by_support = "replace them by supports and loads";
+  const MaterialOptions& material = settings.material;
+  const WorldSettings& world = settings.world;
+  return {
+      {settings.solver.method != Method::static_equilibrium, "solver.method",
+       "finite elements are brought to equilibrium, and this scene moves in time",
+       "set solver.method to static"},
+      {settings.supports.empty(), "solver.method", "nothing holds the body", "add supports"},
+      {!settings.bones.empty() || !settings.skeleton.file.empty(), "skeleton",
+       "finite elements have no bones", "remove them, and hold the body by supports"},
+      {!world.obstacles.empty(), "world.obstacles", "finite elements have no obstacles",
+       by_support},
+      {!world.pins.empty(), "world.pins", "finite elements have no pins", by_support},
+      {!world.fields.empty(), "world.fields", "finite elements have no fields", by_support},
+      {!world.muscles.empty(), "world.muscles", "finite elements have no muscles", by_support},
+      {material.model == MaterialModel::paper, "material.model",
+       "the paper's material flows: finite elements are elastic",
+       "set material.model to bonded or bonded_volume"},
+      {!is_isotropic(material, settings.body.packing), "material.isotropic",
+       "finite elements are isotropic, and twelve bonds are not",
+       "remove it, and set body.packing to fcc"},
+      {material.breaking_strain || material.fracture_energy, "material",
+       "finite elements do not break", "remove breaking_strain and fracture_energy"},
+      {material.yield_strain.has_value(), "material.yield_strain", "finite elements do not flow",
+       "remove it"},
+      {!settings.bodies.empty(), "bodies", "finite elements are made of one mesh",
+       "join the meshes into one, and give parts by materials"},
+      {settings.body.thickness.has_value(), "body.thickness",
+       "finite elements fill a closed surface, not a layer", "give the layer as a closed mesh"},
+  };
+}
+
+void refuse_what_it_cannot_hold(const Settings& settings, const Surface& surface) {
+  for (const Refusal& one : refusals(settings))
+    if (one.holds) throw bad_input(settings.place(one.key), one.what, one.cure);
+  if (!surface.closed())
+    throw bad_input(settings.place("body.mesh"), "the mesh is open",
+                    "set body.close_holes to true, or body.wrap");
+}
+
+// The mesh.
+
+double size_of(const Settings& settings, const Triangles& surface, const ElementOptions& options) {
+  if (options.size) return *options.size;
+  const double radius = settings.body.radius
+                            ? *settings.body.radius
+                            : radius_for_count(volume(surface), *settings.body.count);
+  return default_size * radius;
+}
+
+VolumeMesh mesh_of(const Settings& settings, const Triangles& surface, double size) {
+  const double expected = volume(surface) / (size * size * size);
+  if (!(expected < most_elements))
+    throw bad_input("the body would have over " + number_text(most_elements) + " elements",
+                    "give a larger --size than " + three_digits(size) + " m");
+  if (const auto box = axis_box(surface)) return hexahedra(*box, size, cuts_of(settings));
+  return with_context(settings, "body.mesh", [&] { return tetrahedra(surface, size); });
+}
+
+std::string list_entry(const char* list, std::size_t index) {
+  return std::string(list) + '[' + std::to_string(index) + ']';
+}
+
+std::vector<DeckMaterial> materials_of(const Settings& settings, const VolumeMesh& mesh,
+                                       const ElementParts& parts) {
+  const MaterialOptions& given = settings.material;
+  const bool bonded = given.model == MaterialModel::bonded;
+  const double ratio = bonded ? bonded_ratio : given.poisson_ratio;
+  std::vector<DeckMaterial> materials = {{"body", given.young_modulus, ratio, given.density, {}}};
+  std::vector<std::size_t> of_element(mesh.elements.size(), 0);
+  for (std::size_t k = 0; k < settings.materials.size(); ++k) {
+    const LocalMaterialSettings& local = settings.materials[k];
+    materials.push_back({local.name, local.young_modulus, ratio, given.density, {}});
+    for (const std::uint32_t e : parts.elements(local.part, list_entry("materials", k)))
+      of_element[e] = k + 1;
+  }
+  for (std::uint32_t e = 0; e < of_element.size(); ++e)
+    materials[of_element[e]].elements.push_back(e);
+  std::erase_if(materials, [](const DeckMaterial& one) { return one.elements.empty(); });
+  return materials;
+}
+
+// Supports.
+
+struct NodeSupport {
+  std::string name;
+  std::vector<std::uint32_t> nodes;
+  std::array<bool, 3> holds = {};
+  Vec3 pivot = Vec3::Zero();
+  ObstacleMotion motion;
+
+  Vec3 displacement(std::uint32_t node, const Points& rest, double time) const {
+    if (!motion) return Vec3::Zero();
+    const RigidFrame frame = motion(time, {}).frame;
+    return frame.origin - pivot + (frame.rotation - Mat3::Identity()) * (rest[node] - pivot);
+  }
+};
+
+/// The middle of the faces, or of the elements around the nodes where a part faces nothing.
+Vec3 middle_of(const VolumeMesh& mesh, const ElementParts& parts, const PartSettings& part,
+               const std::string& path, const std::vector<std::uint32_t>& nodes) {
+  Vec3 sum = Vec3::Zero();
+  double share = 0;
+  if (part.facing) {
+    for (const ElementFace& face : parts.faces(part, path)) {
+      const double area = area_vector(mesh, face).norm();
+      sum += area * center_of(mesh, face), share += area;
+    }
+    return sum / share;
+  }
+  for (const VolumeElement& element : mesh.elements) {
+    const double own = volume_of(mesh, element);
+    for (const std::uint32_t node :
+         element.used().first(static_cast<std::size_t>(corners_of(element.kind))))
+      if (std::binary_search(nodes.begin(), nodes.end(), node))
+        sum += own * mesh.nodes[node], share += own;
+  }
+  return share > 0 ? Vec3(sum / share) : mesh.nodes[nodes.front()];
+}
+
+NodeSupport support_of(const SupportSettings& given, const std::string& path,
+                       const VolumeMesh& mesh, const ElementParts& parts) {
+  NodeSupport support;
+  support.name = given.name;
+  support.nodes = parts.nodes(given.part, path);
+  const int bits = static_cast<int>(given.hold) + 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) support.holds[axis] = ((bits >> axis) & 1) != 0;
+  support.pivot =
+      given.pivot ? *given.pivot : middle_of(mesh, parts, given.part, path, support.nodes);
+  if (!given.keys.empty())
+    support.motion = keyed_motion(given.name, given.interpolation, given.keys, support.pivot);
+  return support;
+}
+
+/// By node and axis, the support that holds it.
+using Holders = std::map<std::pair<std::uint32_t, int>, const NodeSupport*>;
+
+Holders holders_of(const Settings& settings, const std::vector<NodeSupport>& supports) {
+  Holders holders;
+  for (const NodeSupport& support : supports)
+    for (const std::uint32_t node : support.nodes)
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!support.holds[static_cast<std::size_t>(axis)]) continue;
+        const auto [found, fresh] = holders.try_emplace({node, axis}, &support);
+        if (!fresh && (found->second->motion || support.motion))
+          throw bad_input(settings.place("supports"),
+                          "supports '" + found->second->name + "' and '" + support.name +
+                              "' both hold one axis of a node, and move it differently",
+                          "make their regions disjoint, or let one of them hold other axes");
+      }
+  return holders;
+}
+
+// Loads.
+
+/// At a factor of 1.
+struct NodeLoad {
+  KeyedValue scale;
+  std::vector<NodeForce> forces;
+  std::vector<FacePressure> pressures;
+};
+
+/// Forces summed by node.
+class Forces {
+ public:
+  explicit Forces(const VolumeMesh& mesh) : mesh_(mesh) {}
+
+  void add_volume(std::uint32_t element, const Vec3& density) {
+    const VolumeElement& one = mesh_.elements[element];
+    add(one.used(), volume_shares(one.kind), volume_of(mesh_, one) * density);
+  }
+  void add_area(const ElementFace& face, const Vec3& traction) {
+    const VolumeElement& one = mesh_.elements[face.element];
+    add(face_nodes(one, face.face), face_shares(one.kind),
+        area_vector(mesh_, face).norm() * traction);
+  }
+  std::vector<NodeForce> all() const {
+    std::vector<NodeForce> forces;
+    for (const auto& [node, force] : sum_) forces.push_back({node, force});
+    return forces;
+  }
+
+ private:
+  void add(std::span<const std::uint32_t> nodes, std::span<const double> shares,
+           const Vec3& force) {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      sum_.try_emplace(nodes[k], Vec3::Zero()).first->second += shares[k] * force;
+  }
+
+  const VolumeMesh& mesh_;
+  std::map<std::uint32_t, Vec3> sum_;
+};
+
+std::vector<NodeForce> by_volume(const VolumeMesh& mesh, const std::vector<std::uint32_t>& on,
+                                 const Vec3& density) {
+  Forces forces(mesh);
+  for (const std::uint32_t element : on) forces.add_volume(element, density);
+  return forces.all();
+}
+
+std::vector<NodeForce> by_area(const VolumeMesh& mesh, const std::vector<ElementFace>& on,
+                               const Vec3& traction) {
+  Forces forces(mesh);
+  for (const ElementFace& face : on) forces.add_area(face, traction);
+  return forces.all();
+}
+
+NodeLoad load_of(const LoadSettings& given, const std::string& path, const Settings& settings,
+                 const VolumeMesh& mesh, const ElementParts& parts) {
+  NodeLoad load;
+  for (const ValueKeySettings& key : given.keys) {
+    load.scale.times.push_back(key.time);
+    load.scale.values.push_back(key.value);
+  }
+  if (given.pressure || given.traction || (given.force && given.part.facing)) {
+    const std::vector<ElementFace> on = parts.faces(given.part, path);
+    double area = 0;
+    for (const ElementFace& face : on) area += area_vector(mesh, face).norm();
+    if (given.pressure)
+      for (const ElementFace& face : on) load.pressures.push_back({face, *given.pressure});
+    else
+      load.forces = by_area(mesh, on, given.traction ? *given.traction : *given.force / area);
+    return load;
+  }
+  const std::vector<std::uint32_t> on = parts.elements(given.part, path);
+  double volume = 0;
+  for (const std::uint32_t element : on) volume += volume_of(mesh, mesh.elements[element]);
+  const Vec3 density =
+      given.gravity ? Vec3(settings.material.density * *given.gravity) : *given.force / volume;
+  load.forces = by_volume(mesh, on, density);
+  return load;
+}
+
+std::vector<NodeLoad> loads_of(const Settings& settings, const VolumeMesh& mesh,
+                               const ElementParts& parts) {
+  std::vector<NodeLoad> loads;
+  for (std::size_t k = 0; k < settings.loads.size(); ++k)
+    loads.push_back(load_of(settings.loads[k], list_entry("loads", k), settings, mesh, parts));
+  if (settings.solver.gravity != Vec3::Zero()) {
+    LoadSettings weight;
+    weight.gravity = settings.solver.gravity;
+    loads.push_back(load_of(weight, "solver.gravity", settings, mesh, parts));
+  }
+  return loads;
+}
+
+// Steps.
+
+DeckStep step_at(double time, const Points& rest, const Holders& holders,
+                 const std::vector<NodeLoad>& loads) {
+  DeckStep step;
+  step.time = time;
+  for (const auto& [at, support] : holders)
+    step.held.push_back(
+        {at.first, at.second, support->displacement(at.first, rest, time)[at.second]});
+  std::map<std::uint32_t, Vec3> forces;
+  std::map<std::pair<std::uint32_t, int>, double> pressures;
+  for (const NodeLoad& load : loads) {
+    const double scale = load.scale.at(time);
+    for (const NodeForce& one : load.forces)
+      forces.try_emplace(one.node, Vec3::Zero()).first->second += scale * one.force;
+    for (const FacePressure& one : load.pressures)
+      pressures[{one.face.element, one.face.face}] += scale * one.pressure;
+  }
+  for (const auto& [node, force] : forces) step.forces.push_back({node, force});
+  for (const auto& [face, pressure] : pressures)
+    step.pressures.push_back({{face.first, face.second}, pressure});
+  return step;
+}
+
+bool is_at_rest(const DeckStep& step) {
+  const auto still = [](const HeldNode& one) { return one.displacement == 0; };
+  const auto free = [](const NodeForce& one) { return one.force == Vec3::Zero(); };
+  const auto open = [](const FacePressure& one) { return one.pressure == 0; };
+  return std::all_of(step.held.begin(), step.held.end(), still) &&
+         std::all_of(step.forces.begin(), step.forces.end(), free) &&
+         std::all_of(step.pressures.begin(), step.pressures.end(), open);
+}
+
+/// Radians by which any of the supports turns, sampled.
+double turn_of(const std::vector<NodeSupport>& supports, double from, double to) {
+  constexpr int samples = 16;
+  double most = 0;
+  for (const NodeSupport& support : supports) {
+    if (!support.motion) continue;
+    double turn = 0;
+    for (int k = 0; k < samples; ++k) {
+      const auto at = [&](int sample) {
+        return support.motion(from + (to - from) * sample / samples, {}).frame.rotation;
+      };
+      turn += Eigen::AngleAxisd(Mat3(at(k + 1) * at(k).transpose())).angle();
+    }
+    most = std::max(most, turn);
+  }
+  return most;
+}
+
+/// Of each frame, as the static method has them; and of moments between, where supports turn: what
+/// goes straight from one place to another does not turn.
+std::vector<double> step_times(const SolverSettings& solver, double interval,
+                               const std::vector<NodeSupport>& supports) {
+  const double most_turn = radians(15);
+  const int frames = static_cast<int>(std::ceil(solver.duration / interval - 1e-6));
+  std::vector<double> times = {0};
+  for (int frame = 1; frame <= frames; ++frame) {
+    const double from = (frame - 1) * interval, to = frame * interval;
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(turn_of(supports, from, to) / most_turn - 1e-6)));
+    for (int part = 1; part < parts; ++part) times.push_back(from + (to - from) * part / parts);
+    times.push_back(to);
+  }
+  return times;
+}
+
+}  // namespace
+
+Deck deck_of(const Settings& settings, const Surface& surface, const ElementOptions& options) {
+  refuse_what_it_cannot_hold(settings, surface);
+  const Triangles& skin = surface.triangles;
+  Deck deck;
+  deck.title = "sinew: " + std::filesystem::path(settings.body.mesh).filename().string();
+  deck.large_displacements = !options.linear;
+  deck.mesh = mesh_of(settings, skin, size_of(settings, skin, options));
+  const ElementParts parts(settings, deck.mesh);
+  deck.materials = materials_of(settings, deck.mesh, parts);
+  std::vector<NodeSupport> supports;
+  for (std::size_t k = 0; k < settings.supports.size(); ++k)
+    supports.push_back(
+        support_of(settings.supports[k], list_entry("supports", k), deck.mesh, parts));
+  for (const NodeSupport& support : supports) deck.sets.push_back({support.name, support.nodes});
+  const Holders holders = holders_of(settings, supports);
+  const std::vector<NodeLoad> loads = loads_of(settings, deck.mesh, parts);
+  for (const double time : step_times(settings.solver, settings.output.interval, supports)) {
+    DeckStep step = step_at(time, deck.mesh.nodes, holders, loads);
+    if (time == 0 && settings.solver.duration > 0 && is_at_rest(step)) continue;
+    deck.steps.push_back(std::move(step));
+  }
+  return deck;
+}
+
+}  // namespace sinew
