@@ -44,6 +44,7 @@ Checkpoint sample(bool single = false) {
   state.rest_length = {0.1, 0, 0.3};
   state.sliding_pairs = {0, 3, 3, 0};
   state.sliding = {0.1, 0.2, 0.3, -0.1, -0.2, -0.3};
+  state.groups = {1, -2, 0.5};
   return sample;
 }
 
@@ -129,6 +130,21 @@ TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   Checkpoint larger = sample();
   larger.run.particles = particles + 1;
   expect_refused(bytes_of(larger), {"run has 6 particles", "body now 5", "--force"});
+}
+
+TEST_F(CheckpointFile, OfVersion3HasNoFrictionAndNoGroups) {
+  constexpr std::size_t hash_size = 8, length_at = 16;
+  std::string bytes = bytes_of(sample());
+  const std::size_t newer = bytes.rfind("slidpair");
+  bytes.erase(newer, bytes.size() - hash_size - newer);
+  bytes[12] = 3;
+  const std::uint64_t length = bytes.size();
+  std::memcpy(bytes.data() + length_at, &length, sizeof length);
+  put(file(), resealed(bytes));
+  const Checkpoint read = read_checkpoint(file(), particles);
+  EXPECT_EQ(read.run, sample().run);
+  EXPECT_TRUE(read.state.sliding_pairs.empty());
+  EXPECT_TRUE(read.state.groups.empty());
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {

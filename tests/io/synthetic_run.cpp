@@ -124,11 +124,23 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbors[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  const std::vector<std::int32_t> material(n, 0), broken(n, 1);
+  const std::vector<std::int32_t> material(n, 0), broken(n, 1), group(n, -1), level(n, 0);
   const Binding binding = one_bone_each(bone);
-  return evaluated(particles_dataset(
-      {now, rest, binding, pair, damping, pull, neighbors, energies, world, material, broken},
-      positions_by_id(now), moment));
+  return evaluated(particles_dataset({now,
+                                      rest,
+                                      binding,
+                                      pair,
+                                      damping,
+                                      pull,
+                                      neighbors,
+                                      energies,
+                                      world,
+                                      material,
+                                      broken,
+                                      {},
+                                      group,
+                                      level},
+                                     positions_by_id(now), moment));
 }
 
 Binding one_bone_each(const std::vector<std::int32_t>& bones, double weight) {

@@ -40,7 +40,7 @@ class Random {
 /// A point of a ball of radius 1, anywhere alike.
 inline Vec3 in_ball(Random& random) {
   for (;;) {
-    const Vec3 point(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    Vec3 point(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
     if (point.squaredNorm() <= 1) return point;
   }
 }

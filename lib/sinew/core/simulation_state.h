@@ -84,6 +84,8 @@ struct SimulationState {
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel
   RelaxationState relaxation = {};
+  /// Of each group of particles: c, its velocity, F and its rate (column by column).
+  std::vector<double> groups = {};
   // Of friction between particles that touch: whose springs, and their stretches, m.
   std::vector<std::int32_t> sliding_pairs;  ///< two ids each
   std::vector<double> sliding;              ///< three each

@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
-constexpr std::uint32_t byte_order_mark = 0x01020304, format_version = 4;
+constexpr std::uint32_t byte_order_mark = 0x01020304;
+constexpr std::uint32_t format_version = 4, oldest_version = 3;
 constexpr std::size_t name_size = 8;
 // Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
@@ -73,6 +74,12 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("unbal", state.relaxation.unbalanced);
   transfer("slidpair", state.sliding_pairs);
   transfer("sliding", state.sliding);
+  transfer("groups", state.groups);
+}
+
+/// Sections that version 3 lacks, after all others.
+bool is_of_version_4(std::string_view name) {
+  return name == "slidpair" || name == "sliding" || name == "groups";
 }
 
 template <class Value>
@@ -167,6 +174,7 @@ class Reader {
 
   template <class Value>
   void operator()(std::string_view name, Value& value) {
+    if (left() == 0 && is_of_version_4(name)) return;
     if constexpr (std::is_same_v<Value, bool>) {
       std::uint32_t flag = 0;
       fill(name, &flag, 1);
@@ -248,7 +256,7 @@ std::string_view checked(std::string_view text) {
   if (head.one<std::uint32_t>() != byte_order_mark)
     throw no_checkpoint("it is of a machine with another byte order");
   const auto version = head.one<std::uint32_t>();
-  if (version != format_version)
+  if (version < oldest_version || version > format_version)
     throw no_checkpoint("its format is of version " + std::to_string(version) + ", not " +
                         std::to_string(format_version));
   if (head.one<std::uint64_t>() != text.size())
@@ -285,7 +293,7 @@ void check_count_in(std::string_view head, std::uint64_t particles) {
   if (head.size() < head_size || !head.starts_with(magic)) return;
   Reader reader(head.substr(magic.size()));
   const auto mark = reader.one<std::uint32_t>(), version = reader.one<std::uint32_t>();
-  if (mark != byte_order_mark || version != format_version) return;
+  if (mark != byte_order_mark || version < oldest_version || version > format_version) return;
   [[maybe_unused]] const auto size = reader.one<std::uint64_t>();
   RunIdentity run;
   reader("program", run.program);

@@ -130,6 +130,12 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points&
   if (!frame.material.empty())
     columns.add<std::int32_t>(
         "material", [material = frame.material](const Row& row) { return material[row.id]; });
+  if (!frame.group.empty()) {
+    columns.add<std::int32_t>("group",
+                              [group = frame.group](const Row& row) { return group[row.id]; });
+    columns.add<std::int32_t>("level",
+                              [level = frame.level](const Row& row) { return level[row.id]; });
+  }
   columns.add<double>("weight", [&binding](const Row& row) { return binding.weight(row.id); });
   columns.add<double>("radius", [radius = frame.now.radius](const Row&) { return radius; });
   columns.add_vectors("displacement",
@@ -138,12 +144,15 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points&
                       });
   columns.add_vectors("velocity",
                       [&now = frame.now](const Row& row) { return now.velocity(row.place); });
-  columns.add_vectors("force",
-                      [pair = frame.force_pair, damping = frame.force_damping,
-                       bone = frame.force_bone, world = frame.force_world](const Row& row) -> Vec3 {
-                        const Vec3 own = pair[row.place] + damping[row.place] + bone[row.place];
-                        return world.empty() ? own : Vec3(own + world[row.place]);
-                      });
+  columns.add_vectors(
+      "force",
+      [pair = frame.force_pair, damping = frame.force_damping, bone = frame.force_bone,
+       world = frame.force_world, group = frame.force_group](const Row& row) -> Vec3 {
+        Vec3 sum = pair[row.place] + damping[row.place] + bone[row.place];
+        if (!world.empty()) sum += world[row.place];
+        if (!group.empty()) sum += group[row.place];
+        return sum;
+      });
   add_forces("force_pair", frame.force_pair);
   add_forces("force_damping", frame.force_damping);
   add_forces("force_bone", frame.force_bone);

@@ -35,6 +35,8 @@ struct ParticleFrame {
   std::span<const std::int32_t> broken_bonds = {};  ///< of each; empty where there are no bonds
   /// What is written as their ids, for a part of a body, whose own begin with 0; empty: these.
   std::span<const std::int32_t> ids = {};
+  std::span<const std::int32_t> group = {}, level = {};  ///< by id; empty where there are none
+  std::span<const Vec3> force_group = {};                ///< N; empty without groups
 };
 
 /// What a frame contains.

@@ -22,11 +22,13 @@
 namespace sinew {
 
 struct World;
+struct Grouping;
 
 /// Forces in the order of the particles, N.
 struct Forces {
   Points pair, damping, bone;
   Points world;                ///< obstacles, drag, fields, muscles; empty without a world
+  Points group;                ///< what keeps groups of particles together; empty without them
   std::vector<int> neighbors;  ///< neighbors closer than b
 
   // Filled by bone_forces() only; a simulation's own forces leave them empty.
@@ -35,8 +37,10 @@ struct Forces {
   std::vector<double> bone_damping_power;  ///< the damping's part of it, W
 
   Vec3 total(std::size_t i) const {
-    const Vec3 own = pair[i] + damping[i] + bone[i];
-    return world.empty() ? own : Vec3(own + world[i]);
+    Vec3 sum = pair[i] + damping[i] + bone[i];
+    if (!world.empty()) sum += world[i];
+    if (!group.empty()) sum += group[i];
+    return sum;
   }
 };
 
@@ -54,7 +58,8 @@ struct Body {
   /// Of each particle, its place in the scene's list of materials, from 1, or 0; empty: 0 each.
   std::vector<std::int32_t> material_number = {};
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
-  std::shared_ptr<const World> world = {};  ///< none: nothing surrounds it
+  std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
+  std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
 };
 
 /// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbors.

@@ -82,8 +82,9 @@ double noise_of(const Body& body, double unit) {
 
 void Simulation::relax(LoadSteps steps) {
   const SimulationState state = save();
-  if (std::holds_alternative<CellStepper>(stepper_))
-    throw bad_input("the reference stepper relaxes nothing", "search neighbors by lists");
+  if (std::holds_alternative<CellStepper>(stepper_) || body_->grouping)
+    throw bad_input("the reference stepper and groups relax nothing",
+                    "search neighbors by lists, and leave all particles free");
   const double extent = bounds(body_->rest).diagonal().norm();
   const double unit = std::holds_alternative<MovingInSingle>(state.moving)
                           ? state.whole_numbers.length
@@ -175,7 +176,7 @@ void Simulation::change_step(double step) {
     }
   };
   std::visit(shift, state.moving);
-  std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
+  std::visit([&](auto& stepper) { stepper.restore(state), stepper.fit_groups(); }, stepper_);
   set_step(step);
   forget_read();
 }
@@ -357,7 +358,7 @@ BoneReactions Simulation::reactions_of_bones() {
 
 SimulationState Simulation::save() const {
   SimulationState state;
-  std::visit([&](const auto& stepper) { stepper.save(state); }, stepper_);
+  std::visit([&](auto& stepper) { stepper.save(state); }, stepper_);
   state.steps = steps_;
   state.ledger = ledger_.entries();
   state.world_ledger = world_ledger_.entries();

@@ -30,6 +30,8 @@ constexpr std::array<Unsupported, 10> unsupported = {{
      [](const Settings& scene) { return scene.solver.neighbor_search != NeighborSearch::lists; }},
     {"solver.method", "equilibria", "set it to dynamic",
      [](const Settings& scene) { return scene.solver.method != Method::dynamic; }},
+    {"hierarchy.enabled", "groups of particles", "set it to false",
+     [](const Settings& scene) { return scene.hierarchy.enabled; }},
     {"material.breaking_strain", "bonds that break", "leave it out",
      [](const Settings& scene) { return scene.material.breaking_strain.has_value(); }},
     {"material.fracture_energy", "bonds that break", "leave it out",

@@ -11,6 +11,7 @@
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
+#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/run/bond_frames.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/frame_content.h>
@@ -129,6 +130,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
     support_series_.emplace(folder, format_of(output, "supports", body.material.pair.r), kept);
   }
+  if (body.grouping) group_ = body.grouping->group, level_ = body.grouping->levels();
   if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
@@ -320,10 +322,23 @@ void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
   }
   const Forces& forces = frame.forces;
   const bool all = selection_.ids.empty();
-  Dataset particles = particles_dataset(
-      {frame.particles, body_.rest, body_.binding, forces.pair, forces.damping, forces.bone,
-       forces.neighbors, frame.energies, forces.world, body_.material_number, frame.broken_bonds},
-      all ? std::move(frame.positions) : frame.positions, frame.moment, selection_);
+  Dataset particles = particles_dataset({frame.particles,
+                                         body_.rest,
+                                         body_.binding,
+                                         forces.pair,
+                                         forces.damping,
+                                         forces.bone,
+                                         forces.neighbors,
+                                         frame.energies,
+                                         forces.world,
+                                         body_.material_number,
+                                         frame.broken_bonds,
+                                         {},
+                                         group_,
+                                         level_,
+                                         forces.group},
+                                        all ? std::move(frame.positions) : frame.positions,
+                                        frame.moment, selection_);
   for (Column& array : requested)
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
   if (frame.begun)

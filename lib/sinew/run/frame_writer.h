@@ -58,7 +58,8 @@ class FrameWriter {
   void add(Simulation& simulation, double time, bool begun = false);
   /// Whether others may write the particles of frames, each a piece of them.
   bool can_be_begun() const {
-    return arrays_.empty() && selection_.ids.empty() && body_.material_number.empty();
+    return arrays_.empty() && selection_.ids.empty() && body_.material_number.empty() &&
+           !body_.grouping;
   }
   /// Runs the job that make() returns once all earlier frames are written, unless that fails.
   void then(const std::function<Background::Job()>& make) { writer_.hand(make); }
@@ -118,9 +119,11 @@ class FrameWriter {
   std::filesystem::path folder_;
   double interval_;  ///< s between frames
   const Body& body_;
-  ParticleSelection selection_;  ///< what the frames of particles contain
-  std::size_t every_;            ///< of so many frames, one contains particles
-  std::size_t taken_;            ///< frames so far
+  std::span<const std::int32_t> group_;  ///< by id; empty without groups
+  std::vector<std::int32_t> level_;      ///< by id
+  ParticleSelection selection_;          ///< what the frames of particles contain
+  std::size_t every_;                    ///< of so many frames, one contains particles
+  std::size_t taken_;                    ///< frames so far
   Skin skin_;
   Triangles surface_;  ///< its points as they are in the frame being written
   std::vector<std::int32_t> surface_bone_;

@@ -6,6 +6,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/warnings.h>
 #include <sinew/settings/table.h>
@@ -111,6 +112,7 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["steps_per_frame"] = steps.per_frame;
   describe(setup.plan, setup.frames);
   describe(stepper_choice(settings.solver));
+  describe(setup.body.grouping.get());
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();
@@ -120,6 +122,15 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
       " frames of " + std::to_string(steps.per_frame) + " steps");
   log("stability limit " + number_text(steps.limit) + " s, step " + number_text(steps.step) +
       " s, factor " + number_text(steps.factor()));
+}
+
+void RunLog::describe(const Grouping* grouping) {
+  if (grouping == nullptr) return;
+  record_["hierarchy"] = {{"groups", grouping->size()},
+                          {"grouped", grouping->grouped()},
+                          {"within", grouping->inside()}};
+  log(std::to_string(grouping->size()) + " groups of " + std::to_string(grouping->grouped()) +
+      " particles, " + std::to_string(grouping->inside()) + " of them within, where no forces act");
 }
 
 /// Frames with shorter steps before them: "shorter_steps": [{"frame": 7, "steps": 400}, ...]

@@ -50,6 +50,7 @@ class RunLog {
  private:
   void describe(const StepperChoice& choice);
   void describe(const StepPlan& plan, int frames);
+  void describe(const Grouping* grouping);
   void log(const std::string& line);
 
   RunFolder folder_;

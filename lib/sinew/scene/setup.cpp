@@ -9,6 +9,7 @@
 #include <sinew/core/text.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/physics/held_motion.h>
+#include <sinew/physics/hierarchy/static_groups.h>
 #include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
@@ -178,6 +179,35 @@ void refuse_free(const Settings& settings, const Body& body) {
 
 }  // namespace
 
+namespace {
+
+void check_groups(const Settings& settings, const Body& body) {
+  const Place place = settings.place("hierarchy.enabled");
+  if (settings.body.packing != Packing::fcc)
+    throw bad_input(place, "only in fcc packings is each particle a center of its neighbors",
+                    "set body.packing to fcc, or hierarchy.enabled to false");
+  if (settings.solver.method != Method::dynamic)
+    throw bad_input(place, "equilibria are found for free particles",
+                    "set solver.method to dynamic, or hierarchy.enabled to false");
+  if (settings.solver.neighbor_search != NeighborSearch::lists)
+    throw bad_input(place, "the paper's cells have no groups",
+                    "set solver.neighbor_search to lists, or hierarchy.enabled to false");
+  with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
+}
+
+/// None where the scene asks for none.
+std::shared_ptr<const Grouping> grouping_of(const Settings& settings, const Body& body,
+                                            const Motion& motion) {
+  if (!settings.hierarchy.enabled) return {};
+  check_groups(settings, body);
+  const auto moves = moving_joints(body.skeleton, motion, settings.solver.duration);
+  StaticGroups options;
+  options.joint_distance = settings.hierarchy.joint_distance;
+  return std::make_shared<const Grouping>(static_groups(body, moves, options));
+}
+
+}  // namespace
+
 Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
              LocalMaterial local) {
   check_packing(settings);
@@ -194,6 +224,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.file_warnings = warnings_of(files);
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
+  setup.body.grouping = grouping_of(settings, setup.body, setup.motion);
   if (is_static(settings)) {
     refuse_free(settings, setup.body);
     setup.body = undamped(std::move(setup.body));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
+#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/solid.h>
 #include <sinew/physics/world/world.h>
 #include <sinew/rig/motion_checks.h>
@@ -245,6 +246,23 @@ void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
   }
 }
 
+/// Measured on bars of 3e4 and 2e5 particles at rest, paper's and bonded: with 0.41 of them within
+/// groups steps took 1.4 times as long, with 0.64 0.9 times, with 0.9 0.3 times.
+constexpr double groups_pay_from = 0.6;
+
+void warn_of_groups(const Grouping* grouping, Warnings& warnings) {
+  if (grouping == nullptr) return;
+  const double within = static_cast<double>(grouping->inside()) /
+                        static_cast<double>(std::max<std::size_t>(1, grouping->group.size()));
+  if (within < groups_pay_from)
+    warnings.push_back(three_digits(100 * within) +
+                       " % of the particles are within groups, where forces are zero: groups pay "
+                       "from about " +
+                       three_digits(100 * groups_pay_from) +
+                       " % on; make body.radius or hierarchy.joint_distance smaller, or set "
+                       "hierarchy.enabled to false");
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
@@ -258,6 +276,7 @@ std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
   for (std::string& warning :
        motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
     warnings.push_back(std::move(warning));
+  warn_of_groups(setup.body.grouping.get(), warnings);
   warn_of_unit(setup.body, warnings);
   warn_of_radians(setup, warnings);
   warn_of_idle_bones(setup.body, warnings);

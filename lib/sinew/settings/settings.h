@@ -171,6 +171,11 @@ struct SolverSettings {
   int iterations = 200'000;        ///< of the static method, for each frame
 };
 
+struct HierarchySettings {
+  bool enabled = false;
+  double joint_distance = 1;
+};
+
 struct OutputSettings {
   double interval = 1.0 / 30;
   double checkpoint_interval = 60;
@@ -202,6 +207,7 @@ struct Settings {
   std::vector<LoadSettings> loads;
   std::vector<ProbeSettings> probes;
   SolverSettings solver;
+  HierarchySettings hierarchy;
   OutputSettings output;
 
   /// Where each value was read, by its path: "body.mesh", "skeleton.bones[1].parent".

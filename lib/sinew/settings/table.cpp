@@ -299,6 +299,18 @@ std::vector<Field<Settings>> make_solver() {
   };
 }
 
+std::vector<Field<Settings>> make_hierarchy() {
+  using S = Settings;
+  return {
+      field<S>("hierarchy", "enabled", SINEW_AT(S, hierarchy.enabled), "",
+               "particles far from joints that move are grouped, and each group moves affinely; "
+               "forces within groups are zero and are not computed; fcc only"),
+      field<S>("hierarchy", "joint_distance", SINEW_AT(S, hierarchy.joint_distance), "sqrt(A)",
+               "distance from joints, along the bone, within which particles are free",
+               not_negative),
+  };
+}
+
 std::vector<Field<Settings>> make_output() {
   using S = Settings;
   return {
@@ -341,9 +353,9 @@ std::vector<Field<Settings>> make_output() {
 
 std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
-  for (const auto& section :
-       {make_body(), make_material(), make_damping_and_strength(), make_skeleton_section(),
-        make_motion_section(), make_binding(), make_world(), make_solver(), make_output()})
+  for (const auto& section : {make_body(), make_material(), make_damping_and_strength(),
+                              make_skeleton_section(), make_motion_section(), make_binding(),
+                              make_world(), make_solver(), make_hierarchy(), make_output()})
     all.insert(all.end(), section.begin(), section.end());
   return all;
 }
@@ -369,8 +381,9 @@ std::span<const Field<PartOptions>> part_fields() {
 }
 
 std::span<const std::string_view> sections() {
-  static constexpr std::array<std::string_view, 8> names = {
-      "body", "material", "skeleton", "motion", "binding", "world", "solver", "output"};
+  static constexpr std::array<std::string_view, 9> names = {"body",   "material",  "skeleton",
+                                                            "motion", "binding",   "world",
+                                                            "solver", "hierarchy", "output"};
   return names;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sinew/physics/kernel/listing.h>
+#include <sinew/physics/kernel/moments.h>
 #include <sinew/physics/kernel/pruning.h>
 #include <sinew/physics/kernel/step.h>
 #include <sinew/physics/kernel/survey.h>
@@ -41,6 +42,13 @@ void flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t 
   work(step, begin, end);
 }
 
+template <class L>
+void flushed_pulls(const Step<typename L::Real>& step, const PulledBlocks<typename L::Real>& blocks,
+                   PullSums& out) {
+  const FlushedToZero<L> mode;
+  pull_blocks<L>(step, blocks, out);
+}
+
 template <class L, PairLaw pairs>
 constexpr void add(Functions<typename L::Real>& functions) {
   functions.count[pairs] = flushed<L, count_pieces<L, pairs>>;
@@ -55,6 +63,8 @@ constexpr Functions<typename L::Real> functions() {
   Functions<typename L::Real> all{};
   all.strain = flushed<L, strain_pieces<L>>;
   all.flow = flushed<L, flow_pieces<L>>;
+  all.moments = sum_moments<L>;
+  all.pull = flushed_pulls<L>;
   add<L, between_all>(all);
   add<L, among_neighbors>(all);
   add<L, springs>(all);

@@ -224,6 +224,46 @@ struct Surroundings {
   void (*act)(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3], Real* held);
 };
 
+/// Particles that move in groups: see ../hierarchy/groups.h. What a block's role is unless it has a
+/// row of accelerations.
+enum Role : std::int32_t { working = -1, idle = -2 };
+
+template <class Real>
+struct Grouped {
+  const std::int32_t*
+      role;  ///< by block: working, idle (a step leaves it out) or a row; null: working
+  const std::uint8_t* asleep;  ///< by block: nobody needs its deformation or its counts
+  const std::uint8_t* whole;   ///< by block: all of it is grouped, whose speeds are known
+  Real* acceleration[3];       ///< rows x block
+};
+
+/// The sums of f, then of f X^T row by row.
+inline constexpr int force_moments = 12;
+
+/// Particles of a group that follow each other in memory.
+template <class Real>
+struct MomentInput {
+  const Real* force[3];
+  const Real* X[3];  ///< places at rest from the group's center
+  std::size_t count;
+};
+
+/// Blocks of one group, and what each counts.
+template <class Real>
+struct PulledBlocks {
+  const std::uint32_t* block;
+  const double* weight;
+  std::size_t count;
+  const Real* X[3];  ///< of all particles
+};
+
+/// What bones exert on them, per mass.
+struct PullSums {
+  double force[force_moments];
+  double damping[force_moments];  ///< the part of it that is damping
+  double power, lost;             ///< from the bones; of that, by damping
+};
+
 template <class Real>
 struct Step {
   State<Real> before, after;
@@ -241,6 +281,7 @@ struct Step {
   Volumes<Real> volumes;
   Fibers<Real> fibers;
   Surroundings<Real> surroundings;
+  Grouped<Real> grouped;
   Real gravity[3];  ///< per time squared
   Real keep;        ///< v = keep v + kick a; 1 but where a step relaxes
   Real kick;
@@ -309,6 +350,9 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
+  /// Of groups: force_moments sums; what bones exert.
+  void (*moments)(const MomentInput<Real>&, double* sums);
+  void (*pull)(const Step<Real>&, const PulledBlocks<Real>&, PullSums&);
   /// Finds the blocks of `pieces`, ascending, whose bounds are within range of those of a block;
   /// returns how many.
   std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const std::uint32_t* pieces,

@@ -117,6 +117,16 @@ SINEW_INLINE void surround_if_touched(const Step<typename L::Real>& step, std::s
   surround<L>(step, i, velocity, forces);
 }
 
+/// What moves a group is stored.
+template <class L>
+SINEW_INLINE void gather_if_grouped(const Grouped<typename L::Real>& grouped, std::size_t block,
+                                    int lane, const Triple<L>& acceleration) {
+  if (grouped.role == nullptr || grouped.role[block] < 0) return;
+  constexpr int size = Traits<typename L::Real>::block;
+  store<L>(grouped.acceleration, static_cast<std::ptrdiff_t>(grouped.role[block]) * size + lane,
+           acceleration);
+}
+
 /// The ledger: power of the bones, and losses at the velocity in the middle of the step.
 template <class L>
 SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
@@ -184,6 +194,7 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   const Triple<L> velocity = load<L>(step.before.v, i);
   Forces<L> forces = forces_on<L, pairs, pass, false>(step, law, block, lane, here, velocity);
   surround_if_touched<L>(step, block, i, velocity, forces);
+  gather_if_grouped<L>(step.grouped, block, lane, forces.acceleration);
   const Triple<L> kicked =
       fused<L>(L::all(step.kick), forces.acceleration, L::all(step.keep) * velocity);
   const Triple<L> drifting = step.drift_first ? velocity : kicked;
@@ -195,7 +206,8 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   account<L>(step, forces, velocity, lane, sums);
   if (step.relaxes) account_of_relaxing<L>(step, block, lane, forces, velocity, sums);
   check_speed<L>(step, kicked, forces.bones.carried, sums);
-  track_fastest<L>(step, block, lane, here, drifting, sums);
+  if (step.grouped.role == nullptr || step.grouped.whole[block] == 0)
+    track_fastest<L>(step, block, lane, here, drifting, sums);
   if constexpr (pairs == changing_springs)
     if (forces.strained) [[unlikely]] {
       change_bonds<L, nearest>(step, block, lane, sums.lost + lane, sums.broke);
@@ -246,7 +258,8 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
            sum_of<L>(sums.pulled)}};
 }
 
-/// Calls visit(block, lane, sums) for every vector of the pieces, and stores their totals.
+/// Calls visit(block, lane, sums) for every vector of the pieces but for idle ones, and stores
+/// their totals.
 template <class L, class Visit>
 SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_t begin,
                                   std::size_t end, Visit visit) {
@@ -254,8 +267,10 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
   for (std::size_t piece = begin; piece < end; ++piece) {
     Sums<L> sums;
     const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
-    for (std::size_t block = first; block < last && block < step.blocks; ++block)
+    for (std::size_t block = first; block < last && block < step.blocks; ++block) {
+      if (step.grouped.role != nullptr && step.grouped.role[block] == idle) continue;
       for (int lane = 0; lane < block_size; lane += L::width) visit(block, lane, sums);
+    }
     step.totals[piece] = totals_of(sums);
   }
 }
@@ -288,7 +303,8 @@ void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
   constexpr int size = Traits<typename L::Real>::block;
   const LawOf<L, pairs> law = law_of<L, pairs>(step);
   const std::size_t last = end * blocks_per_piece;
-  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
+  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block) {
+    if (step.grouped.asleep != nullptr && step.grouped.asleep[block] != 0) continue;
     for (int lane = 0; lane < size; lane += L::width) {
       bool strained = false;
       const typename L::V count =
@@ -297,6 +313,7 @@ void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
       L::store(step.share + static_cast<std::ptrdiff_t>(block) * size + lane,
                L::keep(some, L::all(1) / L::larger(count, L::all(1))));
     }
+  }
 }
 
 }  // namespace sinew::kernel

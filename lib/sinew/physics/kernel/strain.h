@@ -126,6 +126,7 @@ void strain_pieces(const Step<typename L::Real>& step, std::size_t begin, std::s
   constexpr int size = Traits<typename L::Real>::block;
   const std::size_t last = end * blocks_per_piece;
   for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block) {
+    if (step.grouped.asleep != nullptr && step.grouped.asleep[block] != 0) continue;
     if (step.volumes.stiffness == nullptr &&
         step.fibers.first[block] == step.fibers.first[block + 1])
       continue;  // what it exerts is zero and remains so

@@ -42,8 +42,10 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass),
+      groups_(body_, particles.mass),
       lists_(kernel_, body_->material, stepping.step) {
   find_slots();
+  groups_.begin(layout_.now, layout_.units());
   const std::size_t blocks = layout_.now.blocks();
   if (body_->material.damping_form != DampingForm::paper && body_->material.damping > 0)
     share_.assign((blocks + 2) * block, 0);
@@ -55,6 +57,9 @@ template <class Real>
 void ListStepper<Real>::find_slots() {
   slots_ = bone_slots<Real>(*body_, layout_.id(), layout_.units());
   surroundings_.set_order(layout_.id());
+  groups_.set_order(layout_.id());
+  groups_.read_through(bonds_, !strain_.empty());
+  counted_ = false;
 }
 
 template <class Real>
@@ -89,6 +94,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.share = share_.empty() ? nullptr : share_.data() + block;
   step.central = material.damping_form == DampingForm::central;
   step.surroundings = surroundings_.calls();
+  step.grouped = groups_.arrays();
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(layout_.units().acceleration(stepping_.gravity[axis]));
   const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
@@ -104,8 +110,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
 }
 
 template <class Real>
-template <class Run>
-void ListStepper<Real>::on_all_pieces(const Run& run) {
+void ListStepper<Real>::on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run) {
   const bool uneven = surroundings_.any() && totals_.size() >= 2 * pieces_per_thread;
   if (uneven)  // what they touch takes longer
     parallel_for(totals_.size(), pieces_at_a_time, run);
@@ -120,23 +125,39 @@ void ListStepper<Real>::hold(const Pose& pose) {
   surroundings_.hold(pose, time_, layout_.now, layout_.units(), moved_);
 }
 
-/// The work at the pose, with what must be known of all particles before.
+/// The work at the pose, with what must be known of all particles before; `whole`: of groups as
+/// well.
 template <class Real>
-kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces) {
+kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces, bool whole) {
   hold(pose);
   update_lists();
+  if (whole) {
+    groups_.show_all(layout_.now, layout_.units());
+    lists_.catch_up(layout_.now, bonds_, hidden());
+  }
+  groups_.read_through(lists_.arrays(), lists_.take_changed());
+  groups_.place(layout_.now, layout_.units());
   place_bones(pose);
   surroundings_.begin(pose, time_, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_)) strain_.set_activations(activations_at(body_->world->muscles, time_));
-  const auto now = job();
+  auto now = job();
+  if (whole) now.grouped = {};
+  find_deformation(now);
+  return now;
+}
+
+template <class Real>
+void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   if (!strain_.empty())
     on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
   if (!bonds_.flows.empty())
     on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.flow(now, first, last); });
-  if (!share_.empty())
-    on_all_pieces(
-        [&](std::size_t first, std::size_t last) { kernel_.count[law_](now, first, last); });
-  return now;
+  if (share_.empty()) return;
+  auto counting = now;
+  // Within groups, the neighbors of idle blocks remain.
+  if (!std::exchange(counted_, true)) counting.grouped = {};
+  on_all_pieces(
+      [&](std::size_t first, std::size_t last) { kernel_.count[law_](counting, first, last); });
 }
 
 template <class Real>
@@ -173,7 +194,8 @@ StepSums ListStepper<Real>::sums_of_totals() const {
   }
   const WorldSums world = surroundings_.sums();
   sums.power *= watts;
-  sums.lost = sums.lost * watts + world.lost;
+  sums.power += groups_.sums().power;
+  sums.lost = sums.lost * watts + world.lost + groups_.sums().lost;
   sums.world_power = sums.world_power * watts + world.power;
   sums.held_kinetic = world.held_kinetic;
   return sums;
@@ -181,7 +203,7 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 
 template <class Real>
 StepSums ListStepper<Real>::step(const Pose& pose) {
-  StepSums sums = run(begin(pose, nullptr), pose);
+  StepSums sums = run(begin(pose, nullptr, false), pose);
   if (!sums.failure) accept();
   return sums;
 }
@@ -190,6 +212,7 @@ template <class Real>
 StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
   const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
+  move_groups(now);
   StepSums sums = sums_of_totals();
   if (!std::all_of(totals_.begin(), totals_.end(),
                    [](const kernel::Totals& piece) { return piece.sound; })) {
@@ -200,81 +223,28 @@ StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
 }
 
 template <class Real>
+void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
+  if (!groups_.any()) return;
+  const double T = layout_.units().time;
+  const auto seconds = [&](Real time) { return static_cast<double>(time) * T; };
+  groups_.sum(kernel_, now, layout_.units(),
+              {seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
+               stepping_.gravity});
+  groups_.bound(layout_.units(), now.drift_first, lists_.motions(), totals_);
+  groups_.check_stretch();
+}
+
+template <class Real>
 void ListStepper<Real>::accept() {
+  groups_.advance();
   layout_.advance(travel_of_step());
   kicked_ = stepped_ = true;
   ++steps_;
 }
 
-/// The particles that failed, in the caller's order; the fastest one where rounding leaves none.
-template <class Real>
-Failure ListStepper<Real>::failure(const Pose& pose) {
-  Failure failure;
-  const double most = most_radii_per_step * body_->material.pair.r *
-                      (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
-  Offender fastest{0, true, -1};
-  for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
-    const double moved = stepping_.step * relative_velocity(pose, k).norm();
-    const bool finite =
-        std::isfinite(moved) && layout_.next.velocity(k, layout_.units()).allFinite();
-    const Offender one{layout_.caller()[k], finite, std::isfinite(moved) ? moved : 0};
-    if (finite && moved > fastest.moved) fastest = one;
-    if (!finite || moved > most) failure.all.push_back(one);
-  }
-  if (failure.all.empty()) failure.all.push_back(fastest);
-  std::sort(failure.all.begin(), failure.all.end(),
-            [](const Offender& a, const Offender& b) { return a.particle < b.particle; });
-  failure.first = failure.all.front();
-  return failure;
-}
-
-/// Velocity after the step relative to the leading bone or, without one and for what is held, to
-/// the velocity before.
-template <class Real>
-Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
-  const int bone = body_->binding.bone(static_cast<std::size_t>(layout_.padded_id()[k]));
-  const Vec3 carried = bone == no_bone || surroundings_.is_held(k)
-                           ? layout_.now.velocity(k, layout_.units())
-                           : pose[bone].velocity_at(layout_.now.position(k, layout_.units()));
-  return layout_.next.velocity(k, layout_.units()) - carried;
-}
-
-template <class Real>
-Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
-  Points of_world;
-  const auto now = begin(pose, surroundings_.any() ? &of_world : nullptr);
-  const double newtons =
-      mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
-  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
-  const ForceProbe<Real> probe(work, now, layout_, newtons, has_muscles(*body_), of_world);
-  resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
-  on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
-  const StepSums sums = sums_of_totals();
-  Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
-  balance.contact_energy = surroundings_.sums().contact_energy;
-  const double joules = newtons * layout_.units().length;
-  for (const kernel::Totals& piece : totals_) {
-    balance.pair_energy += joules * piece.pair_energy;
-    balance.bone_energy += joules * piece.bone_energy;
-  }
-  return balance;
-}
-
-template <class Real>
-void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
-  hold(pose);
-  layout_.read(particles);
-  if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
-  Forces forces;
-  evaluate(pose, forces);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    particles.set_velocity(
-        i, particles.velocity(i) +
-               stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
-}
-
 template <class Real>
 void ListStepper<Real>::update_lists() {
+  if (layout_.units_are_due()) groups_.show_all(layout_.now, layout_.units());
   const bool stepped = std::exchange(stepped_, false), anew = layout_.change_units();
   if (anew) follow_units();
   add_moved();
@@ -284,8 +254,17 @@ void ListStepper<Real>::update_lists() {
   } else if (anew || !lists_.made()) {
     make_lists();
   } else if (stepped) {
-    lists_.follow(layout_.now, bonds_, layout_.units(), totals_);
+    lists_.follow(layout_.now, bonds_, layout_.units(), totals_, hidden());
   }
+}
+
+template <class Real>
+HiddenParticles ListStepper<Real>::hidden() {
+  if (!groups_.any()) return {};
+  const auto show = [this](std::span<const std::uint32_t> pieces) {
+    groups_.show(layout_.now, layout_.units(), pieces);
+  };
+  return {show, groups_.idle_pieces()};
 }
 
 /// What pins moved counts as faster motion of the step before.
@@ -309,14 +288,15 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, bonds_, layout_.units());
+  lists_.make(layout_.now, bonds_, layout_.units(), hidden());
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run
 /// resumed there, would change nothing.
 template <class Real>
 bool ListStepper<Real>::order_check_due() {
-  return law_ == kernel::between_all && steps_ % steps_between_order_checks == 0 &&
+  return law_ == kernel::between_all && !groups_.any() &&
+         steps_ % steps_between_order_checks == 0 &&
          std::exchange(order_checked_, steps_) != steps_;
 }
 
@@ -363,8 +343,10 @@ void ListStepper<Real>::set_step(double step) {
 }
 
 template <class Real>
-void ListStepper<Real>::save(SimulationState& state) const {
+void ListStepper<Real>::save(SimulationState& state) {
+  groups_.show_all(layout_.now, layout_.units());
   layout_.save(state);
+  groups_.save(state);
   bonds_.save(state);
   surroundings_.save(state);
   state.kicked = kicked_;
@@ -382,6 +364,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   bonds_ = std::move(bonds);
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();
+  groups_.restore(state);
   surroundings_.restore(state);
   kicked_ = state.kicked;
   mean_when_sorted_ = state.mean_when_sorted;

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include <sinew/physics/hierarchy/groups.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/bond_lists.h>
@@ -45,7 +47,10 @@ class ListStepper {
   std::vector<Reaction> of_supports() const { return surroundings_.of_supports(); }
   std::vector<Reaction> of_loads() const { return surroundings_.of_loads(); }
 
-  void save(SimulationState& state) const;
+  /// Groups move as their particles do, as nearly as they can.
+  void fit_groups() { groups_.begin(layout_.now, layout_.units()); }
+
+  void save(SimulationState& state);
   void restore(const SimulationState& state);
 
  private:
@@ -59,11 +64,13 @@ class ListStepper {
   void place_bones(const Pose& pose);
   kernel::Holds<Real> holds() const;
   kernel::Step<Real> job();
-  template <class Run>
-  void on_all_pieces(const Run& run);
+  void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
   void hold(const Pose& pose);
   void follow_units();
-  kernel::Step<Real> begin(const Pose& pose, Points* world_forces);
+  kernel::Step<Real> begin(const Pose& pose, Points* world_forces, bool whole);
+  void find_deformation(const kernel::Step<Real>& now);
+  HiddenParticles hidden();
+  void move_groups(const kernel::Step<Real>& now);
   StepSums run(kernel::Step<Real> now, const Pose& pose);
   Imbalance imbalance() const;
 
@@ -89,6 +96,8 @@ class ListStepper {
   BondLists<Real> bonds_;
   StrainLists<Real> strain_;
   Surroundings<Real> surroundings_;
+  Groups<Real> groups_;
+  bool counted_ = false;       ///< the neighbors of all particles, in the present order
   std::vector<double> moved_;  ///< by pins, by piece, since the lists followed, m
   std::vector<Real> share_;    ///< padded; empty unless damping acts pair by pair
   double time_ = 0;

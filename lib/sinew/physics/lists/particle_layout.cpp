@@ -71,8 +71,13 @@ void ParticleLayout<Real>::reorder(std::vector<std::uint32_t>& order) {
 }
 
 template <class Real>
+bool ParticleLayout<Real>::units_are_due() const {
+  return sizeof(Real) == 4 && traveled_ > free_travel<Real>(units_);
+}
+
+template <class Real>
 bool ParticleLayout<Real>::change_units() {
-  if (sizeof(Real) == 8 || traveled_ <= free_travel<Real>(units_)) return false;
+  if (!units_are_due()) return false;
   units_box_ = now.box(units_, particles_per_conversion);
   traveled_ = 0;
   if (covers<Real>(units_, units_box_)) return false;

@@ -38,6 +38,8 @@ class ParticleLayout {
   void advance(double travel);
   /// Particle order[k] becomes the k-th one; `order` then leads back.
   void reorder(std::vector<std::uint32_t>& order);
+  /// Whether the next check may choose other units, so that it reads all positions.
+  bool units_are_due() const;
   /// Chooses other units where the body may have left the range of the present ones, and has.
   bool change_units();
   void read(Particles& particles) const;

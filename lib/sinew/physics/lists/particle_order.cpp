@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <sinew/core/parallel.h>
+#include <sinew/physics/hierarchy/grouping.h>
 
 namespace sinew {
 
@@ -145,6 +146,20 @@ void sort_by_planes(const Listed& particles, const Vec3& across,
   group = std::move(sorted);
 }
 
+/// The free particles, then each group from its rim to its core, face by face, in the same order
+/// otherwise.
+void sort_by_layers(const Grouping& grouping, std::span<const std::int32_t> id,
+                    std::vector<std::uint32_t>& order) {
+  const auto rank = [&](std::uint32_t place) {
+    const auto i = static_cast<std::size_t>(id[place]);
+    const auto layer = static_cast<std::size_t>(grouping.layer[i]);
+    const auto group = static_cast<std::size_t>(grouping.group[i] + 1);
+    return (group * 4 + layer) * 64 + grouping.face[i];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> order_at_rest(const Body& body, std::span<const std::int32_t> id) {
@@ -166,6 +181,7 @@ std::vector<std::uint32_t> order_at_rest(const Body& body, std::span<const std::
   std::vector<std::uint32_t> order;
   order.reserve(id.size());
   for (const auto& group : groups) order.insert(order.end(), group.begin(), group.end());
+  if (body.grouping) sort_by_layers(*body.grouping, id, order);
   return order;
 }
 

@@ -8,7 +8,7 @@ namespace sinew {
 
 template <class Real>
 StepSums ListStepper<Real>::try_step(const Pose& pose, double keep) {
-  auto now = begin(pose, nullptr);
+  auto now = begin(pose, nullptr, false);
   now.relaxes = true;
   now.keep = static_cast<Real>(keep);
   now.kick = static_cast<Real>(stepping_.step / layout_.units().time * (1 + keep) / 2);

@@ -80,8 +80,8 @@ double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
 
 template <class Real>
 void VerletLists<Real>::make(BlockState<Real>& state, const BondLists<Real>& bonds,
-                             const Units& units) {
-  make_each(1, state, bonds, units);
+                             const Units& units, const HiddenParticles& hidden) {
+  make_each(1, state, bonds, units, hidden);
   ++counts_.rebuilds;
 }
 
@@ -89,13 +89,14 @@ template <class Real>
 void VerletLists<Real>::make_some(BlockState<Real>& state, const BondLists<Real>& bonds,
                                   const Units& units) {
   const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
-  make_each(1 + pieces / pieces_in_sample, state, bonds, units);
+  make_each(1 + pieces / pieces_in_sample, state, bonds, units, {});
   if (whole_) ++counts_.rebuilds;
 }
 
 template <class Real>
 void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
-                                  const BondLists<Real>& bonds, const Units& units) {
+                                  const BondLists<Real>& bonds, const Units& units,
+                                  const HiddenParticles& hidden) {
   whole_ = nth == 1;
   ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
              wanted_.outer / units.length};
@@ -110,12 +111,54 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
   fastest_.assign(pieces, 0);
   boxes_.resize(pieces);
   boxed_.assign(pieces, -1);
+  overdue_.assign(pieces, 0);
   near_ = NearPieces(ranges_);
+  show_all(hidden);
   survey(state);
   std::vector<std::uint32_t> some;
   for (std::size_t piece = 0; piece < pieces; piece += nth)
     some.push_back(static_cast<std::uint32_t>(piece));
-  list(state, bonds, some);
+  list(state, bonds, some, hidden);
+}
+
+template <class Real>
+void VerletLists<Real>::show_all(const HiddenParticles& hidden) const {
+  std::vector<std::uint32_t> all(motions_.size());
+  std::iota(all.begin(), all.end(), 0U);
+  hidden.show(all);
+}
+
+/// What lists of these pieces are made from.
+template <class Real>
+void VerletLists<Real>::show_around(const std::vector<std::uint32_t>& pieces,
+                                    const HiddenParticles& hidden) const {
+  std::vector<std::uint32_t> around;
+  for (const std::uint32_t piece : pieces)
+    for (const NearPieces::Near& near : near_.of(piece)) around.push_back(near.piece);
+  hidden.show(around);
+}
+
+/// Idle ones are overdue from now on.
+template <class Real>
+std::vector<std::uint32_t> VerletLists<Real>::without_idle(const std::vector<std::uint32_t>& pieces,
+                                                           const HiddenParticles& hidden) {
+  if (hidden.idle.empty()) return pieces;
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t piece : pieces)
+    if (hidden.idle[piece] != 0)
+      overdue_[piece] = 1;
+    else
+      kept.push_back(piece);
+  return kept;
+}
+
+template <class Real>
+void VerletLists<Real>::catch_up(BlockState<Real>& state, const BondLists<Real>& bonds,
+                                 const HiddenParticles& hidden) {
+  std::vector<std::uint32_t> pieces;
+  for (std::uint32_t piece = 0; piece < overdue_.size(); ++piece)
+    if (std::exchange(overdue_[piece], 0) != 0) pieces.push_back(piece);
+  list(state, bonds, pieces, hidden);
 }
 
 template <class Real>
@@ -186,7 +229,8 @@ void VerletLists<Real>::move_fields() {
 
 template <class Real>
 void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& bonds,
-                               const Units& units, std::span<const kernel::Totals> totals) {
+                               const Units& units, std::span<const kernel::Totals> totals,
+                               const HiddenParticles& hidden) {
   Stopwatch watch;
   ++moment_;
   // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
@@ -195,14 +239,18 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
   for (std::size_t piece = 0; piece < totals.size(); ++piece)
     fastest_[piece] =
         std::sqrt(totals[piece].fastest) * (1 + 1e-5) + unit + rounding<Real> * speed_[piece];
-  if (!near_.advance(fastest_, time_)) return make(state, bonds, units);
-  if (near_.survey_due())
+  if (!near_.advance(fastest_, time_)) return make(state, bonds, units, hidden);
+  if (near_.survey_due()) {
+    show_all(hidden);
     survey(state);
-  else
+  } else {
     move_fields();
+  }
   counts_.checking += watch.lap();
-  list(state, bonds, to_list(totals));
-  const std::vector<std::uint32_t>& pieces = near_.to_prune();
+  list(state, bonds, without_idle(to_list(totals), hidden), hidden);
+  const std::vector<std::uint32_t> pieces = without_idle(near_.to_prune(), hidden);
+  show_around(pieces, hidden);
+  changed_.insert(changed_.end(), pieces.begin(), pieces.end());
   parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) prune(state, pieces[k]);
   });
@@ -236,9 +284,12 @@ void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
 
 template <class Real>
 void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bonds,
-                             const std::vector<std::uint32_t>& pieces) {
+                             const std::vector<std::uint32_t>& pieces,
+                             const HiddenParticles& hidden) {
   if (pieces.empty()) return;
   Stopwatch watch;
+  show_around(pieces, hidden);
+  changed_.insert(changed_.end(), pieces.begin(), pieces.end());
   find_boxes_around(state, pieces);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {

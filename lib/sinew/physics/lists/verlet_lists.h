@@ -15,7 +15,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <sinew/physics/kernel/kernel.h>
@@ -26,6 +28,13 @@
 #include <sinew/physics/stepper.h>
 
 namespace sinew {
+
+/// Particles that are not always at their places.
+struct HiddenParticles {
+  /// Puts those of some pieces there.
+  std::function<void(std::span<const std::uint32_t> pieces)> show = [](const auto&) {};
+  std::span<const std::uint8_t> idle = {};  ///< by piece: 1 where no lists are needed; empty: none
+};
 
 template <class Real>
 class VerletLists {
@@ -42,13 +51,19 @@ class VerletLists {
   VerletLists anew() const;
   bool made() const { return !inner_.empty(); }
   /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
-  void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
+  void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
+            const HiddenParticles& hidden = {});
   void make_some(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
   /// Whether they are the lists of all pieces.
   bool whole() const { return whole_; }
   /// Makes those that are no longer valid after a step with these sums.
   void follow(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
-              std::span<const kernel::Totals> totals);
+              std::span<const kernel::Totals> totals, const HiddenParticles& hidden = {});
+  /// Makes those of idle pieces that are no longer valid.
+  void catch_up(BlockState<Real>& state, const BondLists<Real>& bonds,
+                const HiddenParticles& hidden);
+  /// Pieces whose inner lists were made since they were last asked for.
+  std::vector<std::uint32_t> take_changed() { return std::exchange(changed_, {}); }
 
   /// Around the particles of a piece, m.
   Box box_of(std::size_t piece, const Units& units) const;
@@ -60,14 +75,18 @@ class VerletLists {
  private:
   static double mean(const std::vector<OffsetLists>& lists);
   void make_each(std::size_t nth, BlockState<Real>& state, const BondLists<Real>& bonds,
-                 const Units& units);
+                 const Units& units, const HiddenParticles& hidden);
+  void show_all(const HiddenParticles& hidden) const;
   void survey(BlockState<Real>& state);
   void move_fields();
   PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
                      std::size_t particles) const;
   std::vector<std::uint32_t> to_list(std::span<const kernel::Totals> totals) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
-            const std::vector<std::uint32_t>& pieces);
+            const std::vector<std::uint32_t>& pieces, const HiddenParticles& hidden);
+  void show_around(const std::vector<std::uint32_t>& pieces, const HiddenParticles& hidden) const;
+  std::vector<std::uint32_t> without_idle(const std::vector<std::uint32_t>& pieces,
+                                          const HiddenParticles& hidden);
   void prune(BlockState<Real>& state, std::size_t piece);
   void find_boxes_around(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces);
 
@@ -90,6 +109,8 @@ class VerletLists {
   BlockBoxes boxes_;
   std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
   std::int64_t moment_ = 0;
+  std::vector<std::uint32_t> changed_;
+  std::vector<std::uint8_t> overdue_;  ///< by piece: idle ones
 
   ListCounts counts_;
 };

@@ -26,6 +26,8 @@ std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
 CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
                          Particles particles)
     : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {
+  if (body_->grouping)
+    throw bad_input("the reference stepper has no groups", "search neighbors by lists");
   solid_ = solid_of(*body_, particles_);
   sliding_ = SlidingContacts(*body_);
   if (!body_->world) return;

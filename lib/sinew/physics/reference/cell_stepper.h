@@ -41,6 +41,7 @@ class CellStepper {
   std::vector<Reaction> of_supports() const { return of_supports_; }
   std::vector<Reaction> of_loads() const { return of_loads_; }
 
+  void fit_groups() {}  ///< has none
   void save(SimulationState& state) const;
   void restore(const SimulationState& state);
 

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the particles of groups are: in memory, and in space.
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include <sinew/core/parallel.h>
+#include <sinew/physics/hierarchy/groups.h>
+
+namespace sinew {
+namespace {
+
+using kernel::blocks_per_piece;
+
+constexpr std::size_t runs_per_placing = 16, pieces_per_showing = 16;
+constexpr std::uint32_t longest_run = 512, samples_at_a_time = 64;
+
+/// A whole number of 32 bits, rounded to the nearest; fast, and the same everywhere.
+std::int32_t whole_number(double value) {
+  constexpr double shift = 6755399441055744.0;  // 1.5 2^52: the last bit is 1
+  return static_cast<std::int32_t>(
+      static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(value + shift)));
+}
+
+template <class Coord>
+Coord coordinate(double value) {
+  if constexpr (sizeof(Coord) == 4)
+    return whole_number(value);
+  else
+    return value;
+}
+
+/// Puts c + F X, in any units, for places [begin, end).
+template <class To, class Round>
+void put_affine(const std::array<std::vector<double>, 3>& X, std::size_t begin, std::size_t end,
+                const Vec3& c, const Mat3& F, To* const to[3], const Round& round) {
+  const double *x = X[0].data(), *y = X[1].data(), *z = X[2].data();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = c[axis], a = F(axis, 0), b = F(axis, 1), d = F(axis, 2);
+    To* out = to[axis];
+    for (std::size_t k = begin; k < end; ++k) out[k] = round(at + (a * x[k] + b * y[k] + d * z[k]));
+  }
+}
+
+}  // namespace
+
+template <class Real>
+template <class Visit>
+void Groups<Real>::for_each_run(std::size_t begin, std::size_t end, const Visit& visit) const {
+  end = std::min(end, group_.size());
+  for (std::size_t k = begin; k < end;) {
+    std::size_t last = k + 1;
+    while (last < end && group_[last] == group_[k]) ++last;
+    if (group_[k] >= 0)
+      visit(Run{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(last), group_[k]});
+    k = last;
+  }
+}
+
+/// Longer runs where they continue.
+template <class Real>
+void Groups<Real>::append(const Run& run, std::vector<Run>& runs) {
+  if (!runs.empty() && runs.back().end == run.begin && runs.back().group == run.group &&
+      runs.back().end - runs.back().begin < longest_run)
+    runs.back().end = run.end;
+  else
+    runs.push_back(run);
+}
+
+template <class Real>
+void Groups<Real>::set_order(std::span<const std::int32_t> id) {
+  if (!any()) return;
+  const Grouping& grouping = *body_->grouping;
+  id_.assign(id.begin(), id.end());
+  group_.resize(id.size());
+  for (auto& axis : X_) axis.assign(id.size(), 0);
+  for (auto& axis : X_of_kernel_) axis.assign(id.size() + block, 0);
+  for (std::size_t k = 0; k < id.size(); ++k) {
+    const auto i = static_cast<std::size_t>(id[k]);
+    group_[k] = grouping.group[i];
+    if (group_[k] < 0) continue;
+    const Vec3 X = body_->rest[i] - shapes_[static_cast<std::size_t>(group_[k])].center;
+    for (int axis = 0; axis < 3; ++axis) {
+      X_[axis][k] = X[axis];
+      X_of_kernel_[axis][k] = static_cast<Real>(X[axis]);
+    }
+  }
+  find_roles();
+  find_boxes();
+  find_samples();
+  ++moment_;
+}
+
+template <class Real>
+void Groups<Real>::find_roles() {
+  const Grouping& grouping = *body_->grouping;
+  const std::size_t blocks = (group_.size() + block - 1) / block;
+  const std::size_t pieces = (blocks + blocks_per_piece - 1) / blocks_per_piece;
+  role_.assign(blocks, kernel::working);
+  always_.assign(blocks, 0);
+  asleep_.assign(blocks, 0);
+  whole_.assign(blocks, 0);
+  idle_pieces_.assign(pieces, 1);
+  shown_.assign(pieces, -1);
+  rim_.clear();
+  for (Shape& shape : shapes_) shape.idle = 0, shape.moment.setZero();
+  std::int32_t rows = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t begin = b * block, end = std::min(begin + block, group_.size());
+    bool some = false, all = end == begin + block, whole = true;  // padding is nobody's
+    for (std::size_t k = begin; k < end; ++k) {
+      some = some || group_[k] >= 0;
+      whole = whole && group_[k] >= 0;
+      all = all && group_[k] == group_[begin] &&
+            grouping.layer[static_cast<std::size_t>(id_[k])] >= Layer::shell;
+    }
+    if (!all) idle_pieces_[b / blocks_per_piece] = 0;
+    if (!some) continue;
+    role_[b] = all ? static_cast<std::int32_t>(kernel::idle) : rows++;
+    asleep_[b] = all ? 1 : 0;
+    whole_[b] = whole ? 1 : 0;
+    for_each_run(begin, end, [&](Run run) {
+      if (all) {
+        Shape& shape = shapes_[static_cast<std::size_t>(run.group)];
+        for (std::size_t k = run.begin; k < run.end; ++k)
+          shape.idle += 1, shape.moment += place_at_rest(k);
+        return;
+      }
+      run.row = static_cast<std::int64_t>(role_[b]) * static_cast<std::int64_t>(block) +
+                static_cast<std::int64_t>(run.begin - begin);
+      append(run, rim_);
+    });
+  }
+  for (auto& axis : acceleration_) axis.assign((static_cast<std::size_t>(rows) + 1) * block, 0);
+  more_are_read_ = true;
+}
+
+template <class Real>
+void Groups<Real>::find_boxes() {
+  boxes_.clear();
+  constexpr std::size_t size = blocks_per_piece * block;
+  for (std::size_t piece = 0; piece < idle_pieces_.size(); ++piece) {
+    const std::size_t first = boxes_.size();
+    for_each_run(piece * size, (piece + 1) * size, [&](const Run& run) {
+      std::size_t at = first;
+      while (at < boxes_.size() && boxes_[at].group != run.group) ++at;
+      if (at == boxes_.size())
+        boxes_.push_back({static_cast<std::uint32_t>(piece), run.group, Box()});
+      for (std::size_t k = run.begin; k < run.end; ++k) boxes_[at].box.extend(place_at_rest(k));
+    });
+  }
+}
+
+/// Blocks of one group are of the kind of their first particle's group and bone.
+template <class Real>
+void Groups<Real>::find_samples() {
+  samples_ = {};
+  if (body_->skeleton.size() == 0) return;
+  std::vector<SampledBlock> blocks;
+  for (std::size_t b = 0; b < role_.size(); ++b) {
+    if (role_[b] != kernel::idle) continue;
+    const std::size_t begin = b * block, end = std::min(begin + block, group_.size());
+    const auto bone = body_->binding.bone(static_cast<std::size_t>(id_[begin])) + 1;
+    SampledBlock one{
+        static_cast<std::uint32_t>(b),
+        static_cast<std::uint64_t>(group_[begin]) << 32 | static_cast<std::uint32_t>(bone),
+        {}};
+    const double extent = shapes_[static_cast<std::size_t>(group_[begin])].extent;
+    for (std::size_t k = begin; k < end; ++k) add_moments(place_at_rest(k) / extent, one.moments);
+    blocks.push_back(one);
+  }
+  samples_ = quadrature_over(blocks);
+  sampled_.clear();
+  for (std::uint32_t s = 0; s < samples_.block.size(); ++s) {
+    always_[samples_.block[s]] = 1;
+    const std::int32_t group = group_[samples_.block[s] * block];
+    if (sampled_.empty() || sampled_.back().group != group ||
+        sampled_.back().end - sampled_.back().begin == samples_at_a_time)
+      sampled_.push_back({s, s, group});
+    ++sampled_.back().end;
+  }
+}
+
+template <class Real>
+void Groups<Real>::put(const Run& run, BlockState<Real>& state, const Units& units) const {
+  const Motion& motion = motions_[static_cast<std::size_t>(run.group)];
+  const auto arrays = state.arrays();
+  using Coord = typename BlockState<Real>::Coord;
+  put_affine(X_, run.begin, run.end, Vec3((motion.c - units.origin) / units.length),
+             Mat3(motion.F / units.length), arrays.x,
+             [](double value) { return coordinate<Coord>(value); });
+  const double speed = units.time / units.length;
+  put_affine(X_, run.begin, run.end, Vec3(speed * motion.v), Mat3(speed * motion.V), arrays.v,
+             [](double value) { return static_cast<Real>(value); });
+}
+
+/// The rim, and what a step reads of idle blocks.
+template <class Real>
+void Groups<Real>::find_steady() {
+  steady_ = rim_;
+  for (std::size_t b = 0; b < role_.size(); ++b) {
+    if (role_[b] != kernel::idle || always_[b] == 0) continue;
+    for_each_run(b * block, (b + 1) * block, [&](const Run& run) { append(run, steady_); });
+  }
+  more_are_read_ = false;
+}
+
+template <class Real>
+void Groups<Real>::place(BlockState<Real>& state, const Units& units) {
+  if (!any()) return;
+  if (more_are_read_) find_steady();
+  parallel_for(steady_.size(), runs_per_placing, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) put(steady_[k], state, units);
+  });
+}
+
+template <class Real>
+void Groups<Real>::show(BlockState<Real>& state, const Units& units,
+                        std::span<const std::uint32_t> pieces) {
+  std::vector<std::uint32_t> hidden;
+  for (const std::uint32_t piece : pieces)
+    if (std::exchange(shown_[piece], moment_) != moment_) hidden.push_back(piece);
+  parallel_for(hidden.size(), pieces_per_showing, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      for_each_run(hidden[n] * blocks_per_piece * block, (hidden[n] + 1) * blocks_per_piece * block,
+                   [&](const Run& run) { put(run, state, units); });
+  });
+}
+
+template <class Real>
+void Groups<Real>::show_all(BlockState<Real>& state, const Units& units) {
+  if (!any()) return;
+  std::vector<std::uint32_t> all(shown_.size());
+  for (std::uint32_t piece = 0; piece < all.size(); ++piece) all[piece] = piece;
+  show(state, units, all);
+}
+
+template <class Real>
+void Groups<Real>::mark_read(std::ptrdiff_t first, std::ptrdiff_t last) {
+  const auto size = static_cast<std::ptrdiff_t>(block);
+  for (std::ptrdiff_t b = std::max<std::ptrdiff_t>(0, first / size);
+       b <= last / size && b < static_cast<std::ptrdiff_t>(role_.size()); ++b) {
+    const auto at = static_cast<std::size_t>(b);
+    if (role_[at] == kernel::idle && always_[at] == 0) always_[at] = 1, more_are_read_ = true;
+  }
+}
+
+template <class Real>
+void Groups<Real>::read_through(const BondLists<Real>& bonds, bool two_deep) {
+  if (!any() || bonds.first.empty()) return;
+  for (int depth = 0; depth < (two_deep ? 2 : 1); ++depth) {
+    std::vector<std::uint32_t> readers;
+    for (std::uint32_t b = 0; b < role_.size(); ++b)
+      if (asleep_[b] == 0) readers.push_back(b);
+    std::vector<std::uint8_t> known =
+        std::exchange(always_, std::vector<std::uint8_t>(role_.size(), 0));
+    for (const std::uint32_t b : readers)
+      for (std::uint32_t e = bonds.first[b]; e < bonds.first[b + 1]; ++e) {
+        const std::uint32_t lanes = bonds.entries[e].lanes >> kernel::rest_lanes;
+        if (lanes == 0) continue;
+        const std::ptrdiff_t from =
+            static_cast<std::ptrdiff_t>(b * block) + bonds.entries[e].difference;
+        mark_read(from + std::countr_zero(lanes), from + 31 - std::countl_zero(lanes));
+      }
+    for (std::size_t b = 0; b < role_.size(); ++b) {
+      if (always_[b] != 0 && two_deep && depth == 0) asleep_[b] = 0;
+      if (known[b] != 0) always_[b] = 1;
+    }
+  }
+}
+
+template <class Real>
+void Groups<Real>::read_through(const kernel::Lists* lists, std::span<const std::uint32_t> pieces) {
+  if (!any()) return;
+  for (const std::uint32_t piece : pieces) {
+    if (lists[piece].first == nullptr) continue;
+    for (std::size_t k = 0; k < blocks_per_piece; ++k) {
+      const std::size_t b = piece * blocks_per_piece + k;
+      if (b >= role_.size()) break;
+      if (role_[b] == kernel::idle) continue;
+      for (std::uint32_t n = lists[piece].first[k]; n < lists[piece].first[k + 1]; ++n) {
+        const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(b * block) + lists[piece].value[n];
+        mark_read(from, from + static_cast<std::ptrdiff_t>(block) - 1);
+      }
+    }
+  }
+}
+
+template void Groups<double>::set_order(std::span<const std::int32_t>);
+template void Groups<double>::place(BlockState<double>&, const Units&);
+template void Groups<double>::show(BlockState<double>&, const Units&,
+                                   std::span<const std::uint32_t>);
+template void Groups<double>::show_all(BlockState<double>&, const Units&);
+template void Groups<double>::read_through(const BondLists<double>&, bool);
+template void Groups<double>::read_through(const kernel::Lists*, std::span<const std::uint32_t>);
+template void Groups<float>::set_order(std::span<const std::int32_t>);
+template void Groups<float>::place(BlockState<float>&, const Units&);
+template void Groups<float>::show(BlockState<float>&, const Units&, std::span<const std::uint32_t>);
+template void Groups<float>::show_all(BlockState<float>&, const Units&);
+template void Groups<float>::read_through(const BondLists<float>&, bool);
+template void Groups<float>::read_through(const kernel::Lists*, std::span<const std::uint32_t>);
+
+}  // namespace sinew

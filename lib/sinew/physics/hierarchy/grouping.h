@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Groups of neighboring particles that move as one: x = c + F X of each particle's place X at rest.
+//
+// A particle of FCC whose neighbors are all in its group is a center of inversion: whatever F is,
+// pair forces, those of volumes and eq. 2 add up to zero on it. Only the rim of a group feels any,
+// and what it feels moves the group by virtual work (groups.h).
+//
+//     body.grouping = std::make_shared<const Grouping>(make_grouping(body, group_of_particle));
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+struct Body;
+
+/// Where a particle is in its group. Neighbors may exert forces on those of the rim; those of the
+/// shell are neighbors of the rim.
+enum class Layer : std::uint8_t { free, rim, shell, core };
+
+struct Grouping {
+  std::vector<std::int32_t> group;  ///< by particle id; -1: free
+  std::vector<Layer> layer;         ///< by particle id
+  /// By particle id: the half-plane in which it is, counted from the outside of its group, times 6,
+  /// and on which of the group's sides; 0 in cores. Next to each other in memory, those of a face
+  /// are neighbors of each other and of the next half-plane's in rows.
+  std::vector<std::uint8_t> face;
+  std::vector<std::size_t> sizes;  ///< particles of each group
+
+  std::size_t size() const { return sizes.size(); }
+  /// By particle id: 0 free, 1 on the rim, 2 within.
+  std::vector<std::int32_t> levels() const;
+  std::size_t grouped() const;  ///< particles
+  std::size_t inside() const;   ///< of the shells and cores
+};
+
+/// Finds the layers of `group` (by particle id; below 0: free), and numbers the groups anew in the
+/// order of their first particles. What is too thin to have an affine motion of its own becomes
+/// free. In parallel.
+Grouping make_grouping(const Body& body, std::vector<std::int32_t> group);
+
+/// The smallest stretch of a group at which no forces act between particles that the layers do not
+/// take for neighbors.
+double least_stretch(const Body& body);
+
+/// Throws bad input, which names what is wrong, where the body is no lattice of centers of
+/// inversion, or where forces on it depend on more than its neighbors.
+void check_groupable(const Body& body);
+
+}  // namespace sinew

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/hierarchy/groups.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <sinew/core/error.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/text.h>
+#include <sinew/physics/stepper.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t runs_at_a_time = 16;
+constexpr std::size_t numbers_per_motion = 24;
+
+}  // namespace
+
+template <class Real>
+Groups<Real>::Groups(std::shared_ptr<const Body> body, double mass)
+    : body_(std::move(body)), mass_(mass) {
+  if (!body_->grouping || body_->grouping->size() == 0) return;
+  motions_.resize(body_->grouping->size());
+  next_ = motions_;
+  least_stretch_ = least_stretch(*body_);
+  find_shapes();
+}
+
+template <class Real>
+void Groups<Real>::find_shapes() {
+  const Grouping& grouping = *body_->grouping;
+  shapes_.resize(grouping.size());
+  for (std::size_t i = 0; i < grouping.group.size(); ++i) {
+    if (grouping.group[i] < 0) continue;
+    Shape& shape = shapes_[static_cast<std::size_t>(grouping.group[i])];
+    shape.size += 1;
+    shape.center += body_->rest[i];
+  }
+  for (Shape& shape : shapes_) shape.center /= shape.size;
+  std::vector<Mat3> spread(shapes_.size(), Mat3::Zero());
+  for (std::size_t i = 0; i < grouping.group.size(); ++i) {
+    if (grouping.group[i] < 0) continue;
+    const auto g = static_cast<std::size_t>(grouping.group[i]);
+    const Vec3 X = body_->rest[i] - shapes_[g].center;
+    spread[g] += X * X.transpose();
+  }
+  for (std::size_t g = 0; g < shapes_.size(); ++g) {
+    shapes_[g].inverse = spread[g].inverse();
+    shapes_[g].extent = std::sqrt(spread[g].trace() / shapes_[g].size);
+  }
+}
+
+template <class Real>
+void Groups<Real>::begin(const BlockState<Real>& state, const Units& units) {
+  for (std::size_t g = 0; g < motions_.size(); ++g) motions_[g] = {}, motions_[g].F.setZero();
+  for (std::size_t k = 0; k < group_.size(); ++k) {
+    if (group_[k] < 0) continue;
+    Motion& motion = motions_[static_cast<std::size_t>(group_[k])];
+    const Vec3 x = state.position(k, units), v = state.velocity(k, units), X = place_at_rest(k);
+    motion.c += x, motion.v += v;
+    motion.F += (x - shapes_[static_cast<std::size_t>(group_[k])].center) * X.transpose();
+    motion.V += v * X.transpose();
+  }
+  for (std::size_t g = 0; g < motions_.size(); ++g) {
+    Motion& motion = motions_[g];
+    motion.c /= shapes_[g].size, motion.v /= shapes_[g].size;
+    motion.F = (motion.F * shapes_[g].inverse).eval();
+    motion.V = (motion.V * shapes_[g].inverse).eval();
+  }
+  ++moment_;
+}
+
+template <class Real>
+kernel::Grouped<Real> Groups<Real>::arrays() {
+  if (!any()) return {};
+  return {role_.data(),
+          asleep_.data(),
+          whole_.data(),
+          {acceleration_[0].data(), acceleration_[1].data(), acceleration_[2].data()}};
+}
+
+template <class Real>
+void Groups<Real>::Sum::add(const double* moments) {
+  f += Vec3(moments[0], moments[1], moments[2]);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) fX(row, column) += moments[3 + 3 * row + column];
+}
+
+template <class Real>
+auto Groups<Real>::sum_of(const Run& run, const kernel::Functions<Real>& kernel) const -> Sum {
+  kernel::MomentInput<Real> input{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    input.force[axis] = acceleration_[axis].data() + run.row;
+    input.X[axis] = X_of_kernel_[axis].data() + run.begin;
+  }
+  input.count = run.end - run.begin;
+  double moments[kernel::force_moments];
+  kernel.moments(input, moments);
+  Sum sum;
+  sum.add(moments);
+  return sum;
+}
+
+template <class Real>
+void Groups<Real>::add_bones(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
+                             std::vector<Sum>& all, std::vector<Sum>& damping) {
+  std::vector<kernel::PullSums> found(sampled_.size());
+  parallel_for(sampled_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Run& run = sampled_[k];
+      kernel.pull(step,
+                  {samples_.block.data() + run.begin,
+                   samples_.weight.data() + run.begin,
+                   run.end - run.begin,
+                   {X_of_kernel_[0].data(), X_of_kernel_[1].data(), X_of_kernel_[2].data()}},
+                  found[k]);
+    }
+  });
+  for (std::size_t k = 0; k < found.size(); ++k) {  // in this order, whichever thread made them
+    const auto g = static_cast<std::size_t>(sampled_[k].group);
+    all[g].add(found[k].force);
+    damping[g].add(found[k].damping);
+    sums_.power += found[k].power;
+    sums_.lost += found[k].lost;
+  }
+}
+
+template <class Real>
+void Groups<Real>::sum(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
+                       const Units& units, const GroupStep& by) {
+  if (!any()) return;
+  std::vector<Sum> of_runs(rim_.size()), all(shapes_.size()), damping(shapes_.size());
+  parallel_for(rim_.size(), runs_at_a_time, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) of_runs[k] = sum_of(rim_[k], kernel);
+  });
+  for (std::size_t k = 0; k < rim_.size(); ++k) {  // in this order, whichever thread made them
+    Sum& sum = all[static_cast<std::size_t>(rim_[k].group)];
+    sum.f += of_runs[k].f, sum.fX += of_runs[k].fX;
+  }
+  sums_ = {};
+  add_bones(kernel, step, all, damping);
+  const double force = units.length / (units.time * units.time);
+  const double watts = mass_ * force * units.length / units.time;
+  sums_.power *= watts, sums_.lost *= watts;
+  for (std::size_t g = 0; g < shapes_.size(); ++g) {
+    const Shape& shape = shapes_[g];
+    const Vec3 a = (force * all[g].f + shape.idle * by.gravity) / shape.size;
+    const Mat3 A = (force * all[g].fX + by.gravity * shape.moment.transpose()) * shape.inverse;
+    sums_.lost -=
+        mass_ * force * by.middle * (damping[g].f.dot(a) + damping[g].fX.cwiseProduct(A).sum());
+    const Motion& now = motions_[g];
+    Motion& next = next_[g];
+    next.v = now.v + by.kick * a;
+    next.V = now.V + by.kick * A;
+    next.c = now.c + by.drift * (by.drift_first ? now.v : next.v);
+    next.F = now.F + by.drift * (by.drift_first ? now.V : next.V);
+  }
+}
+
+template <class Real>
+void Groups<Real>::bound(const Units& units, bool drift_first,
+                         const kernel::PieceMotion<Real>* motions,
+                         std::span<kernel::Totals> totals) const {
+  const double speed = units.time / units.length;
+  for (const PieceBox& one : boxes_) {
+    const auto g = static_cast<std::size_t>(one.group);
+    const Motion &now = motions_[g], &moving = drift_first ? now : next_[g];
+    const auto& field = motions[one.piece];
+    Vec3 center, velocity, spin;
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis] = static_cast<double>(field.center[axis]);
+      velocity[axis] = static_cast<double>(field.velocity[axis]);
+      spin[axis] = static_cast<double>(field.spin[axis]);
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 X = one.box.corner(static_cast<Box::CornerType>(corner));
+      const Vec3 at = (now.c + now.F * X - units.origin) / units.length;
+      const Vec3 drifting = speed * (moving.v + moving.V * X);
+      const double relative = (drifting - velocity - spin.cross(at - center)).squaredNorm();
+      totals[one.piece].fastest = std::max(totals[one.piece].fastest, relative);
+      totals[one.piece].speed2 = std::max(totals[one.piece].speed2, drifting.squaredNorm());
+    }
+  }
+}
+
+template <class Real>
+void Groups<Real>::advance() {
+  if (!any()) return;
+  motions_ = next_;
+  ++moment_;
+}
+
+template <class Real>
+void Groups<Real>::check_stretch() const {
+  for (const Motion& motion : motions_) {
+    const Mat3 C = motion.F.transpose() * motion.F;
+    // No eigenvalue of C is farther from 1 than the norm of C - 1.
+    if (1 - (C - Mat3::Identity()).norm() > least_stretch_ * least_stretch_) continue;
+    const double least = std::sqrt(Eigen::SelfAdjointEigenSolver<Mat3>(C).eigenvalues()[0]);
+    if (!(least < least_stretch_)) continue;
+    throw Error(Exit::unstable,
+                "a group of particles was squeezed to " + three_digits(least) +
+                    " of its size, where forces between second neighbors would begin; make "
+                    "hierarchy.joint_distance larger, or hierarchy.enabled false");
+  }
+}
+
+template <class Real>
+void Groups<Real>::constrain(Forces& forces, const std::vector<std::uint32_t>& caller,
+                             const Vec3& gravity) const {
+  if (!any()) return;
+  const Vec3 weight = mass_ * gravity;
+  std::vector<Sum> sums(shapes_.size());
+  forces.group.clear();
+  for (std::size_t k = 0; k < group_.size(); ++k) {
+    if (group_[k] < 0) continue;
+    const Vec3 f = forces.total(caller[k]) + weight;
+    Sum& sum = sums[static_cast<std::size_t>(group_[k])];
+    sum.f += f, sum.fX += f * place_at_rest(k).transpose();
+  }
+  for (std::size_t g = 0; g < sums.size(); ++g)
+    sums[g].f /= shapes_[g].size, sums[g].fX = (sums[g].fX * shapes_[g].inverse).eval();
+  Points group(group_.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < group_.size(); ++k) {
+    if (group_[k] < 0) continue;
+    const Sum& sum = sums[static_cast<std::size_t>(group_[k])];
+    group[caller[k]] = sum.f + sum.fX * place_at_rest(k) - (forces.total(caller[k]) + weight);
+  }
+  forces.group = std::move(group);
+}
+
+template <class Real>
+void Groups<Real>::save(SimulationState& state) const {
+  state.groups.clear();
+  for (const Motion& motion : motions_) {
+    const auto put = [&](const auto& values) {
+      state.groups.insert(state.groups.end(), values.data(), values.data() + values.size());
+    };
+    put(motion.c), put(motion.v), put(motion.F), put(motion.V);
+  }
+}
+
+template <class Real>
+void Groups<Real>::restore(const SimulationState& state) {
+  if (state.groups.size() != motions_.size() * numbers_per_motion)
+    throw not_a_state("it has other groups");
+  for (const double number : state.groups)
+    if (!std::isfinite(number)) throw not_a_state("the motion of a group is not finite");
+  const double* from = state.groups.data();
+  for (Motion& motion : motions_) {
+    const auto take = [&](auto& values) {
+      std::copy_n(from, values.size(), values.data());
+      from += values.size();
+    };
+    take(motion.c), take(motion.v), take(motion.F), take(motion.V);
+  }
+  ++moment_;
+}
+
+template class Groups<double>;
+template class Groups<float>;
+
+}  // namespace sinew

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Groups for a whole run: far from joints that bend, what follows one bone, or bones that are stiff
+// to each other, moves as one.
+//
+//     body.grouping = std::make_shared<const Grouping>(static_groups(body, bends, {}));
+#pragma once
+
+#include <vector>
+
+#include <sinew/physics/hierarchy/grouping.h>
+#include <sinew/rig/motion.h>
+
+namespace sinew {
+
+struct StaticGroups {
+  /// Particles nearer than this to a joint are free: along the bone, in square roots of the
+  /// cross-section of the bone whose head the joint is.
+  double joint_distance = 1;
+  std::size_t least = 4096;  ///< particles of a group
+};
+
+/// For each bone, whether it turns, shifts or stretches relative to its parent until `end` (s).
+std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, double end);
+
+/// `moves`: of each bone, its joint with its parent. Particles that pins, supports, loads or
+/// muscles act on, or that no bone holds, are free.
+Grouping static_groups(const Body& body, const std::vector<bool>& moves,
+                       const StaticGroups& options);
+
+}  // namespace sinew

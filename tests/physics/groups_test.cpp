@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Groups of particles that move as one: what they must not change, and what they keep.
+#include <gtest/gtest.h>
+#include <numeric>
+
+#include <sinew/core/parallel.h>
+#include <sinew/physics/hierarchy/grouping.h>
+#include <sinew/physics/hierarchy/quadrature.h>
+
+#include "all_steppers.h"
+#include "expect_error.h"
+
+namespace sinew::groups_test {
+
+constexpr double r = 0.01;
+
+/// A bar of half-planes, free unless bound, with groups by a function of the place at rest.
+struct Bar {
+  Settings settings;
+  Points rest;
+  Body body;
+  Particles particles;
+  double step = 0;
+
+  template <class GroupOf>
+  Bar(const Settings& given, int width, int height, const GroupOf& group_of)
+      : settings(given),
+        rest(test::fcc_box(width, width, height, r)),
+        body(test::make_body(settings, rest)),
+        particles(test::particles_of(settings, rest)),
+        step(test::step_of(settings, body)) {
+    std::vector<std::int32_t> group;
+    for (const Vec3& X : rest) group.push_back(group_of(X));
+    body.grouping = std::make_shared<const Grouping>(make_grouping(body, std::move(group)));
+  }
+
+  Simulation begin(kernel::InstructionSet set = kernel::best_instruction_set()) const {
+    return Simulation(body, motion_of(settings, body.skeleton), particles,
+                      stepping_of(settings.solver, step), set);
+  }
+  Layer layer(std::size_t i) const { return body.grouping->layer[i]; }
+  std::int32_t group(std::size_t i) const { return body.grouping->group[i]; }
+};
+
+/// Two groups that touch in the middle of a bar, and free particles around both.
+std::int32_t two_in_the_middle(const Vec3& X, int width, int height) {
+  const double s = half_plane_spacing(r), z = X.z() / s - 0.5;
+  const bool across =
+      std::abs(X.x()) < (width / 2 - 3.5) * s && std::abs(X.y()) < (width / 2 - 3.5) * s;
+  if (!across || z < 4 || z > height - 5) return -1;
+  return z < height / 2 ? 3 : 8;
+}
+
+Bar bar_of(const Settings& settings, int width = 25, int height = 41) {
+  return Bar(settings, width, height,
+             [&](const Vec3& X) { return two_in_the_middle(X, width, height); });
+}
+
+Settings scene_of(MaterialModel model, DampingForm form = DampingForm::paper,
+                  Precision precision = Precision::binary64) {
+  Settings settings = test::in(precision, test::box_scene(41));
+  settings.material.model = model;
+  settings.material.damping_form = form;
+  return settings;
+}
+
+constexpr MaterialModel models[] = {MaterialModel::paper, MaterialModel::bonded,
+                                    MaterialModel::bonded_volume};
+
+bool is_deep(const Bar& bar, std::size_t i) {
+  const Box box = bounds(bar.rest);
+  const Vec3 in = (bar.rest[i] - box.min()).cwiseMin(box.max() - bar.rest[i]);
+  return in.minCoeff() > 4.5 * half_plane_spacing(r) / std::numbers::sqrt2;
+}
+
+TEST(Groups, LayersAreNumberedFromTheRimToTheCore) {
+  for (const MaterialModel model : models) {
+    const Bar bar = bar_of(scene_of(model));
+    ASSERT_EQ(bar.body.grouping->size(), 2U);
+    std::array<std::size_t, 4> of_layer{};
+    for (std::size_t i = 0; i < bar.rest.size(); ++i)
+      ++of_layer[static_cast<std::size_t>(bar.layer(i))];
+    EXPECT_EQ(of_layer[1] + of_layer[2] + of_layer[3], bar.body.grouping->grouped());
+    EXPECT_GT(of_layer[2], 0U);
+    EXPECT_GT(of_layer[3], 0U);
+  }
+}
+
+TEST(Groups, AnEvenStrainPassesThroughTheirFaces) {
+  Mat3 F = test::turned({1, 2, 3}, 25), L;
+  F *= Vec3(1.02, 0.99, 1.01).asDiagonal();
+  F(0, 1) += 0.01;
+  L << 0.1, -0.3, 0.2, 0.5, -0.1, 0.4, 0.2, 0.3, 0.15;
+  for (const MaterialModel model : models)
+    for (const DampingForm form : {DampingForm::paper, DampingForm::central}) {
+      Bar bar = bar_of(test::unbound(scene_of(model, form)));
+      for (std::size_t i = 0; i < bar.rest.size(); ++i) {
+        bar.particles.set_position(i, F * bar.rest[i]);
+        bar.particles.set_velocity(i, L * bar.rest[i]);
+      }
+      Simulation simulation = bar.begin();
+      const Forces& forces = simulation.forces();
+      const double scale = bar.body.material.stiffness() * r;
+      double most = 0, held = 0;
+      for (std::size_t i = 0; i < bar.rest.size(); ++i) {
+        if (is_deep(bar, i)) most = std::max(most, forces.total(i).norm());
+        held = std::max(held, forces.group[i].norm());
+      }
+      EXPECT_LT(most, 1e-10 * scale);
+      EXPECT_LT(held, 1e-10 * scale);
+      simulation.step();
+      const Particles& after = simulation.particles();
+      double off = 0;
+      for (std::size_t i = 0; i < bar.rest.size(); ++i)
+        if (is_deep(bar, i))
+          off = std::max(off, (after.position(i) - (F + bar.step * L) * bar.rest[i]).norm());
+      EXPECT_LT(off, 1e-10 * r);
+    }
+}
+
+struct Conserved {
+  Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+Conserved conserved(const Particles& particles) {
+  Conserved sum;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    sum.momentum += particles.velocity(i);
+    sum.angular += particles.position(i).cross(particles.velocity(i));
+  }
+  return sum;
+}
+
+TEST(Groups, KeepMomentum) {
+  for (const MaterialModel model : models) {
+    Bar bar = bar_of(test::unbound(scene_of(model, DampingForm::central)));
+    bar.particles = test::shaken(bar.rest, bar.body.material, 0.02 * r, 0.05);
+    Simulation simulation = bar.begin();
+    const Conserved before = conserved(simulation.particles());
+    for (int step = 0; step < 200; ++step) simulation.step();
+    const Conserved after = conserved(simulation.particles());
+    const double scale = 0.05 * static_cast<double>(bar.rest.size());
+    EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13 * scale);
+    EXPECT_LT((after.angular - before.angular).norm(),
+              1e-12 * scale * bounds(bar.rest).sizes().norm());
+  }
+}
+
+TEST(Groups, AllOfABodyTurnsAsItWouldAlone) {
+  for (const Precision precision : test::precisions) {
+    Bar bar(test::unbound(scene_of(MaterialModel::bonded, DampingForm::paper, precision)), 13, 21,
+            [](const Vec3&) { return 0; });
+    const Vec3 spin(0.5, -1, 2), velocity(0.3, 0, 1);
+    for (std::size_t i = 0; i < bar.rest.size(); ++i)
+      bar.particles.set_velocity(i, velocity + spin.cross(bar.rest[i]));
+    Simulation grouped = bar.begin();
+    bar.body.grouping.reset();
+    Simulation alone = bar.begin();
+    for (int step = 0; step < 300; ++step) grouped.step(), alone.step();
+    EXPECT_LT(test::largest_distance(grouped.particles(), alone.particles()), 0.05 * r);
+    EXPECT_NEAR(grouped.energies().kinetic, alone.energies().kinetic,
+                1e-3 * alone.energies().kinetic);
+  }
+}
+
+/// Both halves of a bar that bends are grouped, but for the middle.
+Bar bending(MaterialModel model, DampingForm form, Precision precision, int width = 25,
+            int height = 81) {
+  Settings settings = test::in(precision, test::box_scene(height));
+  settings.material.model = model;
+  settings.material.damping_form = form;
+  settings.solver.gravity = {0, 1, -2};
+  settings.tracks = {test::track("lower", {test::bend_key(0, 0), test::bend_key(0.3, -10)}),
+                     test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 50)})};
+  const double s = half_plane_spacing(r);
+  return Bar(settings, width, height, [&](const Vec3& X) {
+    const double z = X.z() / s - 0.5;
+    return z < height / 2 - width * 0.5 ? 0 : z > height / 2 + width * 0.5 ? 1 : -1;
+  });
+}
+
+struct Results {
+  std::uint64_t state;
+  std::vector<double> energies;
+  Points pair, bone, group;
+
+  bool operator==(const Results&) const = default;
+};
+
+Results results_of(Simulation& simulation) {
+  const Energies energies = simulation.energies();
+  const Forces& forces = simulation.forces();
+  return {state_hash(simulation.particles()),
+          {energies.kinetic, energies.pair, energies.bone, energies.work_of_bones,
+           energies.dissipation},
+          forces.pair,
+          forces.bone,
+          forces.group};
+}
+
+TEST(Groups, TheSameBitsOnAnyNumberOfThreadsAndInstructions) {
+  for (const Precision precision : test::precisions)
+    for (const MaterialModel model : models) {
+      const Bar bar = bending(model, DampingForm::central, precision);
+      std::vector<Results> results;
+      for (const int threads : {1, 2, 3})
+        with_threads(threads, [&] {
+          Simulation simulation =
+              bar.begin(test::instruction_sets()[static_cast<std::size_t>(threads) %
+                                                 test::instruction_sets().size()]);
+          for (int step = 0; step < 80; ++step) simulation.step();
+          results.push_back(results_of(simulation));
+        });
+      EXPECT_EQ(results[0], results[1]);
+      EXPECT_EQ(results[0], results[2]);
+    }
+}
+
+TEST(Groups, ASavedOneContinuesWithTheSameBits) {
+  for (const Precision precision : test::precisions)
+    for (const MaterialModel model : models) {
+      const Bar bar = bending(model, DampingForm::symmetric, precision);
+      Simulation whole = bar.begin(), first = bar.begin(), second = bar.begin();
+      for (int step = 0; step < 70; ++step) whole.step();
+      for (int step = 0; step < 33; ++step) first.step();
+      second.restore(first.save());
+      while (second.steps() < 70) second.step();
+      EXPECT_EQ(results_of(whole), results_of(second));
+    }
+}
+
+/// How far a bent bar with groups is from one without, root mean square in radii.
+double off_from_full(Bar bar, double duration) {
+  Simulation grouped = bar.begin();
+  bar.body.grouping.reset();
+  Simulation full = bar.begin();
+  while (grouped.time() < duration) grouped.step(), full.step();
+  const Particles &a = grouped.particles(), &b = full.particles();
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a.position(i) - b.position(i)).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.size())) / r;
+}
+
+TEST(Groups, ABendIsNearlyTheSame) {
+  for (const Precision precision : test::precisions)
+    for (const MaterialModel model : models)
+      EXPECT_LT(off_from_full(bending(model, DampingForm::paper, precision), 0.3), 1);
+}
+
+TEST(Groups, TheLedgerOfABendCloses) {
+  Simulation simulation =
+      bending(MaterialModel::bonded, DampingForm::paper, Precision::binary64).begin();
+  const double start = simulation.energies().stored();
+  while (simulation.time() < 0.3) simulation.step();
+  const Energies now = simulation.energies();
+  EXPECT_NEAR(now.stored() - start, now.work() - now.dissipation, 0.01 * now.work_of_bones);
+}
+
+TEST(Groups, ASqueezeThatFurtherNeighborsWouldFeelEndsTheRun) {
+  Bar bar = bar_of(test::unbound(scene_of(MaterialModel::paper)));
+  for (std::size_t i = 0; i < bar.rest.size(); ++i)
+    bar.particles.set_position(i, Vec3(0.91, 1, 1).cwiseProduct(bar.rest[i]));
+  Simulation simulation = bar.begin();
+  test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"squeezed to 0.91"});
+}
+
+// Those of a scene.
+
+sinew::Setup set_up(Settings settings, int width = 25, int height = 81) {
+  settings.hierarchy.enabled = true;
+  const Particles particles = test::particles_of(settings, test::fcc_box(width, width, height, r));
+  return sinew::set_up(settings, read_files(settings), particles);
+}
+
+Settings bending_scene() {
+  Settings settings = test::box_scene(81);
+  settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 50)})};
+  return settings;
+}
+
+TEST(StaticGroups, AreFreeNearAJointThatMoves) {
+  const sinew::Setup setup = set_up(bending_scene());
+  const Grouping& grouping = *setup.body.grouping;
+  ASSERT_EQ(grouping.size(), 2U);
+  const double joint = setup.body.skeleton.bones[1].head().z();
+  const double free = std::sqrt(setup.body.binding.cross_section[1]);
+  for (std::size_t i = 0; i < setup.body.rest.size(); ++i)
+    EXPECT_EQ(grouping.group[i] < 0, std::abs(setup.body.rest[i].z() - joint) < free) << i;
+}
+
+TEST(StaticGroups, AreOneWhereNoJointMoves) {
+  const sinew::Setup setup = set_up(test::box_scene(81));
+  EXPECT_EQ(setup.body.grouping->size(), 1U);
+  EXPECT_EQ(setup.body.grouping->grouped(), setup.body.rest.size());
+}
+
+TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
+  const auto expect = [](const std::string& message, const auto& change) {
+    Settings settings = bending_scene();
+    change(settings);
+    test::expect_bad_input([&] { set_up(settings); }, {message});
+  };
+  expect("only in fcc", [](Settings& s) { s.body.packing = Packing::hcp; });
+  expect("free particles", [](Settings& s) { s.solver.method = Method::static_equilibrium; });
+  expect("no groups", [](Settings& s) { s.solver.neighbor_search = NeighborSearch::cells; });
+  expect("drag and fields", [](Settings& s) { s.world.drag = 1; });
+  expect("break or flow", [](Settings& s) {
+    s.material.model = MaterialModel::bonded;
+    s.material.breaking_strain = 0.2;
+  });
+}
+
+// Sums from a sample of blocks.
+
+/// 20 x 20 x 20 blocks of one particle.
+std::vector<SampledBlock> cube_of_blocks(Points& places) {
+  std::vector<SampledBlock> blocks;
+  for (int k = 0; k < 8000; ++k) {
+    const Vec3 X = Vec3(k % 20 - 9.5, k / 20 % 20 - 9.5, k / 400 - 9.5) / 10;
+    SampledBlock block{static_cast<std::uint32_t>(k), 0, {}};
+    add_moments(X, block.moments);
+    blocks.push_back(block);
+    places.push_back(X);
+  }
+  return blocks;
+}
+
+TEST(Quadrature, IsExactToTheThirdOrderAndNearlySoForWhatIsSmooth) {
+  Points X;
+  const Quadrature quadrature = quadrature_over(cube_of_blocks(X));
+  EXPECT_LT(quadrature.block.size(), 400U);
+  const auto error = [&](const auto& f) {
+    double all = 0, sampled = 0, size = 0;
+    for (const Vec3& x : X) all += f(x), size += std::abs(f(x));
+    for (std::size_t s = 0; s < quadrature.block.size(); ++s)
+      sampled += quadrature.weight[s] * f(X[quadrature.block[s]]);
+    return std::abs(sampled - all) / size;
+  };
+  EXPECT_LT(error([](const Vec3&) { return 1.0; }), 1e-12);
+  EXPECT_LT(error([](const Vec3& x) { return x.x() * x.y() * x.z() + x.x() * x.x() - x.z(); }),
+            1e-12);
+  EXPECT_LT(error([](const Vec3& x) { return std::cos(2 * x.x() + x.y()); }), 0.01);
+  EXPECT_LT(error([](const Vec3& x) { return std::hypot(x.x(), x.y()); }), 0.01);
+}
+
+}  // namespace sinew::groups_test
