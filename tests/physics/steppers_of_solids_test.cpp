@@ -10,6 +10,12 @@ namespace sinew::steppers_of_solids_test {
 
 using namespace both_steppers;
 
+/// One branch relaxes in each step, one in some.
+void relax(MaterialOptions& material) {
+  material.relaxation_shares = {0.3, 0.2};
+  material.relaxation_times = {0.002, 1};
+}
+
 /// The moving scene with every material that knows its neighbors at rest.
 std::vector<std::pair<std::string, Settings>> solids() {
   std::vector<std::pair<std::string, Settings>> solids;
@@ -39,6 +45,14 @@ std::vector<std::pair<std::string, Settings>> solids() {
     material.creep_rate = 100;
   });
   add("breaking and yielding", [](MaterialOptions& material) {
+    material.yield_strain = 0.01;
+    material.creep_rate = 100;
+    material.breaking_strain = 0.012;
+  });
+  add("relaxing", [](MaterialOptions& material) { relax(material); });
+  add("relaxing, breaking and yielding volumes", [](MaterialOptions& material) {
+    relax(material);
+    material.model = MaterialModel::bonded_volume;
     material.yield_strain = 0.01;
     material.creep_rate = 100;
     material.breaking_strain = 0.012;

@@ -128,7 +128,7 @@ void refuse_unsupported(const Body& body) {
   const Material& material = body.material;
   const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;
   const char* what = unknown != nullptr       ? unknown
-                     : bonds_change(material) ? "bonds that break or creep"
+                     : bonds_change(material) ? "bonds that break, creep or relax"
                      : material.friction > 0  ? "friction of a body on itself"
                                               : nullptr;
   if (what != nullptr)

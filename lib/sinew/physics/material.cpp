@@ -65,19 +65,43 @@ void bond(const MaterialOptions& settings, const PackingStiffness& packing, Mate
   material.bond = {k, packing.second * k, breaking_strain,
                    yield_shear(settings.yield_strain.value_or(0), poisson_ratio_of(settings)),
                    settings.creep_rate};
+  if (settings.relaxation_shares && settings.relaxation_times)
+    for (std::size_t b = 0; b < settings.relaxation_shares->size(); ++b)
+      material.bond.branches[b] = {settings.relaxation_shares->at(b),
+                                   settings.relaxation_times->at(b)};
   material.volume_stiffness = material.order * packing.volume * k / (2 * material.pair.r);
 }
 
 }  // namespace
 
+std::size_t BondStrength::branch_count() const {
+  return static_cast<std::size_t>(std::count_if(branches.begin(), branches.end(),
+                                                [](const auto& one) { return one.share > 0; }));
+}
+
+double BondStrength::long_term() const {
+  double left = 1;
+  for (const MaxwellBranch& branch : branches) left -= branch.share;
+  return left;
+}
+
+Material long_term(Material material) {
+  const double left = material.bond.long_term();
+  material.relaxed *= left;
+  material.bond.stiffness *= left;
+  material.bond.second *= left;
+  material.bond.branches = {};
+  return material;
+}
+
 PackingStiffness Material::packing() const {
-  const double k_over_d0 = 2 * pair.k1;
+  const double k_over_d0 = 2 * pair.k1 * relaxed;
   return {bond.second / (2 * pair.r * k_over_d0), volume_stiffness / (order * k_over_d0)};
 }
 
 double Material::young_modulus() const {
   if (bond.second > 0) return constants().hill_young_modulus();
-  const double k_over_d0 = 2 * pair.k1;
+  const double k_over_d0 = 2 * pair.k1 * relaxed;
   if (volume_stiffness <= 0) return hill_young * k_over_d0;
   const double K = bulk_of_bonds * k_over_d0 + volume_stiffness, G = hill_shear * k_over_d0;
   return 9 * K * G / (3 * K + G);
@@ -89,7 +113,7 @@ double Material::stiffness() const {
 }
 
 CubicConstants Material::constants() const {
-  const double k_over_d0 = 2 * pair.k1;
+  const double k_over_d0 = 2 * pair.k1 * relaxed;
   CubicConstants constants = fcc_constants(packing());
   for (double* C : {&constants.C11, &constants.C12, &constants.C44}) *C *= order * k_over_d0;
   return constants;

@@ -93,6 +93,18 @@ std::string list_entry(const char* list, std::size_t index) {
   return std::string(list) + '[' + std::to_string(index) + ']';
 }
 
+/// Once bonds have relaxed, which bear a bulk modulus of 5/3 of their shear modulus.
+void relax(const MaterialOptions& given, DeckMaterial& material) {
+  if (!given.relaxation_shares) return;
+  double relaxed = 0;
+  for (const double share : *given.relaxation_shares) relaxed += share;
+  const double nu = material.poisson_ratio;
+  const double of_bonds = material.young_modulus / (2 * (1 + nu)), G = (1 - relaxed) * of_bonds;
+  const double K = material.young_modulus / (3 * (1 - 2 * nu)) - relaxed * of_bonds * 5 / 3;
+  material.young_modulus = 9 * K * G / (3 * K + G);
+  material.poisson_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+}
+
 std::vector<DeckMaterial> materials_of(const Settings& settings, const VolumeMesh& mesh,
                                        const ElementParts& parts) {
   const MaterialOptions& given = settings.material;
@@ -106,6 +118,7 @@ std::vector<DeckMaterial> materials_of(const Settings& settings, const VolumeMes
     for (const std::uint32_t e : parts.elements(local.part, list_entry("materials", k)))
       of_element[e] = k + 1;
   }
+  for (DeckMaterial& material : materials) relax(given, material);
   for (std::uint32_t e = 0; e < of_element.size(); ++e)
     materials[of_element[e]].elements.push_back(e);
   std::erase_if(materials, [](const DeckMaterial& one) { return one.elements.empty(); });

@@ -126,8 +126,10 @@ std::vector<std::string> warnings_of(const SceneFiles& files) {
 }  // namespace
 
 Material material_of(const Settings& settings, const Particles& particles) {
-  return make_material(settings.material, {particles.radius, particles.mass,
-                                           lattice_axes(settings.body), settings.body.packing});
+  const Material material = make_material(
+      settings.material,
+      {particles.radius, particles.mass, lattice_axes(settings.body), settings.body.packing});
+  return is_static(settings) ? long_term(material) : material;
 }
 
 LocalMaterial local_material(const BodyFile& body) {

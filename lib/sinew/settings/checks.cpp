@@ -78,8 +78,34 @@ void check_bodies(const Settings& settings) {
     check_local_modulus(settings, "materials[" + std::to_string(i) + "]", "parts of a body");
 }
 
+/// Branches of bonds that relax.
+void check_relaxation(const Settings& settings) {
+  const auto& shares = settings.material.relaxation_shares;
+  const auto& times = settings.material.relaxation_times;
+  if (!shares && !times) return;
+  const Place place = place_of(settings, "material.relaxation_shares", "material.relaxation_times");
+  if (settings.material.model == MaterialModel::paper)
+    throw bad_input(place, "the branches that relax are of bonds, and the paper's model has none",
+                    "set material.model to bonded or bonded_volume, or remove them");
+  const std::size_t count = shares ? shares->size() : 0;
+  if (count != (times ? times->size() : 0))
+    throw bad_input(place, "relaxation_shares and relaxation_times are not of one length",
+                    "give a time for each share");
+  if (count == 0 || count > most_relaxation_branches)
+    throw bad_input(place,
+                    "a bond has one to four branches that relax, not " + std::to_string(count),
+                    "give fewer shares and times");
+  double sum = 0;
+  for (const double share : *shares) sum += share;
+  if (!(sum < 1))
+    throw bad_input(place,
+                    "the shares that relax come to " + number_text(sum) + ", and leave nothing",
+                    "give shares whose sum is below 1");
+}
+
 void check_material(const Settings& settings) {
   check_bodies(settings);
+  check_relaxation(settings);
   const MaterialOptions& material = settings.material;
   if (!(material.a < material.b))
     throw bad_input(place_of(settings, "material.a", "material.b"),

@@ -55,7 +55,7 @@ struct Lists {
 
 /// What acts between pairs: eq. 1 between all; eq. 1, without its attraction between particles that
 /// were no neighbors at rest; springs between neighbors at rest and the repulsion of eq. 1 between
-/// others; the same with springs that creep and break.
+/// others; the same with springs that creep, relax and break.
 enum PairLaw { between_all, among_neighbors, springs, changing_springs, pair_laws };
 
 /// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
@@ -79,6 +79,16 @@ struct BondKind {
   Real stiffness;
 };
 
+/// A spring and a dashpot in series beside each bond: see ../maxwell.h.
+template <class Real>
+struct Branch {
+  Real* stretch;  ///< entries x block: of its dashpot
+  Real share;     ///< of the bond's stiffness
+  Real flows;     ///< share of its spring's stretch that passes to the dashpot now; often 0
+  Real weight;    ///< of its stretch in the length at which the bond pulls nothing
+};
+inline constexpr int most_branches = 4;
+
 template <class Real>
 struct Bonds {
   const std::uint32_t* first;   ///< entries of block k: [first[k], first[k + 1])
@@ -93,6 +103,10 @@ struct Bonds {
   Real yield;            ///< squared shear beyond which bonds creep; 0: never
   Real crept;            ///< share that a step takes of it
   Real breaking;         ///< strain at which it breaks
+  Branch<Real> branch[most_branches];
+  int branches;
+  bool branches_flow;  ///< one of them does now
+  Real slope;          ///< of a bond's force, over its stiffness, where there are branches
 };
 
 /// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, over the distance.

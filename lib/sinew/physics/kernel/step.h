@@ -195,11 +195,16 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   if (step.relaxes) account_of_relaxing<L>(step, block, lane, forces, velocity, sums);
   check_speed<L>(step, kicked, forces.bones.carried, sums);
   track_fastest<L>(step, block, lane, here, drifting, sums);
-  if constexpr (pairs == changing_springs)
+  if constexpr (pairs == changing_springs) {
+    if (step.bonds.branches_flow) {
+      relax_bonds<L, nearest>(step, block, lane, sums.lost + lane);
+      relax_bonds<L, second>(step, block, lane, sums.lost + lane);
+    }
     if (forces.strained) [[unlikely]] {
       change_bonds<L, nearest>(step, block, lane, sums.lost + lane, sums.broke);
       change_bonds<L, second>(step, block, lane, sums.lost + lane, sums.broke);
     }
+  }
 }
 
 template <class L, PairLaw pairs, Pass pass>

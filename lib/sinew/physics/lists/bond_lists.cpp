@@ -232,6 +232,7 @@ void BondLists<Real>::set_units(const Body& body, std::span<const std::int32_t> 
       kinds.empty() ? 1 : rest[0].norm() / units.length / static_cast<double>(kinds[0].length);
   if (!kinds.empty() && kinds[0].length > 0)
     for (Real& one : creep) one = static_cast<Real>(static_cast<double>(one) * longer);
+  if (longer != 1) branches.scale(longer);
   kinds.clear();
   for (std::size_t k = 0; k < rest.size(); ++k) {
     const Vec3& to = rest[k];
@@ -284,6 +285,7 @@ kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double ste
   bonds.own = own.data();
   bonds.broken = broken.empty() ? nullptr : broken.data();
   bonds.breaking = real(strength.breaking_strain);
+  branches.put_into(bonds, step);
   if (creep.empty()) return bonds;
   bonds.creep = creep.data();
   for (std::size_t k = 0; k < flow.size(); ++k) bonds.flow[k] = flow[k].data() + block;
@@ -316,7 +318,8 @@ void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
         const kernel::BondEntry& entry = entries[e];
         if ((entry.lanes >> lane & 1) == 0) continue;
         const std::size_t k = block * size + lane;
-        const double crept = creep.empty() ? 0 : static_cast<double>(creep[e * size + lane]);
+        const double crept = (creep.empty() ? 0 : static_cast<double>(creep[e * size + lane])) +
+                             branches.shift(e * size + lane);
         found.set(id[k], id[k + static_cast<std::size_t>(entry.difference)], e < second[block],
                   (static_cast<double>(kinds[entry.kind].length) + crept) * units.length);
       }
@@ -324,18 +327,19 @@ void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
 
 template <class Real>
 void BondLists<Real>::save(SimulationState& state) const {
-  if (broken.empty() && creep.empty()) return;
+  if (!change()) return;
   state.bonded_lanes.clear();
   state.creep.clear();
   for (const kernel::BondEntry& entry : entries) state.bonded_lanes.push_back(entry.lanes);
   for_each_whole(*this,
                  [&](std::size_t at) { state.creep.push_back(static_cast<double>(creep[at])); });
+  branches.save(entries, state);
 }
 
 template <class Real>
 void BondLists<Real>::restore(const SimulationState& state) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
-  if (broken.empty() && creep.empty()) return;
+  if (!change()) return;
   if (state.bonded_lanes.size() != entries.size()) throw not_a_state("it has other bonds");
   for (std::size_t block = 0; block + 1 < first.size(); ++block)
     for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
@@ -353,6 +357,7 @@ void BondLists<Real>::restore(const SimulationState& state) {
     creep[at] = static_cast<Real>(state.creep[next++]);
   });
   if (next != state.creep.size()) throw not_a_state("it has other bonds");
+  branches.restore(entries, state);
 }
 
 template <class Real>
@@ -378,6 +383,7 @@ BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::i
     bonds.flows.assign((blocks + 2) * size, 0);
   }
   if (strength.breaking_strain > 0) bonds.broken.assign(blocks * size, 0);
+  bonds.branches = BondBranches<Real>(strength, bonds.entries.size());
   return bonds;
 }
 

@@ -202,6 +202,7 @@ StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
 template <class Real>
 void ListStepper<Real>::accept() {
   layout_.advance(travel_of_step());
+  bonds_.branches.advance(stepping_.step);
   kicked_ = stepped_ = true;
   ++steps_;
 }

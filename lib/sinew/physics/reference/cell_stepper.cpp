@@ -142,10 +142,12 @@ void CellStepper::find_friction() {
 
 void CellStepper::find_forces(const Pose& pose) {
   hold(pose);
-  if (solid_)
+  if (solid_) {
+    solid_->branches().begin(stepping_.step);
     solid_->forces(particles_, forces_);
-  else
+  } else {
     pair_forces(particles_, body_->material, forces_);
+  }
   bone_forces(particles_, *body_, pose, forces_);
   forces_.world.clear();
   friction_.clear();
@@ -174,7 +176,7 @@ void CellStepper::read(BondRest& rest) const {
       for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e)
         if (bonds.whole(e))
           rest.set(particles_.id[i], particles_.id[bonds.neighbors.neighbor[e]], nearest,
-                   bonds.rest_length[e]);
+                   solid_->free_length(nearest, e));
   };
   set(solid_->bonds().nearest, true);
   set(solid_->bonds().second, false);
@@ -187,16 +189,19 @@ void CellStepper::save(SimulationState& state) const {
   sliding_.save(state);
   if (!solid_) return;
   state.rest_length = solid_->rest_lengths();
+  solid_->branches().save(state);
 }
 
 void CellStepper::restore(const SimulationState& state) {
   const auto* moving = std::get_if<MovingInDouble>(&state.moving);
   if (moving == nullptr) throw not_a_state("it is in single precision");
   check_moving(*moving, particles_.size());
-  if (solid_)
+  if (solid_) {
+    solid_->branches().restore(state);
     solid_->restore(state.rest_length);
-  else if (!state.rest_length.empty())
+  } else if (!state.rest_length.empty()) {
     throw not_a_state("it has bonds");
+  }
   sliding_.restore(state);
   Particles& now = particles_;
   now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
@@ -312,10 +317,12 @@ StepSums CellStepper::step(const Pose& pose) {
       if (!sound(i, before, pose)) failed = true;
     }
   });
-  if (failed)
+  if (failed) {
     sums.failure = take_back(pose);
-  else
-    kicked_ = true;
+    return sums;
+  }
+  kicked_ = true;
+  if (solid_) solid_->branches().advance(stepping_.step);
   return sums;
 }
 
