@@ -104,7 +104,7 @@ class Chance {
   void add_machine(Settings& drawn) {
     for (int i = 0; i < below(3); ++i) {
       SupportSettings& support = drawn.supports.emplace_back();
-      support = {"s" + std::to_string(i), HeldAxes(below(7)), part(), Vec3(number({}), 0, 1)};
+      support = {"s" + std::to_string(i), HeldAxes(below(7)), {}, part(), Vec3(number({}), 0, 1)};
       if (below(2) == 0) support.pivot.reset();
       for (int k = 0; k < below(4); ++k)
         support.keys.push_back({1.0 * k, k * Vec3(0, 1, 0.1), Vec3::UnitX(), k * 1e-9});

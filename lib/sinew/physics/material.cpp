@@ -27,11 +27,6 @@ double k1_of(const MaterialOptions& settings, const PackingStiffness& packing, P
   return settings.young_modulus / (2 * per_k);  // E = per_k k / d0, k = 4 k1 r = 2 k1 d0
 }
 
-double poisson_ratio_of(const MaterialOptions& settings) {
-  constexpr double of_springs = 0.25;
-  return settings.model == MaterialModel::bonded_volume ? settings.poisson_ratio : of_springs;
-}
-
 PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   PackingStiffness packing;
   if (settings.model == MaterialModel::paper) return packing;
@@ -39,12 +34,6 @@ PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   if (settings.model == MaterialModel::bonded_volume)
     packing.volume = volume_stiffness_for(settings.poisson_ratio, packing.second);
   return packing;
-}
-
-/// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
-/// strain.
-double yield_shear(double yield_strain, double poisson_ratio) {
-  return yield_strain * (1 + poisson_ratio) * std::sqrt(2.0 / 3);
 }
 
 /// The strain at which bonds of such a material break so that a crack takes that energy per area
@@ -73,6 +62,20 @@ void bond(const MaterialOptions& settings, const PackingStiffness& packing, Mate
 }
 
 }  // namespace
+
+double poisson_ratio_of(const MaterialOptions& settings) {
+  constexpr double of_springs = 0.25;
+  return settings.model == MaterialModel::bonded_volume ? settings.poisson_ratio : of_springs;
+}
+
+double yield_shear(double yield_strain, double poisson_ratio) {
+  return yield_strain * (1 + poisson_ratio) * std::sqrt(2.0 / 3);
+}
+
+double local_volume_stiffness(const Material& material, double relative, double poisson_ratio) {
+  return material.order * relative * volume_stiffness_for(poisson_ratio, isotropic_second) *
+         material.pair.contact_stiffness() / (2 * material.pair.r);
+}
 
 std::size_t BondStrength::branch_count() const {
   return static_cast<std::size_t>(std::count_if(branches.begin(), branches.end(),

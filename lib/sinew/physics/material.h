@@ -66,6 +66,14 @@ struct PackedBody {
 /// depends on the body's shape.
 Material make_material(const MaterialOptions& settings, const PackedBody& body);
 
+/// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
+/// strain.
+double yield_shear(double yield_strain, double poisson_ratio);
+/// That of Poisson's ratio in the options: of bonds alone where no volume is kept.
+double poisson_ratio_of(const MaterialOptions& settings);
+/// K_v of bonds `relative` times as stiff as the material's are at once, Pa.
+double local_volume_stiffness(const Material& material, double relative, double poisson_ratio);
+
 /// The material once its branches have relaxed, without them.
 Material long_term(Material material);
 

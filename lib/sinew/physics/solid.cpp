@@ -113,16 +113,27 @@ double volume_weight(const Mat3& A, double radius) {
 
 bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
+/// Of particles in their order.
+LocalStrength in_order(const LocalStrength& local, std::span<const std::int32_t> id) {
+  LocalStrength ordered;
+  for (const auto list : {&LocalStrength::volume, &LocalStrength::breaking, &LocalStrength::yield})
+    for (std::size_t i = 0; i < id.size() && !(local.*list).empty(); ++i)
+      (ordered.*list).push_back((local.*list)[static_cast<std::size_t>(id[i])]);
+  return ordered;
+}
+
 Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t> id,
-             const BondFactors& factors)
+             const BondFactors& factors, const LocalStrength& local)
     : material_(material),
       law_(&law_of(material)),
       rest_(std::move(rest)),
       bonds_(make_bonds(rest_, material, id, factors)),
       branches_(material.bond, bonds_.nearest.neighbors.neighbor.size(),
-                bonds_.second.neighbors.neighbor.size()) {
-  if (material_.volume_stiffness <= 0) return;
+                bonds_.second.neighbors.neighbor.size()),
+      local_(in_order(local, id)) {
   const std::size_t n = rest_.size();
+  if (largest_of(local_.volume, material_.volume_stiffness) <= 0) return;
+  local_.volume.resize(n, material_.volume_stiffness);
   inverse_.assign(n, Mat3::Zero());
   weight_.assign(n, 0);
   volume_.assign(n, 0);
@@ -164,7 +175,7 @@ void Solid::for_each_touched(const Particles& particles, const CellGrid& cells, 
 /// F_i, J_i and the stress that keeps the volume. Where a bond broke, the body is severed and keeps
 /// no volume.
 void Solid::find_volumes(const Particles& particles) {
-  if (material_.volume_stiffness <= 0) return;
+  if (local_.volume.empty()) return;
   const double V0 = volume_per_particle(material_.pair.r);
   for_each_particle(rest_.size(), [&](std::size_t i) {
     thrust_[i].setZero();
@@ -175,8 +186,7 @@ void Solid::find_volumes(const Particles& particles) {
       moved += (particles.position(j) - particles.position(i)) * (rest_[j] - rest_[i]).transpose();
     const Mat3 F = moved * inverse_[i];
     volume_[i] = F.determinant() - 1;
-    thrust_[i] =
-        material_.volume_stiffness * V0 * weight_[i] * volume_[i] * (cofactors(F) * inverse_[i]);
+    thrust_[i] = local_.volume[i] * V0 * weight_[i] * volume_[i] * (cofactors(F) * inverse_[i]);
   });
 }
 
@@ -189,8 +199,8 @@ Vec3 Solid::volume_force(std::size_t i) const {
 }
 
 double Solid::volume_energy(std::size_t i) const {
-  return material_.volume_stiffness / 2 * volume_per_particle(material_.pair.r) * weight_[i] *
-         volume_[i] * volume_[i];
+  return local_.volume[i] / 2 * volume_per_particle(material_.pair.r) * weight_[i] * volume_[i] *
+         volume_[i];
 }
 
 void Solid::add_springs_of_second(const Particles& particles, Forces& forces) const {
@@ -218,7 +228,7 @@ void Solid::forces(const Particles& particles, Forces& forces) {
   };
   pair_pass(particles, material_, for_each_partner, forces);
   add_springs_of_second(particles, forces);
-  if (material_.volume_stiffness <= 0) return;
+  if (local_.volume.empty()) return;
   find_volumes(particles);
   for_each_particle(particles.size(), [&](std::size_t i) { forces.pair[i] += volume_force(i); });
 }
@@ -240,7 +250,7 @@ double Solid::energy(const Particles& particles) {
     for_each_touched(particles, cells, i, [&](std::uint32_t, const Vec3&, double d) {
       sum += law_->energy(material_, d) / 2;
     });
-    if (material_.volume_stiffness > 0) sum += volume_energy(i);
+    if (!local_.volume.empty()) sum += volume_energy(i);
     return sum;
   });
 }
@@ -275,8 +285,7 @@ void Solid::restore(const std::vector<double>& rest_length) {
 
 /// P of each particle; none where no bond creeps.
 std::vector<Mat3> Solid::flow(const Particles& particles) const {
-  const double yield = material_.bond.yield_shear;
-  if (yield <= 0) return {};
+  if (material_.bond.yield_shear <= 0) return {};
   std::vector<Mat3> flow(rest_.size(), Mat3::Zero());
   for_each_particle(rest_.size(), [&](std::size_t i) {
     double weights = 0, pulls = 0;
@@ -300,10 +309,15 @@ std::vector<Mat3> Solid::flow(const Particles& particles) const {
     if (weights == 0) return;
     const Mat3 T = (stress - pulls / weights * spread) / weights;
     const Mat3 D = strain_per_stress * (T - T.trace() / 3 * Mat3::Identity());
-    const double shear = D.norm();
+    const double shear = D.norm(), yield = value_at(local_.yield, i, material_.bond.yield_shear);
     if (shear > yield) flow[i] = (1 - yield / shear) * D;
   });
   return flow;
+}
+
+double Solid::breaking_strain(std::size_t i, std::size_t j) const {
+  const double common = material_.bond.breaking_strain;
+  return std::min(value_at(local_.breaking, i, common), value_at(local_.breaking, j, common));
 }
 
 /// Lets bonds relax, creep and break over a step (s). `contact`: of a pair once its bond broke;
@@ -314,7 +328,7 @@ double Solid::evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
   const double crept = -std::expm1(-strength.creep_rate * step);
   const auto next_length = [&](std::size_t i, const BondNow& bond) {
     const double l = bond.spring.length;
-    if (strength.breaking_strain > 0 && bond.distance > l * (1 + strength.breaking_strain))
+    if (strength.breaking_strain > 0 && bond.distance > l * (1 + breaking_strain(i, bond.neighbor)))
       return 0.0;
     if (flow.empty() || bond.distance == 0) return l;
     const Vec3 n = bond.offset / bond.distance;
@@ -349,7 +363,7 @@ double Solid::evolve(const Particles& particles, double step) {
   double released =
       evolve(bonds_.nearest, branches_.nearest, &material_.pair, now, particles, step) +
       evolve(bonds_.second, branches_.second, nullptr, now, particles, step);
-  if (material_.volume_stiffness <= 0) return released;
+  if (local_.volume.empty()) return released;
   for (std::size_t i = 0; i < severed.size(); ++i)
     if (!severed[i] && broken(i) > 0) released += volume_energy(i);
   return released;

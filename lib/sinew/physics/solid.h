@@ -33,6 +33,7 @@
 #include <sinew/physics/bond_factors.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/laws.h>
+#include <sinew/physics/local_strength.h>
 #include <sinew/physics/material.h>
 #include <sinew/physics/maxwell.h>
 
@@ -92,9 +93,9 @@ double volume_weight(const Mat3& A, double radius);
 
 class Solid {
  public:
-  /// `rest` in the order of the particles, m; `id` and `factors` as in make_bonds().
+  /// `rest` in the order of the particles, m; `id` and `factors` as in make_bonds(); `local` by id.
   Solid(const Material& material, Points rest, std::span<const std::int32_t> id = {},
-        const BondFactors& factors = {});
+        const BondFactors& factors = {}, const LocalStrength& local = {});
 
   /// Of its bonds: what follows is of the step that began there last.
   MaxwellBranches& branches() { return branches_; }
@@ -135,12 +136,14 @@ class Solid {
   double evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
                 const std::vector<Mat3>& flow, const Particles& particles, double step) const;
   double volume_energy(std::size_t i) const;
+  double breaking_strain(std::size_t i, std::size_t j) const;
 
   Material material_;
   const ForceLaw* law_;
   Points rest_;
   SolidBonds bonds_;
   MaxwellBranches branches_;
+  LocalStrength local_;         ///< by particle; volume: empty where none is kept
   std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept
   std::vector<double> weight_;  ///< w_i
   std::vector<double> volume_;  ///< J_i - 1 at the positions of the last call of forces()

@@ -46,7 +46,7 @@ double memory_per_particle(const StepperChoice& choice, const Body& body) {
   double bytes = single ? memory_with_lists_single : memory_with_lists_double;
   const BondStrength& bond = body.material.bond;
   const double share = single ? 0.5 : 1;
-  if (body.material.volume_stiffness > 0 || has_muscles(body)) bytes += share * memory_of_strain;
+  if (keeps_volume(body) || has_muscles(body)) bytes += share * memory_of_strain;
   if (bond.yield_shear > 0 || bond.breaking_strain > 0) bytes += share * memory_of_changing_bonds;
   bytes += share * memory_of_branch * static_cast<double>(bond.branch_count());
   return bytes;

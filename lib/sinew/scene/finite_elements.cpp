@@ -55,6 +55,14 @@ std::vector<Refusal> refusals(const Settings& settings) {
        "finite elements do not break", "remove breaking_strain and fracture_energy"},
       {material.yield_strain.has_value(), "material.yield_strain", "finite elements do not flow",
        "remove it"},
+      {std::any_of(settings.materials.begin(), settings.materials.end(),
+                   [](const auto& one) { return one.has_strength(); }),
+       "materials", "finite elements do not break or flow",
+       "remove breaking_strain and yield_strain"},
+      {std::any_of(settings.supports.begin(), settings.supports.end(),
+                   [](const auto& one) { return one.hold_along.has_value(); }),
+       "supports", "the supports of finite elements hold x, y or z, no oblique direction",
+       "hold axes of the scene"},
       {!settings.bodies.empty(), "bodies", "finite elements are made of one mesh",
        "join the meshes into one, and give parts by materials"},
       {settings.body.thickness.has_value(), "body.thickness",
@@ -114,7 +122,11 @@ std::vector<DeckMaterial> materials_of(const Settings& settings, const VolumeMes
   std::vector<std::size_t> of_element(mesh.elements.size(), 0);
   for (std::size_t k = 0; k < settings.materials.size(); ++k) {
     const LocalMaterialSettings& local = settings.materials[k];
-    materials.push_back({local.name, local.young_modulus, ratio, given.density, {}});
+    materials.push_back({local.name,
+                         local.young_modulus.value_or(given.young_modulus),
+                         bonded ? ratio : local.poisson_ratio.value_or(ratio),
+                         local.density.value_or(given.density),
+                         {}});
     for (const std::uint32_t e : parts.elements(local.part, list_entry("materials", k)))
       of_element[e] = k + 1;
   }

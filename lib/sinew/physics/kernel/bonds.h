@@ -123,12 +123,22 @@ SINEW_INLINE typename L::V spring_energy(const Bonds<typename L::Real>& bonds, c
   return bond.stiffness * squares * L::all(static_cast<typename L::Real>(0.5));
 }
 
+/// The length at which a bond breaks, over its own.
+template <class L>
+SINEW_INLINE typename L::V longest(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                                   const Bond<L>& bond, std::ptrdiff_t i) {
+  const typename L::Real* of = step.bonds.breaking_of;
+  return of == nullptr ? law.breaking
+                       : L::smaller(L::load(of + i), L::load(of + i + bond.difference));
+}
+
 /// Positive where a bond breaks or creeps.
 template <class L>
 SINEW_INLINE typename L::V excess(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                                   const Bond<L>& bond, typename L::V d, std::ptrdiff_t i) {
   typename L::V beyond = L::all(0);
-  if (step.bonds.breaking > 0) beyond = L::larger(beyond, d - law.breaking * bond.length);
+  if (step.bonds.breaking > 0)
+    beyond = L::larger(beyond, d - longest<L>(step, law, bond, i) * bond.length);
   if (step.bonds.yield > 0) {
     const typename L::V own = L::load(step.bonds.flows + i);
     beyond = L::larger(beyond, L::larger(own, L::load(step.bonds.flows + i + bond.difference)));

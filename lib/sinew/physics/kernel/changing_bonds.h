@@ -86,7 +86,7 @@ void flow_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
   using Real = typename L::Real;
   constexpr int size = Traits<Real>::block;
   const SolidLaw<L> law(step);
-  const V one = L::all(1), yield = L::all(step.bonds.yield);
+  const V one = L::all(1);
   const std::size_t last = end * blocks_per_piece;
   for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
     for (int lane = 0; lane < size; lane += L::width) {
@@ -97,6 +97,8 @@ void flow_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
       add_stress<L, second>(step, law, block, lane, i, here, sums);
       const Symmetric<L> D = shear_of<L>(sums);
       const V shear = product<L>(D, D);
+      const V yield = step.bonds.yield_of == nullptr ? L::all(step.bonds.yield)
+                                                     : L::load(step.bonds.yield_of + i);
       const V flows =
           L::keep(L::less(yield, shear), one - L::root(yield / L::larger(shear, yield)));
       L::store(step.bonds.flows + i, flows);
@@ -112,18 +114,16 @@ template <class L, Shell shell>
   using V = typename L::V;
   using Real = typename L::Real;
   const Bonds<Real>& bonds = step.bonds;
-  const SolidLaw<L> law(step);
   const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * Traits<Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const auto relax = [&](const Bond<L>& bond, std::uint32_t) {
     const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
-    const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
-    const V inverse = L::pick(L::less(L::all(0), squared),
-                              inverse_length<L, shell, true>(law, squared), L::all(0));
-    const V longer = L::keep(bond.mask, squared * inverse - bond.length);
+    const V d = L::root(squared_distance<L>(apart));
+    const V longer = L::keep(bond.mask, d - bond.length);
     V freed = L::all(0);
     for (int b = 0; b < bonds.branches; ++b) {
       const Branch<Real>& branch = bonds.branch[b];
+      if (branch.flows == 0) continue;
       Real* const stretch = branch.stretch + bond.place;
       const V before = L::load(stretch), elastic = L::keep(bond.mask, longer - before);
       L::store(stretch, L::fused(L::all(branch.flows), elastic, before));
@@ -182,8 +182,8 @@ template <class L, Shell shell>
       freed = spring_energy<L>(step.bonds, bond, d) - spring_energy<L>(step.bonds, after, d);
     }
     if (step.bonds.breaking > 0) {
-      const auto breaks =
-          L::less(L::keep(bond.mask, law.breaking * bond.length), L::keep(bond.mask, d));
+      const auto breaks = L::less(L::keep(bond.mask, longest<L>(step, law, bond, i) * bond.length),
+                                  L::keep(bond.mask, d));
       if (L::any(breaks)) {
         broke = true;
         Real gone[L::width];

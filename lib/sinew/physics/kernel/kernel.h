@@ -101,8 +101,11 @@ struct Bonds {
   Real* flow[6];         ///< by particle: P of ../solid.h, x x, y y, z z, y z, z x, x y
   Real* flows;           ///< by particle: positive where P is not 0
   Real yield;            ///< squared shear beyond which bonds creep; 0: never
-  Real crept;            ///< share that a step takes of it
-  Real breaking;         ///< strain at which it breaks
+  /// By particle, where they differ: `yield`; 1 and the strain at which its bonds break. Or null.
+  const Real* yield_of;
+  const Real* breaking_of;
+  Real crept;     ///< share that a step takes of it
+  Real breaking;  ///< strain at which it breaks
   Branch<Real> branch[most_branches];
   int branches;
   bool branches_flow;  ///< one of them does now
@@ -204,16 +207,16 @@ struct Relaxing {
 
 /// Sums of a piece.
 struct Totals {
-  double power;  ///< of the bones
-  double muscle_power;
-  double lost;         ///< what the step dissipates per time
-  double pair_energy;  ///< only from probe
-  double bone_energy;  ///< only from probe
-  double fastest;      ///< largest squared speed relative to the piece's motion
-  double speed2;       ///< the largest squared speed, of what steps store as fixed point
-  bool sound;          ///< none too fast (see most_radii_per_step), all values finite
-  bool broke;          ///< a bond
-  Relaxing relaxing;   ///< only of steps that relax
+  double power;         ///< of the bones
+  double driven_power;  ///< of muscles and loads
+  double lost;          ///< what the step dissipates per time
+  double pair_energy;   ///< only from probe
+  double bone_energy;   ///< only from probe
+  double fastest;       ///< largest squared speed relative to the piece's motion
+  double speed2;        ///< the largest squared speed, of what steps store as fixed point
+  bool sound;           ///< none too fast (see most_radii_per_step), all values finite
+  bool broke;           ///< a bond
+  Relaxing relaxing;    ///< only of steps that relax
 };
 
 /// Forces of a probe, by particle from `first` on.
@@ -225,6 +228,13 @@ struct Probed {
   Real* bone[3];
   Real* muscle[3];  ///< null without muscles
   std::int32_t* neighbors;
+};
+
+/// Accelerations by loads.
+template <class Real>
+struct Loads {
+  const std::uint8_t* on;  ///< by block: whether it has some; null: there are none
+  const Real* acceleration[3];
 };
 
 /// What surrounds the body acts through a function outside of the kernel, on the blocks that it may
@@ -254,9 +264,11 @@ struct Step {
   Real* inverse[6];   ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
   Volumes<Real> volumes;
   Fibers<Real> fibers;
+  Loads<Real> loads;
   Surroundings<Real> surroundings;
-  Real gravity[3];  ///< per time squared
-  Real keep;        ///< v = keep v + kick a; 1 but where a step relaxes
+  const Real* mass;  ///< by particle, of what forces are per; null: 1 each
+  Real gravity[3];   ///< per time squared
+  Real keep;         ///< v = keep v + kick a; 1 but where a step relaxes
   Real kick;
   Real drift;        ///< x += drift v, in units of coordinates
   Real middle;       ///< the ledger uses the velocity v + middle a

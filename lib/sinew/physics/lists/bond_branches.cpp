@@ -6,17 +6,6 @@
 #include <sinew/physics/stepper.h>
 
 namespace sinew {
-namespace {
-
-/// Calls visit(place) for the lanes of all entries that are whole.
-template <std::size_t block, class Visit>
-void for_each_whole(std::span<const kernel::BondEntry> entries, Visit&& visit) {
-  for (std::size_t e = 0; e < entries.size(); ++e)
-    for (std::size_t lane = 0; lane < block; ++lane)
-      if ((entries[e].lanes >> lane & 1) != 0) visit(e * block + lane);
-}
-
-}  // namespace
 
 template <class Real>
 BondBranches<Real>::BondBranches(const BondStrength& strength, std::size_t entries) {

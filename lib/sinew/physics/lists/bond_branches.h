@@ -17,6 +17,14 @@
 
 namespace sinew {
 
+/// Calls visit(place) for the lanes of all entries that are whole.
+template <std::size_t block, class Visit>
+void for_each_whole(std::span<const kernel::BondEntry> entries, Visit&& visit) {
+  for (std::size_t e = 0; e < entries.size(); ++e)
+    for (std::size_t lane = 0; lane < block; ++lane)
+      if ((entries[e].lanes >> lane & 1) != 0) visit(e * block + lane);
+}
+
 template <class Real>
 class BondBranches {
  public:

@@ -35,6 +35,7 @@ struct BondLists {
   /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
   std::array<std::vector<Real>, 6> flow;
   std::vector<Real> flows;
+  std::vector<Real> yield, breaking;  ///< as flow, where particles differ: see kernel::Bonds
 
   /// Lengths and stiffness in these units; `id` in the kernel's order.
   void set_units(const Body& body, std::span<const std::int32_t> id, double mass,

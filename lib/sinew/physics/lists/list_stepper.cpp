@@ -55,6 +55,9 @@ template <class Real>
 void ListStepper<Real>::find_slots() {
   slots_ = bone_slots<Real>(*body_, layout_.id(), layout_.units());
   surroundings_.set_order(layout_.id());
+  masses_.assign(body_->density.empty() ? 0 : layout_.now.blocks() * block, 1);
+  for (std::size_t k = 0; k < layout_.size() && !masses_.empty(); ++k)
+    masses_[k] = static_cast<Real>(body_->density[static_cast<std::size_t>(layout_.id()[k])]);
 }
 
 template <class Real>
@@ -88,6 +91,8 @@ kernel::Step<Real> ListStepper<Real>::job() {
   strain_.put_into(step);
   step.share = share_.empty() ? nullptr : share_.data() + block;
   step.central = material.damping_form == DampingForm::central;
+  step.mass = masses_.empty() ? nullptr : masses_.data();
+  step.loads = surroundings_.loads();
   step.surroundings = surroundings_.calls();
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(layout_.units().acceleration(stepping_.gravity[axis]));
@@ -169,7 +174,7 @@ StepSums ListStepper<Real>::sums_of_totals() const {
   for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
     sums.power += piece.power;
     sums.lost += piece.lost;
-    sums.world_power += piece.muscle_power;
+    sums.world_power += piece.driven_power;
   }
   const WorldSums world = surroundings_.sums();
   sums.power *= watts;
@@ -207,39 +212,6 @@ void ListStepper<Real>::accept() {
   ++steps_;
 }
 
-/// The particles that failed, in the caller's order; the fastest one where rounding leaves none.
-template <class Real>
-Failure ListStepper<Real>::failure(const Pose& pose) {
-  Failure failure;
-  const double most = most_radii_per_step * body_->material.pair.r *
-                      (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
-  Offender fastest{0, true, -1};
-  for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
-    const double moved = stepping_.step * relative_velocity(pose, k).norm();
-    const bool finite =
-        std::isfinite(moved) && layout_.next.velocity(k, layout_.units()).allFinite();
-    const Offender one{layout_.caller()[k], finite, std::isfinite(moved) ? moved : 0};
-    if (finite && moved > fastest.moved) fastest = one;
-    if (!finite || moved > most) failure.all.push_back(one);
-  }
-  if (failure.all.empty()) failure.all.push_back(fastest);
-  std::sort(failure.all.begin(), failure.all.end(),
-            [](const Offender& a, const Offender& b) { return a.particle < b.particle; });
-  failure.first = failure.all.front();
-  return failure;
-}
-
-/// Velocity after the step relative to the leading bone or, without one and for what is held, to
-/// the velocity before.
-template <class Real>
-Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
-  const int bone = body_->binding.bone(static_cast<std::size_t>(layout_.padded_id()[k]));
-  const Vec3 carried = bone == no_bone || surroundings_.is_held(k)
-                           ? layout_.now.velocity(k, layout_.units())
-                           : pose[bone].velocity_at(layout_.now.position(k, layout_.units()));
-  return layout_.next.velocity(k, layout_.units()) - carried;
-}
-
 template <class Real>
 Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
   Points of_world;
@@ -271,7 +243,10 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.set_velocity(
         i, particles.velocity(i) +
-               stepping_.step / 2 * (forces.total(i) / particles.mass + stepping_.gravity));
+               stepping_.step / 2 *
+                   (forces.total(i) /
+                        mass_of(*body_, static_cast<std::size_t>(particles.id[i]), mass_) +
+                    stepping_.gravity));
 }
 
 template <class Real>

@@ -18,7 +18,7 @@ std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
   Points rest;
   rest.reserve(particles.size());
   for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
-  return Solid(body.material, std::move(rest), particles.id, body.factors);
+  return Solid(body.material, std::move(rest), particles.id, body.factors, body.local);
 }
 
 }  // namespace
@@ -73,7 +73,6 @@ void CellStepper::find_loads(const WorldNow& now) {
 void CellStepper::find_world_forces(const Pose& pose) {
   const World& world = *body_->world;
   const WorldNow now = world_at(world, time_, pose);
-  const Vec3 weight = particles_.mass * stepping_.gravity;
   muscle_forces(world.muscles, now.activations, particles_, muscle_);
   find_loads(now);
   reactions_.assign(world.obstacles.size(), {});
@@ -87,8 +86,9 @@ void CellStepper::find_world_forces(const Pose& pose) {
                                 particles_.radius,
                                 static_cast<std::size_t>(particles_.id[i])};
     forces_.world[i] += load_[i];
-    around_[i] = world_on(particle, particles_.mass, world, now, forces_.total(i) + weight,
-                          stepping_.step, reactions_);
+    const Vec3 weight = mass(i) * stepping_.gravity;
+    around_[i] = world_on(particle, mass(i), world, now, forces_.total(i) + weight, stepping_.step,
+                          reactions_);
     forces_.world[i] += around_[i].force();
   }
   hold_back(now, pose);
@@ -105,13 +105,12 @@ void CellStepper::find_world_forces(const Pose& pose) {
 /// Pins and supports answer all other forces on what they hold.
 void CellStepper::hold_back(const WorldNow& now, const Pose& pose) {
   const World& world = *body_->world;
-  const Vec3 weight = particles_.mass * stepping_.gravity;
   of_pins_.assign(held_.empty() ? 0 : pose.size(), {});
   of_supports_.assign(world.supports.size(), {});
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const Pinned& pin = world.pins[k];
     const std::size_t i = held_[k];
-    const Vec3 unheld = forces_.total(i) + weight;
+    const Vec3 unheld = forces_.total(i) + mass(i) * stepping_.gravity;
     const PinPose at{particles_.position(i), particles_.velocity(i)};
     if (pin.is_pin())
       add_reaction(pin, at, unheld, pose, of_pins_);
@@ -209,8 +208,12 @@ void CellStepper::restore(const SimulationState& state) {
   kicked_ = state.kicked;
 }
 
+double CellStepper::mass(std::size_t i) const {
+  return mass_of(*body_, static_cast<std::size_t>(particles_.id[i]), particles_.mass);
+}
+
 Vec3 CellStepper::acceleration(std::size_t i) const {
-  return forces_.total(i) / particles_.mass + stepping_.gravity;
+  return forces_.total(i) / mass(i) + stepping_.gravity;
 }
 
 /// Velocities are half a step behind the forces, for velocity Verlet as well.
@@ -231,7 +234,7 @@ void CellStepper::add_world(StepSums& sums) const {
     Vec3 others = around_[i].force() + load_[i] + muscle_[i];
     if (!friction_.empty()) others += friction_[i];
     sums.world_power += (forces_.world[i] - others).dot(own);
-    sums.held_kinetic += particles_.mass / 2 * own.squaredNorm();
+    sums.held_kinetic += mass(i) / 2 * own.squaredNorm();
   }
 }
 
