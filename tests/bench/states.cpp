@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include <sinew/mesh/refine.h>
 #include <sinew/physics/world/world.h>
 
 #include "bench/states.h"
@@ -19,9 +20,13 @@ constexpr double strong_grip = 64;      // springs as stiff as bonds in the pape
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
 constexpr double approach = 0.5;                    // s, of bones that bend
 constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed", "bending"};
-constexpr std::array variant_names{
-    "paper",     "initial_neighbors", "bonded", "bonded_volume", "breaking", "yielding",
-    "symmetric", "central",           "plane",  "sphere",        "pinned",   "muscle"};
+constexpr std::array variant_names{"paper",     "initial_neighbors",
+                                   "bonded",    "bonded_volume",
+                                   "breaking",  "yielding",
+                                   "symmetric", "central",
+                                   "plane",     "sphere",
+                                   "pinned",    "muscle",
+                                   "relaxing",  "pressed"};
 
 struct Bar {
   int across = 0, along = 0;  // half-planes, odd: a site is in the middle
@@ -86,10 +91,30 @@ void choose(Variant variant, MaterialOptions& material) {
   if (variant == Variant::symmetric) material.damping_form = DampingForm::symmetric;
   if (variant == Variant::central) material.damping_form = DampingForm::central;
   if (variant == Variant::bonded_volume) material.model = MaterialModel::bonded_volume;
-  if (variant == Variant::bonded || variant == Variant::breaking || variant == Variant::yielding)
+  if (variant == Variant::bonded || variant == Variant::breaking || variant == Variant::yielding ||
+      variant == Variant::relaxing || variant == Variant::pressed)
     material.model = MaterialModel::bonded;
   if (variant == Variant::breaking) material.breaking_strain = 0.3;
   if (variant == Variant::yielding) material.yield_strain = 0.02;
+  if (variant == Variant::relaxing) {
+    material.relaxation_shares = {0.3, 0.2};
+    material.relaxation_times = {0.1, 2};
+  }
+}
+
+/// The surface around particles, in triangles as scenes have them.
+Triangles skin_of(const Points& rest) {
+  const Box box(bounds(rest).min() - Vec3::Constant(0.7 * r),
+                bounds(rest).max() + Vec3::Constant(0.7 * r));
+  Triangles skin;
+  for (int k = 0; k < 8; ++k) skin.points.push_back(box.corner(static_cast<Box::CornerType>(k)));
+  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& [a, b, c, d] : quads) {
+    skin.faces.push_back({a, b, c});
+    skin.faces.push_back({a, c, d});
+  }
+  return refined(skin, 3 * r);
 }
 
 Obstacle wall(const Material& material, const Shape& shape) {
@@ -124,8 +149,10 @@ std::shared_ptr<const World> world_of(Variant variant, const Bar& bar, const Poi
     muscle.shares = shares_in({}, rest);
     world.muscles = make_muscles(rest, r, {muscle});
   }
-  const bool any =
-      !world.obstacles.empty() || !world.pins.empty() || !world.muscles.muscles.empty();
+  if (variant == Variant::pressed)
+    world.loads = {pressure_load("skin", skin_of(rest), 0.02 * material.young_modulus(), rest, r)};
+  const bool any = !world.obstacles.empty() || !world.pins.empty() || !world.loads.empty() ||
+                   !world.muscles.muscles.empty();
   return any ? std::make_shared<const World>(std::move(world)) : nullptr;
 }
 

@@ -33,10 +33,12 @@ enum class Variant {
   yielding,
   symmetric,
   central,
-  plane,   ///< that it stands on
-  sphere,  ///< pressed into its side
-  pinned,  ///< at its lower end
-  muscle,  ///< in all of it
+  plane,     ///< that it stands on
+  sphere,    ///< pressed into its side
+  pinned,    ///< at its lower end
+  muscle,    ///< in all of it
+  relaxing,  ///< bonded, with two branches
+  pressed,   ///< bonded, on its whole surface
 };
 
 inline constexpr std::array variants{Variant::paper,     Variant::initial_neighbors,
@@ -44,7 +46,8 @@ inline constexpr std::array variants{Variant::paper,     Variant::initial_neighb
                                      Variant::breaking,  Variant::yielding,
                                      Variant::symmetric, Variant::central,
                                      Variant::plane,     Variant::sphere,
-                                     Variant::pinned,    Variant::muscle};
+                                     Variant::pinned,    Variant::muscle,
+                                     Variant::relaxing,  Variant::pressed};
 
 std::string_view name_of(Condition condition);
 std::string_view name_of(Variant variant);

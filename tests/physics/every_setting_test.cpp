@@ -29,10 +29,16 @@ std::vector<Choice> materials() {
              settings.material.yield_strain = 0.01;
              settings.material.creep_rate = 50;
            }},
-          {"bonded_volume, changing", [](Settings& settings) {
+          {"bonded_volume, changing",
+           [](Settings& settings) {
              settings.material.model = MaterialModel::bonded_volume;
              settings.material.breaking_strain = 0.02;
              settings.material.yield_strain = 0.01;
+           }},
+          {"bonded, relaxing", [](Settings& settings) {
+             settings.material.model = MaterialModel::bonded;
+             settings.material.relaxation_shares = {0.2, 0.3};
+             settings.material.relaxation_times = {0.001, 0.2};
            }}};
 }
 

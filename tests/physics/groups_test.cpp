@@ -304,6 +304,15 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
   expect("free particles", [](Settings& s) { s.solver.method = Method::static_equilibrium; });
   expect("no groups", [](Settings& s) { s.solver.neighbor_search = NeighborSearch::cells; });
   expect("drag and fields", [](Settings& s) { s.world.drag = 1; });
+  expect("bonds that relax", [](Settings& s) {
+    s.material.model = MaterialModel::bonded;
+    s.material.relaxation_shares = {{0.5}};
+    s.material.relaxation_times = {{0.1}};
+  });
+  expect("do not rub", [](Settings& s) {
+    s.material.model = MaterialModel::bonded;
+    s.material.friction = 0.5;
+  });
   expect("break or flow", [](Settings& s) {
     s.material.model = MaterialModel::bonded;
     s.material.breaking_strain = 0.2;

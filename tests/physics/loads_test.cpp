@@ -97,7 +97,7 @@ TEST(Loads, TheWorkOfAPressureIsTheVolumeLost) {
   const Load load = pressure_load("press", skin, 2000, rest, r);
   LoadNow at(load);
   at.find(load, 1, [&](std::size_t k) { return now[load.particles[k]]; });
-  const FollowingPoints points = following(skin.points, rest, r);
+  const FollowingPoints points = following(skin.points, rest, r, followed_by_corners);
   std::mt19937 random(5);
   double power = 0;
   Points moved[2] = {now, now};

@@ -91,6 +91,8 @@ World tearing(const std::string& name, MaterialModel model) {
   world.settings.material.breaking_strain = 0.02;
   world.settings.material.yield_strain = 0.005;
   world.settings.material.creep_rate = 30;
+  world.settings.material.relaxation_shares = {0.2, 0.1};
+  world.settings.material.relaxation_times = {0.002, 0.5};
   world.shake = 0.05;
   return world;
 }
@@ -373,11 +375,25 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
     bad.creep[7] = value;
     refuse(tears, bad, "length");
   }
+  for (const double value : {double(NAN), HUGE_VAL}) {
+    bad = torn;
+    bad.branch_stretches[7] = value;
+    refuse(tears, bad, "branch");
+    bad = torn;
+    bad.branch_clocks[1] = value;
+    refuse(tears, bad, "branch");
+  }
+  bad = torn;
+  bad.branch_stretches.pop_back();
+  refuse(tears, bad, "branches");
   const World in_cells = with(tears, NeighborSearch::cells);
   bad = in_cells.begin().save();
   refuse(tears, bad, "cells");
   bad.rest_length.pop_back();
   refuse(in_cells, bad, "bonds");
+  bad = in_cells.begin().save();
+  bad.branch_stretches.pop_back();
+  refuse(in_cells, bad, "branches");
 }
 
 }  // namespace sinew::resume_test

@@ -32,6 +32,8 @@ Settings folded(Precision precision, int half_planes) {
   settings.material.damping_form = DampingForm::central;
   settings.material.yield_strain = 0.05;
   settings.material.creep_rate = 30;
+  settings.material.relaxation_shares = {0.2, 0.1};
+  settings.material.relaxation_times = {0.002, 0.5};
   settings.material.breaking_strain = 0.1;
   settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.25, 150)})};
   return settings;

@@ -10,6 +10,12 @@ namespace sinew::steppers_of_solids_test {
 
 using namespace both_steppers;
 
+/// One branch relaxes in each step, one in some.
+void relax(MaterialOptions& material) {
+  material.relaxation_shares = {0.3, 0.2};
+  material.relaxation_times = {0.002, 1};
+}
+
 /// The moving scene with every material that knows its neighbors at rest.
 std::vector<std::pair<std::string, Settings>> solids() {
   std::vector<std::pair<std::string, Settings>> solids;
@@ -43,6 +49,25 @@ std::vector<std::pair<std::string, Settings>> solids() {
     material.creep_rate = 100;
     material.breaking_strain = 0.012;
   });
+  add("relaxing", [](MaterialOptions& material) { relax(material); });
+  add("relaxing, breaking and yielding volumes", [](MaterialOptions& material) {
+    relax(material);
+    material.model = MaterialModel::bonded_volume;
+    material.yield_strain = 0.01;
+    material.creep_rate = 100;
+    material.breaking_strain = 0.012;
+  });
+  add("breaking and yielding parts of other volumes", [](MaterialOptions& material) {
+    material.model = MaterialModel::bonded_volume;
+    material.poisson_ratio = 0.3;
+    material.breaking_strain = 0.05;
+    material.creep_rate = 100;
+  });
+  LocalMaterialSettings stiff{"stiff", 3e4, 0.45, 3000, 0.012, {}},
+      soft{"soft", 5e3, {}, 700, {}, 0.01};
+  stiff.part.region.low = Vec3(-1, -1, 0.02), stiff.part.region.high = Vec3(1, 1, 1);
+  soft.part.region.low = Vec3(-1, -1, -1), soft.part.region.high = Vec3(0, 1, 1);
+  solids.back().second.materials = {stiff, soft};
   return solids;
 }
 

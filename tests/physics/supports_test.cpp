@@ -2,6 +2,7 @@
 // A body in the grips of a testing machine.
 #include <sinew/physics/world/supports.h>
 
+#include "all_steppers.h"
 #include "expect_error.h"
 #include "machine.h"
 
@@ -46,6 +47,50 @@ TEST(Supports, HoldExactlyWhatTheyHoldAndNothingElse) {
     }
     EXPECT_GT(free, 1e-3 * r);
   }
+}
+
+/// A roller on a slope below, a clamp above.
+Machine on_slope(const Vec3& along) {
+  Machine machine = gripped({0, 0, 0});
+  machine.world.supports[0].along = along;
+  machine.world.supports[1].motion = {};
+  machine.settings.solver.gravity = {0.5, 0.2, -1};
+  return machine;
+}
+
+TEST(Supports, OfAnyDirectionLetSlideAcross) {
+  const Vec3 along = Vec3(1, -2, 3).normalized();
+  for (const bool cells : {false, true})
+    for (const Precision precision : {binary64, binary32}) {
+      if (cells && precision == binary32) continue;
+      Machine machine = on_slope(along);
+      machine.settings.solver.precision = precision;
+      if (cells) machine.settings = test::with_cells(machine.settings);
+      Simulation simulation = machine.after(0.05);
+      double slid = 0;
+      for (const std::uint32_t i : machine.bottom()) {
+        const Vec3 moved = simulation.particles().position(i) - machine.rest[i];
+        EXPECT_LT(std::abs(along.dot(moved)), (precision == binary64 ? 1e-15 : 1e-6 * r));
+        slid = std::max(slid, moved.norm());
+      }
+      EXPECT_GT(slid, 1e-3 * r);
+      const Vec3 force = simulation.of_supports()[0].force;
+      EXPECT_GT(force.norm(), 0);
+      EXPECT_LT(force.cross(along).norm(), 1e-12 * force.norm());
+    }
+}
+
+TEST(Supports, OfAnyDirectionBalance) {
+  const Machine machine = on_slope(Vec3(1, 0, 1).normalized());
+  Simulation simulation = machine.at_rest({1, 1, 1e-7});
+  EXPECT_LT((sum_of(simulation.of_supports()) + machine.weight()).norm(),
+            1e-6 * machine.weight().norm());
+}
+
+TEST(Supports, OfAnyDirectionShareNoParticles) {
+  Machine machine = on_slope(Vec3(1, 0, 1).normalized());
+  machine.world.supports.push_back({"roller", machine.bottom(), along_x});
+  test::expect_bad_input([&] { machine.begin(); }, {"'clamp' and 'roller'", "oblique", "disjoint"});
 }
 
 TEST(Supports, ReactionsBalanceLoadsAndWeightAtRest) {

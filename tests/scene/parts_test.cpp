@@ -5,7 +5,10 @@
 
 #include <sinew/mesh/surface.h>
 
+#include <sinew/physics/time_step.h>
+
 #include "expect_error.h"
+#include "scratch.h"
 #include "world.h"
 
 namespace sinew::parts_test {
@@ -82,6 +85,85 @@ TEST(Parts, AreWhatIsInAllRegionsThatAreGiven) {
   }
   round.ids = std::vector<double>{1.0 * ball[0], 0};
   EXPECT_EQ(world.parts.particles(round, ""), std::vector<std::uint32_t>{ball[0]});
+}
+
+/// A body whose part is all of it is a body of that part's material.
+TEST(LocalMaterials, AreThoseThatTheyName) {
+  Settings whole = test::box_scene(15), parts = whole;
+  for (Settings* one : {&whole, &parts}) {
+    one->material.model = MaterialModel::bonded_volume;
+    one->material.damping = 0;
+  }
+  whole.material.young_modulus = 3e4;
+  whole.material.poisson_ratio = 0.42;
+  whole.material.density = 1500;
+  whole.material.yield_strain = 0.02;
+  parts.material.young_modulus = 1e4;
+  parts.material.poisson_ratio = 0.25;
+  parts.materials = {{"all", 3e4, 0.42, 1500, {}, 0.02}};
+  parts.materials[0].part.region.center = Vec3(0, 0, 0);
+  parts.materials[0].part.region.radius = 9;
+  const Points rest = test::fcc_box(7, 7, 15, r);
+  const Body a = test::make_body(whole, rest), b = test::make_body(parts, rest);
+  ASSERT_EQ(b.local.volume.size(), rest.size());
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    EXPECT_NEAR(b.local.volume[i], a.material.volume_stiffness,
+                1e-12 * a.material.volume_stiffness);
+    EXPECT_NEAR(b.stiffness[i] * b.material.bond.stiffness, a.material.bond.stiffness,
+                1e-12 * a.material.bond.stiffness);
+    EXPECT_NEAR(b.local.yield[i], a.material.bond.yield_shear, 1e-15);
+    EXPECT_EQ(b.material_number[i], 1);
+    EXPECT_NEAR(mass_of(b, i, b.material.mass), a.material.mass, 1e-12 * a.material.mass);
+  }
+  EXPECT_NEAR(
+      step_limit(Integrator::symplectic_euler, b) / step_limit(Integrator::symplectic_euler, a), 1,
+      0.05);
+}
+
+TEST(LocalMaterials, OfWhichTheLastCountsForWhatItGives) {
+  Settings settings = test::box_scene(15);
+  settings.material.model = MaterialModel::bonded;
+  settings.materials = {{"stiff", 4e4}, {"weak", {}, {}, {}, 0.1, {}}};
+  settings.materials[0].part.region.low = Vec3(-1, -1, 0.05);
+  settings.materials[0].part.region.high = Vec3(1, 1, 1);
+  settings.materials[1].part.ids = std::vector<double>{0, 1};
+  settings.materials[1].part.ids->push_back(double(test::fcc_box(7, 7, 15, r).size() - 1));
+  const Points rest = test::fcc_box(7, 7, 15, r);
+  const Body body = test::make_body(settings, rest);
+  EXPECT_EQ(body.stiffness.front(), 1);
+  EXPECT_EQ(body.stiffness.back(), 4);
+  EXPECT_EQ(body.material_number.front(), 2);
+  EXPECT_EQ(body.material_number.back(), 2);
+  EXPECT_EQ(body.local.breaking.back(), 0.1);
+  EXPECT_EQ(body.local.breaking[2], never_reached);
+  EXPECT_GT(body.material.bond.breaking_strain, 0);
+  EXPECT_TRUE(body.local.yield.empty());
+  EXPECT_TRUE(body.density.empty());
+  EXPECT_TRUE(body.local.volume.empty());
+}
+
+class PartsOfMeshes : public Scratch {};
+
+TEST_F(PartsOfMeshes, AreInsideOfThem) {
+  const World world;
+  const Triangles box = box_around({Vec3(0, 0, 0.04), Vec3(0.02, 0.02, 0.12)});
+  std::string text;
+  for (const Vec3& p : box.points)
+    text += "v " + std::to_string(p.x()) + ' ' + std::to_string(p.y()) + ' ' +
+            std::to_string(p.z()) + '\n';
+  for (const auto& [a, b, c] : box.faces)
+    text += "f " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + ' ' +
+            std::to_string(c + 1) + '\n';
+  PartSettings part;
+  part.mesh = (folder / "inner.obj").string();
+  std::ofstream(part.mesh) << text;
+  const Box inner = bounds(box.points);
+  EXPECT_EQ(world.parts.particles(part, ""),
+            world.where([&](const Vec3& p) { return inner.contains(p); }));
+  std::ofstream(part.mesh) << text.substr(0, text.rfind("f "));
+  test::expect_bad_input([&] { world.parts.particles(part, "materials[0]"); }, {"is open"});
+  part.mesh = (folder / "none.obj").string();
+  test::expect_bad_input([&] { world.parts.particles(part, "materials[0]"); }, {"none.obj"});
 }
 
 TEST(Parts, ThatAreEmptyAreRefused) {

@@ -104,7 +104,7 @@ class Chance {
   void add_machine(Settings& drawn) {
     for (int i = 0; i < below(3); ++i) {
       SupportSettings& support = drawn.supports.emplace_back();
-      support = {"s" + std::to_string(i), HeldAxes(below(7)), part(), Vec3(number({}), 0, 1)};
+      support = {"s" + std::to_string(i), HeldAxes(below(7)), {}, part(), Vec3(number({}), 0, 1)};
       if (below(2) == 0) support.pivot.reset();
       for (int k = 0; k < below(4); ++k)
         support.keys.push_back({1.0 * k, k * Vec3(0, 1, 0.1), Vec3::UnitX(), k * 1e-9});
@@ -131,6 +131,7 @@ class Chance {
 
   /// Relations between the settings.
   void keep_the_peace(Settings& drawn) {
+    drawn.material.relaxation_shares = drawn.material.relaxation_times = std::nullopt;
     drawn.body.radius.reset();
     drawn.body.count.reset();
     if (below(2) == 0)
@@ -150,6 +151,10 @@ class Chance {
       if (drawn.material.breaking_strain) drawn.material.fracture_energy.reset();
       drawn.material.cohesion = Cohesion::all;
       if (!drawn.material.yield_strain) drawn.material.preset = MaterialPresetName::none;
+      if (below(2) == 0) {
+        drawn.material.relaxation_shares = {0.25, 0.5};
+        drawn.material.relaxation_times = {0.125, 3};
+      }
     }
     if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
     drawn.material.isotropic.reset();

@@ -184,6 +184,30 @@ TEST_F(SceneTest, WrongOverridesAreNamed) {
   EXPECT_TRUE(holds(message(small_scene, {"solver.duration="}), "is empty"));
 }
 
+TEST_F(SceneTest, BranchesThatRelaxAreCheckedTogether) {
+  const auto complaint = [&](const std::string& keys) {
+    return message(small_scene + "material: {model: bonded, " + keys + "}\n");
+  };
+  const Settings good = read(small_scene +
+                             "material: {model: bonded, relaxation_shares: [0.3, 0.2], "
+                             "relaxation_times: [0.1, 2]}\n");
+  EXPECT_EQ(good.material.relaxation_shares, (std::vector<double>{0.3, 0.2}));
+  EXPECT_EQ(good.material.relaxation_times, (std::vector<double>{0.1, 2}));
+  EXPECT_TRUE(holds(complaint("relaxation_shares: [0.5]"), "a time for each share"));
+  EXPECT_TRUE(holds(complaint("relaxation_times: [0.5]"), "a time for each share"));
+  EXPECT_TRUE(holds(complaint("relaxation_shares: [0.5], relaxation_times: [1, 2]"), "length"));
+  EXPECT_TRUE(
+      holds(complaint("relaxation_shares: [0.5, 0.5], relaxation_times: [1, 2]"), "below 1"));
+  EXPECT_TRUE(holds(complaint("relaxation_shares: [0.5], relaxation_times: [0]"), "> 0"));
+  EXPECT_TRUE(holds(complaint("relaxation_shares: [0], relaxation_times: [1]"), "> 0"));
+  EXPECT_TRUE(holds(complaint("relaxation_shares: [.1, .1, .1, .1, .1], "
+                              "relaxation_times: [1, 1, 1, 1, 1]"),
+                    "four branches"));
+  EXPECT_TRUE(
+      holds(message(small_scene + "material: {relaxation_shares: [0.5], relaxation_times: [1]}\n"),
+            "the paper's model has none"));
+}
+
 TEST_F(SceneTest, OverriddenMeshIsSeenFromHere) {
   EXPECT_EQ(read(small_scene, {"body.mesh=here/box.obj"}).body.mesh, "here/box.obj");
 }

@@ -200,10 +200,13 @@ class OnLammps(SmallRun):
 
     def test_what_it_cannot_do_is_refused_by_name_before_the_start(self):
         for setting, name in [("solver.precision=single", "single precision"),
+                              ("material.relaxation_shares=[0.5]", "relax"),
                               ("material.yield_strain=0.1", "creep"), ("material.breaking_strain=0.1", "break"),
                               ("solver.neighbor_search=cells", "cells"), ("solver.method=static", "equilibria")]:
             model = "paper" if name in ("single precision", "cells") else "bonded"
             words = ["--set", setting, "--set", f"material.model={model}"]
+            if name == "relax":
+                words += ["--set", "material.relaxation_times=[1]"]
             done = self.simulate(*ON_LAMMPS, 2, *words, check=2)
             self.assert_one_line(done, 2, "engine lammps does not support", name, "without --engine")
             self.assertFalse(self.out.exists())

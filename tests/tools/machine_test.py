@@ -165,6 +165,51 @@ probes: [{name: middle, low: [-1, -1, 0.3], high: [1, 1, 0.4]}]
         for table in "supports.csv", "probes.csv":
             self.assertEqual(*[(folder / table).read_bytes() for folder in (self.out, parts)])
 
+    def test_a_bar_that_is_held_relaxes_to_what_is_left_of_its_modulus(self):
+        relaxing = ["--set", "material.relaxation_shares=[0.3, 0.2]", "--set", "material.relaxation_times=[0.05, 0.2]"]
+        pull = {}
+        for name, words in ("elastic", []), ("relaxed", relaxing), ("static", [*relaxing, "--set", "solver.method=static"]):
+            rows = self.run_of(PULL.format(by=0.002), *words, "--set", "solver.duration=3", "--set", "output.interval=1")
+            pull[name] = self.vector(rows["above"], "force")[2]
+        self.assert_near(pull["relaxed"], pull["elastic"] / 2, 0.005)
+        self.assert_near(pull["static"], pull["elastic"] / 2, 0.005)
+
+    def test_parts_inside_a_mesh_have_a_material_of_their_own(self):
+        inner = self.folder / "inner.obj"
+        box = (SOURCE / "data/meshes/box.obj").read_text().splitlines()
+        inner.write_text("\n".join(" ".join(["v", *(str(0.6 * float(x)) for x in line.split()[1:4])])
+                                   if line.startswith("v ") else line for line in box))
+        machine = """
+materials:
+  - {name: core, young_modulus: 3e5, poisson_ratio: 0.3, density: 4000, breaking_strain: 0.5, mesh: inner.obj}
+supports: [{name: wall, facing: [0, 0, 1]}]
+loads: [{name: weight, gravity: [0, 0, -2]}]
+"""
+        words = ["--set", "material.model=bonded_volume", "--set", "material.poisson_ratio=0.45"]
+        rows = self.run_of(machine, *words, "--set", "solver.method=static", "--set", "solver.duration=0",
+                           "--set", "output.arrays=stress")
+        record = json.loads((self.out / "run.json").read_text())
+        flesh, core = record["materials"]
+        self.assertEqual((flesh["name"], core["name"]), ("material", "core"))
+        self.assertEqual(flesh["particles"] + core["particles"], record["particles"])
+        self.assert_near(core["mass"], 4 * core["particles"] * record["particle_mass"], 1e-9)
+        self.assert_near(core["particles"] / record["particles"], 0.6 ** 3, 0.15)
+        weight = 2 * (flesh["mass"] + core["mass"])
+        self.assert_near(self.vector(rows["wall"], "force")[2], weight, 1e-5)
+        inner.rename(self.folder / "moved.obj")
+        sinew("measure", self.out)
+        page = (self.out / "report.html").read_text()
+        self.assertRegex(page, "Load steps.*frame 0.*iterations, residual")
+        self.assertIn("core", page)
+        inner.write_text(inner.with_name("moved.obj").read_text())
+        swinging, parts = [self.folder / name for name in ("swinging", "parts")]
+        shorter = [*words, "--set", "solver.duration=0.3"]
+        sinew("simulate", self.scene(machine), "-o", swinging, *shorter)
+        sinew("simulate", self.scene(machine), "-o", parts, *shorter, "--set", "solver.wall_time=0.1", check=None)
+        sinew("simulate", self.scene(machine), "-o", parts, *shorter, "--resume")
+        hashes = [json.loads((folder / "run.json").read_text())["state_hash"] for folder in (swinging, parts)]
+        self.assertEqual(*hashes)
+
     def test_its_resolved_scene_gives_the_same_run(self):
         machine = PULL.format(by=0.002)
         self.run_of(machine, "--set", "solver.duration=0.2")
@@ -250,6 +295,10 @@ probes:
                 ("supports:\n  - {name: a, ids: [1e6]}\n", r"there is no particle 1000000; give"),
                 ("loads:\n  - {name: a, pressure: 1, low: [1, 1, 1], high: [2, 2, 2]}\n",
                  "no face of the surface is in the part of"),
+                ("materials:\n  - {name: a, low: [0, 0, 0], high: [1, 1, 1]}\n", "material 'a' has nothing of its own; give"),
+                ("materials:\n  - {name: a, poisson_ratio: 0.3}\n", "ratio of bonds alone is 1/4"),
+                ("materials:\n  - {name: a, density: 5, mesh: none.obj}\n", "none.obj"),
+                ("supports:\n  - {name: a, hold: x, hold_along: [1, 1, 0]}\n", "has hold and hold_along; keep one"),
                 ("loads:\n  - {name: a, force: [0, 0, 1], component: 3}\n", "no particle is in the part"),
                 ("supports:\n  - {name: a, hold: z}\n  - {name: b, keys: [{time: 0}, {time: 1, angle: 5}]}\n",
                  r"supports 'a' and 'b' both hold z of \d+ particles, and move them differently; make")]:

@@ -278,6 +278,40 @@ def creep():
                measured={"retardation time, over the closed form": (retardation, 1, "")})
 
 
+PRONY = {"share": 0.5, "time": 0.5, "ramp": 0.05, "strain": 1e-3}
+
+
+def prony(time):
+    """The modulus over that at once of a bar that is pulled within the ramp and then held."""
+    g, tau, ramp = PRONY["share"], PRONY["time"], PRONY["ramp"]
+    return 1 - g + g * tau / ramp * (math.exp(-(time - ramp) / tau) - math.exp(-time / tau))
+
+
+def left_of_force(run):
+    """The load at the end over that after a fifth of the time, over the closed form."""
+    with (run / "supports.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["name"] == "above"]
+    early, late = rows[len(rows) // 5], rows[-1]
+    expected = prony(float(late["time"])) / prony(float(early["time"]))
+    return float(late["force_z"]) / float(early["force_z"]) / expected
+
+
+def relaxation():
+    """One branch of Maxwell's beside each bond."""
+    W, E, end = 0.1, 1e5, 1.0
+    L, by = 3 * W, 3 * W * PRONY["strain"]
+    yield Case("relaxation", "A bar pulled by 0.1 % and held relaxes: the standard linear solid", bar(W, L), W, [5, 7, 9],
+               elastic(E)[:-1] + f", relaxation_shares: [{PRONY['share']}], relaxation_times: [{PRONY['time']}], damping: 200, damping_form: central}}",
+               "supports:\n  - {name: below, hold: z, facing: [0, 0, -1]}\n"
+               "  - {name: above, hold: z, facing: [0, 0, 1], interpolation: linear, keys: [{time: 0}, "
+               f"{{time: {PRONY['ramp']}, translation: [0, 0, {by}]}}]}}\n"
+               "  - {name: left, hold: x, facing: [-1, 0, 0]}\n  - {name: front, hold: y, facing: [0, -1, 0]}\n",
+               {("above: force_z", "final"): (E * W * W * PRONY["strain"] * prony(end), "N")},
+               "E (1 - g (1 - exp(-t / tau))) A times the strain, g = 1/2, tau = 0.5 s", duration=end, interval=0.05,
+               solver="method: dynamic", quick=[3, 5, 7],
+               measured={"load at 1 s over that at 0.2 s, over the closed form": (left_of_force, 1, "")})
+
+
 def cook():
     """Cook's membrane in plane stress: a thin plate, sheared at its end. Linear: the load is small."""
     scale, thin = 1e-3, 48 / 13
@@ -292,4 +326,4 @@ def cook():
 
 
 def cases():
-    return [*bars(), *cook(), *turek_hron(), *swinging_beam(), *soft_cantilever(), *creep(), *beside_elements()]
+    return [*bars(), *cook(), *turek_hron(), *swinging_beam(), *soft_cantilever(), *creep(), *relaxation(), *beside_elements()]

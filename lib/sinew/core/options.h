@@ -92,8 +92,11 @@ struct MaterialOptions {
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;
   double creep_rate = 1;
+  std::optional<std::vector<double>> relaxation_shares, relaxation_times;  ///< g_i and tau_i
   double friction = 0;
 };
+
+inline constexpr std::size_t most_relaxation_branches = 4;
 
 /// Whether bonds of first and second neighbors, with factors, make the material isotropic in that
 /// packing.

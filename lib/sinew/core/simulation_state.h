@@ -83,6 +83,10 @@ struct SimulationState {
   // Of lists, where bonds change:
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel
+  // Of branches of bonds: how far their states are ahead, s, in the end; and of each branch the
+  // stretches of its dashpots, in lengths of the kernel, of each whole bond (of cells: m, of all).
+  std::vector<double> branch_clocks;
+  std::vector<double> branch_stretches;
   RelaxationState relaxation = {};
   /// Of each group of particles: c, its velocity, F and its rate (column by column).
   std::vector<double> groups = {};

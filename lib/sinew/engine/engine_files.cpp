@@ -128,9 +128,11 @@ void refuse_unsupported(const Body& body) {
   const Material& material = body.material;
   const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;
   const char* what = unknown != nullptr       ? unknown
-                     : bonds_change(material) ? "bonds that break or creep"
-                     : material.friction > 0  ? "friction of a body on itself"
-                                              : nullptr;
+                     : bonds_change(material) ? "bonds that break, creep or relax"
+                     : !(body.local.empty() && body.density.empty())
+                         ? "parts that differ in more than stiffness"
+                     : material.friction > 0 ? "friction of a body on itself"
+                                             : nullptr;
   if (what != nullptr)
     throw bad_input(std::string("engines in other programs know no ") + what,
                     "step this body with the built-in engine");

@@ -81,8 +81,8 @@ void walk(Material& material, Transfer& transfer) {
   for (double* value :
        {&bond.stiffness, &bond.second, &bond.breaking_strain, &bond.yield_shear, &bond.creep_rate})
     transfer(*value);
-  for (double* value :
-       {&material.volume_stiffness, &material.order, &material.mass, &material.damping})
+  for (double* value : {&material.relaxed, &material.volume_stiffness, &material.order,
+                        &material.mass, &material.damping})
     transfer(*value);
   transfer(material.damping_form);
 }

@@ -118,6 +118,7 @@ void walk(Pinned& pin, Transfer& transfer) {
   transfer(pin.particle);
   transfer(pin.bone);
   for (std::int32_t& support : pin.support) transfer(support);
+  transfer(pin.along);
 }
 
 template <class Transfer>
@@ -125,6 +126,7 @@ void walk(Support& support, Transfer& transfer) {
   transfer(support.name);
   for (bool& axis : support.holds) transfer(axis);
   transfer(support.pivot);
+  transfer(support.along);
 }
 
 template <class Transfer>

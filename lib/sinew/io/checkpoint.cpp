@@ -19,9 +19,9 @@ constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
 constexpr std::uint32_t format_version = 4, oldest_version = 3;
 constexpr std::size_t name_size = 8;
-// Bonds: 12 neighbors at rest, from both sides; the remainder: positions, velocities, order.
+// Bonds: 18 neighbors at rest, from both sides; branches of them; positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
-constexpr std::uint64_t most_bytes_per_particle = 512, most_bytes_beside = 1 << 20;
+constexpr std::uint64_t most_bytes_per_particle = 1280, most_bytes_beside = 1 << 20;
 
 Error no_checkpoint(const std::string& what) {
   return bad_input(what, "remove the file to go on from an older checkpoint");
@@ -64,6 +64,8 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("bonds", state.rest_length);
   transfer("lanes", state.bonded_lanes);
   transfer("creep", state.creep);
+  transfer("clocks", state.branch_clocks);
+  transfer("stretch", state.branch_stretches);
   transfer("atrest", state.relaxation.at_rest);
   transfer("iterate", state.relaxation.iterations);
   transfer("shorter", state.relaxation.shortened);

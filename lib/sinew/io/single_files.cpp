@@ -75,6 +75,12 @@ double shared(const std::vector<Column>& columns, const char* name) {
   return value;
 }
 
+void check_values(const std::vector<double>& values, const std::string& name) {
+  for (const double value : values)
+    if (!(value >= 0) || !std::isfinite(value))
+      throw no_body_file("the " + name + ' ' + std::to_string(value) + " of a particle is none");
+}
+
 void check(const Dataset& data) {
   if (data.points.empty()) throw no_body_file("it holds no particles");
   if (data.kind != CellKind::vertex) throw no_body_file("its cells are not particles");
@@ -93,17 +99,12 @@ void check_weights(const std::vector<double>& weights) {
                          " of a bone is not between 0 and 1");
 }
 
-void check_values(const std::vector<double>& values, const std::string& name) {
-  for (const double value : values)
-    if (!(value >= 0) || !std::isfinite(value))
-      throw no_body_file("the " + name + ' ' + std::to_string(value) + " of a particle is none");
-}
-
 BodyFile body_of(const Dataset& data) {
   check(data);
   BodyFile body;
-  body.particles = particles_at(data.points, shared(data.point_columns, "radius"),
-                                shared(data.point_columns, "mass"));
+  body.particles = particles_at(
+      data.points, shared(data.point_columns, "radius"),
+      shared(data.point_columns, find(data.point_columns, "density") ? "common_mass" : "mass"));
   body.neighbors = integers(data.point_columns, "neighbors");
   body.component = integers(data.point_columns, "component");
   if (find(data.point_columns, "share")) body.share = numbers(data.point_columns, "share");
@@ -111,6 +112,11 @@ BodyFile body_of(const Dataset& data) {
   if (find(data.point_columns, "stiffness"))
     body.stiffness = numbers(data.point_columns, "stiffness");
   if (body.stiffness) check_values(*body.stiffness, "stiffness");
+  if (find(data.point_columns, "density")) body.density = numbers(data.point_columns, "density");
+  if (body.density) check_values(*body.density, "density");
+  if (find(data.point_columns, "volume_stiffness"))
+    body.volume_stiffness = numbers(data.point_columns, "volume_stiffness");
+  if (body.volume_stiffness) check_values(*body.volume_stiffness, "volume_stiffness");
   if (find(data.point_columns, "bone")) body.bone = integers(data.point_columns, "bone");
   if (find(data.point_columns, "weight")) body.weight = numbers(data.point_columns, "weight");
   if (body.weight) check_weights(*body.weight);
@@ -130,11 +136,19 @@ Dataset body_dataset(BodyFile body) {
   data.connectivity = vertex_cells(count);
   data.point_columns.push_back(std::move(id));
   data.point_columns.push_back(column("radius", std::vector<double>(count, radius)));
-  data.point_columns.push_back(column("mass", std::vector<double>(count, mass)));
+  std::vector<double> masses(count, mass);
+  for (std::size_t i = 0; i < count && body.density; ++i) masses[i] *= (*body.density)[i];
+  data.point_columns.push_back(column("mass", std::move(masses)));
   data.point_columns.push_back(column("neighbors", std::move(body.neighbors)));
   data.point_columns.push_back(column("component", std::move(body.component)));
   if (body.share) data.point_columns.push_back(column("share", std::move(*body.share)));
   if (body.stiffness) data.point_columns.push_back(column("stiffness", std::move(*body.stiffness)));
+  if (body.density) {
+    data.point_columns.push_back(column("density", std::move(*body.density)));
+    data.point_columns.push_back(column("common_mass", std::vector<double>(count, mass)));
+  }
+  if (body.volume_stiffness)
+    data.point_columns.push_back(column("volume_stiffness", std::move(*body.volume_stiffness)));
   if (body.bone) data.point_columns.push_back(column("bone", std::move(*body.bone)));
   if (body.weight) data.point_columns.push_back(column("weight", std::move(*body.weight)));
   data.meta = std::move(body.meta);

@@ -81,13 +81,18 @@ Vec3 vector_sum(std::size_t count, const Value& value) {
 
 void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   const std::size_t n = rest.particles();
-  const Vec3 center = vector_sum(n, [&](std::size_t i) { return state.positions[i]; }) / double(n);
+  const auto share = [&](std::size_t i) { return rest.density.empty() ? 1 : rest.density[i]; };
+  const Vec3 center =
+      vector_sum(n, [&](std::size_t i) -> Vec3 { return share(i) * state.positions[i]; }) /
+      statistics(n, share).sum;
   out.center_x = center.x(), out.center_y = center.y(), out.center_z = center.z();
   if (state.velocities.empty()) return;
-  const Vec3 linear = rest.mass * vector_sum(n, [&](std::size_t i) { return state.velocities[i]; });
-  const Vec3 angular = rest.mass * vector_sum(n, [&](std::size_t i) -> Vec3 {
-                         return state.positions[i].cross(state.velocities[i]);
-                       });
+  const auto momentum = [&](std::size_t i) -> Vec3 {
+    return rest.mass_of(i) * state.velocities[i];
+  };
+  const Vec3 linear = vector_sum(n, momentum);
+  const Vec3 angular =
+      vector_sum(n, [&](std::size_t i) -> Vec3 { return state.positions[i].cross(momentum(i)); });
   out.momentum_x = linear.x(), out.momentum_y = linear.y(), out.momentum_z = linear.z();
   out.angular_momentum_x = angular.x();
   out.angular_momentum_y = angular.y();

@@ -68,7 +68,9 @@ Mat3 virial(double force, const Vec3& apart, double d) {
 Mat3 volume_stress(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
   if (rest.stiffened.empty() || rest.stiffened[i] == 0 || severed) return Mat3::Zero();
   const double J = deformation_gradient(rest.shape, state.positions, i).determinant();
-  return rest.law.volume_stiffness * rest.stiffened[i] * (J - 1) * J * Mat3::Identity();
+  const auto& local = rest.law.volume_stiffness_of;
+  const double stiffness = local.empty() ? rest.law.volume_stiffness : local[i];
+  return stiffness * rest.stiffened[i] * (J - 1) * J * Mat3::Identity();
 }
 
 }  // namespace

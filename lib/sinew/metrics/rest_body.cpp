@@ -176,7 +176,8 @@ RestBody rest_body(RestInput input) {
   if (input.law.second) body.second = second_neighbors(body.shape, input.law.second_range);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
-  if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);
+  if (input.law.volume_stiffness > 0 || !input.law.volume_stiffness_of.empty())
+    body.stiffened = volume_weights(body.shape, input.radius);
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;
@@ -185,6 +186,7 @@ RestBody rest_body(RestInput input) {
   body.start = input.start;
   body.law = std::move(input.law);
   body.mass = input.mass;
+  body.density = std::move(input.density);
   return body;
 }
 

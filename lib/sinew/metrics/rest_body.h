@@ -33,8 +33,9 @@ struct PairLaw {
   /// Neighbors at rest farther apart than this hold no longer, m.
   double reach = std::numeric_limits<double>::infinity();
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
-  bool bonds_change = false;    ///< they break or creep: a frame's state must contain them
-  bool has_muscles = false;     ///< a frame's state must contain their stress
+  std::vector<double> volume_stiffness_of = {};  ///< by particle; empty: as that
+  bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
+  bool has_muscles = false;   ///< a frame's state must contain their stress
 };
 
 /// Input: the body at rest and its constants. Particles are in the written order.
@@ -47,8 +48,9 @@ struct RestInput {
   double interaction_range = 0;  ///< b, m: pairs farther apart do not interact
   Energies start;                ///< of the first frame, from which the energy balance is taken
   PairLaw law;
-  double mass = not_measured;  ///< of a particle, kg
-  std::vector<double> weight;  ///< n; the weight of that bone in each particle; or empty
+  double mass = not_measured;        ///< of a particle, kg
+  std::vector<double> density = {};  ///< n; factors on it; or empty
+  std::vector<double> weight;        ///< n; the weight of that bone in each particle; or empty
 };
 
 /// A particle that follows a bone: its attachment at rest, and whether a joint is near.
@@ -78,8 +80,10 @@ struct RestBody {
   double radius = 0, interaction_range = 0;  ///< m
   Energies start;
   PairLaw law;
-  double mass = not_measured;  ///< of a particle, kg
+  double mass = not_measured;   ///< of a particle, kg
+  std::vector<double> density;  ///< n; factors on it; or empty
 
+  double mass_of(std::size_t i) const { return density.empty() ? mass : mass * density[i]; }
   std::size_t particles() const { return shape.points.size(); }
   /// Bonds of a particle at rest, if its material has some.
   std::size_t bonds_of(std::size_t i) const {

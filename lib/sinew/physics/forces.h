@@ -15,6 +15,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/physics/bond_factors.h>
 #include <sinew/physics/bone_force.h>
+#include <sinew/physics/local_strength.h>
 #include <sinew/physics/material.h>
 #include <sinew/rig/binding.h>
 #include <sinew/rig/pose.h>
@@ -55,12 +56,28 @@ struct Body {
   /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
   std::vector<double> share = {};
   std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
+  std::vector<double> density = {};    ///< the same of the density
   /// Of each particle, its place in the scene's list of materials, from 1, or 0; empty: 0 each.
   std::vector<std::int32_t> material_number = {};
+  LocalStrength local = {};  ///< of the materials of its parts
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
   std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
   std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
 };
+
+/// Of one of its particles, by id, kg; `common`: of one with the material's density.
+inline double mass_of(const Body& body, std::size_t id, double common) {
+  return body.density.empty() ? common : common * body.density[id];
+}
+/// Of all of them.
+double total_mass(const Body& body, double common);
+/// The material with the mass of the lightest particle.
+Material lightest(const Body& body);
+
+/// Whether any of its particles keeps its volume.
+inline bool keeps_volume(const Body& body) {
+  return largest_of(body.local.volume, body.material.volume_stiffness) > 0;
+}
 
 /// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbors.
 void pair_forces(const Particles& particles, const Material& material, Forces& forces);

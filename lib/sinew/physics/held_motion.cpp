@@ -100,6 +100,10 @@ void add_what_holds(const Body& body, const std::vector<std::size_t>& part,
       hold_by_bone(body, by, body.rest[i], parts[part[i]]);
   if (!body.world) return;
   for (const Pinned& pin : body.world->pins)
+    if (pin.is_oblique())
+      parts[part[pin.particle]].add(body.rest[pin.particle], pin.along,
+                                    parts[part[pin.particle]].held);
+  for (const Pinned& pin : body.world->pins)
     for (int axis = 0; axis < 3; ++axis)
       if (pin.holds(axis))
         parts[part[pin.particle]].add(body.rest[pin.particle], Vec3::Unit(axis),

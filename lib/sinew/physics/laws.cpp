@@ -59,7 +59,8 @@ const ForceLaw& law_of(const Material& material) {
 
 bool bonds_change(const Material& material) {
   return law_of(material).has_bonds &&
-         (material.bond.breaking_strain > 0 || material.bond.yield_shear > 0);
+         (material.bond.breaking_strain > 0 || material.bond.yield_shear > 0 ||
+          material.bond.branch_count() > 0);
 }
 
 }  // namespace sinew

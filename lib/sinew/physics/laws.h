@@ -37,7 +37,7 @@ std::span<const ForceLaw> force_laws();
 /// The law of a material: bonded models know one cohesion.
 const ForceLaw& law_of(const Material& material);
 
-/// Whether it has bonds that break or creep: its forces then depend on its history.
+/// Whether it has bonds that break, creep or relax: its forces then depend on its history.
 bool bonds_change(const Material& material);
 
 }  // namespace sinew

@@ -27,11 +27,6 @@ double k1_of(const MaterialOptions& settings, const PackingStiffness& packing, P
   return settings.young_modulus / (2 * per_k);  // E = per_k k / d0, k = 4 k1 r = 2 k1 d0
 }
 
-double poisson_ratio_of(const MaterialOptions& settings) {
-  constexpr double of_springs = 0.25;
-  return settings.model == MaterialModel::bonded_volume ? settings.poisson_ratio : of_springs;
-}
-
 PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   PackingStiffness packing;
   if (settings.model == MaterialModel::paper) return packing;
@@ -39,12 +34,6 @@ PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   if (settings.model == MaterialModel::bonded_volume)
     packing.volume = volume_stiffness_for(settings.poisson_ratio, packing.second);
   return packing;
-}
-
-/// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
-/// strain.
-double yield_shear(double yield_strain, double poisson_ratio) {
-  return yield_strain * (1 + poisson_ratio) * std::sqrt(2.0 / 3);
 }
 
 /// The strain at which bonds of such a material break so that a crack takes that energy per area
@@ -65,19 +54,57 @@ void bond(const MaterialOptions& settings, const PackingStiffness& packing, Mate
   material.bond = {k, packing.second * k, breaking_strain,
                    yield_shear(settings.yield_strain.value_or(0), poisson_ratio_of(settings)),
                    settings.creep_rate};
+  if (settings.relaxation_shares && settings.relaxation_times)
+    for (std::size_t b = 0; b < settings.relaxation_shares->size(); ++b)
+      material.bond.branches[b] = {settings.relaxation_shares->at(b),
+                                   settings.relaxation_times->at(b)};
   material.volume_stiffness = material.order * packing.volume * k / (2 * material.pair.r);
 }
 
 }  // namespace
 
+double poisson_ratio_of(const MaterialOptions& settings) {
+  constexpr double of_springs = 0.25;
+  return settings.model == MaterialModel::bonded_volume ? settings.poisson_ratio : of_springs;
+}
+
+double yield_shear(double yield_strain, double poisson_ratio) {
+  return yield_strain * (1 + poisson_ratio) * std::sqrt(2.0 / 3);
+}
+
+double local_volume_stiffness(const Material& material, double relative, double poisson_ratio) {
+  return material.order * relative * volume_stiffness_for(poisson_ratio, isotropic_second) *
+         material.pair.contact_stiffness() / (2 * material.pair.r);
+}
+
+std::size_t BondStrength::branch_count() const {
+  return static_cast<std::size_t>(std::count_if(branches.begin(), branches.end(),
+                                                [](const auto& one) { return one.share > 0; }));
+}
+
+double BondStrength::long_term() const {
+  double left = 1;
+  for (const MaxwellBranch& branch : branches) left -= branch.share;
+  return left;
+}
+
+Material long_term(Material material) {
+  const double left = material.bond.long_term();
+  material.relaxed *= left;
+  material.bond.stiffness *= left;
+  material.bond.second *= left;
+  material.bond.branches = {};
+  return material;
+}
+
 PackingStiffness Material::packing() const {
-  const double k_over_d0 = 2 * pair.k1;
+  const double k_over_d0 = 2 * pair.k1 * relaxed;
   return {bond.second / (2 * pair.r * k_over_d0), volume_stiffness / (order * k_over_d0)};
 }
 
 double Material::young_modulus() const {
   if (bond.second > 0) return constants().hill_young_modulus();
-  const double k_over_d0 = 2 * pair.k1;
+  const double k_over_d0 = 2 * pair.k1 * relaxed;
   if (volume_stiffness <= 0) return hill_young * k_over_d0;
   const double K = bulk_of_bonds * k_over_d0 + volume_stiffness, G = hill_shear * k_over_d0;
   return 9 * K * G / (3 * K + G);
@@ -89,7 +116,7 @@ double Material::stiffness() const {
 }
 
 CubicConstants Material::constants() const {
-  const double k_over_d0 = 2 * pair.k1;
+  const double k_over_d0 = 2 * pair.k1 * relaxed;
   CubicConstants constants = fcc_constants(packing());
   for (double* C : {&constants.C11, &constants.C12, &constants.C44}) *C *= order * k_over_d0;
   return constants;

@@ -5,11 +5,19 @@
 //     const Material material = make_material(options, {radius, mass});
 #pragma once
 
+#include <array>
+
 #include <sinew/core/options.h>
 #include <sinew/physics/elasticity.h>
 #include <sinew/physics/pair_force.h>
 
 namespace sinew {
+
+/// A spring and a dashpot in series beside each bond (see maxwell.h).
+struct MaxwellBranch {
+  double share = 0;  ///< g, of the bond's stiffness; 0: none
+  double time = 0;   ///< tau, s
+};
 
 /// Strength of the bonds of a solid. Strains are changes of a bond's length over its rest length.
 struct BondStrength {
@@ -19,6 +27,11 @@ struct BondStrength {
   /// Shear sqrt(D : D) around a particle beyond which its bonds creep (see solid.h); 0: never.
   double yield_shear = 0;
   double creep_rate = 0;  ///< of what exceeds it, 1/s
+  std::array<MaxwellBranch, most_relaxation_branches> branches =
+      {};  ///< those there are come first
+
+  std::size_t branch_count() const;
+  double long_term() const;  ///< stiffness that does not relax, over all of it
 };
 
 struct Material {
@@ -27,6 +40,7 @@ struct Material {
   PairForce pair;
   BondStrength bond;
   double volume_stiffness = 0;  ///< K_v, Pa
+  double relaxed = 1;           ///< factor on the bonds, where their branches are relaxed for good
   double order = 1;             ///< moduli of the bonds over those in FCC: less in random packings
   double mass = 0;              ///< of a particle, kg
   double damping = 0;           ///< C of eq. 2, kg/s
@@ -51,5 +65,16 @@ struct PackedBody {
 /// The constants for the particles of a body. A damping ratio is left to elastic_modes.h: it
 /// depends on the body's shape.
 Material make_material(const MaterialOptions& settings, const PackedBody& body);
+
+/// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
+/// strain.
+double yield_shear(double yield_strain, double poisson_ratio);
+/// That of Poisson's ratio in the options: of bonds alone where no volume is kept.
+double poisson_ratio_of(const MaterialOptions& settings);
+/// K_v of bonds `relative` times as stiff as the material's are at once, Pa.
+double local_volume_stiffness(const Material& material, double relative, double poisson_ratio);
+
+/// The material once its branches have relaxed, without them.
+Material long_term(Material material);
 
 }  // namespace sinew

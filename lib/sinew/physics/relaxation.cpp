@@ -28,6 +28,7 @@ ObstacleMotion standing(const ObstacleMotion& motion) {
 
 Body undamped(Body body) {
   body.material.damping = 0;
+  body.material = long_term(body.material);
   for (BoneSprings& springs : body.springs) springs.damping = 0;
   if (!body.world) return body;
   World world = *body.world;

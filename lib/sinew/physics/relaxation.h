@@ -38,8 +38,8 @@ struct LoadSteps {
 /// The largest step of a relaxation over the step limit: bent bodies rattle beyond.
 inline constexpr double relaxing_step_factor = 0.8;
 
-/// The body without what resists motion alone: its own damping, that of bones and of a medium; and
-/// in a world in which everything stands still at each moment.
+/// The body without what resists motion alone: its own damping, that of bones and of a medium, and
+/// branches, which have relaxed; and in a world in which everything stands still at each moment.
 Body undamped(Body body);
 
 /// How a body came to rest.

@@ -168,7 +168,7 @@ void Simulation::change_step(double step) {
   const auto shift = [&](auto& moving) {
     for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
       const std::size_t i = state.order.empty() ? k : state.order[k];
-      const Vec3 gain = later / unit * (forces_.total(i) / particles_.mass + stepping_.gravity);
+      const Vec3 gain = later / unit * (forces_.total(i) / mass(i) + stepping_.gravity);
       for (int axis = 0; axis < 3; ++axis) {
         auto& v = moving.v[axis][k];
         v = static_cast<std::remove_reference_t<decltype(v)>>(v + gain[axis]);
@@ -291,8 +291,8 @@ Energies Simulation::energies() {
       parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i) {
-          const Vec3 acceleration = forces_.total(i) / now.mass + stepping_.gravity;
-          sum += now.mass / 2 * (now.velocity(i) + behind * acceleration).squaredNorm();
+          const Vec3 acceleration = forces_.total(i) / mass(i) + stepping_.gravity;
+          sum += mass(i) / 2 * (now.velocity(i) + behind * acceleration).squaredNorm();
         }
         return sum;
       });
@@ -300,7 +300,7 @@ Energies Simulation::energies() {
       parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i)
-          sum -= now.mass * stepping_.gravity.dot(now.position(i));
+          sum -= mass(i) * stepping_.gravity.dot(now.position(i));
         return sum;
       });
   energies.pair = balance_.pair_energy;

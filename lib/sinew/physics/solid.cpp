@@ -26,8 +26,13 @@ std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
   return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
 }
 
-double energy_of_bond(const PairForce* contact, double stiffness, double length, double d) {
-  if (length > 0) return stiffness / 2 * (d - length) * (d - length);
+/// Of a whole bond; of a pair whose bond broke.
+double energy_of_bond(const Branches& branches, std::size_t entry, const BondSpring& spring,
+                      double d) {
+  const double longer = d - spring.length;
+  return spring.stiffness / 2 * longer * longer + branches.energy(spring, entry, d);
+}
+double energy_of_contact(const PairForce* contact, double d) {
   if (contact == nullptr || d >= 2 * contact->r) return 0;
   return contact->potential(d) - contact->potential(2 * contact->r);
 }
@@ -108,14 +113,27 @@ double volume_weight(const Mat3& A, double radius) {
 
 bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
+/// Of particles in their order.
+LocalStrength in_order(const LocalStrength& local, std::span<const std::int32_t> id) {
+  LocalStrength ordered;
+  for (const auto list : {&LocalStrength::volume, &LocalStrength::breaking, &LocalStrength::yield})
+    for (std::size_t i = 0; i < id.size() && !(local.*list).empty(); ++i)
+      (ordered.*list).push_back((local.*list)[static_cast<std::size_t>(id[i])]);
+  return ordered;
+}
+
 Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t> id,
-             const BondFactors& factors)
+             const BondFactors& factors, const LocalStrength& local)
     : material_(material),
       law_(&law_of(material)),
       rest_(std::move(rest)),
-      bonds_(make_bonds(rest_, material, id, factors)) {
-  if (material_.volume_stiffness <= 0) return;
+      bonds_(make_bonds(rest_, material, id, factors)),
+      branches_(material.bond, bonds_.nearest.neighbors.neighbor.size(),
+                bonds_.second.neighbors.neighbor.size()),
+      local_(in_order(local, id)) {
   const std::size_t n = rest_.size();
+  if (largest_of(local_.volume, material_.volume_stiffness) <= 0) return;
+  local_.volume.resize(n, material_.volume_stiffness);
   inverse_.assign(n, Mat3::Zero());
   weight_.assign(n, 0);
   volume_.assign(n, 0);
@@ -125,6 +143,14 @@ Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t
     weight_[i] = volume_weight(A, material_.pair.r);
     if (weight_[i] > 0) inverse_[i] = A.inverse();
   });
+}
+
+double Solid::free_length(bool nearest, std::uint32_t entry) const {
+  const Bonds& bonds = nearest ? bonds_.nearest : bonds_.second;
+  double length = bonds.rest_length[entry];
+  for (const Branches::One& one : (nearest ? branches_.nearest : branches_.second).all)
+    length += one.share * one.stretch[entry];
+  return length;
 }
 
 /// Calls visit(BondNow) for what still holds particle i: bonds to nearest neighbors that are whole;
@@ -149,7 +175,7 @@ void Solid::for_each_touched(const Particles& particles, const CellGrid& cells, 
 /// F_i, J_i and the stress that keeps the volume. Where a bond broke, the body is severed and keeps
 /// no volume.
 void Solid::find_volumes(const Particles& particles) {
-  if (material_.volume_stiffness <= 0) return;
+  if (local_.volume.empty()) return;
   const double V0 = volume_per_particle(material_.pair.r);
   for_each_particle(rest_.size(), [&](std::size_t i) {
     thrust_[i].setZero();
@@ -160,8 +186,7 @@ void Solid::find_volumes(const Particles& particles) {
       moved += (particles.position(j) - particles.position(i)) * (rest_[j] - rest_[i]).transpose();
     const Mat3 F = moved * inverse_[i];
     volume_[i] = F.determinant() - 1;
-    thrust_[i] =
-        material_.volume_stiffness * V0 * weight_[i] * volume_[i] * (cofactors(F) * inverse_[i]);
+    thrust_[i] = local_.volume[i] * V0 * weight_[i] * volume_[i] * (cofactors(F) * inverse_[i]);
   });
 }
 
@@ -174,15 +199,16 @@ Vec3 Solid::volume_force(std::size_t i) const {
 }
 
 double Solid::volume_energy(std::size_t i) const {
-  return material_.volume_stiffness / 2 * volume_per_particle(material_.pair.r) * weight_[i] *
-         volume_[i] * volume_[i];
+  return local_.volume[i] / 2 * volume_per_particle(material_.pair.r) * weight_[i] * volume_[i] *
+         volume_[i];
 }
 
 void Solid::add_springs_of_second(const Particles& particles, Forces& forces) const {
   if (bonds_.second.size() == 0) return;
   for_each_particle(particles.size(), [&](std::size_t i) {
     for_each_bond(bonds_.second, particles, i, [&](const BondNow& bond) {
-      forces.pair[i] += law_->bond_force(material_, bond.spring, bond.distance) *
+      const BondSpring spring = branches_.second.with(bond.spring, bond.entry);
+      forces.pair[i] += law_->bond_force(material_, spring, bond.distance) *
                         direction_from(particles, bond.offset, bond.distance, i, bond.neighbor);
     });
   });
@@ -193,7 +219,8 @@ void Solid::forces(const Particles& particles, Forces& forces) {
   const auto for_each_partner = [&](std::size_t i, auto&& visit) {
     for_each_held(particles, i, [&](const BondNow& bond) {
       visit(bond.neighbor, bond.offset, bond.distance,
-            law_->bond_force(material_, bond.spring, bond.distance));
+            law_->bond_force(material_, branches_.nearest.with(bond.spring, bond.entry),
+                             bond.distance));
     });
     for_each_touched(particles, cells, i, [&](std::uint32_t j, const Vec3& offset, double d) {
       visit(j, offset, d, law_->force(material_, d));
@@ -201,7 +228,7 @@ void Solid::forces(const Particles& particles, Forces& forces) {
   };
   pair_pass(particles, material_, for_each_partner, forces);
   add_springs_of_second(particles, forces);
-  if (material_.volume_stiffness <= 0) return;
+  if (local_.volume.empty()) return;
   find_volumes(particles);
   for_each_particle(particles.size(), [&](std::size_t i) { forces.pair[i] += volume_force(i); });
 }
@@ -211,16 +238,19 @@ double Solid::energy(const Particles& particles) {
   find_volumes(particles);
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double sum = 0;
-    const auto add = [&](const BondNow& bond) {
-      sum +=
-          law_->bond_energy(material_, bond.spring, bond.distance) / 2;  // half for each of the two
+    const auto add_to = [&](const Branches& branches) {
+      return [&](const BondNow& bond) {  // half for each of the two
+        sum += (law_->bond_energy(material_, bond.spring, bond.distance) +
+                branches.energy(bond.spring, bond.entry, bond.distance)) /
+               2;
+      };
     };
-    for_each_held(particles, i, add);
-    for_each_bond(bonds_.second, particles, i, add);
+    for_each_held(particles, i, add_to(branches_.nearest));
+    for_each_bond(bonds_.second, particles, i, add_to(branches_.second));
     for_each_touched(particles, cells, i, [&](std::uint32_t, const Vec3&, double d) {
       sum += law_->energy(material_, d) / 2;
     });
-    if (material_.volume_stiffness > 0) sum += volume_energy(i);
+    if (!local_.volume.empty()) sum += volume_energy(i);
     return sum;
   });
 }
@@ -255,16 +285,16 @@ void Solid::restore(const std::vector<double>& rest_length) {
 
 /// P of each particle; none where no bond creeps.
 std::vector<Mat3> Solid::flow(const Particles& particles) const {
-  const double yield = material_.bond.yield_shear;
-  if (yield <= 0) return {};
+  if (material_.bond.yield_shear <= 0) return {};
   std::vector<Mat3> flow(rest_.size(), Mat3::Zero());
   for_each_particle(rest_.size(), [&](std::size_t i) {
     double weights = 0, pulls = 0;
     Mat3 stress = Mat3::Zero(), spread = Mat3::Zero();
-    const auto add = [&](const BondNow& bond) {
+    const auto add = [&](const Branches& branches, const BondNow& bond) {
       const double k = bond.spring.stiffness;
       const double weight = k * (rest_[i] - rest_[bond.neighbor]).squaredNorm();
-      const double pull = k * (bond.distance - bond.spring.length) * bond.distance;
+      const BondSpring now = branches.with(bond.spring, bond.entry);
+      const double pull = now.stiffness * (bond.distance - now.length) * bond.distance;
       weights += weight;
       pulls += pull;
       if (bond.distance == 0) return;
@@ -272,26 +302,33 @@ std::vector<Mat3> Solid::flow(const Particles& particles) const {
       stress += pull * n * n.transpose();
       spread += weight * n * n.transpose();
     };
-    for_each_bond(bonds_.nearest, particles, i, add);
-    for_each_bond(bonds_.second, particles, i, add);
+    for_each_bond(bonds_.nearest, particles, i,
+                  [&](const auto& bond) { add(branches_.nearest, bond); });
+    for_each_bond(bonds_.second, particles, i,
+                  [&](const auto& bond) { add(branches_.second, bond); });
     if (weights == 0) return;
     const Mat3 T = (stress - pulls / weights * spread) / weights;
     const Mat3 D = strain_per_stress * (T - T.trace() / 3 * Mat3::Identity());
-    const double shear = D.norm();
+    const double shear = D.norm(), yield = value_at(local_.yield, i, material_.bond.yield_shear);
     if (shear > yield) flow[i] = (1 - yield / shear) * D;
   });
   return flow;
 }
 
-/// Lets bonds creep and break over a step (s). `contact`: of a pair once its bond broke; none where
-/// it repels anyhow. Returns the energy lost, J.
-double Solid::evolve(Bonds& bonds, const PairForce* contact, const std::vector<Mat3>& flow,
-                     const Particles& particles, double step) const {
+double Solid::breaking_strain(std::size_t i, std::size_t j) const {
+  const double common = material_.bond.breaking_strain;
+  return std::min(value_at(local_.breaking, i, common), value_at(local_.breaking, j, common));
+}
+
+/// Lets bonds relax, creep and break over a step (s). `contact`: of a pair once its bond broke;
+/// none where it repels anyhow. Returns the energy lost, J.
+double Solid::evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
+                     const std::vector<Mat3>& flow, const Particles& particles, double step) const {
   const BondStrength& strength = material_.bond;
   const double crept = -std::expm1(-strength.creep_rate * step);
   const auto next_length = [&](std::size_t i, const BondNow& bond) {
     const double l = bond.spring.length;
-    if (strength.breaking_strain > 0 && bond.distance > l * (1 + strength.breaking_strain))
+    if (strength.breaking_strain > 0 && bond.distance > l * (1 + breaking_strain(i, bond.neighbor)))
       return 0.0;
     if (flow.empty() || bond.distance == 0) return l;
     const Vec3 n = bond.offset / bond.distance;
@@ -305,11 +342,14 @@ double Solid::evolve(Bonds& bonds, const PairForce* contact, const std::vector<M
       const std::uint32_t j = bonds.neighbors.neighbor[e];
       const Vec3 offset = particles.position(i) - particles.position(j);
       const double d = offset.norm(), before = bonds.rest_length[e], k = bonds.stiffness[e];
-      const double after = next_length(i, {j, offset, d, {before, k}});
+      released += branches.relax({before, k}, e, d) / 2;
+      const double after = next_length(i, {j, offset, d, {before, k}, e});
       bonds.rest_length[e] = after;
       bonds.broken[i] += after == 0;
-      released +=
-          (energy_of_bond(contact, k, before, d) - energy_of_bond(contact, k, after, d)) / 2;
+      released += (energy_of_bond(branches, e, {before, k}, d) -
+                   (after > 0 ? energy_of_bond(branches, e, {after, k}, d)
+                              : energy_of_contact(contact, d))) /
+                  2;
     }
     return released;
   });
@@ -320,9 +360,10 @@ double Solid::evolve(const Particles& particles, double step) {
   std::vector<bool> severed(rest_.size());
   for (std::size_t i = 0; i < severed.size(); ++i) severed[i] = broken(i) > 0;
   const std::vector<Mat3> now = flow(particles);
-  double released = evolve(bonds_.nearest, &material_.pair, now, particles, step) +
-                    evolve(bonds_.second, nullptr, now, particles, step);
-  if (material_.volume_stiffness <= 0) return released;
+  double released =
+      evolve(bonds_.nearest, branches_.nearest, &material_.pair, now, particles, step) +
+      evolve(bonds_.second, branches_.second, nullptr, now, particles, step);
+  if (local_.volume.empty()) return released;
   for (std::size_t i = 0; i < severed.size(); ++i)
     if (!severed[i] && broken(i) > 0) released += volume_energy(i);
   return released;

@@ -17,6 +17,7 @@
 // exceeds the yield shear y, the rest length of a bond between i and j changes by
 //   dl/dt = rate l n (P_i + P_j)/2 n,  P = (1 - y / sqrt(D : D)) D, or 0 below it:
 // shear decays to the yield shear, and pressure stays.
+// Bonds that relax have branches: see maxwell.h.
 // paper with cohesion initial_neighbors: eq. 1, but only neighbors at rest attract each other.
 //
 //     Solid solid(material, rest);
@@ -32,7 +33,9 @@
 #include <sinew/physics/bond_factors.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/laws.h>
+#include <sinew/physics/local_strength.h>
 #include <sinew/physics/material.h>
+#include <sinew/physics/maxwell.h>
 
 namespace sinew {
 
@@ -68,6 +71,7 @@ struct BondNow {
   Vec3 offset;  ///< from it, m
   double distance;
   BondSpring spring;
+  std::uint32_t entry;
 };
 
 /// Calls visit(BondNow) for the unbroken bonds of particle i.
@@ -77,7 +81,7 @@ void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i
     if (!bonds.whole(e)) continue;
     const std::uint32_t j = bonds.neighbors.neighbor[e];
     const Vec3 offset = particles.position(i) - particles.position(j);
-    visit(BondNow{j, offset, offset.norm(), {bonds.rest_length[e], bonds.stiffness[e]}});
+    visit(BondNow{j, offset, offset.norm(), {bonds.rest_length[e], bonds.stiffness[e]}, e});
   }
 }
 
@@ -89,9 +93,13 @@ double volume_weight(const Mat3& A, double radius);
 
 class Solid {
  public:
-  /// `rest` in the order of the particles, m; `id` and `factors` as in make_bonds().
+  /// `rest` in the order of the particles, m; `id` and `factors` as in make_bonds(); `local` by id.
   Solid(const Material& material, Points rest, std::span<const std::int32_t> id = {},
-        const BondFactors& factors = {});
+        const BondFactors& factors = {}, const LocalStrength& local = {});
+
+  /// Of its bonds: what follows is of the step that began there last.
+  MaxwellBranches& branches() { return branches_; }
+  const MaxwellBranches& branches() const { return branches_; }
 
   /// Pair forces, and eq. 2 between partners: particles that are bonded (in the paper's model,
   /// neighbors at rest closer than b) or touch. Bodies that do not touch must not drag each other.
@@ -111,6 +119,9 @@ class Solid {
   /// Throws bad input where they are not this solid's.
   std::vector<double> rest_lengths() const;
   void restore(const std::vector<double>& rest_length);
+  /// Of an entry of bonds().nearest or .second that is whole, the length at which it pulls nothing
+  /// as long as its branches stay, m.
+  double free_length(bool nearest, std::uint32_t entry) const;
 
  private:
   template <class Visit>
@@ -122,14 +133,17 @@ class Solid {
   void find_volumes(const Particles& particles);
   Vec3 volume_force(std::size_t i) const;
   std::vector<Mat3> flow(const Particles& particles) const;
-  double evolve(Bonds& bonds, const PairForce* contact, const std::vector<Mat3>& flow,
-                const Particles& particles, double step) const;
+  double evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
+                const std::vector<Mat3>& flow, const Particles& particles, double step) const;
   double volume_energy(std::size_t i) const;
+  double breaking_strain(std::size_t i, std::size_t j) const;
 
   Material material_;
   const ForceLaw* law_;
   Points rest_;
   SolidBonds bonds_;
+  MaxwellBranches branches_;
+  LocalStrength local_;         ///< by particle; volume: empty where none is kept
   std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept
   std::vector<double> weight_;  ///< w_i
   std::vector<double> volume_;  ///< J_i - 1 at the positions of the last call of forces()

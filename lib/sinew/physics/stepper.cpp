@@ -21,4 +21,15 @@ void BondRest::set(std::int32_t i, std::int32_t j, bool nearest, double length) 
   length_[(nearest ? 0 : nearest_.neighbor.size()) + entry] = length;
 }
 
+void check_branches(const SimulationState& state, std::size_t branches) {
+  const auto finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double one) { return std::isfinite(one); });
+  };
+  if (state.branch_clocks.size() != branches)
+    throw not_a_state("its bonds have " + std::to_string(state.branch_clocks.size()) +
+                      " branches, not " + std::to_string(branches));
+  if (!finite(state.branch_clocks) || !finite(state.branch_stretches))
+    throw not_a_state("a branch of a bond has no length");
+}
+
 }  // namespace sinew

@@ -153,6 +153,9 @@ void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particle
   }
 }
 
+/// Throws bad input unless there are so many branches of bonds, all finite.
+void check_branches(const SimulationState& state, std::size_t branches);
+
 /// How often neighbor lists were made, and how long they are.
 struct ListCounts {
   std::int64_t rebuilds = 0, surveys = 0, sorts = 0;  ///< of all pieces

@@ -92,6 +92,20 @@ double highest_frequency_squared(const Material& material,
          material.mass;
 }
 
+double stiffest_volume(const Body& body) {
+  const Material& material = body.material;
+  const PackingStiffness packing = material.packing();
+  const double k_over_d0 = 2 * material.pair.k1 * material.relaxed * material.order;
+  double most = 0;
+  for (std::size_t i = 0; i < body.local.volume.size(); ++i) {
+    const double relative = value_at(body.stiffness, i, 1);
+    const double factor =
+        highest_frequency_factor({packing.second, body.local.volume[i] / (relative * k_over_d0)});
+    most = std::max(most, relative * factor / 2);  // w^2 is twice the stiffest
+  }
+  return most;
+}
+
 double step_limit(Integrator integrator, const Material& material,
                   const std::vector<BoneSprings>& springs, const WorldLoad& world,
                   double stiffest) {
@@ -139,10 +153,10 @@ class NearRest {
   NearRest(const Body& body, const WorldLoad& world)
       : body_(body),
         world_(world),
-        particles_(particles_at(body.rest, body.material.pair.r, body.material.mass)),
+        particles_(particles_at(body.rest, body.material.pair.r, lightest(body).mass)),
         at_rest_(rest_pose(body.skeleton)) {
     if (remembers_neighbors(body.material))
-      solid_.emplace(body.material, body.rest, particles_.id, body.factors);
+      solid_.emplace(body.material, body.rest, particles_.id, body.factors, body.local);
     bias_ = forces(Motions::Zero(3, particles_.size()), 0);
   }
 
@@ -150,7 +164,7 @@ class NearRest {
 
   /// (dt^2 / 4 K + dt / 2 D) u / m
   Motions driven(const Motions& u, double dt) {
-    const double mass = body_.material.mass;
+    const double mass = particles_.mass;
     return (bias_ - forces(u, dt)) / mass +
            (dt * dt / 4 * world_.stiffness / mass + dt / 2 * world_.damping) * u;
   }
@@ -202,7 +216,7 @@ bool is_thin(const Points& rest, double radius) {
 double power_step_limit(const Body& body, const WorldLoad& world) {
   NearRest near(body, world);
   Motions u = random_motion(near.size());
-  double step = step_limit(Integrator::symplectic_euler, body.material, body.springs, world,
+  double step = step_limit(Integrator::symplectic_euler, lightest(body), body.springs, world,
                            body.factors.stiffest);
   const auto scaled = [&](const Motions& to) -> Motions {
     return smallness * body.material.pair.r / (step * step / 4) / to.cwiseAbs().maxCoeff() * to;
@@ -226,7 +240,7 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
 
 double step_limit(Integrator integrator, const Body& body, const WorldLoad& world) {
   const double limit =
-      step_limit(integrator, body.material, body.springs, world, body.factors.stiffest);
+      step_limit(integrator, lightest(body), body.springs, world, body.factors.stiffest);
   const PairForce& pair = body.material.pair;
   const bool linear =
       body.material.model != MaterialModel::paper || std::abs(pair.lambda() - 1) < 1e-3;

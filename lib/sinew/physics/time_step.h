@@ -27,6 +27,10 @@ struct WorldLoad {
 /// packing.)
 double highest_frequency_squared(const Material& material, const std::vector<BoneSprings>& springs);
 
+/// What BondFactors::stiffest must be for the stiffest of the parts of a body that keep volumes of
+/// their own; 0 without.
+double stiffest_volume(const Body& body);
+
 /// The largest stable step, s. Symplectic Euler and velocity Verlet, which damps with the half-step
 /// velocity: (sqrt(g^2 + 4 w^2) - g) / w^2, the least over the modes inside the packing (damped at
 /// g = (4/3) C/m, central (2/3) C/m) and those at its surface. Explicit Euler: the least over

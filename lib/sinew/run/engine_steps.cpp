@@ -23,7 +23,7 @@ bool any_of(const List& list, Test&& test) {
   return std::any_of(list.begin(), list.end(), test);
 }
 
-constexpr std::array<Unsupported, 10> unsupported = {{
+constexpr std::array<Unsupported, 13> unsupported = {{
     {"solver.precision", "single precision", "set it to double",
      [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
     {"solver.neighbor_search", "the paper's cells", "set it to lists",
@@ -38,6 +38,20 @@ constexpr std::array<Unsupported, 10> unsupported = {{
      [](const Settings& scene) { return scene.material.fracture_energy.has_value(); }},
     {"material.yield_strain", "bonds that creep", "leave it out",
      [](const Settings& scene) { return scene.material.yield_strain.has_value(); }},
+    {"material.relaxation_shares", "bonds that relax", "leave it out",
+     [](const Settings& scene) { return scene.material.relaxation_shares.has_value(); }},
+    {"materials", "parts that differ in more than stiffness", "leave them out",
+     [](const Settings& scene) {
+       const bool volumes = scene.material.model == MaterialModel::bonded_volume;
+       return any_of(scene.materials, [&](const auto& one) {
+         return one.has_strength() || one.density || (volumes && one.is_elastic());
+       });
+     }},
+    {"bodies", "bodies that differ in more than stiffness", "leave them out",
+     [](const Settings& scene) {
+       return scene.material.model == MaterialModel::bonded_volume &&
+              any_of(scene.bodies, [](const auto& one) { return one.young_modulus.has_value(); });
+     }},
     {"material.friction", "friction of a body on itself", "leave it out",
      [](const Settings& scene) { return scene.material.friction > 0; }},
     {"world.obstacles", "obstacles of meshes", "choose another shape",

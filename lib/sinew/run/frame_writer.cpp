@@ -191,6 +191,7 @@ void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const dou
   arrays_ = additional_arrays(output, body_);
   if (arrays_.empty() && !output.bonds && !probe_table_) return;
   RestInput input = measured_body(body_.material, body_.skeleton, body_.factors);
+  input.law.volume_stiffness_of = body_.local.volume;
   input.positions = body_.rest;
   input.surface = surface_;
   const auto bones = bones_of_particles(body_);

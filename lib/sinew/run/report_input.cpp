@@ -152,6 +152,30 @@ FactGroup stiffness_facts(const nlohmann::ordered_json& record) {
   return group;
 }
 
+/// The parts of a body that differ in material, from run.json.
+FactGroup material_facts(const nlohmann::ordered_json& record) {
+  FactGroup group{"Parts", {}};
+  for (const auto& one : record.value("materials", nlohmann::ordered_json::array()))
+    group.facts.push_back({one.value("name", ""), std::to_string(one.value("particles", 0)) +
+                                                      " particles, " +
+                                                      with_unit(one.value("mass", 0.0), "kg")});
+  return group;
+}
+
+/// How a body was brought to rest in each frame, from run.json.
+FactGroup load_step_facts(const nlohmann::ordered_json& record) {
+  FactGroup group{"Load steps", {}};
+  const double interval = record.value("frame_interval", 0.0);
+  for (const auto& one : record.value("load_steps", nlohmann::ordered_json::array())) {
+    const int frame = one.value("frame", 0);
+    group.facts.push_back(
+        {"frame " + std::to_string(frame) + ", " + with_unit(frame * interval, "s"),
+         std::to_string(one.value("iterations", std::int64_t{0})) + " iterations, residual " +
+             three_digits(one.value("residual", 0.0))});
+  }
+  return group;
+}
+
 std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body_meta) {
   const auto record = read_record(folder);
   const auto number = [&](const char* key, const char* unit) {
@@ -184,6 +208,8 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
             {"damping constant C", constant("damping", "kg/s")},
             {"particle radius", number("radius", "m")},
             {"particle mass", number("particle_mass", "kg")}}},
+          material_facts(record),
+          load_step_facts(record),
           stiffness_facts(record),
           fill_facts(body_meta)};
 }

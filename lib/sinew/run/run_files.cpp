@@ -221,6 +221,8 @@ void keep_written(RunFiles& run) {
   if (run.body.weight) keep(run.ids, *run.body.weight);
   if (run.body.share) keep(run.ids, *run.body.share);
   if (run.body.stiffness) keep(run.ids, *run.body.stiffness);
+  if (run.body.density) keep(run.ids, *run.body.density);
+  if (run.body.volume_stiffness) keep(run.ids, *run.body.volume_stiffness);
 }
 
 }  // namespace
@@ -276,6 +278,7 @@ namespace {
 SceneWorld scene_world(const RunFiles& run) {
   Settings settings = run.settings;
   settings.world.obstacles.clear();  // their meshes need not exist any more
+  settings.materials.clear();        // nor those of parts
   const BodyFile body = read_body(run.folder.body());
   SceneFiles files = read_rig_files(settings);
   files.surface = run.surface;
@@ -356,6 +359,8 @@ RestInput measured_body(const RunFiles& run) {
   const LocalMaterial local = local_material(run.body);
   RestInput input = measured_body(run.material, run.skeleton,
                                   bond_factors(rest, run.material, local.share, local.stiffness));
+  if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
+  if (run.body.density) input.density = *run.body.density;
   input.law.has_muscles = !run.settings.world.muscles.empty();
   if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.positions = std::move(rest);

@@ -43,6 +43,24 @@ Json material_of(const Material& material) {
           {"young_modulus", material.young_modulus()}};
 }
 
+/// The body's own, where something of it is left, and those of its parts.
+Json materials_of(const Settings& settings, const Body& body) {
+  std::vector<std::size_t> particles(settings.materials.size() + 1, 0);
+  std::vector<double> mass(particles.size(), 0);
+  for (std::size_t i = 0; i < body.rest.size(); ++i) {
+    const auto number = static_cast<std::size_t>(body.material_number[i]);
+    ++particles[number];
+    mass[number] += mass_of(body, i, body.material.mass);
+  }
+  Json materials = Json::array();
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    if (particles[k] > 0)
+      materials.push_back({{"name", k == 0 ? "material" : settings.materials[k - 1].name},
+                           {"particles", particles[k]},
+                           {"mass", mass[k]}});
+  return materials;
+}
+
 Json lists_of(const ListCounts& counts) {
   return {{"rebuilds", counts.rebuilds},
           {"surveys", counts.surveys},
@@ -98,6 +116,7 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["radius"] = setup.body.material.pair.r;
   record_["particle_mass"] = setup.body.material.mass;
   record_["material"] = material_of(setup.body.material);
+  if (!settings.materials.empty()) record_["materials"] = materials_of(settings, setup.body);
   record_["bones"] = bones_of(setup.body.skeleton);
   for (const BoneStiffness& bone : stiffness_along_bones(setup.body))
     record_["stiffness_along_bones"].push_back({{"bone", bone.bone},

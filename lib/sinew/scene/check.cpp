@@ -36,7 +36,8 @@ constexpr double bytes_per_frame_beside = 20e3;  // headers, bones, frames
 constexpr double memory_with_lists_double = 510, memory_with_lists_single = 400;
 constexpr double memory_with_cells = 1500;
 constexpr double memory_of_strain = 170, memory_of_changing_bonds = 120;  // in double precision
-constexpr double memory_of_measuring = 500, memory_of_bonds = 700;        // what frames request
+constexpr double memory_of_branch = 300;  // in double precision: its bonds, and a state beside
+constexpr double memory_of_measuring = 500, memory_of_bonds = 700;  // what frames request
 constexpr double memory_per_point = 600, memory_beside = 60e6;
 
 double memory_per_particle(const StepperChoice& choice, const Body& body) {
@@ -45,8 +46,9 @@ double memory_per_particle(const StepperChoice& choice, const Body& body) {
   double bytes = single ? memory_with_lists_single : memory_with_lists_double;
   const BondStrength& bond = body.material.bond;
   const double share = single ? 0.5 : 1;
-  if (body.material.volume_stiffness > 0 || has_muscles(body)) bytes += share * memory_of_strain;
+  if (keeps_volume(body) || has_muscles(body)) bytes += share * memory_of_strain;
   if (bond.yield_shear > 0 || bond.breaking_strain > 0) bytes += share * memory_of_changing_bonds;
+  bytes += share * memory_of_branch * static_cast<double>(bond.branch_count());
   return bytes;
 }
 

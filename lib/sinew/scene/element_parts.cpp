@@ -32,7 +32,7 @@ Cuts cuts_of(const Settings& settings) {
 }
 
 bool is_of_elements(const PartSettings& part) {
-  return part.bone.empty() && !part.ids && !part.component;
+  return part.bone.empty() && !part.ids && !part.component && part.mesh.empty();
 }
 
 ElementParts::ElementParts(const Settings& settings, const VolumeMesh& mesh)
@@ -64,6 +64,7 @@ void ElementParts::check(const PartSettings& part, const std::string& path) cons
   };
   if (!part.bone.empty()) refuse(".bone", "finite elements have no bones");
   if (part.ids) refuse(".ids", "finite elements have no particles");
+  if (!part.mesh.empty()) refuse(".mesh", "finite elements have no parts inside of meshes");
   if (part.component) refuse(".component", "finite elements have no components of particles");
 }
 

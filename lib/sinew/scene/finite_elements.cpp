@@ -55,6 +55,14 @@ std::vector<Refusal> refusals(const Settings& settings) {
        "finite elements do not break", "remove breaking_strain and fracture_energy"},
       {material.yield_strain.has_value(), "material.yield_strain", "finite elements do not flow",
        "remove it"},
+      {std::any_of(settings.materials.begin(), settings.materials.end(),
+                   [](const auto& one) { return one.has_strength(); }),
+       "materials", "finite elements do not break or flow",
+       "remove breaking_strain and yield_strain"},
+      {std::any_of(settings.supports.begin(), settings.supports.end(),
+                   [](const auto& one) { return one.hold_along.has_value(); }),
+       "supports", "the supports of finite elements hold x, y or z, no oblique direction",
+       "hold axes of the scene"},
       {!settings.bodies.empty(), "bodies", "finite elements are made of one mesh",
        "join the meshes into one, and give parts by materials"},
       {settings.body.thickness.has_value(), "body.thickness",
@@ -93,6 +101,18 @@ std::string list_entry(const char* list, std::size_t index) {
   return std::string(list) + '[' + std::to_string(index) + ']';
 }
 
+/// Once bonds have relaxed, which bear a bulk modulus of 5/3 of their shear modulus.
+void relax(const MaterialOptions& given, DeckMaterial& material) {
+  if (!given.relaxation_shares) return;
+  double relaxed = 0;
+  for (const double share : *given.relaxation_shares) relaxed += share;
+  const double nu = material.poisson_ratio;
+  const double of_bonds = material.young_modulus / (2 * (1 + nu)), G = (1 - relaxed) * of_bonds;
+  const double K = material.young_modulus / (3 * (1 - 2 * nu)) - relaxed * of_bonds * 5 / 3;
+  material.young_modulus = 9 * K * G / (3 * K + G);
+  material.poisson_ratio = (3 * K - 2 * G) / (2 * (3 * K + G));
+}
+
 std::vector<DeckMaterial> materials_of(const Settings& settings, const VolumeMesh& mesh,
                                        const ElementParts& parts) {
   const MaterialOptions& given = settings.material;
@@ -102,10 +122,15 @@ std::vector<DeckMaterial> materials_of(const Settings& settings, const VolumeMes
   std::vector<std::size_t> of_element(mesh.elements.size(), 0);
   for (std::size_t k = 0; k < settings.materials.size(); ++k) {
     const LocalMaterialSettings& local = settings.materials[k];
-    materials.push_back({local.name, local.young_modulus, ratio, given.density, {}});
+    materials.push_back({local.name,
+                         local.young_modulus.value_or(given.young_modulus),
+                         bonded ? ratio : local.poisson_ratio.value_or(ratio),
+                         local.density.value_or(given.density),
+                         {}});
     for (const std::uint32_t e : parts.elements(local.part, list_entry("materials", k)))
       of_element[e] = k + 1;
   }
+  for (DeckMaterial& material : materials) relax(given, material);
   for (std::uint32_t e = 0; e < of_element.size(); ++e)
     materials[of_element[e]].elements.push_back(e);
   std::erase_if(materials, [](const DeckMaterial& one) { return one.elements.empty(); });

@@ -27,6 +27,7 @@ Support support_of(const SupportSettings& given, const std::string& path, const 
   support.particles = parts.particles(given.part, path);
   const int bits = static_cast<int>(given.hold) + 1;
   for (std::size_t axis = 0; axis < 3; ++axis) support.holds[axis] = ((bits >> axis) & 1) != 0;
+  if (given.hold_along) support.along = given.hold_along->normalized();
   support.pivot = given.pivot ? *given.pivot : mean_of(support.particles, body.rest);
   if (!given.keys.empty())
     support.motion = keyed_motion(given.name, given.interpolation, given.keys, support.pivot);
@@ -37,17 +38,24 @@ Support support_of(const SupportSettings& given, const std::string& path, const 
 Load by_mass(const LoadSettings& given, const std::string& path, const Body& body,
              const Parts& parts) {
   const std::vector<std::uint32_t> on = parts.particles(given.part, path);
-  const double mass = body.material.mass * static_cast<double>(on.size());
+  std::vector<double> shares;
+  double mass = 0;
+  for (const std::uint32_t i : on) {
+    shares.push_back(mass_of(body, i, 1));
+    mass += body.material.mass * shares.back();
+  }
   const Vec3 force = given.gravity ? Vec3(mass * *given.gravity) : *given.force;
-  return force_load(given.name, on, std::vector<double>(on.size(), 1.0), force, body.rest);
+  return force_load(given.name, on, shares, force, body.rest);
 }
 
 /// A force, a traction or a pressure on the faces of a part.
 Load by_area(const LoadSettings& given, const std::string& path, const Body& body,
              const Parts& parts) {
-  const Triangles faces = parts.faces(given.part, path);
   const double radius = body.material.pair.r;
-  if (given.pressure) return pressure_load(given.name, faces, *given.pressure, body.rest, radius);
+  if (given.pressure)
+    return pressure_load(given.name, parts.pressed_faces(given.part, path), *given.pressure,
+                         body.rest, radius);
+  const Triangles faces = parts.faces(given.part, path);
   const AreaShares shares = area_shares(faces, body.rest, radius);
   const Vec3 force = given.traction ? Vec3(shares.area * *given.traction) : *given.force;
   return force_load(given.name, shares.particles, shares.shares, force, body.rest);

@@ -9,7 +9,9 @@
 #include <sinew/core/text.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/surface.h>
+#include <sinew/mesh/winding.h>
 #include <sinew/physics/world/following_points.h>
+#include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
 
 namespace sinew {
@@ -22,6 +24,20 @@ std::string corner(const Vec3& point) {
 
 Vec3 center_of(const Triangles& surface, const std::array<int, 3>& face) {
   return (surface.points[face[0]] + surface.points[face[1]] + surface.points[face[2]]) / 3;
+}
+
+/// Of a mesh that is placed as the body's.
+Winding inside_of(const Settings& settings, const std::string& mesh, const std::string& path) {
+  BodyOptions file = settings.body;
+  file.mesh = mesh;
+  file.wrap.reset();
+  file.close_holes = false;
+  const Surface surface =
+      with_context(settings, (path + ".mesh").c_str(), [&] { return read_body_mesh(file); });
+  if (!surface.closed())
+    throw bad_input(settings.place(path + ".mesh"), "the mesh of a part is open",
+                    "close its holes, lest it is unknown which particles lie in it");
+  return winding_of(surface);
 }
 
 /// The same faces with the points that they have.
@@ -61,6 +77,7 @@ class Parts::Test {
     if (part.component && parts.component_.empty())
       throw bad_input(parts.settings_.place(path + ".component"),
                       "the components of these particles are not known", "name another part");
+    if (!part.mesh.empty()) inside_ = inside_of(parts.settings_, part.mesh, path);
   }
 
   /// Whether a particle, or a place next to it, is in the part.
@@ -70,6 +87,7 @@ class Parts::Test {
     if (region.center && !((place - *region.center).norm() <= *region.radius)) return false;
     if (part_.point && !((place - *part_.point).dot(*part_.normal) >= 0)) return false;
     if (part_.component && parts_.component_[particle] != *part_.component) return false;
+    if (inside_ && inside_->around(place).value_or(0) <= 0) return false;
     if (bone_ != no_bone && parts_.body_.binding.bone(particle) != bone_) return false;
     return !part_.ids || std::binary_search(ids_.begin(), ids_.end(), particle);
   }
@@ -86,6 +104,7 @@ class Parts::Test {
   int bone_ = no_bone;
   Vec3 direction_ = Vec3::Zero();
   std::vector<std::uint32_t> ids_;
+  std::optional<Winding> inside_;
 };
 
 std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
@@ -156,21 +175,103 @@ Triangles Parts::faces(const PartSettings& part, const std::string& path) const 
                   "choose one that reaches it, " + extent_text(surface_.points));
 }
 
-void set_local_materials(const Settings& settings, const Parts& parts, Body& body) {
-  if (settings.materials.empty()) return;
-  body.material_number.assign(body.rest.size(), 0);
-  body.stiffness.resize(body.rest.size(), 1);
-  for (std::size_t k = 0; k < settings.materials.size(); ++k) {
-    const LocalMaterialSettings& given = settings.materials[k];
-    const double relative = given.young_modulus / settings.material.young_modulus;
-    for (const std::uint32_t i :
-         parts.particles(given.part, "materials[" + std::to_string(k) + ']')) {
-      body.stiffness[i] = relative;
-      body.material_number[i] = static_cast<std::int32_t>(k + 1);
-    }
+namespace {
+
+/// Whether it is told apart by the direction that it faces alone.
+bool is_by_direction(PartSettings part) {
+  part.facing.reset();
+  return part.empty();
+}
+
+}  // namespace
+
+Triangles Parts::pressed_faces(const PartSettings& part, const std::string& path) const {
+  constexpr double sides = 3;  // radii: about as many corners as particles at the surface
+  if (!is_by_direction(part) || surface_.faces.empty()) return faces(part, path);
+  const Test test(*this, part, path);
+  const Triangles coarse = refined(surface_, sides * body_.material.pair.r);
+  std::vector<std::array<int, 3>> found;
+  for (const auto& face : coarse.faces)
+    if (test.faces(area_vector(coarse, face))) found.push_back(face);
+  return found.empty() ? faces(part, path) : without_other_points(coarse, found);
+}
+
+namespace {
+
+/// Sets what the parts of a body have of their own.
+class LocalMaterials {
+ public:
+  LocalMaterials(const Settings& settings, Body& body)
+      : settings_(settings), body_(body), base_poisson_(poisson_ratio_of(settings.material)) {
+    const std::size_t n = body.rest.size();
+    body.material_number.assign(n, 0);
+    body.stiffness.resize(n, 1);
+    body.density.assign(n, 1);
+    modulus_.assign(n, settings.material.young_modulus);
+    poisson_.assign(n, base_poisson_);
+    yield_.assign(n, settings.material.yield_strain.value_or(0));
+    breaking_.assign(n, body.material.bond.breaking_strain);
   }
-  if (std::all_of(body.stiffness.begin(), body.stiffness.end(), [](double s) { return s == 1; }))
-    body.stiffness.clear();
+
+  void add(const LocalMaterialSettings& given, std::int32_t number, std::uint32_t i) {
+    body_.material_number[i] = number;
+    modulus_[i] = given.young_modulus.value_or(modulus_[i]);
+    poisson_[i] = given.poisson_ratio.value_or(poisson_[i]);
+    breaking_[i] = given.breaking_strain.value_or(breaking_[i]);
+    yield_[i] = given.yield_strain.value_or(yield_[i]);
+    if (given.density) body_.density[i] = *given.density / settings_.material.density;
+    if (given.is_elastic())
+      body_.stiffness[i] =
+          modulus_[i] / settings_.material.young_modulus * (1 + base_poisson_) / (1 + poisson_[i]);
+  }
+
+  void finish() {
+    const auto& all = settings_.materials;
+    const auto any = [&](auto member) {
+      return std::any_of(all.begin(), all.end(), [&](const LocalMaterialSettings& one) {
+        return (one.*member).has_value();
+      });
+    };
+    if (any(&LocalMaterialSettings::breaking_strain)) body_.local.breaking = breaking_;
+    if (any(&LocalMaterialSettings::yield_strain)) set_yield();
+    if (!any(&LocalMaterialSettings::density)) body_.density.clear();
+    if (all.empty()) body_.material_number.clear();
+    if (std::all_of(body_.stiffness.begin(), body_.stiffness.end(),
+                    [](double stiffness) { return stiffness == 1; }))
+      body_.stiffness.clear();
+    if (!body_.stiffness.empty() || any(&LocalMaterialSettings::poisson_ratio)) set_volumes();
+  }
+
+ private:
+  void set_volumes() {
+    if (body_.material.model != MaterialModel::bonded_volume) return;
+    for (std::size_t i = 0; i < poisson_.size(); ++i)
+      body_.local.volume.push_back(
+          local_volume_stiffness(body_.material, value_at(body_.stiffness, i, 1), poisson_[i]));
+  }
+
+  void set_yield() {
+    for (std::size_t i = 0; i < yield_.size(); ++i)
+      body_.local.yield.push_back(yield_[i] > 0 ? yield_shear(yield_[i], poisson_[i])
+                                                : never_reached);
+  }
+
+  const Settings& settings_;
+  Body& body_;
+  double base_poisson_;
+  std::vector<double> modulus_, poisson_, yield_, breaking_;
+};
+
+}  // namespace
+
+void set_local_materials(const Settings& settings, const Parts& parts, Body& body) {
+  if (settings.materials.empty() && body.stiffness.empty()) return;
+  LocalMaterials local(settings, body);
+  for (std::size_t k = 0; k < settings.materials.size(); ++k)
+    for (const std::uint32_t i :
+         parts.particles(settings.materials[k].part, "materials[" + std::to_string(k) + ']'))
+      local.add(settings.materials[k], static_cast<std::int32_t>(k + 1), i);
+  local.finish();
 }
 
 }  // namespace sinew

@@ -40,6 +40,8 @@ class Parts {
   /// The faces in a part, by their centers, of the surface in triangles of sides up to two radii.
   /// Throws bad input as particles() does.
   Triangles faces(const PartSettings& part, const std::string& path) const;
+  /// The same for a pressure, in fewer triangles where no region cuts through them.
+  Triangles pressed_faces(const PartSettings& part, const std::string& path) const;
 
  private:
   class Test;
@@ -54,9 +56,9 @@ class Parts {
   mutable std::vector<std::uint32_t> nearest_;  ///< particle of each of its faces
 };
 
-/// The list `materials` of a scene: gives the particles of each part of a bound body its stiffness
-/// and its number; of parts that overlap the last one counts. Throws bad input, with the scene's
-/// line, for parts without particles.
+/// The list `materials` of a scene: gives the particles of each part of a bound body its stiffness,
+/// its strength and its number; of parts that overlap the last one counts for what it gives. Throws
+/// bad input, with the scene's line, for parts without particles.
 void set_local_materials(const Settings& settings, const Parts& parts, Body& body);
 
 }  // namespace sinew

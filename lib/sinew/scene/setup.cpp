@@ -127,8 +127,15 @@ std::vector<std::string> warnings_of(const SceneFiles& files) {
 }  // namespace
 
 Material material_of(const Settings& settings, const Particles& particles) {
-  return make_material(settings.material, {particles.radius, particles.mass,
-                                           lattice_axes(settings.body), settings.body.packing});
+  Material material = make_material(
+      settings.material,
+      {particles.radius, particles.mass, lattice_axes(settings.body), settings.body.packing});
+  for (const LocalMaterialSettings& local : settings.materials) {
+    BondStrength& bond = material.bond;
+    if (local.breaking_strain && bond.breaking_strain == 0) bond.breaking_strain = never_reached;
+    if (local.yield_strain && bond.yield_shear == 0) bond.yield_shear = never_reached;
+  }
+  return is_static(settings) ? long_term(material) : material;
 }
 
 LocalMaterial local_material(const BodyFile& body) {
@@ -148,6 +155,7 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.stiffness = std::move(local.stiffness);
   set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
   body.factors = bond_factors(body.rest, body.material, body.share, body.stiffness);
+  body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   return body;
@@ -254,6 +262,9 @@ ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
   ready.seconds_filling = watch.lap();
   ready.setup = set_up(settings, files, ready.body.particles, local_material(ready.body));
   if (!ready.setup.body.stiffness.empty()) ready.body.stiffness = ready.setup.body.stiffness;
+  if (!ready.setup.body.density.empty()) ready.body.density = ready.setup.body.density;
+  if (!ready.setup.body.local.volume.empty())
+    ready.body.volume_stiffness = ready.setup.body.local.volume;
   ready.body.bone = bones_of_particles(ready.setup.body);
   ready.body.weight = weights_of_particles(ready.setup.body);
   ready.seconds_binding = watch.lap();

@@ -223,7 +223,7 @@ WorldLoad load_of(const Body& body) {
   if (!body.world) return {};
   Particles particle;
   particle.radius = body.material.pair.r;
-  particle.mass = body.material.mass;
+  particle.mass = lightest(body).mass;
   return {added_stiffness(*body.world, particle), added_damping(*body.world, particle)};
 }
 

@@ -60,8 +60,7 @@ void check_isotropy(const Settings& settings) {
 /// Parts of a body may be as stiff as they like where bonds have factors of their own.
 void check_local_modulus(const Settings& settings, const std::string& path, const char* what) {
   const Place place = settings.place(path);
-  if (settings.material.model != MaterialModel::bonded ||
-      !is_isotropic(settings.material, settings.body.packing))
+  if (!is_isotropic(settings.material, settings.body.packing))
     throw bad_input(place, std::string("only isotropic bonded ") + what + " differ in stiffness",
                     "set material.model to bonded, and body.packing to fcc, or remove it");
   if (settings.material.k1)
@@ -70,16 +69,56 @@ void check_local_modulus(const Settings& settings, const std::string& path, cons
                     "give material.young_modulus instead of k1");
 }
 
+void check_local_material(const Settings& settings, std::size_t index) {
+  const LocalMaterialSettings& material = settings.materials[index];
+  const std::string path = "materials[" + std::to_string(index) + "]";
+  if (material.is_elastic()) check_local_modulus(settings, path, "parts of a body");
+  if (material.poisson_ratio && settings.material.model != MaterialModel::bonded_volume)
+    throw bad_input(settings.place(path + ".poisson_ratio"),
+                    "Poisson's ratio of bonds alone is 1/4, whatever they are of",
+                    "set material.model to bonded_volume, or remove it");
+  if (material.has_strength() && settings.material.model == MaterialModel::paper)
+    throw bad_input(
+        settings.place(path),
+        "material '" + material.name + "' has a strength of bonds, and the paper's model has none",
+        "set material.model to bonded or bonded_volume, or remove it");
+}
+
 void check_bodies(const Settings& settings) {
   for (std::size_t i = 0; i < settings.bodies.size(); ++i)
     if (settings.bodies[i].young_modulus)
       check_local_modulus(settings, "bodies[" + std::to_string(i) + "].young_modulus", "bodies");
-  for (std::size_t i = 0; i < settings.materials.size(); ++i)
-    check_local_modulus(settings, "materials[" + std::to_string(i) + "]", "parts of a body");
+  for (std::size_t i = 0; i < settings.materials.size(); ++i) check_local_material(settings, i);
+}
+
+/// Branches of bonds that relax.
+void check_relaxation(const Settings& settings) {
+  const auto& shares = settings.material.relaxation_shares;
+  const auto& times = settings.material.relaxation_times;
+  if (!shares && !times) return;
+  const Place place = place_of(settings, "material.relaxation_shares", "material.relaxation_times");
+  if (settings.material.model == MaterialModel::paper)
+    throw bad_input(place, "the branches that relax are of bonds, and the paper's model has none",
+                    "set material.model to bonded or bonded_volume, or remove them");
+  const std::size_t count = shares ? shares->size() : 0;
+  if (count != (times ? times->size() : 0))
+    throw bad_input(place, "relaxation_shares and relaxation_times are not of one length",
+                    "give a time for each share");
+  if (count == 0 || count > most_relaxation_branches)
+    throw bad_input(place,
+                    "a bond has one to four branches that relax, not " + std::to_string(count),
+                    "give fewer shares and times");
+  double sum = 0;
+  for (const double share : *shares) sum += share;
+  if (!(sum < 1))
+    throw bad_input(place,
+                    "the shares that relax come to " + number_text(sum) + ", and leave nothing",
+                    "give shares whose sum is below 1");
 }
 
 void check_material(const Settings& settings) {
   check_bodies(settings);
+  check_relaxation(settings);
   const MaterialOptions& material = settings.material;
   if (!(material.a < material.b))
     throw bad_input(place_of(settings, "material.a", "material.b"),

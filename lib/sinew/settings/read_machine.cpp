@@ -24,6 +24,11 @@ void read_support(const YamlNode& item, const std::string& path, SupportSettings
                   Settings& settings) {
   read_fields(item, path, support_fields(), "keys", support, settings.places);
   check_part(support.part, path, settings);
+  check_direction(support.hold_along, path + ".hold_along", settings);
+  if (support.hold_along && settings.places.find(path + ".hold") != settings.places.end() &&
+      support.hold != HeldAxes::xyz)
+    throw bad_input(settings.place(path + ".hold_along"),
+                    "support '" + support.name + "' has hold and hold_along", "keep one of them");
   read_keys(item, path, place_key_fields(), support.keys, settings);
   check_axes_of_keys(support.keys, path, settings);
   if (support.keys.empty()) return;
@@ -61,6 +66,9 @@ void read_material(const YamlNode& item, const std::string& path, LocalMaterialS
                    Settings& settings) {
   read_fields(item, path, material_fields(), "", material, settings.places);
   check_part(material.part, path, settings);
+  if (!material.is_elastic() && !material.has_strength() && !material.density)
+    throw bad_input(settings.place(path), "material '" + material.name + "' has nothing of its own",
+                    "give young_modulus, poisson_ratio, density, breaking_strain or yield_strain");
 }
 
 /// Both share the rows of supports.csv.

@@ -108,18 +108,23 @@ struct PartSettings {
   double facing_angle = 30;
   std::string bone;
   std::optional<std::vector<double>> ids = {};
+  std::string mesh = "";  ///< a path, as body.mesh; of materials
 
   bool empty() const {
     return !region.low && !region.high && !region.center && !region.radius && !point && !normal &&
-           !component && !facing && bone.empty() && !ids;
+           !component && !facing && bone.empty() && !ids && mesh.empty();
   }
 };
 
 /// A part of the body of another material than `material`.
 struct LocalMaterialSettings {
   std::string name;
-  double young_modulus = 10e3;
+  std::optional<double> young_modulus = {}, poisson_ratio = {}, density = {};
+  std::optional<double> breaking_strain = {}, yield_strain = {};
   PartSettings part = {};
+
+  bool is_elastic() const { return young_modulus || poisson_ratio; }
+  bool has_strength() const { return breaking_strain || yield_strain; }
 };
 
 enum class HeldAxes { x, y, xy, z, xz, yz, xyz };
@@ -127,6 +132,7 @@ enum class HeldAxes { x, y, xy, z, xz, yz, xyz };
 struct SupportSettings {
   std::string name;
   HeldAxes hold = HeldAxes::xyz;
+  std::optional<Vec3> hold_along = {};
   PartSettings part = {};
   std::optional<Vec3> pivot = {};
   Interpolation interpolation = Interpolation::smooth;

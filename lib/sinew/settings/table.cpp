@@ -158,6 +158,12 @@ std::vector<Field<Settings>> make_damping_and_strength() {
       field<S>("material", "creep_rate", SINEW_AT(S, material.creep_rate), "1/s",
                "fraction of the shear beyond yield_strain that flows per unit of time",
                not_negative),
+      field<S>("material", "relaxation_shares", SINEW_AT(S, material.relaxation_shares), "",
+               "shares of young_modulus, which holds at once, that relax in time (Prony's g_i), of "
+               "up to four branches, in bonded models; the static method finds what is left",
+               {0, 1, true}, "none"),
+      field<S>("material", "relaxation_times", SINEW_AT(S, material.relaxation_times), "s",
+               "their relaxation times (tau_i), one each", positive, "none"),
       field<S>("material", "friction", SINEW_AT(S, material.friction), "",
                "coefficient of dry friction between parts of the body that touch, where those do "
                "not attract: in bonded models, and with cohesion initial_neighbors",

@@ -49,12 +49,22 @@ std::vector<Field<LocalMaterialSettings>> make_materials() {
   using M = LocalMaterialSettings;
   std::vector<Field<M>> rows = {
       required(field<M>("", "name", SINEW_AT(M, name), "", "unique name of the material")),
-      required(field<M>("", "young_modulus", SINEW_AT(M, young_modulus), "Pa",
-                        "Young's modulus of its part of the body, instead of "
-                        "material.young_modulus",
-                        positive)),
+      field<M>("", "young_modulus", SINEW_AT(M, young_modulus), "Pa",
+               "Young's modulus of its part of the body; auto: material.young_modulus", positive),
+      field<M>("", "poisson_ratio", SINEW_AT(M, poisson_ratio), "",
+               "Poisson's ratio, in bonded_volume; auto: material.poisson_ratio", {0.25, 0.49}),
+      field<M>("", "density", SINEW_AT(M, density), "kg/m^3", "density; auto: material.density",
+               positive),
+      field<M>("", "breaking_strain", SINEW_AT(M, breaking_strain), "",
+               "strain at which its bonds break; auto: as in material", positive),
+      field<M>("", "yield_strain", SINEW_AT(M, yield_strain), "",
+               "strain of a bar that is pulled beyond which it flows; auto: as in material",
+               positive),
   };
   add_part(rows);
+  rows.push_back(path(may_lack("none", field<M>("", "mesh", SINEW_AT(M, part.mesh), "",
+                                                "what is inside of a closed mesh, placed as the "
+                                                "body's"))));
   return rows;
 }
 
@@ -65,6 +75,9 @@ std::vector<Field<SupportSettings>> make_supports() {
       choice<S>("", "hold", SINEW_AT(S, hold), {"x", "y", "xy", "z", "xz", "yz", "xyz"},
                 "axes along which it prescribes the displacement, 0 without keys; along the others "
                 "its part is free"),
+      field<S>("", "hold_along", SINEW_AT(S, hold_along), "",
+               "or one direction, of any length but 0, across which its part slides freely", any,
+               "none"),
   };
   add_part(rows);
   rows.push_back(pivot<S>(

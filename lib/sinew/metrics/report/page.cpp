@@ -266,6 +266,7 @@ std::string view_section(std::string_view worst) {
 std::string fact_lists(const std::vector<FactGroup>& all) {
   std::string groups;
   for (const FactGroup& group : all) {
+    if (group.facts.empty()) continue;
     std::string rows;
     for (const Fact& fact : group.facts)
       rows += element("dt", escaped(fact.name)) + element("dd", escaped(fact.value));

@@ -217,6 +217,13 @@ void check_groupable(const Body& body) {
   if (bonds_change(body.material))
     throw bad_input("bonds that break or flow remember more than groups do",
                     "remove breaking_strain, fracture_energy and yield_strain");
+  if (body.material.bond.branch_count() > 0)
+    throw bad_input("bonds that relax remember more than groups do",
+                    "remove relaxation_shares and relaxation_times");
+  if (!body.density.empty())
+    throw bad_input("groups are of particles of one mass", "remove density from materials");
+  if (body.material.friction > 0)
+    throw bad_input("groups that touch each other do not rub", "remove material.friction");
   if (!body.world) return;
   if (body.world->drag.rate > 0 || !body.world->fields.empty())
     throw bad_input("drag and fields act on every particle, those within groups as well",

@@ -38,12 +38,25 @@ struct Bond {
   const BondKind<typename L::Real>* kind;
   std::ptrdiff_t difference;
   typename L::M mask;
+  std::size_t place;     ///< of its values by entry and lane
   typename L::V length;  ///< with what it has crept
   typename L::V stiffness;
+  typename L::V free_length, slope;  ///< of its force, slope (free_length - d)
 };
 
+/// With branches, which relax while the force acts: of their state before and after the mean.
+template <class L>
+SINEW_INLINE void add_branches(const Bonds<typename L::Real>& bonds, Bond<L>& bond) {
+  for (int b = 0; b < bonds.branches; ++b) {
+    const Branch<typename L::Real>& branch = bonds.branch[b];
+    bond.free_length =
+        L::fused(L::all(branch.weight), L::load(branch.stretch + bond.place), bond.free_length);
+  }
+  bond.slope = L::all(bonds.slope) * bond.slope;
+}
+
 /// Calls visit(bond, entry) for the entries [begin, end) of a block's bonds, as a vector has them.
-template <class L, class Visit>
+template <class L, PairLaw pairs, class Visit>
 SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::uint32_t begin,
                                 std::uint32_t end, int lane, Visit&& visit) {
   constexpr int size = Traits<typename L::Real>::block;
@@ -59,7 +72,12 @@ SINEW_INLINE void for_each_bond(const Bonds<typename L::Real>& bonds, std::uint3
     const typename L::V stiffness =
         entry.own < 0 ? L::all(kind.stiffness)
                       : L::load(bonds.own + static_cast<std::size_t>(entry.own) * size + lane);
-    visit(Bond<L>{&kind, entry.difference, L::mask(lanes), length, stiffness}, e);
+    const std::size_t place = static_cast<std::size_t>(e) * size + lane;
+    Bond<L> bond{&kind,  entry.difference, L::mask(lanes), place,
+                 length, stiffness,        length,         stiffness};
+    if constexpr (pairs == changing_springs)
+      if (bonds.branches > 0) add_branches<L>(bonds, bond);
+    visit(bond, e);
   }
 }
 
@@ -85,16 +103,33 @@ SINEW_INLINE typename L::V inverse_length(const SolidLaw<L>& law, typename L::V 
 template <class L, Shell shell, bool careful>
 SINEW_INLINE typename L::V spring(const SolidLaw<L>& law, const Bond<L>& bond,
                                   typename L::V squared, typename L::V& d) {
-  const typename L::V k = bond.stiffness;
+  const typename L::V k = bond.slope;
   const typename L::V inverse = inverse_length<L, shell, careful>(law, squared);
   d = squared * inverse;
-  return L::fused(k * bond.length, inverse, L::all(0) - k);
+  return L::fused(k * bond.free_length, inverse, L::all(0) - k);
 }
 
+/// With that in its branches.
 template <class L>
-SINEW_INLINE typename L::V spring_energy(const Bond<L>& bond, typename L::V d) {
+SINEW_INLINE typename L::V spring_energy(const Bonds<typename L::Real>& bonds, const Bond<L>& bond,
+                                         typename L::V d) {
   const typename L::V longer = d - bond.length;
-  return bond.stiffness * (longer * longer) * L::all(static_cast<typename L::Real>(0.5));
+  typename L::V squares = longer * longer;
+  for (int b = 0; b < bonds.branches; ++b) {
+    const typename L::V stretch = L::load(bonds.branch[b].stretch + bond.place);
+    squares =
+        L::fused(L::all(bonds.branch[b].share) * stretch, stretch - (longer + longer), squares);
+  }
+  return bond.stiffness * squares * L::all(static_cast<typename L::Real>(0.5));
+}
+
+/// The length at which a bond breaks, over its own.
+template <class L>
+SINEW_INLINE typename L::V longest(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                                   const Bond<L>& bond, std::ptrdiff_t i) {
+  const typename L::Real* of = step.bonds.breaking_of;
+  return of == nullptr ? law.breaking
+                       : L::smaller(L::load(of + i), L::load(of + i + bond.difference));
 }
 
 /// Positive where a bond breaks or creeps.
@@ -102,7 +137,8 @@ template <class L>
 SINEW_INLINE typename L::V excess(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                                   const Bond<L>& bond, typename L::V d, std::ptrdiff_t i) {
   typename L::V beyond = L::all(0);
-  if (step.bonds.breaking > 0) beyond = L::larger(beyond, d - law.breaking * bond.length);
+  if (step.bonds.breaking > 0)
+    beyond = L::larger(beyond, d - longest<L>(step, law, bond, i) * bond.length);
   if (step.bonds.yield > 0) {
     const typename L::V own = L::load(step.bonds.flows + i);
     beyond = L::larger(beyond, L::larger(own, L::load(step.bonds.flows + i + bond.difference)));
@@ -123,7 +159,7 @@ SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L
                             std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
                             Adder<L, pass, energy>& sums, Met<L>& met) {
   using V = typename L::V;
-  for_each_bond<L>(
+  for_each_bond<L, pairs>(
       step.bonds, step.bonds.first[block], step.bonds.second[block],
       lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
         const std::ptrdiff_t j = i + bond.difference;
@@ -140,11 +176,12 @@ SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L
         } else {
           pull = spring<L, nearest, careful>(law, bond, squared, d);
           if constexpr (careful)
-            part<L>(step, i, j, squared, bond.stiffness * bond.length, pull, d, apart.x);
+            part<L>(step, i, j, squared, bond.slope * bond.free_length, pull, d, apart.x);
           if constexpr (pairs == changing_springs)
             met.strained =
                 L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d, i)));
-          sums.add(step, i, j, bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
+          sums.add(step, i, j, bond.mask, pull, apart,
+                   [&] { return spring_energy<L>(step.bonds, bond, d); });
         }
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(counted, squared, law.touching2);
@@ -159,7 +196,7 @@ SINEW_INLINE void add_second(const Step<typename L::Real>& step, const SolidLaw<
                              std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
                              Adder<L, pass, energy>& sums, Met<L>& met) {
   using V = typename L::V;
-  for_each_bond<L>(
+  for_each_bond<L, pairs>(
       step.bonds, step.bonds.second[block], step.bonds.first[block + 1],
       lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
         const std::ptrdiff_t j = i + bond.difference;
@@ -167,11 +204,11 @@ SINEW_INLINE void add_second(const Step<typename L::Real>& step, const SolidLaw<
         const V squared = squared_distance<L>(apart);
         V d, pull = spring<L, second, careful>(law, bond, squared, d);
         if constexpr (careful)
-          part<L>(step, i, j, squared, bond.stiffness * bond.length, pull, d, apart.x);
+          part<L>(step, i, j, squared, bond.slope * bond.free_length, pull, d, apart.x);
         if constexpr (pairs == changing_springs)
           met.strained =
               L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d, i)));
-        sums.push(bond.mask, pull, apart, [&] { return spring_energy<L>(bond, d); });
+        sums.push(bond.mask, pull, apart, [&] { return spring_energy<L>(step.bonds, bond, d); });
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(bond.mask, nearer<L, second>(squared), law.touching2);
           met.least = L::smaller(met_at, met.least), met.most = L::larger(met_at, met.most);

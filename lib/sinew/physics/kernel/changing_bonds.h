@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds that creep and break: ../solid.h gives the laws.
+// Bonds that creep, relax and break: ../solid.h and ../maxwell.h give the laws.
 #pragma once
 
 #include <sinew/physics/kernel/bonds.h>
@@ -41,7 +41,7 @@ SINEW_INLINE void add_stress(const Step<typename L::Real>& step, const SolidLaw<
                              StressSums<L>& sums) {
   using V = typename L::V;
   const std::uint32_t between = step.bonds.second[block];
-  for_each_bond<L>(
+  for_each_bond<L, changing_springs>(
       step.bonds, shell == nearest ? step.bonds.first[block] : between,
       shell == nearest ? between : step.bonds.first[block + 1],
       lane, [&](const Bond<L>& bond, std::uint32_t) __attribute__((always_inline)) {
@@ -50,7 +50,8 @@ SINEW_INLINE void add_stress(const Step<typename L::Real>& step, const SolidLaw<
         const V inverse = L::pick(L::less(L::all(0), squared),
                                   inverse_length<L, shell, true>(law, squared), L::all(0));
         const V k = L::keep(bond.mask, bond.stiffness), l0 = L::all(bond.kind->length);
-        const V d = squared * inverse, weight = k * l0 * l0, pull = k * (d - bond.length) * d;
+        const V d = squared * inverse, weight = k * l0 * l0;
+        const V pull = L::keep(bond.mask, bond.slope) * (d - bond.free_length) * d;
         const V inverse2 = inverse * inverse;
         const Symmetric<L> nn = squares<L>(apart);
         sums.weights = sums.weights + weight;
@@ -85,7 +86,7 @@ void flow_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
   using Real = typename L::Real;
   constexpr int size = Traits<Real>::block;
   const SolidLaw<L> law(step);
-  const V one = L::all(1), yield = L::all(step.bonds.yield);
+  const V one = L::all(1);
   const std::size_t last = end * blocks_per_piece;
   for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
     for (int lane = 0; lane < size; lane += L::width) {
@@ -96,11 +97,44 @@ void flow_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
       add_stress<L, second>(step, law, block, lane, i, here, sums);
       const Symmetric<L> D = shear_of<L>(sums);
       const V shear = product<L>(D, D);
+      const V yield = step.bonds.yield_of == nullptr ? L::all(step.bonds.yield)
+                                                     : L::load(step.bonds.yield_of + i);
       const V flows =
           L::keep(L::less(yield, shear), one - L::root(yield / L::larger(shear, yield)));
       L::store(step.bonds.flows + i, flows);
       for (int k = 0; k < 6; ++k) L::store(step.bonds.flow[k] + i, flows * D.at[k]);
     }
+}
+
+/// Lets the branches of a vector's bonds relax at the distances that they have, both directions of
+/// a bond alike. Adds the energy that is lost, per time, to `lost`.
+template <class L, Shell shell>
+[[gnu::noinline]] void relax_bonds(const Step<typename L::Real>& step, std::size_t block, int lane,
+                                   typename L::Real* lost) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  const Bonds<Real>& bonds = step.bonds;
+  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * Traits<Real>::block + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  const auto relax = [&](const Bond<L>& bond, std::uint32_t) {
+    const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
+    const V d = L::root(squared_distance<L>(apart));
+    const V longer = L::keep(bond.mask, d - bond.length);
+    V freed = L::all(0);
+    for (int b = 0; b < bonds.branches; ++b) {
+      const Branch<Real>& branch = bonds.branch[b];
+      if (branch.flows == 0) continue;
+      Real* const stretch = branch.stretch + bond.place;
+      const V before = L::load(stretch), elastic = L::keep(bond.mask, longer - before);
+      L::store(stretch, L::fused(L::all(branch.flows), elastic, before));
+      const Real share = branch.share * branch.flows * (2 - branch.flows);
+      freed = L::fused(L::all(share), elastic * elastic, freed);
+    }
+    add_to<L>(lost, L::keep(bond.mask, bond.stiffness * freed) * L::all(Real(0.25) / step.drift));
+  };
+  const std::uint32_t *first = bonds.first + block, *between = bonds.second + block;
+  for_each_bond<L, changing_springs>(bonds, shell == nearest ? *first : *between,
+                                     shell == nearest ? *between : first[1], lane, relax);
 }
 
 /// A particle that lost a bond keeps its volume no longer. Returns the energy that is lost.
@@ -145,11 +179,11 @@ template <class L, Shell shell>
       L::store(crept, total);
       Bond<L> after = bond;
       after.length = L::all(bond.kind->length) + total;
-      freed = spring_energy<L>(bond, d) - spring_energy<L>(after, d);
+      freed = spring_energy<L>(step.bonds, bond, d) - spring_energy<L>(step.bonds, after, d);
     }
     if (step.bonds.breaking > 0) {
-      const auto breaks =
-          L::less(L::keep(bond.mask, law.breaking * bond.length), L::keep(bond.mask, d));
+      const auto breaks = L::less(L::keep(bond.mask, longest<L>(step, law, bond, i) * bond.length),
+                                  L::keep(bond.mask, d));
       if (L::any(breaks)) {
         broke = true;
         Real gone[L::width];
@@ -162,14 +196,14 @@ template <class L, Shell shell>
             lost[n] += forget_volume(step.volumes, i + n) / step.drift;
         }
         const V kept = repels ? L::all(0) : repulsion_energy<L>(step.law, d);
-        freed = L::pick(breaks, spring_energy<L>(bond, d) - kept, freed);
+        freed = L::pick(breaks, spring_energy<L>(step.bonds, bond, d) - kept, freed);
       }
     }
     add_to<L>(lost, L::keep(bond.mask, freed) * L::all(Real(0.5) / step.drift));
   };
   const std::uint32_t *first = step.bonds.first + block, *between = step.bonds.second + block;
-  for_each_bond<L>(step.bonds, shell == nearest ? *first : *between,
-                   shell == nearest ? *between : first[1], lane, change);
+  for_each_bond<L, changing_springs>(step.bonds, shell == nearest ? *first : *between,
+                                     shell == nearest ? *between : first[1], lane, change);
 }
 
 }  // namespace sinew::kernel

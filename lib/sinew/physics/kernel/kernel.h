@@ -17,6 +17,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <sinew/physics/kernel/bond_arrays.h>
+
 namespace sinew::kernel {
 
 template <class Real>
@@ -55,45 +57,12 @@ struct Lists {
 
 /// What acts between pairs: eq. 1 between all; eq. 1, without its attraction between particles that
 /// were no neighbors at rest; springs between neighbors at rest and the repulsion of eq. 1 between
-/// others; the same with springs that creep and break.
+/// others; the same with springs that creep, relax and break.
 enum PairLaw { between_all, among_neighbors, springs, changing_springs, pair_laws };
 
 /// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
 /// particles' shares.
 enum Damping { to_the_mean, pairwise, dampings };
-
-/// Bonds of some lanes of a block with the particles at one difference from them.
-struct BondEntry {
-  std::int32_t difference;
-  std::uint32_t kind;
-  std::uint32_t lanes;  ///< bit by lane, at rest and, 16 bits lower, now: what breaks is cleared
-  std::int32_t own;     ///< row of Bonds::own, or -1: all lanes have the stiffness of the kind
-};
-inline constexpr int rest_lanes = 16;
-
-/// Bonds that were equal and parallel at rest.
-template <class Real>
-struct BondKind {
-  Real rest[3];  ///< to the neighbor
-  Real length;
-  Real stiffness;
-};
-
-template <class Real>
-struct Bonds {
-  const std::uint32_t* first;   ///< entries of block k: [first[k], first[k + 1])
-  const std::uint32_t* second;  ///< from there on, bonds between second neighbors
-  BondEntry* entries;
-  const BondKind<Real>* kinds;
-  const Real* own;       ///< rows x block: stiffness by lane, where it differs
-  Real* creep;           ///< entries x block, added to the length; null: none creeps
-  std::int32_t* broken;  ///< by particle
-  Real* flow[6];         ///< by particle: P of ../solid.h, x x, y y, z z, y z, z x, x y
-  Real* flows;           ///< by particle: positive where P is not 0
-  Real yield;            ///< squared shear beyond which bonds creep; 0: never
-  Real crept;            ///< share that a step takes of it
-  Real breaking;         ///< strain at which it breaks
-};
 
 /// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, over the distance.
 template <class Real>
@@ -190,16 +159,16 @@ struct Relaxing {
 
 /// Sums of a piece.
 struct Totals {
-  double power;  ///< of the bones
-  double muscle_power;
-  double lost;         ///< what the step dissipates per time
-  double pair_energy;  ///< only from probe
-  double bone_energy;  ///< only from probe
-  double fastest;      ///< largest squared speed relative to the piece's motion
-  double speed2;       ///< the largest squared speed, of what steps store as fixed point
-  bool sound;          ///< none too fast (see most_radii_per_step), all values finite
-  bool broke;          ///< a bond
-  Relaxing relaxing;   ///< only of steps that relax
+  double power;         ///< of the bones
+  double driven_power;  ///< of muscles and loads
+  double lost;          ///< what the step dissipates per time
+  double pair_energy;   ///< only from probe
+  double bone_energy;   ///< only from probe
+  double fastest;       ///< largest squared speed relative to the piece's motion
+  double speed2;        ///< the largest squared speed, of what steps store as fixed point
+  bool sound;           ///< none too fast (see most_radii_per_step), all values finite
+  bool broke;           ///< a bond
+  Relaxing relaxing;    ///< only of steps that relax
 };
 
 /// Forces of a probe, by particle from `first` on.
@@ -211,6 +180,13 @@ struct Probed {
   Real* bone[3];
   Real* muscle[3];  ///< null without muscles
   std::int32_t* neighbors;
+};
+
+/// Accelerations by loads.
+template <class Real>
+struct Loads {
+  const std::uint8_t* on;  ///< by block: whether it has some; null: there are none
+  const Real* acceleration[3];
 };
 
 /// What surrounds the body acts through a function outside of the kernel, on the blocks that it may
@@ -280,10 +256,12 @@ struct Step {
   Real* inverse[6];   ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
   Volumes<Real> volumes;
   Fibers<Real> fibers;
+  Loads<Real> loads;
   Surroundings<Real> surroundings;
   Grouped<Real> grouped;
-  Real gravity[3];  ///< per time squared
-  Real keep;        ///< v = keep v + kick a; 1 but where a step relaxes
+  const Real* mass;  ///< by particle, of what forces are per; null: 1 each
+  Real gravity[3];   ///< per time squared
+  Real keep;         ///< v = keep v + kick a; 1 but where a step relaxes
   Real kick;
   Real drift;        ///< x += drift v, in units of coordinates
   Real middle;       ///< the ledger uses the velocity v + middle a

@@ -20,7 +20,7 @@ struct Sums {
   using Real = typename L::Real;
   static constexpr int block = Traits<Real>::block;
   Real power[block] = {}, lost[block] = {}, pair_energy[block] = {}, bone_energy[block] = {};
-  Real muscle_power[block] = {}, fastest[block] = {}, speed2[block] = {};
+  Real driven_power[block] = {}, fastest[block] = {}, speed2[block] = {};
   Real aa[block] = {}, av[block] = {}, vv[block] = {}, unbalanced[block] = {}, pulled[block] = {};
   bool sound = true, broke = false;
 };
@@ -30,7 +30,7 @@ struct Forces {
   PairSums<L> pairs;
   Triple<L> damping;
   BoneSums<L> bones;
-  Triple<L> muscle = none<L>();
+  Triple<L> muscle = none<L>(), load = none<L>();
   Triple<L> acceleration;
   bool strained = false;  ///< a bond creeps or breaks
 };
@@ -87,10 +87,20 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
   if (step.fibers.first != nullptr) forces.acceleration = forces.acceleration + forces.muscle;
+  if (step.loads.on != nullptr && step.loads.on[block] != 0) {
+    forces.load = load<L>(step.loads.acceleration, i);
+    forces.acceleration = forces.acceleration + forces.load;
+  }
+  if (step.mass != nullptr) {
+    const Triple<L> gravity = all<L>(step.gravity);
+    forces.acceleration =
+        L::all(1) / L::load(step.mass + i) * (forces.acceleration - gravity) + gravity;
+  }
   return forces;
 }
 
-/// The surroundings act on what all other forces leave. Particles that pins hold move as told.
+/// The rest of the surroundings acts on what all other forces leave. Particles that pins hold move
+/// as told.
 template <class L>
 [[gnu::noinline]] void surround(const Step<typename L::Real>& step, std::ptrdiff_t i,
                                 const Triple<L>& velocity, Forces<L>& forces) {
@@ -136,8 +146,8 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
                              dot<L>(forces.damping, middle);
   add_to<L>(sums.power + lane, forces.bones.power);
   add_to<L>(sums.lost + lane, lost);
-  if (step.fibers.first != nullptr)
-    add_to<L>(sums.muscle_power + lane, dot<L>(forces.muscle, middle));
+  if (step.fibers.first != nullptr || step.loads.on != nullptr)
+    add_to<L>(sums.driven_power + lane, dot<L>(forces.muscle + forces.load, middle));
 }
 
 template <class L>
@@ -150,13 +160,18 @@ template <class L>
 SINEW_INLINE void account_of_relaxing(const Step<typename L::Real>& step, std::size_t block,
                                       int lane, const Forces<L>& forces, const Triple<L>& velocity,
                                       Sums<L>& sums) {
-  const typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
+  typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
+  if (step.mass != nullptr)
+    live =
+        live * L::load(step.mass +
+                       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane);
   const Triple<L>& a = forces.acceleration;
   add_to<L>(sums.aa + lane, live * dot<L>(a, a));
   add_to<L>(sums.av + lane, live * dot<L>(a, velocity));
   add_to<L>(sums.vv + lane, live * dot<L>(velocity, velocity));
   add_to<L>(sums.unbalanced + lane, live * length<L>(a));
-  add_to<L>(sums.pulled + lane, live * (length<L>(forces.bones.spring) + length<L>(forces.muscle)));
+  const typename L::V pulled = length<L>(forces.bones.spring) + length<L>(forces.muscle);
+  add_to<L>(sums.pulled + lane, live_lanes<L>(step.blocks, step.live, block, lane) * pulled);
 }
 
 /// The largest speed relative to the piece's motion.
@@ -208,11 +223,16 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   check_speed<L>(step, kicked, forces.bones.carried, sums);
   if (step.grouped.role == nullptr || step.grouped.whole[block] == 0)
     track_fastest<L>(step, block, lane, here, drifting, sums);
-  if constexpr (pairs == changing_springs)
+  if constexpr (pairs == changing_springs) {
+    if (step.bonds.branches_flow) {
+      relax_bonds<L, nearest>(step, block, lane, sums.lost + lane);
+      relax_bonds<L, second>(step, block, lane, sums.lost + lane);
+    }
     if (forces.strained) [[unlikely]] {
       change_bonds<L, nearest>(step, block, lane, sums.lost + lane, sums.broke);
       change_bonds<L, second>(step, block, lane, sums.lost + lane, sums.broke);
     }
+  }
 }
 
 template <class L, PairLaw pairs, Pass pass>
@@ -246,7 +266,7 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
     speed2 = sums.speed2[k] > speed2 ? sums.speed2[k] : speed2;
   }
   return {sum_of<L>(sums.power),
-          sum_of<L>(sums.muscle_power),
+          sum_of<L>(sums.driven_power),
           sum_of<L>(sums.lost),
           sum_of<L>(sums.pair_energy),
           sum_of<L>(sums.bone_energy),

@@ -208,16 +208,6 @@ void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds)
   bonds.kind_factor = std::move(kinds.factor);
 }
 
-/// Calls visit(place in `creep`) for the lanes of all entries that are whole.
-template <class Real, class Visit>
-void for_each_whole(const BondLists<Real>& bonds, Visit&& visit) {
-  constexpr std::size_t size = kernel::Traits<Real>::block;
-  if (bonds.creep.empty()) return;
-  for (std::size_t e = 0; e < bonds.entries.size(); ++e)
-    for (std::size_t lane = 0; lane < size; ++lane)
-      if ((bonds.entries[e].lanes >> lane & 1) != 0) visit(e * size + lane);
-}
-
 }  // namespace
 
 template <class Real>
@@ -232,6 +222,7 @@ void BondLists<Real>::set_units(const Body& body, std::span<const std::int32_t> 
       kinds.empty() ? 1 : rest[0].norm() / units.length / static_cast<double>(kinds[0].length);
   if (!kinds.empty() && kinds[0].length > 0)
     for (Real& one : creep) one = static_cast<Real>(static_cast<double>(one) * longer);
+  if (longer != 1) branches.scale(longer);
   kinds.clear();
   for (std::size_t k = 0; k < rest.size(); ++k) {
     const Vec3& to = rest[k];
@@ -284,11 +275,14 @@ kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double ste
   bonds.own = own.data();
   bonds.broken = broken.empty() ? nullptr : broken.data();
   bonds.breaking = real(strength.breaking_strain);
+  branches.put_into(bonds, step);
+  if (!breaking.empty()) bonds.breaking_of = breaking.data() + block;
   if (creep.empty()) return bonds;
   bonds.creep = creep.data();
   for (std::size_t k = 0; k < flow.size(); ++k) bonds.flow[k] = flow[k].data() + block;
   bonds.flows = flows.data() + block;
   bonds.yield = real(strength.yield_shear * strength.yield_shear);
+  if (!yield.empty()) bonds.yield_of = yield.data() + block;
   bonds.crept = real(-std::expm1(-strength.creep_rate * step));
   return bonds;
 }
@@ -316,7 +310,8 @@ void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
         const kernel::BondEntry& entry = entries[e];
         if ((entry.lanes >> lane & 1) == 0) continue;
         const std::size_t k = block * size + lane;
-        const double crept = creep.empty() ? 0 : static_cast<double>(creep[e * size + lane]);
+        const double crept = (creep.empty() ? 0 : static_cast<double>(creep[e * size + lane])) +
+                             branches.shift(e * size + lane);
         found.set(id[k], id[k + static_cast<std::size_t>(entry.difference)], e < second[block],
                   (static_cast<double>(kinds[entry.kind].length) + crept) * units.length);
       }
@@ -324,18 +319,19 @@ void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
 
 template <class Real>
 void BondLists<Real>::save(SimulationState& state) const {
-  if (broken.empty() && creep.empty()) return;
+  if (!change()) return;
   state.bonded_lanes.clear();
   state.creep.clear();
   for (const kernel::BondEntry& entry : entries) state.bonded_lanes.push_back(entry.lanes);
-  for_each_whole(*this,
-                 [&](std::size_t at) { state.creep.push_back(static_cast<double>(creep[at])); });
+  const auto add = [&](std::size_t at) { state.creep.push_back(static_cast<double>(creep[at])); };
+  if (!creep.empty()) for_each_whole<kernel::Traits<Real>::block>(entries, add);
+  branches.save(entries, state);
 }
 
 template <class Real>
 void BondLists<Real>::restore(const SimulationState& state) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
-  if (broken.empty() && creep.empty()) return;
+  if (!change()) return;
   if (state.bonded_lanes.size() != entries.size()) throw not_a_state("it has other bonds");
   for (std::size_t block = 0; block + 1 < first.size(); ++block)
     for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
@@ -347,12 +343,14 @@ void BondLists<Real>::restore(const SimulationState& state) {
             static_cast<std::int32_t>((made & ~entries[e].lanes) >> lane & 1);
     }
   std::size_t next = 0;
-  for_each_whole(*this, [&](std::size_t at) {
+  const auto take = [&](std::size_t at) {
     if (next == state.creep.size() || !std::isfinite(state.creep[next]))
       throw not_a_state("a bond has no length");
     creep[at] = static_cast<Real>(state.creep[next++]);
-  });
+  };
+  if (!creep.empty()) for_each_whole<size>(entries, take);
   if (next != state.creep.size()) throw not_a_state("it has other bonds");
+  branches.restore(entries, state);
 }
 
 template <class Real>
@@ -378,6 +376,15 @@ BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::i
     bonds.flows.assign((blocks + 2) * size, 0);
   }
   if (strength.breaking_strain > 0) bonds.broken.assign(blocks * size, 0);
+  bonds.branches = BondBranches<Real>(strength, bonds.entries.size());
+  const auto by_particle = [&](const std::vector<double>& local, const auto& value) {
+    Lines<Real> values(local.empty() ? 0 : (blocks + 2) * size, 1);
+    for (std::size_t k = 0; k < id.size() && !local.empty(); ++k)
+      values[size + k] = static_cast<Real>(value(local[static_cast<std::size_t>(id[k])]));
+    return values;
+  };
+  bonds.yield = by_particle(body.local.yield, [](double shear) { return shear * shear; });
+  bonds.breaking = by_particle(body.local.breaking, [](double strain) { return 1 + strain; });
   return bonds;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bonds of a solid in the kernel's layout: for each block the differences to the neighbors of
 // its particles at rest, with the lanes that have one there. They are made once: bonds stay where
-// they are, creep and break.
+// they are, creep, relax and break.
 //
 //     BondLists<Real> bonds = bond_lists<Real>(body, mass, id, units);
 //     step.bonds = bonds.arrays(body.material, step);
@@ -16,6 +16,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/bond_branches.h>
 #include <sinew/physics/stepper.h>
 
 namespace sinew {
@@ -28,12 +29,14 @@ struct BondLists {
   std::vector<Vec3> rest;                  ///< by kind, m
   std::vector<double> kind_factor;         ///< on its stiffness; 0: of several bonds, none
   std::vector<kernel::BondKind<Real>> kinds;
-  Lines<Real> own;                   ///< rows x block: stiffness by lane, with the body's factors
-  Lines<Real> creep;                 ///< entries x block; empty: none creeps
+  Lines<Real> own;    ///< rows x block: stiffness by lane, with the body's factors
+  Lines<Real> creep;  ///< entries x block; empty: none creeps
+  BondBranches<Real> branches;
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
   /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
   std::array<Lines<Real>, 6> flow;
   Lines<Real> flows;
+  Lines<Real> yield, breaking;  ///< as flow, where particles differ: see kernel::Bonds
 
   /// Lengths and stiffness in these units; `id` in the kernel's order.
   void set_units(const Body& body, std::span<const std::int32_t> id, double mass,
@@ -43,10 +46,13 @@ struct BondLists {
   /// Lanes of a block that are bonded to nearest neighbors at a difference.
   std::uint32_t bonded_lanes(std::size_t block, std::int32_t difference) const;
 
-  /// What is whole, with what it has crept by; `id` in the kernel's order.
+  /// Whether steps change them.
+  bool change() const { return !broken.empty() || !creep.empty() || !branches.empty(); }
+
+  /// What is whole, with the length at which it pulls nothing; `id` in the kernel's order.
   void read(std::span<const std::int32_t> id, const Units& units, BondRest& found) const;
 
-  /// What changes: of each entry the lanes that are whole, and what those have crept by.
+  /// What changes: of each entry the lanes that are whole, what those have crept by, and branches.
   void save(SimulationState& state) const;
   /// Of the same particles in the same order. Throws bad input where they are not these bonds.
   void restore(const SimulationState& state);

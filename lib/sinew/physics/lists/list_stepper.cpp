@@ -60,6 +60,9 @@ void ListStepper<Real>::find_slots() {
   groups_.set_order(layout_.id());
   groups_.read_through(bonds_, !strain_.empty());
   counted_ = false;
+  masses_.assign(body_->density.empty() ? 0 : layout_.now.blocks() * block, 1);
+  for (std::size_t k = 0; k < layout_.size() && !masses_.empty(); ++k)
+    masses_[k] = static_cast<Real>(body_->density[static_cast<std::size_t>(layout_.id()[k])]);
 }
 
 template <class Real>
@@ -93,6 +96,8 @@ kernel::Step<Real> ListStepper<Real>::job() {
   strain_.put_into(step);
   step.share = share_.empty() ? nullptr : share_.data() + block;
   step.central = material.damping_form == DampingForm::central;
+  step.mass = masses_.empty() ? nullptr : masses_.data();
+  step.loads = surroundings_.loads();
   step.surroundings = surroundings_.calls();
   step.grouped = groups_.arrays();
   for (int axis = 0; axis < 3; ++axis)
@@ -190,7 +195,7 @@ StepSums ListStepper<Real>::sums_of_totals() const {
   for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
     sums.power += piece.power;
     sums.lost += piece.lost;
-    sums.world_power += piece.muscle_power;
+    sums.world_power += piece.driven_power;
   }
   const WorldSums world = surroundings_.sums();
   sums.power *= watts;
@@ -238,6 +243,7 @@ template <class Real>
 void ListStepper<Real>::accept() {
   groups_.advance();
   layout_.advance(travel_of_step());
+  bonds_.branches.advance(stepping_.step);
   kicked_ = stepped_ = true;
   ++steps_;
 }

@@ -87,7 +87,7 @@ class ListStepper {
 
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
-  double mass_;    ///< of a particle, kg
+  double mass_;    ///< of a particle of the material's density, kg
   double extent_;  ///< of the body at rest, m
   kernel::Functions<Real> kernel_;
   kernel::PairLaw law_;
@@ -99,6 +99,7 @@ class ListStepper {
   Groups<Real> groups_;
   bool counted_ = false;       ///< the neighbors of all particles, in the present order
   std::vector<double> moved_;  ///< by pins, by piece, since the lists followed, m
+  std::vector<Real> masses_;   ///< over mass_, padded at the end; empty: 1 each
   std::vector<Real> share_;    ///< padded; empty unless damping acts pair by pair
   double time_ = 0;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose

@@ -41,10 +41,10 @@ Imbalance ListStepper<Real>::imbalance() const {
   const double newtons = mass_ * L / (T * T);
   sum.flowing *= newtons * L / T;
   sum.unbalanced *= newtons;
-  const double weight = static_cast<double>(layout_.size()) * mass_ * stepping_.gravity.norm();
-  const WorldSums world = surroundings_.sums();
-  sum.applied = std::max({newtons * pulled / 2, world.applied, weight});
-  sum.loaded = world.loaded + weight;
+  const double weight = total_mass(*body_, mass_) * stepping_.gravity.norm();
+  const double loaded = surroundings_.loaded();
+  sum.applied = std::max({newtons * pulled / 2, surroundings_.sums().applied + loaded, weight});
+  sum.loaded = loaded + weight;
   for (const Reaction& support : surroundings_.of_supports())
     sum.applied = std::max({sum.applied, support.force.norm(), support.moment.norm() / extent_});
   return sum;

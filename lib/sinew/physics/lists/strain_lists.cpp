@@ -30,7 +30,7 @@ class StrainMaker {
         out_(out) {}
 
   void make() {
-    const bool volumes = body_.material.volume_stiffness > 0;
+    const bool volumes = keeps_volume(body_);
     const bool fibers = has_muscles(body_);
     if (!volumes && !fibers) return;
     const std::size_t blocks = bonds_.first.size() - 1, slots = (blocks + 2) * block;
@@ -61,8 +61,7 @@ class StrainMaker {
       const double weight = volume_weight(spread[lane], body_.material.pair.r);
       const std::size_t i = k * block + lane, slot = i + block;
       if (!out_.stiffness.empty() && (bonds_.broken.empty() || bonds_.broken[i] == 0))
-        out_.stiffness[slot] =
-            static_cast<Real>(body_.material.volume_stiffness * volume_ * weight * per_energy_);
+        out_.stiffness[slot] = static_cast<Real>(stiffness_of(i) * volume_ * weight * per_energy_);
       const bool fibers =
           has_muscles(body_) && body_.world->muscles.rest.defined(static_cast<std::size_t>(id_[i]));
       if (weight == 0 && !fibers) continue;
@@ -72,6 +71,11 @@ class StrainMaker {
       for (int part = 0; part < 6; ++part)
         out_.inverse[part][slot] = static_cast<Real>(parts[part]);
     }
+  }
+
+  double stiffness_of(std::size_t k) const {
+    return value_at(body_.local.volume, static_cast<std::size_t>(id_[k]),
+                    body_.material.volume_stiffness);
   }
 
   void make_fibers(std::size_t blocks, std::size_t slots) {

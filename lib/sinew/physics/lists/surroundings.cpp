@@ -41,7 +41,7 @@ Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Steppin
       until_middle_(stepping.step / 2) {
   if (!any_) return;
   sliding_ = SlidingContacts(*body_);
-  for (const Load& load : world_->loads) loads_.emplace_back(load);
+  loads_ = LoadLists<Real>(world_->loads, mass_);
 }
 
 template <class Real>
@@ -60,7 +60,7 @@ void Surroundings<Real>::set_order(std::span<const std::int32_t> id) {
   held_.assign(blocks, 0);
   pieces_.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
   set_pins(id);
-  set_loads(id);
+  loads_.set_order(id);
 }
 
 template <class Real>
@@ -84,28 +84,13 @@ void Surroundings<Real>::set_pins(std::span<const std::int32_t> id) {
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
+/// Lets a particle slide across.
 template <class Real>
-void Surroundings<Real>::set_loads(std::span<const std::int32_t> id) {
-  if (loads_.empty()) return;
-  std::vector<std::uint32_t> place(id.size());
-  for (std::uint32_t k = 0; k < id.size(); ++k) place[static_cast<std::size_t>(id[k])] = k;
-  const auto& loads = world_->loads;
-  places_.assign(loads.size(), {});
-  for (std::size_t n = 0; n < loads.size(); ++n)
-    for (const std::uint32_t particle : loads[n].particles) places_[n].push_back(place[particle]);
-  const auto for_each = [&](const auto& visit) {
-    for (std::uint32_t n = 0; n < loads.size(); ++n)
-      for (std::uint32_t at = 0; at < places_[n].size(); ++at) visit(places_[n][at], Loaded{n, at});
-  };
-  first_load_.assign(id.size() + 1, 0);
-  for_each([&](std::uint32_t k, const Loaded&) { ++first_load_[k + 1]; });
-  std::partial_sum(first_load_.begin(), first_load_.end(), first_load_.begin());
-  loaded_.resize(first_load_.back());
-  std::vector<std::uint32_t> next(first_load_.begin(), first_load_.end() - 1);
-  for_each([&](std::uint32_t k, const Loaded& one) {
-    loaded_[next[k]++] = one;
-    held_[k / BlockState<Real>::block] = 1;
-  });
+void hold_obliquely(const Pinned& pin, std::size_t k, const PinPose& place, BlockState<Real>& state,
+                    const Units& units) {
+  const Vec3 x = state.position(k, units), v = state.velocity(k, units);
+  state.set_position(k, x + held_part(pin, place.position - x), units);
+  state.set_velocity(k, v + held_part(pin, place.velocity - v), units);
 }
 
 template <class Real>
@@ -127,6 +112,7 @@ void Surroundings<Real>::hold(const Pose& pose, double time, BlockState<Real>& s
           state.set_position(k, axis, place.position[axis], units);
           state.set_velocity(k, axis, place.velocity[axis], units);
         }
+        if (pin.is_oblique()) hold_obliquely(pin, k, place, state, units);
         moved[piece] = std::max(moved[piece], (state.position(k, units) - before).norm());
       }
   });
@@ -159,10 +145,12 @@ void Surroundings<Real>::find_touched(std::size_t piece, const Box& box) {
   const std::size_t first = piece * kernel::blocks_per_piece;
   const std::size_t last = std::min(first + kernel::blocks_per_piece, touched_.size());
   const bool some = everywhere_ || may_touch(box);
+  const bool probing = forces_ != nullptr;  // moments of loads are asked for
   for (std::size_t k = first; k < last; ++k) {
-    touched_[k] =
-        everywhere_ || (!held_.empty() && held_[k] != 0) || (sliding_.any() && has_contacts(k)) ? 1
-                                                                                                : 0;
+    touched_[k] = everywhere_ || (!held_.empty() && held_[k] != 0) ||
+                          (probing && loads_.is_on(k)) || (sliding_.any() && has_contacts(k))
+                      ? 1
+                      : 0;
     if (some && touched_[k] == 0)
       touched_[k] = may_touch(box_of(k * block, std::min((k + 1) * block, state_->size()))) ? 1 : 0;
   }
@@ -179,7 +167,7 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
   units_ = units;
   forces_ = forces;
   if (forces_ != nullptr) forces_->assign(state.size(), Vec3::Zero());
-  find_loads();
+  loads_.find(now_.loads, state, units_);
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};
@@ -221,34 +209,6 @@ Vec3 Surroundings<Real>::friction_on(std::size_t k, const Vec3& position, const 
   return sliding_.force(id_[k], touches, stepping_.step, forces_ == nullptr);
 }
 
-template <class Real>
-void Surroundings<Real>::find_loads() {
-  for (std::size_t n = 0; n < loads_.size(); ++n)
-    loads_[n].find(world_->loads[n], now_.loads[n],
-                   [&](std::size_t at) { return state_->position(places_[n][at], units_); });
-}
-
-template <class Real>
-Vec3 Surroundings<Real>::load_on(std::size_t k) const {
-  Vec3 sum = Vec3::Zero();
-  if (first_load_.empty()) return sum;
-  for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n)
-    sum += loads_[loaded_[n].load].force(loaded_[n].place);
-  return sum;
-}
-
-template <class Real>
-void Surroundings<Real>::add_loads(std::size_t k, const Vec3& position, const Vec3& middle,
-                                   Piece& piece) const {
-  if (first_load_.empty()) return;
-  for (std::uint32_t n = first_load_[k]; n < first_load_[k + 1]; ++n) {
-    const auto& [load, place] = loaded_[n];
-    const Vec3 force = loads_[load].force(place);
-    const Vec3 arm = position - world_->loads[load].pivot;
-    piece.of_loads[load] += {force, arm.cross(force), force.dot(middle)};
-  }
-}
-
 /// `unheld`: all forces that pins and supports answer, N.
 template <class Real>
 void Surroundings<Real>::answer_of_pins(std::size_t k, const PinPose& at, const Vec3& unheld,
@@ -256,7 +216,7 @@ void Surroundings<Real>::answer_of_pins(std::size_t k, const PinPose& at, const 
   const Pinned& pin = world_->pins[pin_[k]];
   const Vec3 own = held_part(pin, middle);
   piece.sums.power -= unheld.dot(own);
-  piece.sums.held_kinetic += mass_ / 2 * own.squaredNorm();
+  piece.sums.held_kinetic += mass_at(k) / 2 * own.squaredNorm();
   if (pin.is_pin())
     add_reaction(pin, at, unheld, *pose_, piece.of_pins);
   else
@@ -294,44 +254,41 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const HeldParticle particle{
       {}, position, velocity, body_->material.pair.r, static_cast<std::size_t>(id_[k])};
   Piece& piece = pieces_[k / (kernel::blocks_per_piece * BlockState<Real>::block)];
-  const Vec3 inner = mass_ * acceleration, load = load_on(k);
+  const double mass = mass_at(k);
+  const Vec3 inner = mass * acceleration;  // loads included
   const Vec3 friction = sliding_.any() ? friction_on(k, position, velocity) : Vec3(Vec3::Zero());
-  const Vec3 others = inner + load + friction;
+  const Vec3 others = inner + friction;
   ParticleWorld world;
   if (acts_in_space_)
-    world = world_on(particle, mass_, *world_, now_, others, stepping_.step, piece.reactions);
-  const Vec3 given = load + friction + world.force();
+    world = world_on(particle, mass, *world_, now_, others, stepping_.step, piece.reactions);
+  const Vec3 given = friction + world.force();
   const Pinned* pin = is_held(k) ? &world_->pins[pin_[k]] : nullptr;
-  acceleration += given / mass_;
+  acceleration += given / mass;
   if (pin != nullptr) acceleration -= held_part(*pin, acceleration);
   held = pin != nullptr ? Real(1) : Real(0);
   const Vec3 middle = velocity + until_middle_ * acceleration;
   WorldSums& sums = piece.sums;
-  sums.power += world.power + (load + world.field).dot(middle);
+  sums.power += world.power + world.field.dot(middle);
   sums.lost += world.losing_power - world.losing.dot(middle) - friction.dot(middle);
   sums.contact_energy += world.contact_energy;
   if (acts_in_space_) sums.applied += world.force().norm();
   if (pin != nullptr && pin->is_pin()) sums.applied += (others + world.force()).norm() / 2;
-  if (forces_ != nullptr) add_loads(k, position, middle, piece);
+  if (forces_ != nullptr) loads_.add(k, position, middle, piece.of_loads);
   if (pin != nullptr)
     answer_of_pins(k, {position, velocity}, others + world.force(), middle, piece);
   if (forces_ == nullptr) return;
-  Vec3& stored = (*forces_)[k] = given;
-  if (pin != nullptr) stored = stored - held_part(*pin, stored) - held_part(*pin, inner);
+  const Vec3 load = loads_.force(k);
+  Vec3& stored = (*forces_)[k] = load + given;
+  if (pin != nullptr) stored = stored - held_part(*pin, given) - held_part(*pin, inner);
 }
 
 template <class Real>
 WorldSums Surroundings<Real>::sums() const {
   WorldSums all;
-  for (const Piece& piece : pieces_) {
-    all.power += piece.sums.power;
-    all.lost += piece.sums.lost;
-    all.contact_energy += piece.sums.contact_energy;
-    all.held_kinetic += piece.sums.held_kinetic;
-    all.applied += piece.sums.applied;
-  }
-  for (const LoadNow& load : loads_) all.loaded += load.size();
-  all.applied += all.loaded;
+  for (const Piece& piece : pieces_)
+    for (const auto sum : {&WorldSums::power, &WorldSums::lost, &WorldSums::contact_energy,
+                           &WorldSums::held_kinetic, &WorldSums::applied})
+      all.*sum += piece.sums.*sum;
   return all;
 }
 

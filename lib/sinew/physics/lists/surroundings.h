@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What surrounds a body, for the list stepper: obstacles, drag, fields, pins, supports, loads, and
-// the friction of the body on itself, evaluated in double precision for the blocks of particles
-// that they may touch. ../world/world.h
-// gives the forces.
+// What surrounds a body, for the list stepper: obstacles, drag, fields, pins, supports, and the
+// friction of the body on itself, evaluated in double precision for the blocks of particles that
+// they may touch; loads, as accelerations that the kernel adds. ../world/world.h gives the forces.
 //
 //     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
 //     step.surroundings = surroundings.calls();
@@ -17,6 +16,7 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/load_lists.h>
 #include <sinew/physics/lists/verlet_lists.h>
 #include <sinew/physics/stepper.h>
 #include <sinew/physics/world/sliding_contacts.h>
@@ -26,12 +26,11 @@ namespace sinew {
 
 /// Contributions to the ledger, W and J.
 struct WorldSums {
-  double power = 0;  ///< of obstacles, fields, pins and loads
+  double power = 0;  ///< of obstacles, fields and pins
   double lost = 0;
   double contact_energy = 0, held_kinetic = 0;
-  /// The lengths of all forces on particles but those of supports, half of those of pins, N.
+  /// The lengths of forces on particles but those of supports and loads, half of those of pins, N.
   double applied = 0;
-  double loaded = 0;  ///< of it, of loads
 };
 
 template <class Real>
@@ -54,6 +53,7 @@ class Surroundings {
   void begin(const Pose& pose, double time, BlockState<Real>& state, const Units& units,
              const VerletLists<Real>& lists, Points* forces);
   kernel::Surroundings<Real> calls();
+  kernel::Loads<Real> loads() const { return loads_.arrays(); }
 
   void set_step(double step);  ///< s
 
@@ -62,6 +62,8 @@ class Surroundings {
 
   /// Of the last step or probe, added in the order of the pieces.
   WorldSums sums() const;
+  /// The lengths of the forces of loads at present, N.
+  double loaded() const { return loads_.sizes(now_.loads); }
   std::vector<Reaction> reactions() const;          ///< of obstacles
   std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
   std::vector<Reaction> of_supports() const;        ///< on the body, of each
@@ -76,23 +78,18 @@ class Surroundings {
     std::vector<Reaction> of_pins;    ///< on bones
     std::vector<Reaction> of_supports, of_loads;
   };
-  /// A load's force on a particle, by its place among the load's particles.
-  struct Loaded {
-    std::uint32_t load, place;
-  };
 
   static void act(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3],
                   Real* held);
   void act_on(std::size_t k, Vec3& acceleration, Real& held);
+  double mass_at(std::size_t k) const {
+    return mass_of(*body_, static_cast<std::size_t>(id_[k]), mass_);
+  }
   void set_pins(std::span<const std::int32_t> id);
-  void set_loads(std::span<const std::int32_t> id);
-  void find_loads();
-  Vec3 load_on(std::size_t k) const;
   Vec3 friction_on(std::size_t k, const Vec3& position, const Vec3& velocity);
   bool has_contacts(std::size_t block) const;
   void answer_of_pins(std::size_t k, const PinPose& at, const Vec3& unheld, const Vec3& middle,
                       Piece& piece) const;
-  void add_loads(std::size_t k, const Vec3& position, const Vec3& middle, Piece& piece) const;
   std::vector<Reaction> sums_of(std::vector<Reaction> Piece::*part, std::size_t count) const;
   bool may_touch(const Box& box) const;
   void find_touched(std::size_t piece, const Box& box);
@@ -110,12 +107,8 @@ class Surroundings {
   std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
   std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces
   std::vector<std::uint8_t> touched_;  ///< by block
-  std::vector<std::uint8_t> held_;     ///< by block: whether it has pins or loads
-  /// By load: of its particles in the kernel's order.
-  std::vector<std::vector<std::uint32_t>> places_;
-  std::vector<std::uint32_t> first_load_;  ///< of particle k; empty without loads
-  std::vector<Loaded> loaded_;
-  std::vector<LoadNow> loads_;
+  std::vector<std::uint8_t> held_;     ///< by block: whether it has pins
+  LoadLists<Real> loads_;
   std::vector<Piece> pieces_;
   SlidingContacts sliding_;
 

@@ -93,7 +93,7 @@ Body coarse_body(const Body& body, int times) {
   const double unit = std::numbers::sqrt2 * larger * body.material.pair.r;
   const Vec3 center = middle_of(body.rest);
   // A particle is spread over its own volume, lest cells hold now two, now four.
-  Shares all, stiffness;
+  Shares all, stiffness, volume, density;
   const std::vector<FccSite> parts = nearest_steps();
   for (std::size_t i = 0; i < body.rest.size(); ++i) {
     const Vec3 at = body.lattice.transpose() * (body.rest[i] - center) / unit;
@@ -103,9 +103,12 @@ Body coarse_body(const Body& body, int times) {
       const FccSite site = nearest_fcc_site(at + 0.5 / larger * Vec3(part[0], part[1], part[2]));
       all[site] += share;
       if (!body.stiffness.empty()) stiffness[site] += share * body.stiffness[i];
+      if (!body.density.empty()) density[site] += share * body.density[i];
+      if (!body.local.volume.empty()) volume[site] += share * body.local.volume[i];
     }
   }
-  for (auto& [site, sum] : stiffness) sum /= all[site];
+  for (Shares* sums : {&stiffness, &volume, &density})
+    for (auto& [site, sum] : *sums) sum /= all[site];
   Body coarse;
   coarse.lattice = body.lattice;
   coarse.material = enlarged(body.material, larger);
@@ -113,6 +116,8 @@ Body coarse_body(const Body& body, int times) {
     coarse.rest.emplace_back(center + unit * (body.lattice * Vec3(site[0], site[1], site[2])));
     coarse.share.push_back(share);
     if (!stiffness.empty()) coarse.stiffness.push_back(stiffness[site]);
+    if (!density.empty()) coarse.density.push_back(density[site]);
+    if (!volume.empty()) coarse.local.volume.push_back(volume[site]);
   }
   coarse.material.mass = body.material.mass * static_cast<double>(body.rest.size()) /
                          static_cast<double>(coarse.rest.size());

@@ -49,6 +49,8 @@ Body part_of(const Body& body, const std::vector<std::size_t>& places) {
     part.rest.push_back(body.rest[i]);
     if (!body.share.empty()) part.share.push_back(body.share[i]);
     if (!body.stiffness.empty()) part.stiffness.push_back(body.stiffness[i]);
+    if (!body.density.empty()) part.density.push_back(body.density[i]);
+    if (!body.local.volume.empty()) part.local.volume.push_back(body.local.volume[i]);
   }
   part.factors = bond_factors(part.rest, part.material, part.share, part.stiffness);
   return part;
@@ -207,7 +209,7 @@ ElasticModes modes_of(const Body& whole, bool by_share) {
   for (const double share : body.share) shares += share;
   for (Eigen::Index i = 0; i < n; ++i)
     mass.segment<3>(3 * i).setConstant(
-        body.material.mass *
+        mass_of(body, static_cast<std::size_t>(i), body.material.mass) *
         (by_share ? body.share[static_cast<std::size_t>(i)] * static_cast<double>(n) / shares : 1));
   return ModeFinder(body, mass).find();
 }

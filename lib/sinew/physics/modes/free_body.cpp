@@ -46,12 +46,12 @@ FreeBody::FreeBody(const Body& body, const Vector& mass)
       particles_(particles_at(body.rest, body.material.pair.r, body.material.mass)) {
   body_.material.damping = 1;
   if (remembers_neighbors(body.material))
-    solid_.emplace(body_.material, body_.rest, particles_.id, body_.factors);
+    solid_.emplace(body_.material, body_.rest, particles_.id, body_.factors, body_.local);
   assemble();
 }
 
 Matrix FreeBody::stiffness(const Matrix& u) {
-  if (body_.material.volume_stiffness <= 0) return springs_ * u;
+  if (!keeps_volume(body_)) return springs_ * u;
   return of_columns(u, [this](const Vector& one) -> Vector {
     const double scale = small * body_.material.pair.r / one.cwiseAbs().maxCoeff();
     return (pair_forces_at(-scale * one) - pair_forces_at(scale * one)) / (2 * scale);

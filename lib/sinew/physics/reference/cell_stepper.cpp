@@ -18,7 +18,7 @@ std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
   Points rest;
   rest.reserve(particles.size());
   for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
-  return Solid(body.material, std::move(rest), particles.id, body.factors);
+  return Solid(body.material, std::move(rest), particles.id, body.factors, body.local);
 }
 
 }  // namespace
@@ -75,7 +75,6 @@ void CellStepper::find_loads(const WorldNow& now) {
 void CellStepper::find_world_forces(const Pose& pose) {
   const World& world = *body_->world;
   const WorldNow now = world_at(world, time_, pose);
-  const Vec3 weight = particles_.mass * stepping_.gravity;
   muscle_forces(world.muscles, now.activations, particles_, muscle_);
   find_loads(now);
   reactions_.assign(world.obstacles.size(), {});
@@ -89,8 +88,9 @@ void CellStepper::find_world_forces(const Pose& pose) {
                                 particles_.radius,
                                 static_cast<std::size_t>(particles_.id[i])};
     forces_.world[i] += load_[i];
-    around_[i] = world_on(particle, particles_.mass, world, now, forces_.total(i) + weight,
-                          stepping_.step, reactions_);
+    const Vec3 weight = mass(i) * stepping_.gravity;
+    around_[i] = world_on(particle, mass(i), world, now, forces_.total(i) + weight, stepping_.step,
+                          reactions_);
     forces_.world[i] += around_[i].force();
   }
   hold_back(now, pose);
@@ -107,13 +107,12 @@ void CellStepper::find_world_forces(const Pose& pose) {
 /// Pins and supports answer all other forces on what they hold.
 void CellStepper::hold_back(const WorldNow& now, const Pose& pose) {
   const World& world = *body_->world;
-  const Vec3 weight = particles_.mass * stepping_.gravity;
   of_pins_.assign(held_.empty() ? 0 : pose.size(), {});
   of_supports_.assign(world.supports.size(), {});
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const Pinned& pin = world.pins[k];
     const std::size_t i = held_[k];
-    const Vec3 unheld = forces_.total(i) + weight;
+    const Vec3 unheld = forces_.total(i) + mass(i) * stepping_.gravity;
     const PinPose at{particles_.position(i), particles_.velocity(i)};
     if (pin.is_pin())
       add_reaction(pin, at, unheld, pose, of_pins_);
@@ -144,10 +143,12 @@ void CellStepper::find_friction() {
 
 void CellStepper::find_forces(const Pose& pose) {
   hold(pose);
-  if (solid_)
+  if (solid_) {
+    solid_->branches().begin(stepping_.step);
     solid_->forces(particles_, forces_);
-  else
+  } else {
     pair_forces(particles_, body_->material, forces_);
+  }
   bone_forces(particles_, *body_, pose, forces_);
   forces_.world.clear();
   friction_.clear();
@@ -176,7 +177,7 @@ void CellStepper::read(BondRest& rest) const {
       for (std::uint32_t e = bonds.neighbors.first[i]; e < bonds.neighbors.first[i + 1]; ++e)
         if (bonds.whole(e))
           rest.set(particles_.id[i], particles_.id[bonds.neighbors.neighbor[e]], nearest,
-                   bonds.rest_length[e]);
+                   solid_->free_length(nearest, e));
   };
   set(solid_->bonds().nearest, true);
   set(solid_->bonds().second, false);
@@ -189,16 +190,19 @@ void CellStepper::save(SimulationState& state) const {
   sliding_.save(state);
   if (!solid_) return;
   state.rest_length = solid_->rest_lengths();
+  solid_->branches().save(state);
 }
 
 void CellStepper::restore(const SimulationState& state) {
   const auto* moving = std::get_if<MovingInDouble>(&state.moving);
   if (moving == nullptr) throw not_a_state("it is in single precision");
   check_moving(*moving, particles_.size());
-  if (solid_)
+  if (solid_) {
+    solid_->branches().restore(state);
     solid_->restore(state.rest_length);
-  else if (!state.rest_length.empty())
+  } else if (!state.rest_length.empty()) {
     throw not_a_state("it has bonds");
+  }
   sliding_.restore(state);
   Particles& now = particles_;
   now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
@@ -206,8 +210,12 @@ void CellStepper::restore(const SimulationState& state) {
   kicked_ = state.kicked;
 }
 
+double CellStepper::mass(std::size_t i) const {
+  return mass_of(*body_, static_cast<std::size_t>(particles_.id[i]), particles_.mass);
+}
+
 Vec3 CellStepper::acceleration(std::size_t i) const {
-  return forces_.total(i) / particles_.mass + stepping_.gravity;
+  return forces_.total(i) / mass(i) + stepping_.gravity;
 }
 
 /// Velocities are half a step behind the forces, for velocity Verlet as well.
@@ -228,7 +236,7 @@ void CellStepper::add_world(StepSums& sums) const {
     Vec3 others = around_[i].force() + load_[i] + muscle_[i];
     if (!friction_.empty()) others += friction_[i];
     sums.world_power += (forces_.world[i] - others).dot(own);
-    sums.held_kinetic += particles_.mass / 2 * own.squaredNorm();
+    sums.held_kinetic += mass(i) / 2 * own.squaredNorm();
   }
 }
 
@@ -314,10 +322,12 @@ StepSums CellStepper::step(const Pose& pose) {
       if (!sound(i, before, pose)) failed = true;
     }
   });
-  if (failed)
+  if (failed) {
     sums.failure = take_back(pose);
-  else
-    kicked_ = true;
+    return sums;
+  }
+  kicked_ = true;
+  if (solid_) solid_->branches().advance(stepping_.step);
   return sums;
 }
 

@@ -57,6 +57,7 @@ class CellStepper {
   void hold_back(const WorldNow& now, const Pose& pose);
   void hold(const Pose& pose);
   double stored_in_pairs();
+  double mass(std::size_t i) const;
   Vec3 acceleration(std::size_t i) const;
   Vec3 velocity_now(std::size_t i) const;
   void add_world(StepSums& sums) const;

@@ -14,7 +14,6 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t points_per_task = 64;
-constexpr std::size_t followed = 20;      // particles that a point follows
 constexpr double first_reach = 6;         // radii, within which that many are looked for
 constexpr double beyond_farthest = 1.05;  // reach of the weights over that of the farthest
 constexpr double flat = 1e-3;             // second moment over the largest that counts as none
@@ -134,10 +133,11 @@ Points FollowingPoints::at(const Points& now) const {
   return places;
 }
 
-FollowingPoints following(const Points& places, const Points& rest, double radius) {
+FollowingPoints following(const Points& places, const Points& rest, double radius,
+                          std::size_t count) {
   const Finder finder(rest, radius);
   FollowingPoints points;
-  const std::size_t each = std::min(followed, rest.size());
+  const std::size_t each = std::min(count, rest.size());
   points.particle.resize(each * places.size());
   points.weight.resize(each * places.size());
   for (std::size_t k = 0; k <= places.size(); ++k)

@@ -27,10 +27,11 @@ struct FollowingPoints {
   Points at(const Points& now) const;
 };
 
-/// Follows the 20 particles nearest to each place (n x 3, m), of those at `rest` (m) with `radius`
+/// Follows the particles nearest to each place (n x 3, m), of those at `rest` (m) with `radius`
 /// (m). Where these lie in one plane or on one line, a place beside it follows its foot there.
 /// Throws bad input for no particles. In parallel.
-FollowingPoints following(const Points& places, const Points& rest, double radius);
+FollowingPoints following(const Points& places, const Points& rest, double radius,
+                          std::size_t count = 20);
 
 /// The particle nearest to each place; the lower one of two. Throws bad input for no particles. In
 /// parallel.

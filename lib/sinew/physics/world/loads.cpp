@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
@@ -44,6 +45,19 @@ void transpose(std::size_t targets, const Visit& for_each, std::vector<std::uint
   for_each([&](std::uint32_t from, std::uint32_t target) { source[next[target]++] = from; });
 }
 
+AreaShares area_shares(const Triangles& surface, const FollowingPoints& points) {
+  const std::vector<double> areas = areas_of_points(surface);
+  AreaShares all;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    all.area += areas[k];
+    for (std::uint32_t e = points.first[k]; e < points.first[k + 1]; ++e) {
+      all.particles.push_back(points.particle[e]);
+      all.shares.push_back(areas[k] * points.weight[e]);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
@@ -68,26 +82,17 @@ Load force_load(const std::string& name, const std::vector<std::uint32_t>& parti
 }
 
 AreaShares area_shares(const Triangles& surface, const Points& rest, double radius) {
-  const FollowingPoints points = following(surface.points, rest, radius);
-  const std::vector<double> areas = areas_of_points(surface);
-  AreaShares all;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    all.area += areas[k];
-    for (std::uint32_t e = points.first[k]; e < points.first[k + 1]; ++e) {
-      all.particles.push_back(points.particle[e]);
-      all.shares.push_back(areas[k] * points.weight[e]);
-    }
-  }
-  return all;
+  return area_shares(surface, following(surface.points, rest, radius));
 }
 
 Load pressure_load(const std::string& name, const Triangles& surface, double pressure,
                    const Points& rest, double radius) {
-  const AreaShares area = area_shares(surface, rest, radius);
+  FollowingPoints corners = following(surface.points, rest, radius, followed_by_corners);
+  const AreaShares area = area_shares(surface, corners);
   Load load = force_load(name, area.particles, area.shares, Vec3::Zero(), rest);
   load.pressure = pressure;
   load.faces = surface.faces;
-  load.corners = following(surface.points, rest, radius);
+  load.corners = std::move(corners);
   for (std::uint32_t& particle : load.corners.particle)
     particle = static_cast<std::uint32_t>(
         std::lower_bound(load.particles.begin(), load.particles.end(), particle) -
@@ -155,7 +160,6 @@ void LoadNow::order_corners(const Load& load) {
 }
 
 void LoadNow::find_forces(const Load& load, double scale) {
-  size_ = std::abs(scale) * load.force.norm();
   if (!load.faces.empty()) find_pressure(load, scale);
   if (!load.faces.empty() && load.force.isZero(0)) return;
   parallel_for(forces_.size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
@@ -186,12 +190,15 @@ void LoadNow::find_pressure(const Load& load, double scale) {
     pushed_[k] = sum;
   });
   on_all(forces_.size(), [&](std::size_t k) { forces_[k] = of_particles_.sum(k, pushed_); });
-  size_ +=
-      parallel_sum(pushed_.size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
-        double sum = 0;
-        for (std::size_t k = begin; k < end; ++k) sum += pushed_[k].norm();
-        return sum;
-      });
+}
+
+double LoadNow::size(const Load& load, double scale) const {
+  return std::abs(scale) * load.force.norm() +
+         parallel_sum(pushed_.size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
+           double sum = 0;
+           for (std::size_t k = begin; k < end; ++k) sum += pushed_[k].norm();
+           return sum;
+         });
 }
 
 double load_stiffness(const Load& load, double radius) {

@@ -43,6 +43,9 @@ struct Load {
 Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
                 const std::vector<double>& shares, const Vec3& force, const Points& rest);
 
+/// As many particles each corner of a pressure follows: of two layers, at least.
+inline constexpr std::size_t followed_by_corners = 12;
+
 /// A pressure (Pa) on all faces of a surface whose points follow the particles at `rest` with
 /// `radius` (m); its shares are those of the area. Throws bad input for no faces.
 Load pressure_load(const std::string& name, const Triangles& surface, double pressure,
@@ -75,8 +78,8 @@ class LoadNow {
   }
 
   Vec3 force(std::size_t k) const { return forces_[k].head<3>(); }  ///< on load.particles[k], N
-  /// Of its forces, those of a pressure by their lengths, N.
-  double size() const { return size_; }
+  /// Of its forces as found last, those of a pressure by their lengths, N.
+  double size(const Load& load, double scale) const;
 
  private:
   static constexpr std::size_t particles_per_task = 512;
@@ -101,7 +104,6 @@ class LoadNow {
   Weights of_corners_, of_particles_, of_faces_;  ///< corners from particles, and back; from faces
   std::vector<std::array<std::uint32_t, 3>> face_;
   std::vector<Four> at_, corner_, area_, pushed_, forces_;
-  double size_ = 0;
 };
 
 /// An upper bound of the stiffness that a load adds to a particle of `radius` (m), N/m.

@@ -29,13 +29,16 @@ struct Pinned {
   int bone = no_bone;  ///< of a pin
   /// The support that holds its x, y and z; none at all: a pin holds it.
   std::array<std::int32_t, 3> support = {no_support, no_support, no_support};
+  /// Of an oblique roller, the first of these: the direction along which it holds, of length 1.
+  Vec3 along = Vec3::Zero();
 
+  bool is_oblique() const { return !along.isZero(0); }
   bool is_pin() const {
     return support[0] == no_support && support[1] == no_support && support[2] == no_support;
   }
-  /// Whether it moves as prescribed along that axis.
+  /// Whether it moves as prescribed along that axis; never of an oblique roller.
   bool holds(int axis) const {
-    return support[static_cast<std::size_t>(axis)] != no_support || is_pin();
+    return !is_oblique() && (support[static_cast<std::size_t>(axis)] != no_support || is_pin());
   }
 };
 

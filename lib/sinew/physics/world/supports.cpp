@@ -58,15 +58,22 @@ class Holder {
   void add_support(std::int32_t index) {
     const Support& support = world_.supports[static_cast<std::size_t>(index)];
     for (const std::uint32_t particle : support.particles) {
-      if (place_[particle] == nowhere)
+      const bool fresh = place_[particle] == nowhere;
+      if (fresh)
         add({particle});
       else if (held_[place_[particle]].is_pin())
         throw bad_input(name_of(support) + " holds particle " + std::to_string(particle) +
                             ", which world.pins hold",
                         "make their regions disjoint, or replace the pin by a support");
+      Pinned& pin = held_[place_[particle]];
+      if (!fresh && (pin.is_oblique() || !support.along.isZero(0))) refuse_oblique(support, pin);
+      if (!support.along.isZero(0)) {
+        pin.support[0] = index;
+        pin.along = support.along;
+        continue;
+      }
       for (int axis = 0; axis < 3; ++axis)
-        if (support.holds[static_cast<std::size_t>(axis)])
-          hold(index, axis, held_[place_[particle]]);
+        if (support.holds[static_cast<std::size_t>(axis)]) hold(index, axis, pin);
     }
   }
 
@@ -79,6 +86,14 @@ class Holder {
 
  private:
   static constexpr std::size_t nowhere = SIZE_MAX;
+
+  [[noreturn]] void refuse_oblique(const Support& support, const Pinned& pin) const {
+    const std::int32_t other = *std::max_element(pin.support.begin(), pin.support.end());
+    throw bad_input("supports '" + world_.supports[static_cast<std::size_t>(other)].name +
+                        "' and '" + support.name + "' both hold particle " +
+                        std::to_string(pin.particle) + ", one of them along an oblique direction",
+                    "make their regions disjoint");
+  }
 
   void add(const Pinned& pin) {
     place_[pin.particle] = held_.size();
@@ -125,26 +140,44 @@ std::vector<ObstaclePose> poses_of(std::span<const Support> supports, double tim
   return poses;
 }
 
+namespace {
+
+/// Where one support puts a particle: exactly at rest where the support is.
+PinPose place_by(std::span<const Support> supports, std::span<const ObstaclePose> now,
+                 std::int32_t index, const Vec3& rest) {
+  const auto k = static_cast<std::size_t>(index);
+  const Vec3& pivot = supports[k].pivot;
+  const RigidFrame& frame = now[k].frame;
+  const Vec3 place =
+      rest + ((frame.origin - pivot) + (frame.rotation - Mat3::Identity()) * (rest - pivot));
+  return {place, now[k].velocity_at(place)};
+}
+
+}  // namespace
+
 PinPose place_of(const Pinned& held, const Vec3& rest, std::span<const Support> supports,
                  std::span<const ObstaclePose> now) {
   PinPose at{rest, Vec3::Zero()};
+  if (held.is_oblique()) return place_by(supports, now, held.support[0], rest);
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t index = held.support[static_cast<std::size_t>(axis)];
     if (index == no_support) continue;
-    const auto k = static_cast<std::size_t>(index);
-    const Vec3& pivot = supports[k].pivot;
-    const RigidFrame& frame = now[k].frame;
-    // Exactly at rest where the support is.
-    const Vec3 place =
-        rest + ((frame.origin - pivot) + (frame.rotation - Mat3::Identity()) * (rest - pivot));
-    at.position[axis] = place[axis];
-    at.velocity[axis] = now[k].velocity_at(place)[axis];
+    const PinPose place = place_by(supports, now, index, rest);
+    at.position[axis] = place.position[axis];
+    at.velocity[axis] = place.velocity[axis];
   }
   return at;
 }
 
 void add_answer(const Pinned& held, const PinPose& at, const Vec3& answer,
                 std::span<const ObstaclePose> now, std::span<Reaction> of_supports) {
+  if (held.is_oblique()) {
+    const auto k = static_cast<std::size_t>(held.support[0]);
+    const Vec3 force = held_part(held, answer);
+    of_supports[k] +=
+        {force, (at.position - now[k].frame.origin).cross(force), force.dot(at.velocity)};
+    return;
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t index = held.support[static_cast<std::size_t>(axis)];
     if (index == no_support) continue;
@@ -158,6 +191,7 @@ void add_answer(const Pinned& held, const PinPose& at, const Vec3& answer,
 
 Vec3 held_part(const Pinned& held, const Vec3& all) {
   Vec3 part = Vec3::Zero();
+  if (held.is_oblique()) return held.along.dot(all) * held.along;
   for (int axis = 0; axis < 3; ++axis)
     if (held.holds(axis)) part[axis] = all[axis];
   return part;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The grips of a testing machine: each holds a part of the body along some of the scene's axes and
 // moves it as prescribed; along the others the part is free. A clamp holds x, y and z, a roller one
-// of them.
+// of them, an oblique roller any one direction.
 //
 //     world.supports = {roller, grip};
 //     hold(world, body.rest.size());
@@ -27,12 +27,13 @@ struct Support {
   /// Of its frame, which rests at `pivot` along the scene's axes; none: it does not move.
   ObstacleMotion motion = {};
   Vec3 pivot = Vec3::Zero();  ///< at rest, m; rotations and moments are about it
+  Vec3 along = Vec3::Zero();  ///< instead of x, y, z: a direction, of length 1; 0: none
 };
 
 /// Adds what the world's supports hold to its pins. A component that two supports hold belongs to
 /// the first. Throws bad input, which names them, for a support without particles, for two that
-/// hold the same component of a particle where one of them moves, and for one that holds a pinned
-/// particle.
+/// hold the same component of a particle where one of them moves, for one that holds a pinned
+/// particle, and where an oblique roller and another support hold a particle.
 void hold(World& world, std::size_t particles);
 
 /// Where each support is; one that does not move is at its pivot.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bonds between neighbors at rest, as the kernel reads them. Plain, as kernel.h says.
+#pragma once
+
+#include <cstdint>
+
+namespace sinew::kernel {
+
+/// Bonds of some lanes of a block with the particles at one difference from them.
+struct BondEntry {
+  std::int32_t difference;
+  std::uint32_t kind;
+  std::uint32_t lanes;  ///< bit by lane, at rest and, 16 bits lower, now: what breaks is cleared
+  std::int32_t own;     ///< row of Bonds::own, or -1: all lanes have the stiffness of the kind
+};
+inline constexpr int rest_lanes = 16;
+
+/// Bonds that were equal and parallel at rest.
+template <class Real>
+struct BondKind {
+  Real rest[3];  ///< to the neighbor
+  Real length;
+  Real stiffness;
+};
+
+/// A spring and a dashpot in series beside each bond: see ../maxwell.h.
+template <class Real>
+struct Branch {
+  Real* stretch;  ///< entries x block: of its dashpot
+  Real share;     ///< of the bond's stiffness
+  Real flows;     ///< share of its spring's stretch that passes to the dashpot now; often 0
+  Real weight;    ///< of its stretch in the length at which the bond pulls nothing
+};
+inline constexpr int most_branches = 4;
+
+template <class Real>
+struct Bonds {
+  const std::uint32_t* first;   ///< entries of block k: [first[k], first[k + 1])
+  const std::uint32_t* second;  ///< from there on, bonds between second neighbors
+  BondEntry* entries;
+  const BondKind<Real>* kinds;
+  const Real* own;       ///< rows x block: stiffness by lane, where it differs
+  Real* creep;           ///< entries x block, added to the length; null: none creeps
+  std::int32_t* broken;  ///< by particle
+  Real* flow[6];         ///< by particle: P of ../solid.h, x x, y y, z z, y z, z x, x y
+  Real* flows;           ///< by particle: positive where P is not 0
+  Real yield;            ///< squared shear beyond which bonds creep; 0: never
+  /// By particle, where they differ: `yield`; 1 and the strain at which its bonds break. Or null.
+  const Real* yield_of;
+  const Real* breaking_of;
+  Real crept;     ///< share that a step takes of it
+  Real breaking;  ///< strain at which it breaks
+  Branch<Real> branch[most_branches];
+  int branches;
+  bool branches_flow;  ///< one of them does now
+  Real slope;          ///< of a bond's force, over its stiffness, where there are branches
+};
+
+}  // namespace sinew::kernel
