@@ -176,7 +176,9 @@ RestBody rest_body(RestInput input) {
   if (input.law.second) body.second = second_neighbors(body.shape, input.law.second_range);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
-  if (input.law.volume_stiffness > 0) body.stiffened = volume_weights(body.shape, input.radius);
+  if (input.law.volume_stiffness > 0)
+    body.stiffened = input.law.volume_weight.empty() ? volume_weights(body.shape, input.radius)
+                                                     : input.law.volume_weight;
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;

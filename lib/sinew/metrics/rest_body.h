@@ -33,8 +33,10 @@ struct PairLaw {
   /// Neighbors at rest farther apart than this hold no longer, m.
   double reach = std::numeric_limits<double>::infinity();
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
-  bool bonds_change = false;    ///< they break or creep: a frame's state must contain them
-  bool has_muscles = false;     ///< a frame's state must contain their stress
+  /// By particle, over that of one inside; empty: as its neighbors say.
+  std::vector<double> volume_weight;
+  bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
+  bool has_muscles = false;   ///< a frame's state must contain their stress
 };
 
 /// Input: the body at rest and its constants. Particles are in the written order.
