@@ -52,9 +52,11 @@ TEST(VolumeWeights, AreOneFarFromSurfacesAndNowhereMoreThanTheMost) {
     EXPECT_LE(most, 2);
     const std::vector<double> weights = volume_weights(rest, material, {});
     EXPECT_DOUBLE_EQ(*std::max_element(weights.begin(), weights.end()), most);
+    const Vec3 middle(0, 0, 10.5 * half_plane_spacing(r));
     for (std::size_t i = 0; i < rest.size(); ++i)
-      if ((rest[i] - Vec3(0, 0, 10.5 * half_plane_spacing(r))).norm() < 1.5 * r)
+      if ((rest[i] - middle).norm() < 1.5 * r) {
         EXPECT_NEAR(weights[i], 1, 1e-12);
+      }
   }
 }
 
@@ -66,8 +68,8 @@ TEST(VolumeWeights, FollowSharesAndStiffness) {
     if (rest[i].z() < half_plane_spacing(r)) share[i] = 0.5;
   const std::vector<double> whole = volume_weights(rest, material, {});
   const std::vector<double> less = volume_weights(rest, material, share);
-  const auto halves = static_cast<double>(std::count(share.begin(), share.end(), 0.5));
-  EXPECT_NEAR(sum(whole) - sum(less), 0.5 * halves, 0.05 * halves);
+  EXPECT_LT(sum(less), sum(share) * (1 + 1e-12));
+  EXPECT_GT(sum(less), 0.97 * sum(share));
   const std::vector<double> soft = volume_weights(rest, material, {}, stiffness);
   for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_DOUBLE_EQ(soft[i], 0.5 * whole[i]);
 }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int passes = 8;  // a pass takes what lacks one neighbor further
 constexpr double largest_weight = 2;
+constexpr double surrounded = 1 - 1e-6;  // where all neighbors are, but for rounding
 // Highest w^2 at surfaces over that of the packing, for Poisson's ratios of 0.45 and 0.49, by power
 // iteration on cubes and turned ones, where no particle takes over from others.
 constexpr double surface_over_packing = 1.15;
@@ -56,7 +57,7 @@ class Spreading {
       for (const std::uint32_t i : near_.of(j))
         if (askers_[i] > 0) sum += lacks_[i] / askers_[i];
       const double offered = own_[j] * sum;
-      const double room = own_[j] < 1 ? 0 : std::max(0.0, most - weight_[j]);
+      const double room = own_[j] < surrounded ? 0 : std::max(0.0, most - weight_[j]);
       const double taken = std::min(offered, room);
       weight_[j] += taken;
       next_[j] = offered - taken;
