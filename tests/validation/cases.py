@@ -207,8 +207,8 @@ def turek_hron():
     """Their beam, from the cylinder's rear to its end: plane strain by rollers on both faces."""
     thick, end = 0.02, 0.6
     start = 0.2 + math.sqrt(0.05**2 - (thick / 2)**2)
-    for name, modulus, down, back, layers in (("csm1", 1.4e6, -66.1023e-3, -7.18767e-3, [9, 15, 21]),
-                                              ("csm2", 5.6e6, -16.9739e-3, -0.469e-3, [9, 15, 21])):
+    for name, modulus, down, back, layers in (("csm1", 1.4e6, -66.1023e-3, -7.18767e-3, [15, 21]),
+                                              ("csm2", 5.6e6, -16.9739e-3, -0.469e-3, [15, 21])):
         depth = thick / 3
         yield Case(f"turek_{name}", f"Turek and Hron's {name.upper()}: a beam under its weight, plane strain",
                    hexahedron(prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, layers,
@@ -236,7 +236,7 @@ def swinging_beam():
     """Turek and Hron's CSM3: the beam let go, without damping, over a little more than a period."""
     thick, end, depth, start = 0.02, 0.6, 0.02 / 3, 0.2 + math.sqrt(0.05**2 - 0.01**2)
     yield Case("turek_csm3", "Turek and Hron's CSM3: the beam of CSM1 let go", hexahedron(
-                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, [9, 15, 21],
+                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, [15, 21],
                elastic(1.4e6, 0.4)[:-1] + ", damping: 0}",
                "supports:\n  - {name: cylinder, facing: [-1, 0, 0]}\n"
                "  - {name: front, hold: z, facing: [0, 0, 1]}\n  - {name: back, hold: z, facing: [0, 0, -1]}\n"
@@ -287,7 +287,7 @@ def soft_cantilever():
                f"probes:\n  - {{name: tip, at: [{L}, 0, 0]}}\n",
                {("tip: displacement_y", "final"): (-25.86e-3, "m")},
                "Zhu, Zhang and Hu 2022, doi 10.1016/j.jcp.2022.111105, by SPH of 24 particles across, not extrapolated: it "
-               "hangs 4 % lower than finite elements, hence within 5 %",
+               "hangs 5 % lower than finite elements, hence within 5 %",
                within=0.05, elements=6, by_elements=["tip: displacement_y"])
 
 
