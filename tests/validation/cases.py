@@ -8,6 +8,9 @@ import json
 import math
 from dataclasses import dataclass, field
 
+import hertz
+
+WITHIN = 0.03
 BOX = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4),
        (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7)]
 
@@ -72,10 +75,11 @@ class Case:
     source: str
     duration: float = 0
     interval: float = 1
-    within: float = 0.03    # of the expected value
+    within: float = WITHIN  # of the expected value
     remark: str = ""
     quick: list = field(default_factory=list)  # layers of the small case of the tests; none: not one
     solver: str = "method: static"
+    by_elements: list = field(default_factory=list)  # probes' columns that have their limit where elements put them
     elements: float = 0     # side of finite elements at the finest radius, in radii; 0: none
     measured: dict = field(default_factory=dict)  # result -> (of the folder of a run, value, unit)
 
@@ -176,6 +180,18 @@ def bars():
                f"probes:\n  - {{name: middle, at: [{W / 2}, 0, {H / 2}]}}\n",
                {("middle: displacement_x", "final"): (-W / 2, "m"), ("inverted", "worst"): (0, "particles")},
                "the middle turns by 90 degrees, by symmetry; nothing is turned inside out", duration=1, interval=0.125, quick=[5, 7, 9])
+    H = 7 * W
+    # Its upper end goes around so that the axis keeps its length.
+    turns = [(k / 8, math.pi * k / 8) for k in range(1, 9)]
+    keys = ", ".join(f"{{time: {t}, axis: [0, 1, 0], angle: {math.degrees(a):.10g}, translation: "
+                     f"[{H / a * (1 - math.cos(a))!r}, 0, {H / a * math.sin(a) - H!r}]}}" for t, a in turns)
+    yield Case("bent_column", "A column of seven widths, Poisson's ratio 0.45, bent by 180 degrees", bar(W, H), W, [5, 7, 9, 11],
+               elastic(E, 0.45),
+               "supports:\n  - {name: below, facing: [0, 0, -1]}\n"
+               f"  - {{name: above, facing: [0, 0, 1], interpolation: linear, keys: [{{time: 0}}, {keys}]}}\n"
+               f"probes:\n  - {{name: middle, at: [0, 0, {H / 2}]}}\n",
+               {("middle: displacement_x", "final"): (H / math.pi, "m"), ("inverted", "worst"): (0, "particles")},
+               "the middle is on the plane of symmetry; nothing is turned inside out", duration=1, interval=0.125, quick=[5, 7])
     L = 21 * W
     for load in (0.25, 1, 2):
         force = load * E * W**4 / 12 / L**2
@@ -191,8 +207,8 @@ def turek_hron():
     """Their beam, from the cylinder's rear to its end: plane strain by rollers on both faces."""
     thick, end = 0.02, 0.6
     start = 0.2 + math.sqrt(0.05**2 - (thick / 2)**2)
-    for name, modulus, down, back, layers in (("csm1", 1.4e6, -66.1023e-3, -7.18767e-3, [9, 15, 21]),
-                                              ("csm2", 5.6e6, -16.9739e-3, -0.469e-3, [9, 15])):
+    for name, modulus, down, back, layers in (("csm1", 1.4e6, -66.1023e-3, -7.18767e-3, [15, 21]),
+                                              ("csm2", 5.6e6, -16.9739e-3, -0.469e-3, [15, 21])):
         depth = thick / 3
         yield Case(f"turek_{name}", f"Turek and Hron's {name.upper()}: a beam under its weight, plane strain",
                    hexahedron(prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, layers,
@@ -220,7 +236,7 @@ def swinging_beam():
     """Turek and Hron's CSM3: the beam let go, without damping, over a little more than a period."""
     thick, end, depth, start = 0.02, 0.6, 0.02 / 3, 0.2 + math.sqrt(0.05**2 - 0.01**2)
     yield Case("turek_csm3", "Turek and Hron's CSM3: the beam of CSM1 let go", hexahedron(
-                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, [9, 15],
+                   prism([(start, 0), (end, 0), (end, thick), (start, thick)], 0, depth)), thick, [15, 21],
                elastic(1.4e6, 0.4)[:-1] + ", damping: 0}",
                "supports:\n  - {name: cylinder, facing: [-1, 0, 0]}\n"
                "  - {name: front, hold: z, facing: [0, 0, 1]}\n  - {name: back, hold: z, facing: [0, 0, -1]}\n"
@@ -230,6 +246,34 @@ def swinging_beam():
                 ("A: displacement_x", "largest"): (-(14.305 + 14.305) * 1e-3, "m")},
                "Turek and Hron 2006, mean and amplitude", duration=1.05, interval=0.01, solver="method: dynamic",
                measured={"frequency": (lambda run: frequency(run, "A", "displacement_y"), 1.0995, "Hz")})
+
+
+INDENTED = {"modulus": 1e5, "depth": 0.1, "ball": 1, "pressed": 0.002}
+
+
+def over_hertz(run):
+    """Force over that of Hertz on a layer, for the contact of the particles: an obstacle touches them at their radius, so
+    its ball is a radius larger, and touches the outermost layer 0.29 radii above the mesh, half a layer further out."""
+    radius = json.loads((run / "run.json").read_text())["radius"]
+    with (run / "supports.csv").open() as file:
+        found = [float(row["force_z"]) for row in csv.DictReader(file) if row["name"] == "below"][-1]
+    given = INDENTED
+    return found / hertz.force(given["modulus"], 0.25, given["ball"] + radius,
+                               given["pressed"] + radius * (1 - 1 / math.sqrt(2)), given["depth"])
+
+
+def indentation():
+    """Of a block three times as wide as deep, on clamped ground, by a rigid ball."""
+    H, given = INDENTED["depth"], INDENTED
+    yield Case("hertz", "A rigid ball pressed into a block: Hertz's contact, on rigid ground", bar(3 * H, H), H, [9, 13, 17, 25],
+               elastic(given["modulus"]),
+               "supports:\n  - {name: below, facing: [0, 0, -1]}\n"
+               "world:\n  obstacles:\n"
+               f"    - {{name: ball, shape: sphere, radius: {given['ball']}, stiffness: 20, "
+               f"center: [0, 0, {H + given['ball'] - given['pressed']}]}}\n",
+               {}, "4/3 E* sqrt(R) d^1.5 (Hertz 1882), times what the ground, two contact radii below, adds "
+               "(Lebedev and Ufliand 1958), for the particles' radius of the ball and depth",
+               quick=[9, 13, 17], measured={"force, over the closed form": (over_hertz, 1, "")})
 
 
 def soft_cantilever():
@@ -242,8 +286,9 @@ def soft_cantilever():
                "loads:\n  - {name: weight, gravity: [0, -9.8, 0]}\n"
                f"probes:\n  - {{name: tip, at: [{L}, 0, 0]}}\n",
                {("tip: displacement_y", "final"): (-25.86e-3, "m")},
-               "Zhu, Zhang and Hu 2022, doi 10.1016/j.jcp.2022.111105, by SPH of 24 particles across, not extrapolated",
-               within=0.05, elements=6)
+               "Zhu, Zhang and Hu 2022, doi 10.1016/j.jcp.2022.111105, by SPH of 24 particles across, not extrapolated: it "
+               "hangs 5 % lower than finite elements, hence within 5 %",
+               within=0.05, elements=6, by_elements=["tip: displacement_y"])
 
 
 KELVIN_VOIGT = {"modulus": 1e5, "density": 1000, "damping": 600}
@@ -326,4 +371,5 @@ def cook():
 
 
 def cases():
-    return [*bars(), *cook(), *turek_hron(), *swinging_beam(), *soft_cantilever(), *creep(), *relaxation(), *beside_elements()]
+    return [*bars(), *cook(), *indentation(), *soft_cantilever(), *creep(), *relaxation(), *beside_elements(), *turek_hron(),
+            *swinging_beam()]

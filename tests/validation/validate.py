@@ -19,7 +19,7 @@ import textwrap
 import time
 from pathlib import Path
 
-from cases import cases
+from cases import WITHIN, cases
 
 MARK = re.compile(r"(<!-- results -->\n).*?(<!-- /results -->)", re.S)
 
@@ -43,7 +43,20 @@ def converged(binaries, case, folder, layers):
     return study, seconds, memory
 
 
-def beside_elements(binaries, case, folder, study, memory, layers):
+def about(case, study, seconds, layers):
+    return {"case": case.name, "title": case.title, "source": case.source, "within": case.within,
+            "layers": layers or case.layers, "particles": [run["particles"] for run in study["runs"]], "seconds": seconds}
+
+
+def found(study, name, kind):
+    return next(one for one in study["results"] if (one["name"], one["kind"]) == (name, kind))
+
+
+def values_of(one):
+    return {key: one[key] for key in ("values", "limit", "error", "order")}
+
+
+def beside_elements(binaries, case, folder, study, seconds, memory, layers):
     """The finest run and CalculiX's result of the same scene, in each frame: the largest distance."""
     radius = min(case.radii(layers))
     finest = min(study["runs"], key=lambda run: run["radius"])
@@ -54,14 +67,15 @@ def beside_elements(binaries, case, folder, study, memory, layers):
     timed([binaries / "sinew", "measure", run, "--reference", "elements.frd", "-o", folder / "compared", "--quiet"], folder)
     compared = json.loads((folder / "compared" / "reference.json").read_text())
     worst = max(compared["frames"], key=lambda frame: frame["max_relative"])
-    return {"case": case.name, "title": case.title, "layers": (layers or case.layers)[-1], "within": case.within,
+    for name in case.by_elements:
+        probe, axis = name[:-2], "xyz".index(name[-1])
+        yield {**about(case, study, seconds, layers), "title": case.title + ", by elements", "result": name,
+               "source": "CalculiX, in the same run", "within": WITHIN, "unit": "m",
+               "expected": compared["frames"][-1][probe + " by elements"][axis], **values_of(found(study, name, "final"))}
+    yield {"case": case.name, "title": case.title, "layers": (layers or case.layers)[-1], "within": WITHIN,
             "particles": compared["particles"], "elements": compared["elements"], "nodes": compared["nodes"],
             "rms": worst["rms_relative"], "max": worst["max_relative"], "largest": worst["largest_elements"],
             "seconds": finest["seconds"], "memory": memory, "ccx_seconds": export + solve, "ccx_memory": needs}
-
-
-def found(study, name, kind):
-    return next(one for one in study["results"] if (one["name"], one["kind"]) == (name, kind))
 
 
 def at_zero(radii, values):
@@ -75,19 +89,14 @@ def at_zero(radii, values):
 
 
 def results_of(case, study, seconds, layers, folder):
-    particles = [run["particles"] for run in study["runs"]]
-    about = {"case": case.name, "title": case.title, "source": case.source, "within": case.within,
-             "layers": layers or case.layers, "particles": particles, "seconds": seconds}
+    shared = about(case, study, seconds, layers)
     for name, (of_run, expected, unit) in case.measured.items():
         values = [of_run(folder / "runs" / run["name"]) for run in study["runs"]]
         limit, error = at_zero([run["radius"] for run in study["runs"]], values)
-        yield {**about, "result": name, "unit": unit, "expected": expected, "values": values, "limit": limit,
+        yield {**shared, "result": name, "unit": unit, "expected": expected, "values": values, "limit": limit,
                "error": error, "order": None}
     for (name, kind), (expected, unit) in case.expected.items():
-        one = found(study, name, kind)
-        yield {**about, "result": name, "unit": unit, "expected": expected, "values": one["values"],
-               "limit": one["limit"], "error": one["error"], "order": one["order"]}
-
+        yield {**shared, "result": name, "unit": unit, "expected": expected, **values_of(found(study, name, kind))}
 
 
 def holds(one):
@@ -194,7 +203,7 @@ def run_case(binaries, case, folder, quick):
     if case.elements and quick:
         return
     if case.elements and shutil.which("ccx"):
-        yield beside_elements(binaries, case, folder, study, memory, layers)
+        yield from beside_elements(binaries, case, folder, study, seconds, memory, layers)
     elif case.elements:
         print(f"{case.name}: ccx is not installed (tools/install_packages.sh test)")
 

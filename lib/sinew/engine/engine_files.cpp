@@ -11,6 +11,7 @@
 #include <sinew/engine/walks.h>
 #include <sinew/physics/laws.h>
 #include <sinew/physics/solid.h>
+#include <sinew/physics/volume_weights.h>
 
 namespace sinew {
 namespace {
@@ -35,6 +36,10 @@ class Rows {
       for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
       bonds_ = make_bonds(body.rest, body.material, ids, body.factors);
     }
+    if (body.material.volume_stiffness > 0)
+      volume_weights_ = body.factors.volume_weight.empty()
+                            ? own_volume_weights(body.rest, body.material.pair.r)
+                            : body.factors.volume_weight;
     for (std::size_t i = 0; i < body.rest.size(); ++i)
       shape_.bones = std::max(shape_.bones, static_cast<std::int32_t>(body.binding.of(i).size()));
     shape_.nearest = static_cast<std::int32_t>(most_in_a_row(bonds_.nearest.neighbors));
@@ -49,6 +54,7 @@ class Rows {
     to[3] = static_cast<double>(bones.size());
     to[4] = count(bonds_.nearest, i);
     to[5] = count(bonds_.second, i);
+    to[6] = volume_weights_.empty() ? 0 : volume_weights_[i];
     double* at = to + RowShape::head;
     for (const Influence& one : bones)
       for (const double number :
@@ -73,6 +79,7 @@ class Rows {
 
   const Body& body_;
   SolidBonds bonds_;
+  std::vector<double> volume_weights_;
   RowShape shape_;
 };
 

@@ -20,15 +20,15 @@ namespace sinew {
 struct RowShape {
   std::int32_t bones = 0, nearest = 0, second = 0;
 
-  static constexpr std::size_t head = 6, of_bone = 4, of_bond = 3;
+  static constexpr std::size_t head = 7, of_bone = 4, of_bond = 3;
   std::size_t size() const {
     return head + of_bone * static_cast<std::size_t>(bones) +
            of_bond * static_cast<std::size_t>(nearest + second);
   }
 };
 
-/// Numbers of a row: place at rest (3), how many bones, nearest and second bonds, the bones, the
-/// bonds to nearest neighbors, those to second ones.
+/// Numbers of a row: place at rest (3), how many bones, nearest and second bonds, how stiffly it
+/// keeps its volume, the bones, the bonds to nearest neighbors, those to second ones.
 class ParticleRow {
  public:
   ParticleRow(const double* numbers, const RowShape& shape) : numbers_(numbers), shape_(shape) {}
@@ -43,6 +43,7 @@ class ParticleRow {
   int nearest() const { return static_cast<int>(numbers_[4]); }
   int second() const { return static_cast<int>(numbers_[5]); }
   int bonds() const { return nearest() + second(); }
+  double volume_weight() const { return numbers_[6]; }
 
   Influence influence(int k) const {
     const double* at = numbers_ + RowShape::head + RowShape::of_bone * static_cast<std::size_t>(k);

@@ -50,7 +50,7 @@ void PairSinew::find_rest_shapes() {
   });
   weight_.resize(own);
   for (std::size_t i = 0; i < own; ++i) {
-    weight_[i] = volume_weight(inverse_[i], body_->setup.material.pair.r);
+    weight_[i] = body_->row(static_cast<int>(i)).volume_weight();
     inverse_[i] = weight_[i] > 0 ? Mat3(inverse_[i].inverse()) : Mat3(Mat3::Zero());
   }
 }

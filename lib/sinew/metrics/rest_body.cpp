@@ -177,7 +177,8 @@ RestBody rest_body(RestInput input) {
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   if (input.law.volume_stiffness > 0 || !input.law.volume_stiffness_of.empty())
-    body.stiffened = volume_weights(body.shape, input.radius);
+    body.stiffened = input.law.volume_weight.empty() ? volume_weights(body.shape, input.radius)
+                                                     : input.law.volume_weight;
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;

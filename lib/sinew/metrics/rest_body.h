@@ -34,6 +34,8 @@ struct PairLaw {
   double reach = std::numeric_limits<double>::infinity();
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
   std::vector<double> volume_stiffness_of = {};  ///< by particle; empty: as that
+  /// By particle, over that of one inside; empty: as its neighbors say.
+  std::vector<double> volume_weight;
   bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
   bool has_muscles = false;   ///< a frame's state must contain their stress
 };

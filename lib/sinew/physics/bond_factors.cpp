@@ -9,6 +9,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/physics/volume_weights.h>
 
 namespace sinew {
 namespace {
@@ -21,6 +22,9 @@ constexpr double least_difference = 1e-3;  // of a share from that inside
 // Of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for bonds that push
 // apart, and a body with factors this near to 1 is stiffer.
 constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 18;
+// w^2 of modes at edges over that of waves through the largest weight, by power iteration on cubes
+// and turned ones, for Poisson's ratios up to 0.49.
+constexpr double edges_over_waves = 1.02;
 constexpr double least_offset = 1e-3;  // in radii, of a neighbor's distance from a lattice's
 
 /// The independent parts of a symmetric tensor of fourth order, so that sums of products are those
@@ -217,8 +221,16 @@ BondFactors::Row BondFactors::of(std::uint32_t id) const {
 
 BondFactors bond_factors(const Points& rest, const Material& material,
                          const std::vector<double>& share, const std::vector<double>& stiffness) {
-  if (material.bond.second <= 0) return {};
-  return SurfaceBonds(rest, material, share, stiffness).factors();
+  BondFactors factors;
+  if (material.bond.second > 0) factors = SurfaceBonds(rest, material, share, stiffness).factors();
+  if (material.volume_stiffness <= 0) return factors;
+  factors.volume_weight = volume_weights(rest, material, share, stiffness);
+  const double most = *std::max_element(factors.volume_weight.begin(), factors.volume_weight.end());
+  PackingStiffness packing = material.packing();
+  packing.volume *= most;
+  factors.stiffest =
+      std::max(factors.stiffest, edges_over_waves * highest_frequency_factor(packing) / 2);
+  return factors;
 }
 
 }  // namespace sinew

@@ -30,8 +30,12 @@ struct BondFactors {
   std::vector<std::uint32_t> first;     ///< of each, its first bond
   std::vector<std::uint32_t> neighbor;  ///< by bond, an id
   std::vector<double> factor;           ///< by bond
+  /// By id, how stiffly each keeps its volume (volume_weights.h); empty: volume_weight() of its
+  /// neighbors, where volumes are kept.
+  std::vector<double> volume_weight;
   /// No sum of the bonds' n n^T around a particle, times their factors and stiffness over k, has a
-  /// larger eigenvalue; 4 and a half inside.
+  /// larger eigenvalue; 4 and a half inside. Where volumes are kept, nor has any mode more than
+  /// twice this as w^2, in k / m.
   double stiffest = 4.5;
 
   /// The bonds of one particle.
@@ -50,7 +54,7 @@ struct BondFactors {
 /// Of particles at `rest` (m). `share`: the volume of the body around each particle over that of
 /// one inside; `stiffness`: that of the material there over the body's, of which a bond has the
 /// harmonic mean, as springs in series; empty: 1 each. In parallel, the same for any number of
-/// threads. None without bonds of second neighbors.
+/// threads. None without bonds of second neighbors, but for the weights of volumes that are kept.
 BondFactors bond_factors(const Points& rest, const Material& material,
                          const std::vector<double>& share,
                          const std::vector<double>& stiffness = {});

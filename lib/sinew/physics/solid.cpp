@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/solid.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +10,7 @@
 #include <sinew/physics/laws.h>
 #include <sinew/physics/reference/pair_pass.h>
 #include <sinew/physics/stepper.h>
+#include <sinew/physics/volume_weights.h>
 
 namespace sinew {
 
@@ -104,13 +105,6 @@ Mat3 spread_at_rest(const Points& rest, const NeighborLists& neighbors, std::siz
 
 }  // namespace
 
-double volume_weight(const Mat3& A, double radius) {
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  const double share = std::clamp(least / (16 * radius * radius), 0.0, 1.0);
-  return share < 1e-9 ? 0 : share * share;
-}
-
 bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
 /// Of particles in their order.
@@ -140,7 +134,9 @@ Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t
   thrust_.assign(n, Mat3::Zero());
   for_each_particle(n, [&](std::size_t i) {
     const Mat3 A = spread_at_rest(rest_, bonds_.nearest.neighbors, i);
-    weight_[i] = volume_weight(A, material_.pair.r);
+    weight_[i] = factors.volume_weight.empty() || id.empty()
+                     ? volume_weight(A, material_.pair.r)
+                     : factors.volume_weight[static_cast<std::size_t>(id[i])];
     if (weight_[i] > 0) inverse_[i] = A.inverse();
   });
 }

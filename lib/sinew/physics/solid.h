@@ -6,9 +6,8 @@
 // eq. 1 too; bond_factors.h keeps surfaces from being softer.
 // bonded_volume: in addition, each particle keeps its volume, U_i = (K_v / 2) V0 w_i (J_i - 1)^2
 // with J_i of the least-squares deformation gradient F_i over its neighbors at rest, F_i = sum dx
-// dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weight w_i =
-// min(1, lambda_min(A_i) / (4 d0^2))^2 vanishes where neighbors are few: without it the particles
-// of a surface would halve the step.
+// dX^T A_i^-1, A_i = sum dX dX^T. That conserves momentum and angular momentum. The weights w_i
+// (volume_weights.h) are small where neighbors are few, and larger than 1 next to them.
 // Bonds that yield creep without a change of volume (as von Mises' plasticity). T = sum (p - m w) n
 // n^T / sum w is a particle's stress without pressure: the sum is over its bonds, n are their
 // directions, p = k (d - l) d, w = k l0^2 with the length l0 before any flow, m = sum p / sum w.
@@ -87,9 +86,6 @@ void for_each_bond(const Bonds& bonds, const Particles& particles, std::size_t i
 
 /// Whether a material's forces depend on the neighbors at rest.
 bool remembers_neighbors(const Material& material);
-
-/// w_i of particles of `radius` (m), from A_i (m^2): see above.
-double volume_weight(const Mat3& A, double radius);
 
 class Solid {
  public:

@@ -339,6 +339,7 @@ PairLaw pair_law(const Material& material, const BondFactors& factors) {
                           std::uint32_t i, std::uint32_t j) { return kept->of(i).at(j); };
   }
   if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
+  measured.volume_weight = factors.volume_weight;
   return measured;
 }
 

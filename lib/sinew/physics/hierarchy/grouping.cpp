@@ -133,9 +133,18 @@ class LayerFinder {
     return all(near, [&](std::uint32_t j) {
       const Vec3 opposite = 2 * here - body_.rest[j];
       return std::any_of(near.begin(), near.end(), [&](std::uint32_t k) {
-        return (body_.rest[k] - opposite).squaredNorm() < off_center * off_center * r_ * r_;
+        return (body_.rest[k] - opposite).squaredNorm() < off_center * off_center * r_ * r_ &&
+               keep_volume_alike(j, k);
       });
     });
+  }
+
+  bool keep_volume_alike(std::uint32_t j, std::uint32_t k) const {
+    const auto stiffness = [&](std::uint32_t i) {
+      return value_at(body_.factors.volume_weight, i, 1) *
+             value_at(body_.local.volume, i, body_.material.volume_stiffness);
+    };
+    return std::abs(stiffness(j) - stiffness(k)) <= off_center * stiffness(j);
   }
 
   const Body& body_;

@@ -6,7 +6,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
-#include <sinew/physics/solid.h>
+#include <sinew/physics/volume_weights.h>
 
 namespace sinew {
 namespace {
@@ -58,8 +58,10 @@ class StrainMaker {
           spread[lane] += X * X.transpose();
     }
     for (std::size_t lane = 0; lane < block && k * block + lane < id_.size(); ++lane) {
-      const double weight = volume_weight(spread[lane], body_.material.pair.r);
       const std::size_t i = k * block + lane, slot = i + block;
+      const std::vector<double>& weights = body_.factors.volume_weight;
+      const double weight = weights.empty() ? volume_weight(spread[lane], body_.material.pair.r)
+                                            : weights[static_cast<std::size_t>(id_[i])];
       if (!out_.stiffness.empty() && (bonds_.broken.empty() || bonds_.broken[i] == 0))
         out_.stiffness[slot] = static_cast<Real>(stiffness_of(i) * volume_ * weight * per_energy_);
       const bool fibers =
