@@ -7,40 +7,10 @@
 #include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/hierarchy/quadrature.h>
 
-#include "all_steppers.h"
 #include "expect_error.h"
+#include "grouped_bar.h"
 
 namespace sinew::groups_test {
-
-constexpr double r = 0.01;
-
-/// A bar of half-planes, free unless bound, with groups by a function of the place at rest.
-struct Bar {
-  Settings settings;
-  Points rest;
-  Body body;
-  Particles particles;
-  double step = 0;
-
-  template <class GroupOf>
-  Bar(const Settings& given, int width, int height, const GroupOf& group_of)
-      : settings(given),
-        rest(test::fcc_box(width, width, height, r)),
-        body(test::make_body(settings, rest)),
-        particles(test::particles_of(settings, rest)),
-        step(test::step_of(settings, body)) {
-    std::vector<std::int32_t> group;
-    for (const Vec3& X : rest) group.push_back(group_of(X));
-    body.grouping = std::make_shared<const Grouping>(make_grouping(body, std::move(group)));
-  }
-
-  Simulation begin(kernel::InstructionSet set = kernel::best_instruction_set()) const {
-    return Simulation(body, motion_of(settings, body.skeleton), particles,
-                      stepping_of(settings.solver, step), set);
-  }
-  Layer layer(std::size_t i) const { return body.grouping->layer[i]; }
-  std::int32_t group(std::size_t i) const { return body.grouping->group[i]; }
-};
 
 /// Two groups that touch in the middle of a bar, and free particles around both.
 std::int32_t two_in_the_middle(const Vec3& X, int width, int height) {
@@ -55,17 +25,6 @@ Bar bar_of(const Settings& settings, int width = 25, int height = 41) {
   return Bar(settings, width, height,
              [&](const Vec3& X) { return two_in_the_middle(X, width, height); });
 }
-
-Settings scene_of(MaterialModel model, DampingForm form = DampingForm::paper,
-                  Precision precision = Precision::binary64) {
-  Settings settings = test::in(precision, test::box_scene(41));
-  settings.material.model = model;
-  settings.material.damping_form = form;
-  return settings;
-}
-
-constexpr MaterialModel models[] = {MaterialModel::paper, MaterialModel::bonded,
-                                    MaterialModel::bonded_volume};
 
 bool is_deep(const Bar& bar, std::size_t i) {
   const Box box = bounds(bar.rest);
@@ -262,6 +221,14 @@ TEST(Groups, ASqueezeThatFurtherNeighborsWouldFeelEndsTheRun) {
     bar.particles.set_position(i, Vec3(0.91, 1, 1).cwiseProduct(bar.rest[i]));
   Simulation simulation = bar.begin();
   test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"squeezed to 0.91"});
+}
+
+TEST(Groups, AStretchAtWhichNeighborsPartEndsTheRun) {
+  Bar bar = bar_of(test::unbound(scene_of(MaterialModel::paper)));
+  for (std::size_t i = 0; i < bar.rest.size(); ++i)
+    bar.particles.set_position(i, Vec3(1, 1.31, 1).cwiseProduct(bar.rest[i]));
+  Simulation simulation = bar.begin();
+  test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"stretched to 1.31"});
 }
 
 // Those of a scene.

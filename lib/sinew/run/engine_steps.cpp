@@ -23,7 +23,7 @@ bool any_of(const List& list, Test&& test) {
   return std::any_of(list.begin(), list.end(), test);
 }
 
-constexpr std::array<Unsupported, 13> unsupported = {{
+constexpr std::array<Unsupported, 14> unsupported = {{
     {"solver.precision", "single precision", "set it to double",
      [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
     {"solver.neighbor_search", "the paper's cells", "set it to lists",

@@ -246,9 +246,9 @@ void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
   }
 }
 
-/// Measured on bars of 3e4 and 2e5 particles at rest, paper's and bonded: with 0.41 of them within
-/// groups steps took 1.4 times as long, with 0.64 0.9 times, with 0.9 0.3 times.
-constexpr double groups_pay_from = 0.6;
+/// Measured on bars of 2e5 particles, paper's and bonded, as they begin to bend: with 0.19 of them
+/// within groups, steps took 1.05 times as long, with 0.3 0.9 times, with 0.53 0.5 to 0.7 times.
+constexpr double groups_pay_from = 0.3;
 
 void warn_of_groups(const Grouping* grouping, Warnings& warnings) {
   if (grouping == nullptr) return;

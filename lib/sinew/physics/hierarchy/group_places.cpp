@@ -100,8 +100,8 @@ void Groups<Real>::find_roles() {
   always_.assign(blocks, 0);
   asleep_.assign(blocks, 0);
   whole_.assign(blocks, 0);
-  idle_pieces_.assign(pieces, 1);
   shown_.assign(pieces, -1);
+  find_pieces(pieces);
   rim_.clear();
   for (Shape& shape : shapes_) shape.idle = 0, shape.moment.setZero();
   std::int32_t rows = 0;
@@ -114,7 +114,6 @@ void Groups<Real>::find_roles() {
       all = all && group_[k] == group_[begin] &&
             grouping.layer[static_cast<std::size_t>(id_[k])] >= Layer::shell;
     }
-    if (!all) idle_pieces_[b / blocks_per_piece] = 0;
     if (!some) continue;
     role_[b] = all ? static_cast<std::int32_t>(kernel::idle) : rows++;
     asleep_[b] = all ? 1 : 0;
@@ -131,16 +130,33 @@ void Groups<Real>::find_roles() {
       append(run, rim_);
     });
   }
+  find_skins(rows);
   for (auto& axis : acceleration_) axis.assign((static_cast<std::size_t>(rows) + 1) * block, 0);
   more_are_read_ = true;
+}
+
+/// Those of one group alone.
+template <class Real>
+void Groups<Real>::find_pieces(std::size_t pieces) {
+  constexpr std::size_t size = blocks_per_piece * block;
+  of_piece_.assign(pieces, -1);
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const auto begin = group_.begin() + static_cast<std::ptrdiff_t>(piece * size);
+    const auto end =
+        group_.begin() + static_cast<std::ptrdiff_t>(std::min((piece + 1) * size, group_.size()));
+    if (std::all_of(begin, end, [&](std::int32_t group) { return group == *begin; }))
+      of_piece_[piece] = *begin;
+  }
 }
 
 template <class Real>
 void Groups<Real>::find_boxes() {
   boxes_.clear();
+  box_of_.assign(of_piece_.size(), 0);
   constexpr std::size_t size = blocks_per_piece * block;
-  for (std::size_t piece = 0; piece < idle_pieces_.size(); ++piece) {
+  for (std::size_t piece = 0; piece < of_piece_.size(); ++piece) {
     const std::size_t first = boxes_.size();
+    box_of_[piece] = static_cast<std::uint32_t>(first);
     for_each_run(piece * size, (piece + 1) * size, [&](const Run& run) {
       std::size_t at = first;
       while (at < boxes_.size() && boxes_[at].group != run.group) ++at;
@@ -199,7 +215,7 @@ template <class Real>
 void Groups<Real>::find_steady() {
   steady_ = rim_;
   for (std::size_t b = 0; b < role_.size(); ++b) {
-    if (role_[b] != kernel::idle || always_[b] == 0) continue;
+    if (!may_idle(b) || always_[b] == 0) continue;
     for_each_run(b * block, (b + 1) * block, [&](const Run& run) { append(run, steady_); });
   }
   more_are_read_ = false;
@@ -241,12 +257,13 @@ void Groups<Real>::mark_read(std::ptrdiff_t first, std::ptrdiff_t last) {
   for (std::ptrdiff_t b = std::max<std::ptrdiff_t>(0, first / size);
        b <= last / size && b < static_cast<std::ptrdiff_t>(role_.size()); ++b) {
     const auto at = static_cast<std::size_t>(b);
-    if (role_[at] == kernel::idle && always_[at] == 0) always_[at] = 1, more_are_read_ = true;
+    if (may_idle(at) && always_[at] == 0) always_[at] = 1, more_are_read_ = true;
   }
 }
 
 template <class Real>
 void Groups<Real>::read_through(const BondLists<Real>& bonds, bool two_deep) {
+  two_deep_ = two_deep;
   if (!any() || bonds.first.empty()) return;
   for (int depth = 0; depth < (two_deep ? 2 : 1); ++depth) {
     std::vector<std::uint32_t> readers;
@@ -254,14 +271,7 @@ void Groups<Real>::read_through(const BondLists<Real>& bonds, bool two_deep) {
       if (asleep_[b] == 0) readers.push_back(b);
     std::vector<std::uint8_t> known =
         std::exchange(always_, std::vector<std::uint8_t>(role_.size(), 0));
-    for (const std::uint32_t b : readers)
-      for (std::uint32_t e = bonds.first[b]; e < bonds.first[b + 1]; ++e) {
-        const std::uint32_t lanes = bonds.entries[e].lanes >> kernel::rest_lanes;
-        if (lanes == 0) continue;
-        const std::ptrdiff_t from =
-            static_cast<std::ptrdiff_t>(b * block) + bonds.entries[e].difference;
-        mark_read(from + std::countr_zero(lanes), from + 31 - std::countl_zero(lanes));
-      }
+    for (const std::uint32_t b : readers) mark_read(b, bonds);
     for (std::size_t b = 0; b < role_.size(); ++b) {
       if (always_[b] != 0 && two_deep && depth == 0) asleep_[b] = 0;
       if (known[b] != 0) always_[b] = 1;
@@ -269,20 +279,13 @@ void Groups<Real>::read_through(const BondLists<Real>& bonds, bool two_deep) {
   }
 }
 
+/// What the block's list reads.
 template <class Real>
-void Groups<Real>::read_through(const kernel::Lists* lists, std::span<const std::uint32_t> pieces) {
-  if (!any()) return;
-  for (const std::uint32_t piece : pieces) {
-    if (lists[piece].first == nullptr) continue;
-    for (std::size_t k = 0; k < blocks_per_piece; ++k) {
-      const std::size_t b = piece * blocks_per_piece + k;
-      if (b >= role_.size()) break;
-      if (role_[b] == kernel::idle) continue;
-      for (std::uint32_t n = lists[piece].first[k]; n < lists[piece].first[k + 1]; ++n) {
-        const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(b * block) + lists[piece].value[n];
-        mark_read(from, from + static_cast<std::ptrdiff_t>(block) - 1);
-      }
-    }
+void Groups<Real>::mark_lists(std::size_t b, const kernel::Lists& lists) {
+  const std::size_t n = b % blocks_per_piece;
+  for (std::uint32_t at = lists.first[n]; at < lists.first[n + 1]; ++at) {
+    const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(b * block) + lists.value[at];
+    mark_read(from, from + static_cast<std::ptrdiff_t>(block) - 1);
   }
 }
 
@@ -292,12 +295,14 @@ template void Groups<double>::show(BlockState<double>&, const Units&,
                                    std::span<const std::uint32_t>);
 template void Groups<double>::show_all(BlockState<double>&, const Units&);
 template void Groups<double>::read_through(const BondLists<double>&, bool);
-template void Groups<double>::read_through(const kernel::Lists*, std::span<const std::uint32_t>);
+template void Groups<double>::mark_lists(std::size_t, const kernel::Lists&);
+template void Groups<double>::mark_read(std::ptrdiff_t, std::ptrdiff_t);
 template void Groups<float>::set_order(std::span<const std::int32_t>);
 template void Groups<float>::place(BlockState<float>&, const Units&);
 template void Groups<float>::show(BlockState<float>&, const Units&, std::span<const std::uint32_t>);
 template void Groups<float>::show_all(BlockState<float>&, const Units&);
 template void Groups<float>::read_through(const BondLists<float>&, bool);
-template void Groups<float>::read_through(const kernel::Lists*, std::span<const std::uint32_t>);
+template void Groups<float>::mark_lists(std::size_t, const kernel::Lists&);
+template void Groups<float>::mark_read(std::ptrdiff_t, std::ptrdiff_t);
 
 }  // namespace sinew

@@ -3,14 +3,16 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <limits>
 #include <map>
-#include <numbers>
+#include <optional>
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/physics/forces.h>
+#include <sinew/physics/hierarchy/affine_forces.h>
 #include <sinew/physics/laws.h>
 #include <sinew/physics/world/world.h>
 
@@ -29,7 +31,7 @@ bool holds_seconds(const Body& body) { return body.material.bond.second > 0; }
 
 /// Forces on a particle that depend on its neighbors' neighbors.
 bool reaches_far(const Body& body) {
-  return body.material.volume_stiffness > 0 ||
+  return keeps_volume(body) ||
          (body.material.damping_form != DampingForm::paper && body.material.damping > 0);
 }
 
@@ -40,18 +42,31 @@ class LayerFinder {
         group_(group),
         r_(body.material.pair.r),
         range_(holds_seconds(body) ? second_neighbor_range * r_ : rest_neighbor_range(r_)),
-        whole_(holds_seconds(body) ? 18 : 12),
-        grid_(body.rest, range_) {}
+        whole_(holds_seconds(body) ? near_sites : nearest_sites),
+        grid_(body.rest, range_) {
+    if (has_affine_forces(body)) affine_.emplace(body);
+  }
 
   void fill(Grouping& out) const {
-    out.layer = layers();
+    const std::vector<std::uint8_t> centers = balanced();
+    out.layer = layers(centers);
     out.face = faces(out.layer);
+    for (std::size_t i = 0; i < centers.size(); ++i)
+      out.skin.push_back(out.layer[i] >= Layer::shell && centers[i] == 0 ? 1 : 0);
   }
 
  private:
-  std::vector<Layer> layers() const {
+  /// 1 where all forces between neighbors of a group add up to zero.
+  std::vector<std::uint8_t> balanced() const {
+    const auto centers =
+        marked([&](std::uint32_t i, const auto& near) { return is_center(i, near); });
+    return reaches_far(body_) ? marked_where_all(centers) : centers;
+  }
+
+  std::vector<Layer> layers(const std::vector<std::uint8_t>& centers) const {
     std::vector<std::uint8_t> inner = marked([&](std::uint32_t i, const auto& near) {
-      return is_center(i, near) && all(near, [&](auto j) { return group_[j] == group_[i]; });
+      return (centers[i] != 0 || has_sites(i, near)) &&
+             all(near, [&](auto j) { return group_[j] == group_[i]; });
     });
     if (reaches_far(body_)) inner = marked_where_all(inner);
     std::vector<std::uint8_t> deep = marked_where_all(inner);
@@ -147,11 +162,19 @@ class LayerFinder {
     return std::abs(stiffness(j) - stiffness(k)) <= off_center * stiffness(j);
   }
 
+  /// Whether forces on a particle would follow from a group's motion.
+  bool has_sites(std::uint32_t i, const std::vector<std::uint32_t>& near) const {
+    return affine_ && all(near, [&](std::uint32_t j) {
+             return affine_->site_of(body_.rest[j] - body_.rest[i]) >= 0;
+           });
+  }
+
   const Body& body_;
   const std::vector<std::int32_t>& group_;
   double r_, range_;
   std::size_t whole_;
   CellGrid grid_;
+  std::optional<AffineForces> affine_;
 };
 
 /// Sums over the particles of a group.
@@ -215,11 +238,13 @@ Grouping make_grouping(const Body& body, std::vector<std::int32_t> group) {
   return made;
 }
 
-double least_stretch(const Body& body) {
-  const double r = body.material.pair.r;
-  const double range = law_of(body.material).has_memory ? 2 * r : body.material.pair.b;
-  const double beyond = holds_seconds(body) ? 2 * std::numbers::sqrt3 * r : second_distance(r);
-  return range / beyond;
+StretchRange stretch_range(const Body& body) {
+  const double r = body.material.pair.r, b = body.material.pair.b;
+  const ForceLaw& law = law_of(body.material);
+  const double lasts = law.has_bonds || !has_affine_forces(body)
+                           ? std::numeric_limits<double>::infinity()
+                           : b / nearest_distance(r);
+  return {(law.has_memory ? 2 * r : b) / second_distance(r), lasts};
 }
 
 void check_groupable(const Body& body) {

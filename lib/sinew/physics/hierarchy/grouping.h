@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups of neighboring particles that move as one: x = c + F X of each particle's place X at rest.
 //
-// A particle of FCC whose neighbors are all in its group is a center of inversion: whatever F is,
-// pair forces, those of volumes and eq. 2 add up to zero on it. Only the rim of a group feels any,
-// and what it feels moves the group by virtual work (groups.h).
+// A particle of FCC with all its neighbors in its group is a center of inversion: whatever F is,
+// pair forces, those of volumes and eq. 2 add up to zero on it. Where some are missing, at the
+// surface of the body, they follow from F alone (affine_forces.h). Only the rim of a group, next to
+// other particles, needs more, and what it feels moves the group by virtual work (groups.h).
 //
 //     body.grouping = std::make_shared<const Grouping>(make_grouping(body, group_of_particle));
 #pragma once
@@ -24,6 +25,8 @@ enum class Layer : std::uint8_t { free, rim, shell, core };
 struct Grouping {
   std::vector<std::int32_t> group;  ///< by particle id; -1: free
   std::vector<Layer> layer;         ///< by particle id
+  /// By particle id: 1 within a group where forces are not zero, but follow from its motion.
+  std::vector<std::uint8_t> skin;
   /// By particle id: the half-plane in which it is, counted from the outside of its group, times 6,
   /// and on which of the group's sides; 0 in cores. Next to each other in memory, those of a face
   /// are neighbors of each other and of the next half-plane's in rows.
@@ -42,9 +45,12 @@ struct Grouping {
 /// free. In parallel.
 Grouping make_grouping(const Body& body, std::vector<std::int32_t> group);
 
-/// The smallest stretch of a group at which no forces act between particles that the layers do not
-/// take for neighbors.
-double least_stretch(const Body& body);
+/// The stretches of a group between which forces act between those particles alone that the layers
+/// take for neighbors, and between all of them.
+struct StretchRange {
+  double least, most;
+};
+StretchRange stretch_range(const Body& body);
 
 /// Throws bad input, which names what is wrong, where the body is no lattice of centers of
 /// inversion, or where forces on it depend on more than its neighbors.

@@ -18,6 +18,13 @@ namespace {
 constexpr std::size_t runs_at_a_time = 16;
 constexpr std::size_t numbers_per_motion = 24;
 
+Error unstable_group(const std::string& how, double stretch, const std::string& what) {
+  return Error(Exit::unstable,
+               "a group of particles was " + how + " to " + three_digits(stretch) +
+                   " of its size, where forces between some neighbors would " + what +
+                   "; make hierarchy.joint_distance larger, or hierarchy.enabled false");
+}
+
 }  // namespace
 
 template <class Real>
@@ -26,7 +33,8 @@ Groups<Real>::Groups(std::shared_ptr<const Body> body, double mass)
   if (!body_->grouping || body_->grouping->size() == 0) return;
   motions_.resize(body_->grouping->size());
   next_ = motions_;
-  least_stretch_ = least_stretch(*body_);
+  stretch_ = stretch_range(*body_);
+  if (has_affine_forces(*body_)) affine_.emplace(*body_);
   find_shapes();
 }
 
@@ -143,16 +151,24 @@ void Groups<Real>::sum(const kernel::Functions<Real>& kernel, const kernel::Step
   }
   sums_ = {};
   add_bones(kernel, step, all, damping);
+  std::vector<Shape> shapes = shapes_;  // but for what is awake
+  add_awake(kernel, step, all, damping, shapes);
   const double force = units.length / (units.time * units.time);
   const double watts = mass_ * force * units.length / units.time;
   sums_.power *= watts, sums_.lost *= watts;
-  for (std::size_t g = 0; g < shapes_.size(); ++g) {
-    const Shape& shape = shapes_[g];
-    const Vec3 a = (force * all[g].f + shape.idle * by.gravity) / shape.size;
-    const Mat3 A = (force * all[g].fX + by.gravity * shape.moment.transpose()) * shape.inverse;
+  for (std::size_t g = 0; g < shapes.size(); ++g) {
+    const Shape& shape = shapes[g];
+    const AffineSum skin = skin_of(shape, motions_[g]), drag = drag_of(shape, motions_[g]);
+    const Vec3 f = force * all[g].f + (skin.f + drag.f) / mass_ + shape.idle * by.gravity;
+    const Mat3 fX =
+        force * all[g].fX + (skin.fX + drag.fX) / mass_ + by.gravity * shape.moment.transpose();
+    const Vec3 a = f / shape.size;
+    const Mat3 A = fX * shape.inverse;
     sums_.lost -=
         mass_ * force * by.middle * (damping[g].f.dot(a) + damping[g].fX.cwiseProduct(A).sum());
     const Motion& now = motions_[g];
+    sums_.lost -=
+        drag.f.dot(now.v + by.middle * a) + drag.fX.cwiseProduct(now.V + by.middle * A).sum();
     Motion& next = next_[g];
     next.v = now.v + by.kick * a;
     next.V = now.V + by.kick * A;
@@ -162,6 +178,17 @@ void Groups<Real>::sum(const kernel::Functions<Real>& kernel, const kernel::Step
 }
 
 template <class Real>
+AffineSum Groups<Real>::skin_of(const Shape& shape, const Motion& motion) const {
+  return affine_ ? affine_->at(shape.skin, motion.F) : AffineSum{};
+}
+
+template <class Real>
+AffineSum Groups<Real>::drag_of(const Shape& shape, const Motion& motion) const {
+  return affine_ ? affine_->damping(shape.skin, motion.V) : AffineSum{};
+}
+
+/// From the middle of each box, and how much faster than there its corners are at most.
+template <class Real>
 void Groups<Real>::bound(const Units& units, bool drift_first,
                          const kernel::PieceMotion<Real>* motions,
                          std::span<kernel::Totals> totals) const {
@@ -170,21 +197,49 @@ void Groups<Real>::bound(const Units& units, bool drift_first,
     const auto g = static_cast<std::size_t>(one.group);
     const Motion &now = motions_[g], &moving = drift_first ? now : next_[g];
     const auto& field = motions[one.piece];
-    Vec3 center, velocity, spin;
+    Vec3 center, velocity;
+    Mat3 turning;
+    const auto spin = [&](int axis) { return static_cast<double>(field.spin[axis]); };
+    turning << 0, -spin(2), spin(1), spin(2), 0, -spin(0), -spin(1), spin(0), 0;
     for (int axis = 0; axis < 3; ++axis) {
       center[axis] = static_cast<double>(field.center[axis]);
       velocity[axis] = static_cast<double>(field.velocity[axis]);
-      spin[axis] = static_cast<double>(field.spin[axis]);
     }
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 X = one.box.corner(static_cast<Box::CornerType>(corner));
-      const Vec3 at = (now.c + now.F * X - units.origin) / units.length;
-      const Vec3 drifting = speed * (moving.v + moving.V * X);
-      const double relative = (drifting - velocity - spin.cross(at - center)).squaredNorm();
-      totals[one.piece].fastest = std::max(totals[one.piece].fastest, relative);
-      totals[one.piece].speed2 = std::max(totals[one.piece].speed2, drifting.squaredNorm());
-    }
+    const Vec3 X = one.box.center();
+    const double reach = one.box.diagonal().norm() / 2;
+    const Vec3 at = (now.c + now.F * X - units.origin) / units.length;
+    const Vec3 drifting = speed * (moving.v + moving.V * X);
+    const double relative = (drifting - velocity - turning * (at - center)).norm() +
+                            reach * (speed * moving.V - turning * now.F / units.length).norm();
+    const double absolute = drifting.norm() + reach * speed * moving.V.norm();
+    kernel::Totals& piece = totals[one.piece];
+    piece.fastest = std::max(piece.fastest, relative * relative);
+    piece.speed2 = std::max(piece.speed2, absolute * absolute);
   }
+}
+
+template <class Real>
+std::vector<Mat3> Groups<Real>::stretches() const {
+  std::vector<Mat3> all;
+  for (const Motion& motion : motions_) all.push_back(motion.F);
+  return all;
+}
+
+/// The box around the moved box; the rotation of V F^-1.
+template <class Real>
+PieceNow Groups<Real>::piece_now(std::size_t piece, const Units& units) const {
+  const PieceBox& one = boxes_[box_of_[piece]];
+  const Motion& motion = motions_[static_cast<std::size_t>(one.group)];
+  const Vec3 X = one.box.center();
+  PieceNow now;
+  now.center = (motion.c + motion.F * X - units.origin) / units.length;
+  const Vec3 half = motion.F.cwiseAbs() * one.box.sizes() / (2 * units.length);
+  const Vec3 more = half + Vec3::Constant(1e-6 * half.maxCoeff() + (sizeof(Real) == 4 ? 1 : 0));
+  now.box = Box(Vec3(now.center - more), Vec3(now.center + more));
+  now.velocity = units.time / units.length * (motion.v + motion.V * X);
+  const Mat3 L = units.time * motion.V * motion.F.inverse();
+  now.spin = Vec3(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)) / 2;
+  return now;
 }
 
 template <class Real>
@@ -199,13 +254,13 @@ void Groups<Real>::check_stretch() const {
   for (const Motion& motion : motions_) {
     const Mat3 C = motion.F.transpose() * motion.F;
     // No eigenvalue of C is farther from 1 than the norm of C - 1.
-    if (1 - (C - Mat3::Identity()).norm() > least_stretch_ * least_stretch_) continue;
-    const double least = std::sqrt(Eigen::SelfAdjointEigenSolver<Mat3>(C).eigenvalues()[0]);
-    if (!(least < least_stretch_)) continue;
-    throw Error(Exit::unstable,
-                "a group of particles was squeezed to " + three_digits(least) +
-                    " of its size, where forces between second neighbors would begin; make "
-                    "hierarchy.joint_distance larger, or hierarchy.enabled false");
+    const double off = (C - Mat3::Identity()).norm();
+    if (1 - off > stretch_.least * stretch_.least && 1 + off < stretch_.most * stretch_.most)
+      continue;
+    const Vec3 squares = Eigen::SelfAdjointEigenSolver<Mat3>(C).eigenvalues();
+    const double least = std::sqrt(std::max(0.0, squares[0])), most = std::sqrt(squares[2]);
+    if (!(least >= stretch_.least)) throw unstable_group("squeezed", least, "begin");
+    if (most > stretch_.most) throw unstable_group("stretched", most, "end");
   }
 }
 

@@ -5,12 +5,16 @@
 //
 // which restricts the motion of its particles to affine ones without doing work: momentum is kept,
 // and an even strain passes through its faces. f_i is zero but on the rim (grouping.h), where the
-// kernel computes it, and but for gravity and bones, which are summed over a sample of blocks.
+// kernel computes it, and in the skin, where it follows from F (affine_forces.h); but for gravity
+// and bones, which are summed over a sample of blocks.
 //
 // Blocks of particles within a group are idle: a step leaves them out. Those that its neighbors
-// read are placed before each step, all others when somebody asks for them.
+// read are placed before each step, all others when somebody asks for them. Those that particles of
+// others may touch are watched, and wake in steps in which they are touched.
 //
-//     groups.place(state);                       // before a step
+//     groups.watch(lists.arrays(), lists.take_changed(), ...);
+//     groups.place(state, units);                // before a step
+//     groups.wake(state);
 //     step.grouped = groups.arrays();
 //     groups.sum(kernel, step, units, by);
 //     groups.bound(units, false, motions, totals);
@@ -18,18 +22,23 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <sinew/core/simulation_state.h>
 #include <sinew/physics/forces.h>
+#include <sinew/physics/hierarchy/affine_forces.h>
 #include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/hierarchy/quadrature.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/bond_lists.h>
+#include <sinew/physics/lists/near_pieces.h>
 
 namespace sinew {
 
@@ -65,12 +74,21 @@ class Groups {
 
   /// Whether the particle at place k is in an idle block.
   bool is_idle(std::size_t k) const { return any() && role_[k / block] == kernel::idle; }
-  /// By piece: 1 where all blocks are idle.
-  const std::vector<std::uint8_t>& idle_pieces() const { return idle_pieces_; }
-  /// What a step reads of idle blocks through these bonds, for all steps; through the lists of some
-  /// pieces, from now on.
+  /// By piece: the group that all of its particles are of, or -1.
+  const std::vector<std::int32_t>& group_of_pieces() const { return of_piece_; }
+  /// How a piece of one group moves, in the kernel's units.
+  PieceNow piece_now(std::size_t piece, const Units& units) const;
+  /// F of each.
+  std::vector<Mat3> stretches() const;
+  /// What a step reads of idle blocks through these bonds, for all steps. `two_deep`: forces depend
+  /// on the neighbors of neighbors.
   void read_through(const BondLists<Real>& bonds, bool two_deep);
-  void read_through(const kernel::Lists* lists, std::span<const std::uint32_t> pieces);
+  /// What it reads through the new lists of some pieces, from now on, and which idle blocks they
+  /// pair with particles of others. `meets`: of a piece, whether it may.
+  void watch(const kernel::Lists* lists, std::span<const std::uint32_t> pieces,
+             const BondLists<Real>& bonds, const std::function<bool(std::size_t)>& meets);
+  /// Wakes the blocks that are touched at this moment, and no others.
+  void wake(BlockState<Real>& state, const Units& units);
   kernel::Grouped<Real> arrays();
 
   /// From what the kernel gathered in a step, and the bones' forces on idle blocks.
@@ -82,7 +100,7 @@ class Groups {
              std::span<kernel::Totals> totals) const;
   void advance();
   /// Throws Error (unstable) where a group is squeezed so much that more particles than the layers
-  /// take for neighbors would exert forces on each other.
+  /// take for neighbors would exert forces on each other, or stretched so much that fewer would.
   void check_stretch() const;
 
   /// Fills what keeps the groups together, from all other forces and gravity (m/s^2). `caller`: of
@@ -108,6 +126,7 @@ class Groups {
     double extent = 0;            ///< root mean square of X, m
     double idle = 0;              ///< particles in idle blocks
     Vec3 moment = Vec3::Zero();   ///< of those, sum of X, m
+    AffineMoments skin;           ///< of those
   };
   /// Places [begin, end) in the kernel's order, all of one group; and the row of the first.
   struct Run {
@@ -129,16 +148,51 @@ class Groups {
     std::int32_t group;
     Box box;
   };
+  /// Of the skin.
+  struct SkinBlock {
+    std::uint32_t block;
+    AffineMoments moments;
+  };
+  /// Particles of other groups, or free ones, at a difference from those of an idle block.
+  struct Watched {
+    std::uint32_t block;
+    std::int32_t difference;
+  };
 
   void find_shapes();
   void find_roles();
+  void find_skins(std::int32_t rows);
+  void find_pieces(std::size_t pieces);
   void find_boxes();
   void find_samples();
   template <class Visit>
   void for_each_run(std::size_t begin, std::size_t end, const Visit& visit) const;
   static void append(const Run& run, std::vector<Run>& runs);
   void mark_read(std::ptrdiff_t first, std::ptrdiff_t last);
+  void mark_read(std::size_t b, const BondLists<Real>& bonds) {
+    for_each_reach(b, bonds, [&](auto first, auto last) { mark_read(first, last); });
+  }
+  /// Calls visit(first, last) for the particles that the block's bonds read.
+  template <class Visit>
+  static void for_each_reach(std::size_t b, const BondLists<Real>& bonds, const Visit& visit) {
+    for (std::uint32_t e = bonds.first[b]; e < bonds.first[b + 1]; ++e) {
+      const std::uint32_t lanes = bonds.entries[e].lanes >> kernel::rest_lanes;
+      if (lanes == 0) continue;
+      const std::ptrdiff_t from =
+          static_cast<std::ptrdiff_t>(b * block) + bonds.entries[e].difference;
+      visit(from + std::countr_zero(lanes), from + 31 - std::countl_zero(lanes));
+    }
+  }
+  void mark_lists(std::size_t block, const kernel::Lists& lists);
+  bool may_idle(std::size_t b) const { return idle_[b] != 0; }
+  void watch_piece(const kernel::Lists& lists, std::size_t piece);
+  void rouse(std::uint32_t block, const BondLists<Real>& bonds);
+  bool touches(const Watched& watched, BlockState<Real>& state, double range2) const;
+  void add_awake(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
+                 std::vector<Sum>& all, std::vector<Sum>& damping, std::vector<Shape>& shapes);
   void find_steady();
+  AffineSum skin_of(const Shape& shape, const Motion& motion) const;
+  AffineSum drag_of(const Shape& shape, const Motion& motion) const;
   void put(const Run& run, BlockState<Real>& state, const Units& units) const;
   Sum sum_of(const Run& run, const kernel::Functions<Real>& kernel) const;
   void add_bones(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
@@ -147,7 +201,8 @@ class Groups {
 
   std::shared_ptr<const Body> body_;
   double mass_ = 0;
-  double least_stretch_ = 0;
+  StretchRange stretch_{};
+  std::optional<AffineForces> affine_;
   std::vector<Shape> shapes_;
   std::vector<Motion> motions_, next_;
   std::vector<std::int32_t> group_;               ///< by place in the kernel's order; -1: free
@@ -157,10 +212,19 @@ class Groups {
   std::vector<std::int32_t> role_;                ///< by block: kernel::Role, or a row
   std::vector<std::uint8_t> asleep_;              ///< by block
   std::vector<std::uint8_t> whole_;               ///< by block
-  std::vector<std::uint8_t> idle_pieces_;         ///< by piece
+  std::vector<std::int32_t> of_piece_;            ///< by piece: its group, or -1
+  std::vector<std::uint32_t> box_of_;             ///< by piece: of a group, its place in boxes_
   std::vector<Run> rim_;                          ///< of the blocks with rows
-  std::vector<Run> steady_;                       ///< placed before each step
-  std::vector<std::uint8_t> always_;              ///< by block: idle, but read in every step
+  std::vector<SkinBlock> skins_;
+  std::vector<std::int32_t> skin_at_;          ///< by block: its place there, or -1
+  std::int32_t rows_ = 0;                      ///< of rims; those of what is awake follow
+  std::vector<std::uint8_t> idle_;             ///< by block: unless it is awake
+  std::vector<std::vector<Watched>> watched_;  ///< by piece
+  std::vector<std::uint32_t> watching_;        ///< pieces that have any, ascending
+  std::vector<std::uint32_t> awake_;           ///< blocks, ascending
+  bool two_deep_ = false;
+  std::vector<Run> steady_;           ///< placed before each step
+  std::vector<std::uint8_t> always_;  ///< by block: idle, but read in every step
   bool more_are_read_ = true;
   std::vector<std::int64_t> shown_;  ///< by piece: when all was last placed
   std::int64_t moment_ = 0;

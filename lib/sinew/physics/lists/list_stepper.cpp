@@ -136,12 +136,11 @@ template <class Real>
 kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces, bool whole) {
   hold(pose);
   update_lists();
-  if (whole) {
-    groups_.show_all(layout_.now, layout_.units());
-    lists_.catch_up(layout_.now, bonds_, hidden());
-  }
-  groups_.read_through(lists_.arrays(), lists_.take_changed());
+  if (whole) groups_.show_all(layout_.now, layout_.units());
+  groups_.watch(lists_.arrays(), lists_.take_changed(), bonds_,
+                [this](std::size_t piece) { return lists_.meets_others(piece); });
   groups_.place(layout_.now, layout_.units());
+  if (!whole) groups_.wake(layout_.now, layout_.units());
   place_bones(pose);
   surroundings_.begin(pose, time_, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_)) strain_.set_activations(activations_at(body_->world->muscles, time_));
@@ -260,17 +259,20 @@ void ListStepper<Real>::update_lists() {
   } else if (anew || !lists_.made()) {
     make_lists();
   } else if (stepped) {
-    lists_.follow(layout_.now, bonds_, layout_.units(), totals_, hidden());
+    lists_.follow(layout_.now, bonds_, layout_.units(), totals_, grouped());
   }
 }
 
 template <class Real>
-HiddenParticles ListStepper<Real>::hidden() {
+GroupedParticles ListStepper<Real>::grouped() {
   if (!groups_.any()) return {};
   const auto show = [this](std::span<const std::uint32_t> pieces) {
     groups_.show(layout_.now, layout_.units(), pieces);
   };
-  return {show, groups_.idle_pieces()};
+  const auto piece_now = [this](std::size_t piece) {
+    return groups_.piece_now(piece, layout_.units());
+  };
+  return {show, groups_.group_of_pieces(), piece_now, groups_.stretches()};
 }
 
 /// What pins moved counts as faster motion of the step before.
@@ -294,7 +296,7 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, bonds_, layout_.units(), hidden());
+  lists_.make(layout_.now, bonds_, layout_.units(), grouped());
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run

@@ -103,6 +103,7 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
 void NearPieces::find_near() {
   since_near_ = 0;
   near_.resize(pieces_.size());
+  meets_others_.assign(pieces_.size(), 0);
   if (pieces_.empty()) return;
   const auto levels = tree_of(pieces_);
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
@@ -115,6 +116,8 @@ void NearPieces::find_near(std::size_t piece, const std::vector<std::vector<Box>
   near_[piece].clear();
   auto add = [&](std::size_t other) { add_near(piece, static_cast<std::uint32_t>(other), before); };
   for_each_near(levels, levels.size() - 1, 0, pieces_[piece].box, ranges_.outer + margin_, add);
+  for (const Near& near : near_[piece])
+    if (!are_bound(piece, near.piece)) meets_others_[piece] = 1;
 }
 
 /// A piece that was not near has come no nearer than the outer range.
@@ -135,7 +138,9 @@ void NearPieces::add_near(std::size_t piece, std::uint32_t other, std::span<cons
 void NearPieces::find_rates(std::size_t piece) {
   const PieceNow& one = pieces_[piece];
   const double travel = margin_ / 4;
+  if (!meets_others(piece)) return;
   for (Near& near : near_[piece]) {
+    if (are_bound(piece, near.piece)) continue;
     const PieceNow& other = pieces_[near.piece];
     near.gap = one.box.exteriorDistance(other.box);
     near.rate = 0;
@@ -165,7 +170,9 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       Spare& least = least_[piece] = {};
+      if (!meets_others(piece)) continue;
       for (Near& near : near_[piece]) {
+        if (are_bound(piece, near.piece)) continue;
         const double used =
             (fastest[piece] + fastest[near.piece] + static_cast<double>(near.rate)) * time;
         near.outer -= used;

@@ -11,7 +11,10 @@
 // pieces can meet. What pairs of pieces have used up of the skins is added step by step, so the
 // lists of a piece are made again when its own surroundings have changed, and not before.
 //
-//     NearPieces near(ranges);
+// Pieces that are bound to each other, because all of their particles are of one group
+// (../hierarchy/groups.h), are left to the caller.
+//
+//     NearPieces near(ranges, group_of_pieces);
 //     near.survey(pieces, time);    // now and then: how the pieces move
 //     near.advance(fastest, time);  // after every step
 //     for (const std::uint32_t piece : near.to_list()) ... near.listed(piece);
@@ -53,7 +56,10 @@ class NearPieces {
   };
 
   NearPieces() = default;
-  explicit NearPieces(const ListRanges& ranges) : ranges_(ranges) {}
+  /// `bound_to`: by piece, those with the same number are bound to each other, but for -1; empty:
+  /// none are.
+  explicit NearPieces(const ListRanges& ranges, std::span<const std::int32_t> bound_to = {})
+      : ranges_(ranges), bound_to_(bound_to.begin(), bound_to.end()) {}
 
   /// How the pieces move and where they are from now on, for steps of `time`.
   void survey(std::vector<PieceNow> pieces, double time);
@@ -78,6 +84,8 @@ class NearPieces {
 
   /// The pieces near one, itself included, ascending.
   std::span<const Near> of(std::size_t piece) const { return near_[piece]; }
+  /// Whether any of them is not bound to it.
+  bool meets_others(std::size_t piece) const { return meets_others_[piece] != 0; }
 
  private:
   void find_near();
@@ -85,6 +93,9 @@ class NearPieces {
   void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
   void find_rates(std::size_t piece);
   void sort_out();
+  bool are_bound(std::size_t a, std::size_t b) const {
+    return !bound_to_.empty() && bound_to_[a] >= 0 && bound_to_[a] == bound_to_[b];
+  }
   double speed_of(const PieceNow& piece) const;
   double fastest_of(std::span<const PieceNow> pieces) const;
 
@@ -94,6 +105,8 @@ class NearPieces {
   };
 
   ListRanges ranges_;
+  std::vector<std::int32_t> bound_to_;
+  std::vector<std::uint8_t> meets_others_;
   double margin_ = 0;  ///< beyond the outer range, within which pieces count as near
   std::vector<PieceNow> pieces_;
   std::vector<std::vector<Near>> near_;

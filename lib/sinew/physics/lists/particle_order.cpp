@@ -146,18 +146,50 @@ void sort_by_planes(const Listed& particles, const Vec3& across,
   group = std::move(sorted);
 }
 
-/// The free particles, then each group from its rim to its core, face by face, in the same order
-/// otherwise.
+/// Where the members of each of some sets are in an order, on average; -1 for none.
+template <class SetOf>
+std::vector<double> means_of(const std::vector<std::uint32_t>& order, std::size_t sets,
+                             const SetOf& set_of) {
+  std::vector<double> sum(sets, 0), count(sets, 0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t set = set_of(k);
+    if (set < sets) sum[set] += static_cast<double>(k), count[set] += 1;
+  }
+  for (std::size_t set = 0; set < sets; ++set)
+    sum[set] = count[set] > 0 ? sum[set] / count[set] : -1;
+  return sum;
+}
+
+/// Parts each group into its core, its shell and its rim, face by face, and the free particles into
+/// those between groups, in the same order otherwise. What is next to each other remains so: pieces
+/// of distant particles would be near everything.
 void sort_by_layers(const Grouping& grouping, std::span<const std::int32_t> id,
                     std::vector<std::uint32_t>& order) {
-  const auto rank = [&](std::uint32_t place) {
-    const auto i = static_cast<std::size_t>(id[place]);
-    const auto layer = static_cast<std::size_t>(grouping.layer[i]);
-    const auto group = static_cast<std::size_t>(grouping.group[i] + 1);
-    return (group * 4 + layer) * 64 + grouping.face[i];
+  constexpr std::size_t layers = 4, faces = 64;
+  const std::size_t free = grouping.size() * layers * faces;
+  const auto group_of = [&](std::size_t k) {
+    return static_cast<std::size_t>(grouping.group[static_cast<std::size_t>(id[order[k]])]);
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+  std::vector<double> groups = means_of(order, grouping.size(), group_of);
+  std::sort(groups.begin(), groups.end());
+  std::vector<std::size_t> part(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto i = static_cast<std::size_t>(id[order[k]]);
+    const auto before = std::lower_bound(groups.begin(), groups.end(), static_cast<double>(k));
+    part[k] = grouping.group[i] < 0
+                  ? free + static_cast<std::size_t>(before - groups.begin())
+                  : (group_of(k) * layers + static_cast<std::size_t>(grouping.layer[i])) * faces +
+                        grouping.face[i];
+  }
+  const std::vector<double> means =
+      means_of(order, free + grouping.size() + 1, [&](std::size_t k) { return part[k]; });
+  std::vector<std::uint32_t> at(order.size());
+  std::iota(at.begin(), at.end(), 0U);
+  std::stable_sort(at.begin(), at.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return means[part[a]] != means[part[b]] ? means[part[a]] < means[part[b]] : part[a] < part[b];
+  });
+  for (std::uint32_t& k : at) k = order[k];
+  order = std::move(at);
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
 
 template <class Real>
 void VerletLists<Real>::make(BlockState<Real>& state, const BondLists<Real>& bonds,
-                             const Units& units, const HiddenParticles& hidden) {
-  make_each(1, state, bonds, units, hidden);
+                             const Units& units, const GroupedParticles& groups) {
+  make_each(1, state, bonds, units, groups);
   ++counts_.rebuilds;
 }
 
@@ -96,7 +96,7 @@ void VerletLists<Real>::make_some(BlockState<Real>& state, const BondLists<Real>
 template <class Real>
 void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
                                   const BondLists<Real>& bonds, const Units& units,
-                                  const HiddenParticles& hidden) {
+                                  const GroupedParticles& groups) {
   whole_ = nth == 1;
   ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
              wanted_.outer / units.length};
@@ -111,54 +111,65 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
   fastest_.assign(pieces, 0);
   boxes_.resize(pieces);
   boxed_.assign(pieces, -1);
-  overdue_.assign(pieces, 0);
-  near_ = NearPieces(ranges_);
-  show_all(hidden);
-  survey(state);
+  listed_at_.assign(pieces, Mat3::Identity());
+  pruned_at_.assign(pieces, Mat3::Identity());
+  near_ = NearPieces(ranges_, groups.of_piece);
+  survey(state, groups);
   std::vector<std::uint32_t> some;
   for (std::size_t piece = 0; piece < pieces; piece += nth)
     some.push_back(static_cast<std::uint32_t>(piece));
-  list(state, bonds, some, hidden);
-}
-
-template <class Real>
-void VerletLists<Real>::show_all(const HiddenParticles& hidden) const {
-  std::vector<std::uint32_t> all(motions_.size());
-  std::iota(all.begin(), all.end(), 0U);
-  hidden.show(all);
+  list(state, bonds, some, groups);
 }
 
 /// What lists of these pieces are made from.
 template <class Real>
 void VerletLists<Real>::show_around(const std::vector<std::uint32_t>& pieces,
-                                    const HiddenParticles& hidden) const {
+                                    const GroupedParticles& groups) const {
   std::vector<std::uint32_t> around;
   for (const std::uint32_t piece : pieces)
     for (const NearPieces::Near& near : near_.of(piece)) around.push_back(near.piece);
-  hidden.show(around);
+  groups.show(around);
 }
 
-/// Idle ones are overdue from now on.
-template <class Real>
-std::vector<std::uint32_t> VerletLists<Real>::without_idle(const std::vector<std::uint32_t>& pieces,
-                                                           const HiddenParticles& hidden) {
-  if (hidden.idle.empty()) return pieces;
-  std::vector<std::uint32_t> kept;
-  for (const std::uint32_t piece : pieces)
-    if (hidden.idle[piece] != 0)
-      overdue_[piece] = 1;
-    else
-      kept.push_back(piece);
-  return kept;
-}
+/// How much longer distances in groups were than they are now, at most. Most pieces of a group have
+/// been listed at the same moment.
+class Shrinking {
+ public:
+  explicit Shrinking(const std::vector<Mat3>& stretch) {
+    for (const Mat3& F : stretch) inverse_.push_back(F.inverse());
+  }
 
+  double since(const Mat3& before, std::int32_t group) {
+    if (group == group_ && before == before_) return last_;
+    group_ = group, before_ = before;
+    const Mat3 back = before * inverse_[static_cast<std::size_t>(group)];
+    last_ = std::sqrt(1 + (back.transpose() * back - Mat3::Identity()).norm());
+    return last_;
+  }
+
+ private:
+  std::vector<Mat3> inverse_;
+  std::int32_t group_ = -1;
+  Mat3 before_ = Mat3::Zero();
+  double last_ = 1;
+};
+
+/// Adds pieces of groups that have shrunk so much that particles of theirs may have come within
+/// range of each other.
 template <class Real>
-void VerletLists<Real>::catch_up(BlockState<Real>& state, const BondLists<Real>& bonds,
-                                 const HiddenParticles& hidden) {
-  std::vector<std::uint32_t> pieces;
-  for (std::uint32_t piece = 0; piece < overdue_.size(); ++piece)
-    if (std::exchange(overdue_[piece], 0) != 0) pieces.push_back(piece);
-  list(state, bonds, pieces, hidden);
+void VerletLists<Real>::add_strained(const GroupedParticles& groups,
+                                     std::vector<std::uint32_t>& to_list,
+                                     std::vector<std::uint32_t>& to_prune) const {
+  Shrinking listed(groups.stretch), pruned = listed;
+  const double force = ranges_.force * (1 + 1e-5);  // above rounding
+  for (std::uint32_t piece = 0; piece < groups.of_piece.size(); ++piece) {
+    const std::int32_t group = groups.of_piece[piece];
+    if (group < 0) continue;
+    if (!(force * listed.since(listed_at_[piece], group) < ranges_.outer))
+      to_list.push_back(piece);
+    else if (!(force * pruned.since(pruned_at_[piece], group) < ranges_.inner))
+      to_prune.push_back(piece);
+  }
 }
 
 template <class Real>
@@ -183,20 +194,34 @@ PieceNow VerletLists<Real>::piece_now(const kernel::Survey& survey,
   return now;
 }
 
-/// Finds out how all pieces move.
+/// Of a piece, at its places.
 template <class Real>
-void VerletLists<Real>::survey(BlockState<Real>& state) {
-  std::vector<PieceNow> pieces(motions_.size());
+PieceNow VerletLists<Real>::survey(std::size_t piece, BlockState<Real>& state) {
+  constexpr std::size_t size = blocks_per_piece * BlockState<Real>::block;
   const auto arrays = state.arrays();
   const kernel::SurveyInput<Real> input{arrays, state.blocks(), state.live()};
-  constexpr std::size_t size = blocks_per_piece * BlockState<Real>::block;
+  const std::size_t first = piece * size, last = std::min(first + size, state.size());
+  auto& center = motions_[piece].center;
+  for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(first + last) / 2];
+  return piece_now(kernel_.survey(input, piece, center), center, last - first);
+}
+
+/// Finds out how all pieces move.
+template <class Real>
+void VerletLists<Real>::survey(BlockState<Real>& state, const GroupedParticles& groups) {
+  std::vector<PieceNow> pieces(motions_.size());
+  const auto is_of_group = [&](std::size_t piece) {
+    return !groups.of_piece.empty() && groups.of_piece[piece] >= 0;
+  };
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t piece = 0; piece < pieces.size(); ++piece)
+    if (!is_of_group(piece)) others.push_back(piece);
+  groups.show(others);
   parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
-      const std::size_t first = piece * size, last = std::min(first + size, state.size());
       auto& motion = motions_[piece];
-      for (int axis = 0; axis < 3; ++axis) motion.center[axis] = arrays.x[axis][(first + last) / 2];
       PieceNow& now = pieces[piece];
-      now = piece_now(kernel_.survey(input, piece, motion.center), motion.center, last - first);
+      now = is_of_group(piece) ? groups.piece_now(piece) : survey(piece, state);
       for (int axis = 0; axis < 3; ++axis) {
         motion.velocity[axis] = static_cast<Real>(now.velocity[axis]);
         motion.spin[axis] = static_cast<Real>(now.spin[axis]);
@@ -204,6 +229,7 @@ void VerletLists<Real>::survey(BlockState<Real>& state) {
         now.spin[axis] = static_cast<double>(motion.spin[axis]);
       }
       centers_[piece] = now.center;
+      place_field(piece, now.center);
       speed_[piece] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
     }
   });
@@ -212,25 +238,39 @@ void VerletLists<Real>::survey(BlockState<Real>& state) {
   ++counts_.surveys;
 }
 
+template <class Real>
+void VerletLists<Real>::place_field(std::size_t piece, const Vec3& at) {
+  for (int axis = 0; axis < 3; ++axis)
+    if constexpr (sizeof(Real) == 4)
+      motions_[piece].center[axis] =
+          static_cast<std::int32_t>(static_cast<std::int64_t>(std::nearbyint(at[axis])));
+    else
+      motions_[piece].center[axis] = at[axis];
+}
+
 /// The velocity fields travel with the common velocity.
 template <class Real>
 void VerletLists<Real>::move_fields() {
   elapsed_ += time_;
   for (std::size_t piece = 0; piece < motions_.size(); ++piece)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = centers_[piece][axis] + elapsed_ * near_.common_velocity()[axis];
-      if constexpr (sizeof(Real) == 4)
-        motions_[piece].center[axis] =
-            static_cast<std::int32_t>(static_cast<std::int64_t>(std::nearbyint(at)));
-      else
-        motions_[piece].center[axis] = at;
-    }
+    place_field(piece, centers_[piece] + elapsed_ * near_.common_velocity());
+}
+
+void sort_once(std::vector<std::uint32_t>& pieces) {
+  std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+}
+
+/// Where a bond broke: its particles now touch like others.
+void add_broken(std::span<const kernel::Totals> totals, std::vector<std::uint32_t>& to_list) {
+  for (std::uint32_t piece = 0; piece < totals.size(); ++piece)
+    if (totals[piece].broke) to_list.push_back(piece);
 }
 
 template <class Real>
 void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& bonds,
                                const Units& units, std::span<const kernel::Totals> totals,
-                               const HiddenParticles& hidden) {
+                               const GroupedParticles& groups) {
   Stopwatch watch;
   ++moment_;
   // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
@@ -239,35 +279,27 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
   for (std::size_t piece = 0; piece < totals.size(); ++piece)
     fastest_[piece] =
         std::sqrt(totals[piece].fastest) * (1 + 1e-5) + unit + rounding<Real> * speed_[piece];
-  if (!near_.advance(fastest_, time_)) return make(state, bonds, units, hidden);
-  if (near_.survey_due()) {
-    show_all(hidden);
-    survey(state);
-  } else {
+  if (!near_.advance(fastest_, time_)) return make(state, bonds, units, groups);
+  if (near_.survey_due())
+    survey(state, groups);
+  else
     move_fields();
-  }
+  std::vector<std::uint32_t> listed = near_.to_list(), pieces = near_.to_prune();
+  add_strained(groups, listed, pieces);
+  add_broken(totals, listed);
   counts_.checking += watch.lap();
-  list(state, bonds, without_idle(to_list(totals), hidden), hidden);
-  const std::vector<std::uint32_t> pieces = without_idle(near_.to_prune(), hidden);
-  show_around(pieces, hidden);
+  sort_once(listed), sort_once(pieces);
+  list(state, bonds, listed, groups);
+  std::erase_if(pieces, [&](std::uint32_t piece) {
+    return std::binary_search(listed.begin(), listed.end(), piece);
+  });
+  show_around(pieces, groups);
   changed_.insert(changed_.end(), pieces.begin(), pieces.end());
   parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) prune(state, pieces[k]);
+    for (std::size_t k = begin; k < end; ++k) prune(state, pieces[k], groups);
   });
   counts_.pruned += static_cast<std::int64_t>(pieces.size());
   counts_.pruning += watch.lap();
-}
-
-/// Also those where a bond broke: its particles now touch like others.
-template <class Real>
-std::vector<std::uint32_t> VerletLists<Real>::to_list(
-    std::span<const kernel::Totals> totals) const {
-  std::vector<std::uint32_t> pieces = near_.to_list();
-  for (std::uint32_t piece = 0; piece < totals.size(); ++piece)
-    if (totals[piece].broke) pieces.push_back(piece);
-  std::sort(pieces.begin(), pieces.end());
-  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
-  return pieces;
 }
 
 template <class Real>
@@ -285,10 +317,10 @@ void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
 template <class Real>
 void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bonds,
                              const std::vector<std::uint32_t>& pieces,
-                             const HiddenParticles& hidden) {
+                             const GroupedParticles& groups) {
   if (pieces.empty()) return;
   Stopwatch watch;
-  show_around(pieces, hidden);
+  show_around(pieces, groups);
   changed_.insert(changed_.end(), pieces.begin(), pieces.end());
   find_boxes_around(state, pieces);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -302,7 +334,9 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
         outer_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.outer);
       }
       near_.listed(piece);
-      prune(state, piece);
+      if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
+        listed_at_[piece] = groups.stretch[static_cast<std::size_t>(groups.of_piece[piece])];
+      prune(state, piece, groups);
     }
   });
   counts_.listed += static_cast<std::int64_t>(pieces.size());
@@ -310,10 +344,13 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
 }
 
 template <class Real>
-void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece) {
+void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece,
+                              const GroupedParticles& groups) {
   inner_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.inner);
   arrays_[piece] = inner_[piece].arrays();
   near_.pruned(piece);
+  if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
+    pruned_at_[piece] = groups.stretch[static_cast<std::size_t>(groups.of_piece[piece])];
 }
 
 template <class Real>

@@ -29,11 +29,14 @@
 
 namespace sinew {
 
-/// Particles that are not always at their places.
-struct HiddenParticles {
+/// Groups of particles, which are not always at their places (../hierarchy/groups.h).
+struct GroupedParticles {
   /// Puts those of some pieces there.
   std::function<void(std::span<const std::uint32_t> pieces)> show = [](const auto&) {};
-  std::span<const std::uint8_t> idle = {};  ///< by piece: 1 where no lists are needed; empty: none
+  std::span<const std::int32_t> of_piece = {};  ///< a piece's only group, or -1; empty: all are -1
+  /// How a piece of one group moves.
+  std::function<PieceNow(std::size_t piece)> piece_now = {};
+  std::vector<Mat3> stretch = {};  ///< F of each group
 };
 
 template <class Real>
@@ -52,16 +55,15 @@ class VerletLists {
   bool made() const { return !inner_.empty(); }
   /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
   void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
-            const HiddenParticles& hidden = {});
+            const GroupedParticles& groups = {});
   void make_some(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
   /// Whether they are the lists of all pieces.
   bool whole() const { return whole_; }
   /// Makes those that are no longer valid after a step with these sums.
   void follow(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
-              std::span<const kernel::Totals> totals, const HiddenParticles& hidden = {});
-  /// Makes those of idle pieces that are no longer valid.
-  void catch_up(BlockState<Real>& state, const BondLists<Real>& bonds,
-                const HiddenParticles& hidden);
+              std::span<const kernel::Totals> totals, const GroupedParticles& groups = {});
+  /// Whether a piece is near particles of others than its group.
+  bool meets_others(std::size_t piece) const { return near_.meets_others(piece); }
   /// Pieces whose inner lists were made since they were last asked for.
   std::vector<std::uint32_t> take_changed() { return std::exchange(changed_, {}); }
 
@@ -75,19 +77,19 @@ class VerletLists {
  private:
   static double mean(const std::vector<OffsetLists>& lists);
   void make_each(std::size_t nth, BlockState<Real>& state, const BondLists<Real>& bonds,
-                 const Units& units, const HiddenParticles& hidden);
-  void show_all(const HiddenParticles& hidden) const;
-  void survey(BlockState<Real>& state);
+                 const Units& units, const GroupedParticles& groups);
+  void survey(BlockState<Real>& state, const GroupedParticles& groups);
+  PieceNow survey(std::size_t piece, BlockState<Real>& state);
   void move_fields();
+  void place_field(std::size_t piece, const Vec3& at);
   PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
                      std::size_t particles) const;
-  std::vector<std::uint32_t> to_list(std::span<const kernel::Totals> totals) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
-            const std::vector<std::uint32_t>& pieces, const HiddenParticles& hidden);
-  void show_around(const std::vector<std::uint32_t>& pieces, const HiddenParticles& hidden) const;
-  std::vector<std::uint32_t> without_idle(const std::vector<std::uint32_t>& pieces,
-                                          const HiddenParticles& hidden);
-  void prune(BlockState<Real>& state, std::size_t piece);
+            const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups);
+  void show_around(const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups) const;
+  void add_strained(const GroupedParticles& groups, std::vector<std::uint32_t>& to_list,
+                    std::vector<std::uint32_t>& to_prune) const;
+  void prune(BlockState<Real>& state, std::size_t piece, const GroupedParticles& groups);
   void find_boxes_around(BlockState<Real>& state, const std::vector<std::uint32_t>& pieces);
 
   kernel::Functions<Real> kernel_{};
@@ -110,7 +112,8 @@ class VerletLists {
   std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
   std::int64_t moment_ = 0;
   std::vector<std::uint32_t> changed_;
-  std::vector<std::uint8_t> overdue_;  ///< by piece: idle ones
+  /// By piece of a group: its F when they were made.
+  std::vector<Mat3> listed_at_, pruned_at_;
 
   ListCounts counts_;
 };

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bars of particles in groups.
+#pragma once
+
+#include <sinew/physics/hierarchy/grouping.h>
+
+#include "all_steppers.h"
+
+namespace sinew::groups_test {
+
+inline constexpr double r = 0.01;
+
+inline constexpr MaterialModel models[] = {MaterialModel::paper, MaterialModel::bonded,
+                                           MaterialModel::bonded_volume};
+
+/// Groups by a function of the place at rest.
+struct Bar {
+  Settings settings;
+  Points rest;
+  Body body;
+  Particles particles;
+  double step = 0;
+
+  template <class GroupOf>
+  Bar(const Settings& given, Points places, const GroupOf& group_of)
+      : settings(given),
+        rest(std::move(places)),
+        body(test::make_body(settings, rest)),
+        particles(test::particles_of(settings, rest)),
+        step(test::step_of(settings, body)) {
+    std::vector<std::int32_t> group;
+    for (const Vec3& X : rest) group.push_back(group_of(X));
+    body.grouping = std::make_shared<const Grouping>(make_grouping(body, std::move(group)));
+  }
+  /// Of half-planes.
+  template <class GroupOf>
+  Bar(const Settings& given, int width, int height, const GroupOf& group_of)
+      : Bar(given, test::fcc_box(width, width, height, r), group_of) {}
+
+  Simulation begin(kernel::InstructionSet set = kernel::best_instruction_set()) const {
+    return Simulation(body, motion_of(settings, body.skeleton), particles,
+                      stepping_of(settings.solver, step), set);
+  }
+  Layer layer(std::size_t i) const { return body.grouping->layer[i]; }
+  std::int32_t group(std::size_t i) const { return body.grouping->group[i]; }
+};
+
+inline Settings scene_of(MaterialModel model, DampingForm form = DampingForm::paper,
+                         Precision precision = Precision::binary64) {
+  Settings settings = test::in(precision, test::box_scene(41));
+  settings.material.model = model;
+  settings.material.damping_form = form;
+  return settings;
+}
+
+}  // namespace sinew::groups_test
