@@ -89,7 +89,7 @@ TEST(Parts, AreWhatIsInAllRegionsThatAreGiven) {
 
 /// A body whose part is all of it is a body of that part's material.
 TEST(LocalMaterials, AreThoseThatTheyName) {
-  Settings whole = test::box_scene(15), parts = whole;
+  Settings whole = test::unbound(test::box_scene(15)), parts = whole;
   for (Settings* one : {&whole, &parts}) {
     one->material.model = MaterialModel::bonded_volume;
     one->material.damping = 0;
