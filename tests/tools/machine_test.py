@@ -167,9 +167,9 @@ probes: [{name: middle, low: [-1, -1, 0.3], high: [1, 1, 0.4]}]
 
     def test_a_bar_that_is_held_relaxes_to_what_is_left_of_its_modulus(self):
         relaxing = ["--set", "material.relaxation_shares=[0.3, 0.2]", "--set", "material.relaxation_times=[0.05, 0.2]"]
-        pull = {}
+        pull, clamped = {}, PULL.replace("hold: z, facing: [0, 0, -1]", "facing: [0, 0, -1]")
         for name, words in ("elastic", []), ("relaxed", relaxing), ("static", [*relaxing, "--set", "solver.method=static"]):
-            rows = self.run_of(PULL.format(by=0.002), *words, "--set", "solver.duration=3", "--set", "output.interval=1")
+            rows = self.run_of(clamped.format(by=0.002), *words, "--set", "solver.duration=3", "--set", "output.interval=1")
             pull[name] = self.vector(rows["above"], "force")[2]
         self.assert_near(pull["relaxed"], pull["elastic"] / 2, 0.005)
         self.assert_near(pull["static"], pull["elastic"] / 2, 0.005)
@@ -199,8 +199,8 @@ loads: [{name: weight, gravity: [0, 0, -2]}]
         inner.rename(self.folder / "moved.obj")
         sinew("measure", self.out)
         page = (self.out / "report.html").read_text()
-        self.assertRegex(page, "Load steps.*frame 0.*iterations, residual")
-        self.assertIn("core", page)
+        self.assertTrue(re.search(r"(?s)Load steps.*?frame 0.*?\d iterations, residual \d", page))
+        self.assertTrue(re.search(r"(?s)Parts<.*?core.*?particles, ", page))
         inner.write_text(inner.with_name("moved.obj").read_text())
         swinging, parts = [self.folder / name for name in ("swinging", "parts")]
         shorter = [*words, "--set", "solver.duration=0.3"]
@@ -295,9 +295,9 @@ probes:
                 ("supports:\n  - {name: a, ids: [1e6]}\n", r"there is no particle 1000000; give"),
                 ("loads:\n  - {name: a, pressure: 1, low: [1, 1, 1], high: [2, 2, 2]}\n",
                  "no face of the surface is in the part of"),
-                ("materials:\n  - {name: a, low: [0, 0, 0], high: [1, 1, 1]}\n", "material 'a' has nothing of its own; give"),
-                ("materials:\n  - {name: a, poisson_ratio: 0.3}\n", "ratio of bonds alone is 1/4"),
-                ("materials:\n  - {name: a, density: 5, mesh: none.obj}\n", "none.obj"),
+                ("supports: [{name: s}]\nmaterials:\n  - {name: a, low: [0, 0, 0], high: [1, 1, 1]}\n", "material 'a' has nothing of its own; give"),
+                ("supports: [{name: s}]\nmaterials:\n  - {name: a, poisson_ratio: 0.3}\n", "ratio of bonds alone is 1/4"),
+                ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: 5, mesh: none.obj}\n", "none.obj"),
                 ("supports:\n  - {name: a, hold: x, hold_along: [1, 1, 0]}\n", "has hold and hold_along; keep one"),
                 ("loads:\n  - {name: a, force: [0, 0, 1], component: 3}\n", "no particle is in the part"),
                 ("supports:\n  - {name: a, hold: z}\n  - {name: b, keys: [{time: 0}, {time: 1, angle: 5}]}\n",

@@ -344,8 +344,8 @@ def left_of_force(run):
 def relaxation():
     """One branch of Maxwell's beside each bond."""
     W, E, end = 0.1, 1e5, 1.0
-    L, by = 3 * W, 3 * W * PRONY["strain"]
-    yield Case("relaxation", "A bar pulled by 0.1 % and held relaxes: the standard linear solid", bar(W, L), W, [5, 7, 9],
+    L, by = 5 * W, 5 * W * PRONY["strain"]
+    yield Case("relaxation", "A bar pulled by 0.1 % and held relaxes: the standard linear solid", bar(W, L), W, [5, 7, 9, 11],
                elastic(E)[:-1] + f", relaxation_shares: [{PRONY['share']}], relaxation_times: [{PRONY['time']}], damping: 200, damping_form: central}}",
                "supports:\n  - {name: below, hold: z, facing: [0, 0, -1]}\n"
                "  - {name: above, hold: z, facing: [0, 0, 1], interpolation: linear, keys: [{time: 0}, "

@@ -74,6 +74,8 @@ std::uint64_t body_hash(const Body& body, const Triangles& surface) {
       piece.add(&influence.weight, sizeof influence.weight);
     }
   });
+  const auto& numbers = body.material_number;  // the meshes of parts may have changed
+  hash.add(numbers.data(), numbers.size() * sizeof(std::int32_t));
   add(surface, hash);
   return hash.value();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/settings/entries.h>
 #include <sinew/settings/sections.h>
+#include <sinew/settings/text_file.h>
 
 namespace sinew {
 namespace {
@@ -100,11 +101,12 @@ void read_machine(const YamlNode& scene, Settings& settings) {
   check_names_of_machine(settings);
 }
 
-std::string machine_text(const Settings& settings) {
+std::string machine_text(const Settings& settings, const std::filesystem::path& folder) {
   std::string text;
   if (!settings.materials.empty())
     text += '\n' + list_text("materials", settings.materials, 0,
-                             [](const LocalMaterialSettings& material, bool first) {
+                             [&](LocalMaterialSettings material, bool first) {
+                               material.part.mesh = path_in(folder, material.part.mesh);
                                return entry_text(material_fields(), material, 2, first);
                              });
   if (!settings.supports.empty())

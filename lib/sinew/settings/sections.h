@@ -63,7 +63,7 @@ inline constexpr std::array<std::string_view, 4> machine_lists = {"materials", "
 void read_machine(const YamlNode& scene, Settings& settings);
 
 /// The lists that have entries, as a scene writes them.
-std::string machine_text(const Settings& settings);
+std::string machine_text(const Settings& settings, const std::filesystem::path& folder);
 
 // Checks that involve more than one setting.
 

@@ -162,6 +162,7 @@ void open_paths_from_here(Settings& settings, const fs::path& folder) {
       mesh = seen_from("", folder / mesh).string();
   };
   for (PartOptions& part : settings.bodies) open(part.body.mesh);
+  for (LocalMaterialSettings& material : settings.materials) open(material.part.mesh);
   for (ObstacleSettings& obstacle : settings.world.obstacles) open(obstacle.mesh);
 }
 

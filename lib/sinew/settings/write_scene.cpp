@@ -87,7 +87,7 @@ std::string resolved_scene(const Settings& settings, const std::filesystem::path
     if (section == "body") text += bodies_text(settings, folder);
     if (section == "skeleton") text += bones_text(settings);
     if (section == "motion") text += tracks_text(settings);
-    if (section == "world") text += world_text(settings, folder) + machine_text(settings);
+    if (section == "world") text += world_text(settings, folder) + machine_text(settings, folder);
     if (section == "binding") text += bound_text(settings);
   }
   return text;
