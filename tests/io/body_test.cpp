@@ -24,6 +24,25 @@ TEST_F(Body, ComesBackBitForBit) {
   }
 }
 
+TEST_F(Body, ComesBackWithWhatItsPartsHaveOfTheirOwn) {
+  BodyFile written = SyntheticRun().body();
+  const std::size_t n = written.particles.size();
+  written.stiffness = std::vector<double>(n, 1.0 / 3);
+  written.density = std::vector<double>(n, 0.1);
+  written.volume_stiffness = std::vector<double>(n, 1e4 / 7);
+  write_body(folder / "body.vtu", written);
+  const BodyFile read = read_body(folder / "body.vtu");
+  EXPECT_EQ(read.particles.mass, written.particles.mass);
+  EXPECT_EQ(read.stiffness, written.stiffness);
+  EXPECT_EQ(read.density, written.density);
+  EXPECT_EQ(read.volume_stiffness, written.volume_stiffness);
+  const Dataset data = body_dataset(written);
+  for (const Column& column : data.point_columns)
+    if (column.name == "mass") {
+      EXPECT_EQ(std::get<1>(column.values)[0], 0.1 * written.particles.mass);
+    }
+}
+
 TEST_F(Body, NeedsNoBones) {
   BodyFile written = SyntheticRun().body();
   written.bone.reset();
