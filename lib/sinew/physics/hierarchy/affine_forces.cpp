@@ -56,9 +56,10 @@ AffineForces::AffineForces(const Body& body)
   const double spacing = half_plane_spacing(body.material.pair.r);
   for (const int squares : {2, 4})
     for (int cell = 0; cell < 125; ++cell) {
-      const Vec3 site = Vec3(cell / 25, cell / 5 % 5, cell % 5).array() - most_planes;
+      const int x = cell / 25 - most_planes, y = cell / 5 % 5 - most_planes;
+      const Vec3 site(x, y, cell % 5 - most_planes);
       if (site.squaredNorm() != squares) continue;
-      at_[static_cast<std::size_t>(cell)] = static_cast<std::int8_t>(site_.size());
+      at_[static_cast<std::size_t>(cell)] = static_cast<int>(site_.size());
       site_.push_back(spacing * (body.lattice * site));
     }
 }

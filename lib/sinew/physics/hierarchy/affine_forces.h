@@ -72,8 +72,8 @@ class AffineForces {
   bool keeps_volume_;
   double range_;  ///< of what neighbors are, m
   CellGrid grid_;
-  Points site_;                        ///< m
-  std::array<std::int8_t, 125> at_{};  ///< of whole coordinates in half-planes, -2 to 2 each
+  Points site_;                ///< m
+  std::array<int, 125> at_{};  ///< of whole coordinates in half-planes, -2 to 2 each
 };
 
 }  // namespace sinew
