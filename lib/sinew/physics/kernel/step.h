@@ -30,7 +30,7 @@ struct Forces {
   PairSums<L> pairs;
   Triple<L> damping;
   BoneSums<L> bones;
-  Triple<L> muscle = none<L>(), load = none<L>();
+  Triple<L> muscle = none<L>();
   Triple<L> acceleration;
   bool strained = false;  ///< a bond creeps or breaks
 };
@@ -68,6 +68,11 @@ SINEW_INLINE void add_volumes(const Step<typename L::Real>& step, std::size_t bl
   if constexpr (energy) sums.energy = sums.energy + volume_energy<L>(step.volumes, i);
 }
 
+template <class Real>
+SINEW_INLINE bool is_loaded(const Loads<Real>& loads, std::size_t block) {
+  return loads.on != nullptr && loads.on[block] != 0;
+}
+
 template <class L, PairLaw pairs, Pass pass, bool energy>
 SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                                  std::size_t block, int lane, const Place<L>& here,
@@ -87,10 +92,8 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
   if (step.fibers.first != nullptr) forces.acceleration = forces.acceleration + forces.muscle;
-  if (step.loads.on != nullptr && step.loads.on[block] != 0) {
-    forces.load = load<L>(step.loads.acceleration, i);
-    forces.acceleration = forces.acceleration + forces.load;
-  }
+  if (is_loaded(step.loads, block))
+    forces.acceleration = forces.acceleration + load<L>(step.loads.acceleration, i);
   if (step.mass != nullptr) {
     const Triple<L> gravity = all<L>(step.gravity);
     forces.acceleration =
@@ -140,14 +143,18 @@ SINEW_INLINE void gather_if_grouped(const Grouped<typename L::Real>& grouped, st
 /// The ledger: power of the bones, and losses at the velocity in the middle of the step.
 template <class L>
 SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
-                          const Triple<L>& velocity, int lane, Sums<L>& sums) {
+                          const Triple<L>& velocity, std::size_t block, int lane, Sums<L>& sums) {
   const Triple<L> middle = fused<L>(L::all(step.middle), forces.acceleration, velocity);
   const typename L::V lost = forces.bones.damping_power - dot<L>(forces.bones.damping, middle) -
                              dot<L>(forces.damping, middle);
   add_to<L>(sums.power + lane, forces.bones.power);
   add_to<L>(sums.lost + lane, lost);
-  if (step.fibers.first != nullptr || step.loads.on != nullptr)
-    add_to<L>(sums.driven_power + lane, dot<L>(forces.muscle + forces.load, middle));
+  if (step.fibers.first != nullptr)
+    add_to<L>(sums.driven_power + lane, dot<L>(forces.muscle, middle));
+  if (is_loaded(step.loads, block)) {
+    const auto i = static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+    add_to<L>(sums.driven_power + lane, dot<L>(load<L>(step.loads.acceleration, i), middle));
+  }
 }
 
 template <class L>
@@ -218,7 +225,7 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
   L::store_coord(step.after.x[0] + i, L::moved(here.x, by.x));
   L::store_coord(step.after.x[1] + i, L::moved(here.y, by.y));
   L::store_coord(step.after.x[2] + i, L::moved(here.z, by.z));
-  account<L>(step, forces, velocity, lane, sums);
+  account<L>(step, forces, velocity, block, lane, sums);
   if (step.relaxes) account_of_relaxing<L>(step, block, lane, forces, velocity, sums);
   check_speed<L>(step, kicked, forces.bones.carried, sums);
   if (step.grouped.role == nullptr || step.grouped.whole[block] == 0)
@@ -255,7 +262,7 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L
     step.probed.neighbors[to + k] = static_cast<std::int32_t>(count[k]);
   add_to<L>(sums.pair_energy + lane, forces.pairs.energy);
   add_to<L>(sums.bone_energy + lane, forces.bones.energy);
-  account<L>(step, forces, velocity, lane, sums);
+  account<L>(step, forces, velocity, block, lane, sums);
 }
 
 template <class L>
