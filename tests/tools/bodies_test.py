@@ -121,8 +121,6 @@ class Bodies(unittest.TestCase):
         self.assert_refused(self.scene("bodies: {mesh: cube.obj}"), "must be a list")
         self.assert_refused(self.scene("bodies: [{mesh: cube.obj, young_modulus: 1}]", model="paper"),
                             "scene.yaml:3", "material.model")
-        self.assert_refused(self.scene("bodies: [{mesh: cube.obj, young_modulus: 1}]", model="bonded_volume"),
-                            "material.model")
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ struct PartSettings {
   double facing_angle = 30;
   std::string bone;
   std::optional<std::vector<double>> ids = {};
-  std::string mesh = "";  ///< a path, as body.mesh; of materials
+  std::string mesh = {};  ///< a path, as body.mesh; of materials
 
   bool empty() const {
     return !region.low && !region.high && !region.center && !region.radius && !point && !normal &&
