@@ -24,7 +24,7 @@ FieldValue sample(const Field<Owner>& field, int seed) {
     case FieldKind::vector:
       return Vec3(seed, 0.1, -2.5);
     case FieldKind::numbers: {
-      std::vector<double> list(field.count, -0.5);
+      std::vector<double> list(field.count == 0 ? 2 : field.count, -0.5);
       list.front() = seed;
       return list;
     }
@@ -68,7 +68,7 @@ void expect_well_formed(std::span<const Field<Owner>> table) {
     EXPECT_TRUE(names.insert(std::string(field.section) + '.' + std::string(field.name)).second);
     EXPECT_FALSE(field.help.empty()) << field.name;
     EXPECT_EQ(field.help.find('\n'), std::string_view::npos) << field.name;
-    EXPECT_EQ(field.kind == FieldKind::numbers, field.count > 0) << field.name;
+    EXPECT_TRUE(field.kind == FieldKind::numbers || field.count == 0) << field.name;
     EXPECT_EQ(field.kind == FieldKind::choice, !field.choices.empty()) << field.name;
     const auto& sections = sinew::sections();
     const bool known = std::find(sections.begin(), sections.end(), field.section) != sections.end();

@@ -53,6 +53,7 @@ TEST(Groups, AnEvenStrainPassesThroughTheirFaces) {
   for (const MaterialModel model : models)
     for (const DampingForm form : {DampingForm::paper, DampingForm::central}) {
       Bar bar = bar_of(test::unbound(scene_of(model, form)));
+      bar.body.factors.volume_weight.clear();  // near surfaces, others exert forces
       for (std::size_t i = 0; i < bar.rest.size(); ++i) {
         bar.particles.set_position(i, F * bar.rest[i]);
         bar.particles.set_velocity(i, L * bar.rest[i]);
@@ -271,7 +272,7 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
   expect("free particles", [](Settings& s) { s.solver.method = Method::static_equilibrium; });
   expect("no groups", [](Settings& s) { s.solver.neighbor_search = NeighborSearch::cells; });
   expect("drag and fields", [](Settings& s) { s.world.drag = 1; });
-  expect("bonds that relax", [](Settings& s) {
+  expect("flow or relax", [](Settings& s) {
     s.material.model = MaterialModel::bonded;
     s.material.relaxation_shares = {{0.5}};
     s.material.relaxation_times = {{0.1}};
@@ -280,7 +281,7 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
     s.material.model = MaterialModel::bonded;
     s.material.friction = 0.5;
   });
-  expect("break or flow", [](Settings& s) {
+  expect("break, flow", [](Settings& s) {
     s.material.model = MaterialModel::bonded;
     s.material.breaking_strain = 0.2;
   });

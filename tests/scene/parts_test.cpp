@@ -109,6 +109,7 @@ TEST(LocalMaterials, AreThoseThatTheyName) {
   for (std::size_t i = 0; i < rest.size(); ++i) {
     EXPECT_NEAR(b.local.volume[i], a.material.volume_stiffness,
                 1e-12 * a.material.volume_stiffness);
+    EXPECT_NEAR(b.factors.volume_weight[i], a.factors.volume_weight[i], 1e-12);
     EXPECT_NEAR(b.stiffness[i] * b.material.bond.stiffness, a.material.bond.stiffness,
                 1e-12 * a.material.bond.stiffness);
     EXPECT_NEAR(b.local.yield[i], a.material.bond.yield_shear, 1e-15);

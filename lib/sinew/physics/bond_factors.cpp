@@ -9,6 +9,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/physics/local_strength.h>
 #include <sinew/physics/volume_weights.h>
 
 namespace sinew {
@@ -204,6 +205,15 @@ class SurfaceBonds {
   std::vector<double> asked_;         ///< of those that ask
 };
 
+/// With the largest K_v, over its bonds, of any particle.
+Material least_compressible(Material material, const std::vector<double>& stiffness,
+                            const std::vector<double>& volume) {
+  for (std::size_t i = 0; i < volume.size(); ++i)
+    material.volume_stiffness =
+        std::max(material.volume_stiffness, volume[i] / value_at(stiffness, i, 1));
+  return material;
+}
+
 }  // namespace
 
 double BondFactors::Row::at(std::uint32_t id) const {
@@ -220,16 +230,18 @@ BondFactors::Row BondFactors::of(std::uint32_t id) const {
 }
 
 BondFactors bond_factors(const Points& rest, const Material& material,
-                         const std::vector<double>& share, const std::vector<double>& stiffness) {
+                         const std::vector<double>& share, const std::vector<double>& stiffness,
+                         const std::vector<double>& volume) {
   BondFactors factors;
   if (material.bond.second > 0) factors = SurfaceBonds(rest, material, share, stiffness).factors();
-  if (material.volume_stiffness <= 0) return factors;
-  factors.volume_weight = volume_weights(rest, material, share, stiffness);
+  const Material keeping = least_compressible(material, stiffness, volume);
+  if (keeping.volume_stiffness <= 0) return factors;
+  factors.volume_weight = volume_weights(rest, keeping, share);
   const double most = *std::max_element(factors.volume_weight.begin(), factors.volume_weight.end());
-  PackingStiffness packing = material.packing();
+  PackingStiffness packing = keeping.packing();
   packing.volume *= most;
-  factors.stiffest =
-      std::max(factors.stiffest, edges_over_waves * highest_frequency_factor(packing) / 2);
+  factors.stiffest = std::max(factors.stiffest, largest_of(stiffness, 1) * edges_over_waves *
+                                                    highest_frequency_factor(packing) / 2);
   return factors;
 }
 

@@ -53,10 +53,12 @@ struct BondFactors {
 
 /// Of particles at `rest` (m). `share`: the volume of the body around each particle over that of
 /// one inside; `stiffness`: that of the material there over the body's, of which a bond has the
-/// harmonic mean, as springs in series; empty: 1 each. In parallel, the same for any number of
-/// threads. None without bonds of second neighbors, but for the weights of volumes that are kept.
+/// harmonic mean, as springs in series; empty: 1 each. `volume`: K_v there, Pa; empty: the
+/// material's. In parallel, the same for any number of threads. None without bonds of second
+/// neighbors, but for the weights of volumes that are kept.
 BondFactors bond_factors(const Points& rest, const Material& material,
                          const std::vector<double>& share,
-                         const std::vector<double>& stiffness = {});
+                         const std::vector<double>& stiffness = {},
+                         const std::vector<double>& volume = {});
 
 }  // namespace sinew

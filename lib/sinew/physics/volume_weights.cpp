@@ -98,14 +98,11 @@ double most_volume_weight(const Material& material) {
 }
 
 std::vector<double> volume_weights(const Points& rest, const Material& material,
-                                   const std::vector<double>& share,
-                                   const std::vector<double>& stiffness) {
+                                   const std::vector<double>& share) {
   Spreading spreading(rest, material.pair.r, share);
   if (material.bond.second > 0)
     for (int pass = 0; pass < passes; ++pass) spreading.spread(most_volume_weight(material));
-  std::vector<double> weights = std::move(spreading.weights());
-  for (std::size_t i = 0; i < stiffness.size(); ++i) weights[i] *= stiffness[i];
-  return weights;
+  return std::move(spreading.weights());
 }
 
 }  // namespace sinew

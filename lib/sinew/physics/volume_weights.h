@@ -31,10 +31,9 @@ std::vector<double> own_volume_weights(const Points& rest, double radius);
 /// as short a step as modes at surfaces do anyway.
 double most_volume_weight(const Material& material);
 
-/// Of particles at `rest` (m), with `share` and `stiffness` as in bond_factors(): a softer
-/// material keeps its volume less. Where second neighbors have no bonds, none takes over.
+/// Of particles at `rest` (m), with `share` as in bond_factors(). Where second neighbors have no
+/// bonds, none takes over.
 std::vector<double> volume_weights(const Points& rest, const Material& material,
-                                   const std::vector<double>& share,
-                                   const std::vector<double>& stiffness = {});
+                                   const std::vector<double>& share);
 
 }  // namespace sinew

@@ -358,8 +358,10 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton,
 RestInput measured_body(const RunFiles& run) {
   Points rest = positions_of(run.body.particles);
   const LocalMaterial local = local_material(run.body);
-  RestInput input = measured_body(run.material, run.skeleton,
-                                  bond_factors(rest, run.material, local.share, local.stiffness));
+  RestInput input =
+      measured_body(run.material, run.skeleton,
+                    bond_factors(rest, run.material, local.share, local.stiffness,
+                                 run.body.volume_stiffness.value_or(std::vector<double>{})));
   if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
   if (run.body.density) input.density = *run.body.density;
   input.law.has_muscles = !run.settings.world.muscles.empty();

@@ -154,7 +154,8 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.share = std::move(local.share);
   body.stiffness = std::move(local.stiffness);
   set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
-  body.factors = bond_factors(body.rest, body.material, body.share, body.stiffness);
+  body.factors =
+      bond_factors(body.rest, body.material, body.share, body.stiffness, body.local.volume);
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);

@@ -52,7 +52,8 @@ Body part_of(const Body& body, const std::vector<std::size_t>& places) {
     if (!body.density.empty()) part.density.push_back(body.density[i]);
     if (!body.local.volume.empty()) part.local.volume.push_back(body.local.volume[i]);
   }
-  part.factors = bond_factors(part.rest, part.material, part.share, part.stiffness);
+  part.factors =
+      bond_factors(part.rest, part.material, part.share, part.stiffness, part.local.volume);
   return part;
 }
 
