@@ -346,7 +346,7 @@ def relaxation():
     W, E, end = 0.1, 1e5, 1.0
     L, by = 5 * W, 5 * W * PRONY["strain"]
     yield Case("relaxation", "A bar pulled by 0.1 % and held relaxes: the standard linear solid", bar(W, L), W, [5, 7, 9, 11],
-               elastic(E)[:-1] + f", relaxation_shares: [{PRONY['share']}], relaxation_times: [{PRONY['time']}], damping: 200, damping_form: central}}",
+               elastic(E)[:-1] + f", relaxation_shares: [{PRONY['share']}], relaxation_times: [{PRONY['time']}], damping_ratio: 0.5, damping_form: central}}",
                "supports:\n  - {name: below, hold: z, facing: [0, 0, -1]}\n"
                "  - {name: above, hold: z, facing: [0, 0, 1], interpolation: linear, keys: [{time: 0}, "
                f"{{time: {PRONY['ramp']}, translation: [0, 0, {by}]}}]}}\n"
