@@ -28,6 +28,7 @@ class NewFile {
 
   /// Where to write: with write(), or through this name.
   const std::filesystem::path& temporary() const { return temporary_; }
+  int descriptor() const { return file_; }
   void write(const void* bytes, std::size_t count);  ///< at the end; throws not written
   /// Makes the file longer by `count` bytes, which write_at() then fills; where they begin.
   std::uint64_t extend(std::uint64_t count);

@@ -18,6 +18,9 @@
 namespace sinew {
 namespace {
 
+/// The child writes the open file: by its name, it might create it again once it was removed.
+constexpr int its_file = 3;
+
 std::vector<std::string> command(const MovieOptions& options, const std::string& path) {
   std::ostringstream rate, size;
   rate << options.frames_per_second;
@@ -100,7 +103,7 @@ void Movie::Encoder::start(const MovieOptions& options) {
   if (!complaints || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     fail(std::strerror(errno), "free some space or memory");
   input = ends[0];
-  spawn(command(options, file.temporary().string()), ends[1]);
+  spawn(command(options, "/dev/fd/" + std::to_string(its_file)), ends[1]);
 }
 
 void Movie::Encoder::spawn(const std::vector<std::string>& words, int its_end) {
@@ -112,6 +115,7 @@ void Movie::Encoder::spawn(const std::vector<std::string>& words, int its_end) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(complaints), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, file.descriptor(), its_file);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   const int failed = posix_spawnp(&process, "ffmpeg", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
