@@ -164,6 +164,40 @@ TEST(WorldShapes, AMeshIsNotEvaluatedFarFromIt) {
   EXPECT_TRUE(may_be_within(sphere, beside, 1e-9));  // cheap enough to evaluate
 }
 
+/// The least distance of points all over a box.
+double least_distance(const Shape& shape, const Box& box, int n) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      for (int k = 0; k <= n; ++k) {
+        const Vec3 at = Vec3(i, j, k).cwiseProduct(box.sizes()) / n;
+        least = std::min(least, signed_distance(shape, box.min() + at).distance);
+      }
+  return least;
+}
+
+TEST(WorldShapes, NoBoxWithPointsInRangeIsMissed) {
+  std::mt19937 random(9);
+  for (const Shape& shape : all_shapes())
+    for (int trial = 0; trial < 300; ++trial) {
+      const Vec3 center = 2 * test::random_vector(random);
+      const Vec3 half = test::random_vector(random).cwiseAbs();
+      const Box box(Vec3(center - half), Vec3(center + half));
+      const double least = least_distance(shape, box, 6);
+      EXPECT_TRUE(may_be_near(shape, box, std::max(0.0, least) + 1e-9)) << shape.index();
+    }
+}
+
+TEST(WorldShapes, LongBoxesBesideAPlaneOrASphereAreTold) {
+  const PlaneShape ground{{0, 0, 0.1}, {0, 0, 2}};
+  const Box row(Vec3(-5, 0, 0.3), Vec3(5, 0.1, 0.4));
+  EXPECT_FALSE(may_be_near(ground, row, 0.19));
+  EXPECT_TRUE(may_be_near(ground, row, 0.21));
+  const SphereShape ball{{0, 0, -1}, 1};
+  EXPECT_FALSE(may_be_near(ball, row, 0.29));
+  EXPECT_TRUE(may_be_near(ball, row, 0.31));
+}
+
 TEST(WorldShapes, ACapsuleLiesAboutABone) {
   const Skeleton skeleton = skeleton_of(test::box_scene());
   const CapsuleShape about = capsule_about(skeleton.bones[1], 0.05);

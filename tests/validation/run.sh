@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs all cases and writes their results into README.md.
-#   tests/validation/run.sh            # half an hour
+#   tests/validation/run.sh            # a quarter of an hour
 #   tests/validation/run.sh --check    # fails where a result is not within its share, or README.md differs
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

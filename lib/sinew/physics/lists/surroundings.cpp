@@ -129,11 +129,15 @@ Box Surroundings<Real>::box_of(std::size_t first, std::size_t last) const {
 template <class Real>
 bool Surroundings<Real>::may_touch(const Box& box) const {
   const World& world = *world_;
-  const double reach = box.diagonal().norm() / 2 + body_->material.pair.r;
+  // Above rounding.
+  const double reach =
+      body_->material.pair.r + 1e-5 * (box.diagonal().norm() + body_->material.pair.r);
   for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
     const RigidFrame& frame = now_.obstacles[k].frame;
     const Vec3 center = frame.rotation.transpose() * (box.center() - frame.origin);
-    if (may_be_near(world.obstacles[k].shape, center, reach * (1 + 1e-5))) return true;
+    const Vec3 half = frame.rotation.transpose().cwiseAbs() * box.sizes() / 2;
+    const Box local(Vec3(center - half), Vec3(center + half));
+    if (may_be_near(world.obstacles[k].shape, local, reach)) return true;
   }
   return false;
 }

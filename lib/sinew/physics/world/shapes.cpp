@@ -121,9 +121,46 @@ bool may_be_within(const Shape& shape, const Vec3& point, double range) {
   return !mesh || !(mesh->bounds.squaredExteriorDistance(point) >= range * range);
 }
 
-bool may_be_near(const Shape& shape, const Vec3& point, double range) {
-  return may_be_within(shape, point, range) && (std::holds_alternative<MeshShape>(shape) ||
-                                                signed_distance(shape, point).distance < range);
+namespace {
+
+bool is_near(const Box& bounds, const Box& box, double range) {
+  return bounds.squaredExteriorDistance(box) < range * range;
+}
+
+bool is_near(const PlaneShape& plane, const Box& box, double range) {
+  const Vec3 normal = plane.normal.normalized();
+  const double nearest =
+      normal.dot(box.center() - plane.point) - normal.cwiseAbs().dot(box.sizes()) / 2;
+  return nearest < range;
+}
+
+bool is_near(const SphereShape& sphere, const Box& box, double range) {
+  const double reach = sphere.radius + range;
+  return box.squaredExteriorDistance(sphere.center) < reach * reach;
+}
+
+bool is_near(const CapsuleShape& capsule, const Box& box, double range) {
+  Box segment(capsule.a);
+  segment.extend(capsule.b);
+  return is_near(segment, box, capsule.radius + range);
+}
+
+bool is_near(const BoxShape& shape, const Box& box, double range) {
+  const Vec3 half = shape.rotation.cwiseAbs() * shape.half;
+  return is_near(Box(Vec3(shape.center - half), Vec3(shape.center + half)), box, range);
+}
+
+bool is_near(const MeshShape& mesh, const Box& box, double range) {
+  return is_near(mesh.bounds, box, range);
+}
+
+}  // namespace
+
+bool may_be_near(const Shape& shape, const Box& box, double range) {
+  const double reach = box.diagonal().norm() / 2 + range;
+  return std::visit([&](const auto& solid) { return is_near(solid, box, range); }, shape) &&
+         (std::holds_alternative<MeshShape>(shape) ||
+          signed_distance(shape, box.center()).distance < reach);
 }
 
 CapsuleShape capsule_about(const Bone& bone, double radius) {

@@ -61,8 +61,8 @@ SignedDistance signed_distance(const Shape& shape, const Vec3& point);
 /// Whether the signed distance of `point` may be below `range` (m >= 0): a cheap test.
 bool may_be_within(const Shape& shape, const Vec3& point, double range);
 
-/// The same, sharper where the distance itself is cheap: of all shapes but meshes.
-bool may_be_near(const Shape& shape, const Vec3& point, double range);
+/// Whether that of any point of `box` (m, not empty) may be below `range` (m >= 0).
+bool may_be_near(const Shape& shape, const Box& box, double range);
 
 /// The capsule of `radius` (m) about a bone's segment at rest.
 CapsuleShape capsule_about(const Bone& bone, double radius);
