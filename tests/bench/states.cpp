@@ -20,13 +20,10 @@ constexpr double strong_grip = 64;      // springs as stiff as bonds in the pape
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
 constexpr double approach = 0.5;                    // s, of bones that bend
 constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed", "bending"};
-constexpr std::array variant_names{"paper",     "initial_neighbors",
-                                   "bonded",    "bonded_volume",
-                                   "breaking",  "yielding",
-                                   "symmetric", "central",
-                                   "plane",     "sphere",
-                                   "pinned",    "muscle",
-                                   "relaxing",  "pressed"};
+constexpr std::array variant_names{
+    "paper",    "initial_neighbors", "bonded",  "twelve_bonds", "bonded_volume", "breaking",
+    "yielding", "symmetric",         "central", "plane",        "sphere",        "pinned",
+    "muscle",   "relaxing",          "pressed"};
 
 struct Bar {
   int across = 0, along = 0;  // half-planes, odd: a site is in the middle
@@ -91,7 +88,9 @@ void choose(Variant variant, MaterialOptions& material) {
   if (variant == Variant::symmetric) material.damping_form = DampingForm::symmetric;
   if (variant == Variant::central) material.damping_form = DampingForm::central;
   if (variant == Variant::bonded_volume) material.model = MaterialModel::bonded_volume;
-  if (variant == Variant::bonded || variant == Variant::breaking || variant == Variant::yielding ||
+  if (variant == Variant::twelve_bonds) material.isotropic = false;
+  if (variant == Variant::bonded || variant == Variant::twelve_bonds ||
+      variant == Variant::breaking || variant == Variant::yielding ||
       variant == Variant::relaxing || variant == Variant::pressed)
     material.model = MaterialModel::bonded;
   if (variant == Variant::breaking) material.breaking_strain = 0.3;

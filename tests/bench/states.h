@@ -27,7 +27,8 @@ inline constexpr std::array conditions{Condition::rest,    Condition::bent,   Co
 enum class Variant {
   paper,
   initial_neighbors,
-  bonded,
+  bonded,        ///< isotropic: eighteen bonds
+  twelve_bonds,  ///< bonded, to nearest neighbors alone
   bonded_volume,
   breaking,
   yielding,
@@ -41,13 +42,14 @@ enum class Variant {
   pressed,   ///< bonded, on its whole surface
 };
 
-inline constexpr std::array variants{Variant::paper,     Variant::initial_neighbors,
-                                     Variant::bonded,    Variant::bonded_volume,
-                                     Variant::breaking,  Variant::yielding,
-                                     Variant::symmetric, Variant::central,
-                                     Variant::plane,     Variant::sphere,
-                                     Variant::pinned,    Variant::muscle,
-                                     Variant::relaxing,  Variant::pressed};
+inline constexpr std::array variants{Variant::paper,         Variant::initial_neighbors,
+                                     Variant::bonded,        Variant::twelve_bonds,
+                                     Variant::bonded_volume, Variant::breaking,
+                                     Variant::yielding,      Variant::symmetric,
+                                     Variant::central,       Variant::plane,
+                                     Variant::sphere,        Variant::pinned,
+                                     Variant::muscle,        Variant::relaxing,
+                                     Variant::pressed};
 
 std::string_view name_of(Condition condition);
 std::string_view name_of(Variant variant);
