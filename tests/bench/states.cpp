@@ -113,7 +113,7 @@ Triangles skin_of(const Points& rest) {
     skin.faces.push_back({a, b, c});
     skin.faces.push_back({a, c, d});
   }
-  return refined(skin, 3 * r);
+  return refined(skin, longest_pressed_side * r);
 }
 
 Obstacle wall(const Material& material, const Shape& shape) {

@@ -53,4 +53,17 @@ inline Settings scene_of(MaterialModel model, DampingForm form = DampingForm::pa
   return settings;
 }
 
+struct Conserved {
+  Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+inline Conserved conserved(const Particles& particles) {
+  Conserved sum;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    sum.momentum += particles.velocity(i);
+    sum.angular += particles.position(i).cross(particles.velocity(i));
+  }
+  return sum;
+}
+
 }  // namespace sinew::groups_test

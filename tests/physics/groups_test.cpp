@@ -78,19 +78,6 @@ TEST(Groups, AnEvenStrainPassesThroughTheirFaces) {
     }
 }
 
-struct Conserved {
-  Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
-};
-
-Conserved conserved(const Particles& particles) {
-  Conserved sum;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    sum.momentum += particles.velocity(i);
-    sum.angular += particles.position(i).cross(particles.velocity(i));
-  }
-  return sum;
-}
-
 TEST(Groups, KeepMomentum) {
   for (const MaterialModel model : models) {
     Bar bar = bar_of(test::unbound(scene_of(model, DampingForm::central)));

@@ -69,6 +69,14 @@ struct RelaxationState {
   double unbalanced = 0;        ///< forces in the last iteration that nothing answered, N
 };
 
+/// Of groups of particles that change as the body moves.
+struct RegroupingState {
+  std::int64_t times = 0;  ///< how often they have
+  double lost = 0;         ///< energy lost by merging, J
+  /// By bone, since when its joint with its parent has counted as still, s; below 0: it moves.
+  std::vector<double> still_since = {};
+};
+
 struct SimulationState {
   std::int64_t steps = 0;
   LedgerEntries ledger;
@@ -90,6 +98,8 @@ struct SimulationState {
   RelaxationState relaxation = {};
   /// Of each group of particles: c, its velocity, F and its rate (column by column).
   std::vector<double> groups = {};
+  std::vector<std::int32_t> grouping = {};  ///< by particle id, where groups change
+  RegroupingState regrouping = {};
   // Of friction between particles that touch: whose springs, and their stretches, m.
   std::vector<std::int32_t> sliding_pairs;  ///< two ids each
   std::vector<double> sliding;              ///< three each

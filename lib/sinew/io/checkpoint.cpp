@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 4, oldest_version = 3;
+constexpr std::uint32_t format_version = 5, oldest_version = 3;
 constexpr std::size_t name_size = 8;
 // Bonds: 18 neighbors at rest, from both sides; branches of them; positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
@@ -77,11 +77,16 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("slidpair", state.sliding_pairs);
   transfer("sliding", state.sliding);
   transfer("groups", state.groups);
+  transfer("grouping", state.grouping);
+  transfer("regroups", state.regrouping.times);
+  transfer("merging", state.regrouping.lost);
+  transfer("still", state.regrouping.still_since);
 }
 
-/// Sections that version 3 lacks, after all others.
-bool is_of_version_4(std::string_view name) {
-  return name == "slidpair" || name == "sliding" || name == "groups";
+/// Sections that earlier versions lack, after all others.
+bool is_new(std::string_view name) {
+  return name == "slidpair" || name == "sliding" || name == "groups" || name == "grouping" ||
+         name == "regroups" || name == "merging" || name == "still";
 }
 
 template <class Value>
@@ -176,7 +181,7 @@ class Reader {
 
   template <class Value>
   void operator()(std::string_view name, Value& value) {
-    if (left() == 0 && is_of_version_4(name)) return;
+    if (left() == 0 && is_new(name)) return;
     if constexpr (std::is_same_v<Value, bool>) {
       std::uint32_t flag = 0;
       fill(name, &flag, 1);

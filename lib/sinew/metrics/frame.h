@@ -38,6 +38,7 @@ struct FrameState {
   std::vector<double> bond_rest = {};
   std::vector<Mat3> muscle_stress = {};  ///< of each particle, Pa; empty: none, or not known
   std::vector<double> von_mises = {};    ///< of each, Pa, as the run has written it; or empty
+  std::vector<std::int32_t> group = {};  ///< of each, -1: free; empty: there are none
 };
 
 /// The metrics of one frame; table.cpp gives unit, meaning and formula of each.
@@ -61,6 +62,7 @@ struct FrameMetrics {
   double pose_error_far_rms = not_measured;
   double broken_neighbors = not_measured, new_neighbors = not_measured;
   double broken_bonds = not_measured;
+  double grouped = not_measured;
   double inverted = not_measured, J_min = not_measured, J_mean = not_measured;
   double stretch_max = not_measured;
   double strain_50 = not_measured, strain_95 = not_measured, strain_99 = not_measured;

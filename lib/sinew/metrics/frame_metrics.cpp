@@ -171,6 +171,12 @@ void add_bonds(FrameMetrics& out, const RestBody& rest, const FrameState& state)
   out.broken_bonds = statistics(rest.particles(), broken).sum / (2 * bonds);
 }
 
+void add_groups(FrameMetrics& out, const FrameState& state) {
+  if (state.group.empty()) return;
+  const auto in_one = [&](std::size_t i) { return state.group[i] >= 0 ? 1.0 : 0.0; };
+  out.grouped = statistics(state.group.size(), in_one).mean();
+}
+
 void add_sections(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   Statistics ratios;
   for (const Section& section : rest.sections)
@@ -231,6 +237,7 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_pose_error(out, rest, frame.particles);
   add_neighbors(out, rest, frame.particles);
   add_bonds(out, rest, state);
+  add_groups(out, state);
   add_gradients(out, frame.particles, rest.radius);
   add_strain(out, frame.particles);
   add_surface(out, rest, state);

@@ -88,6 +88,8 @@ constexpr std::array metric_table = {
     Metric{"broken_bonds", "", "Fraction of the bonds of a bonded material that have broken",
            "broken bonds / bonds at rest: pairs with d0 < 2.2 r, isotropic ones with d0 < 3.1 r",
            &M::broken_bonds},
+    Metric{"grouped", "", "Fraction of the particles that move in groups",
+           "particles of any group / particles", &M::grouped},
     Metric{"inverted", "", "Particles whose neighborhood is inverted", "count of J <= 0, J = det F",
            &M::inverted},
     Metric{"J_min", "", "Smallest local volume ratio",

@@ -50,7 +50,7 @@ Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& 
 
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        kernel::InstructionSet instructions)
-    : body_(std::make_shared<const Body>(std::move(body))),
+    : body_(std::make_shared<Body>(std::move(body))),
       motion_(std::make_shared<const Motion>(std::move(motion))),
       cursor_(body_->skeleton, *motion_),
       stepping_(stepping),
@@ -68,79 +68,7 @@ void Simulation::follow(StepPlan plan) {
   set_step(plan_.step(0));
 }
 
-namespace {
-
-/// What rounding leaves of the forces on all particles, N: in units of positions.
-double noise_of(const Body& body, double unit) {
-  constexpr double each = 10;  // of a particle's bonds together, measured at rest
-  double relative = body.stiffness.empty() ? static_cast<double>(body.rest.size()) : 0;
-  for (const double stiffness : body.stiffness) relative += stiffness;
-  return each * relative * body.material.stiffness() * unit;
-}
-
-}  // namespace
-
-void Simulation::relax(LoadSteps steps) {
-  const SimulationState state = save();
-  if (std::holds_alternative<CellStepper>(stepper_) || body_->grouping)
-    throw bad_input("the reference stepper and groups relax nothing",
-                    "search neighbors by lists, and leave all particles free");
-  const double extent = bounds(body_->rest).diagonal().norm();
-  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
-                          ? state.whole_numbers.length
-                          : extent * std::numeric_limits<double>::epsilon();
-  relaxation_.emplace(
-      std::move(steps),
-      Relaxation::Iteration{stepping_.step, noise_of(*body_, unit), body_->material.pair.r});
-}
-
 double Simulation::time() const { return relaxation_ ? relaxation_->time() : plan_.time(steps_); }
-
-/// What relaxes stands still, and so do its bones at each moment.
-const Pose& Simulation::pose_of_stepper() const {
-  if (!relaxation_) return pose();
-  still_ = pose();
-  for (BonePose& bone : still_) {
-    bone.velocity = bone.angular_velocity = Vec3::Zero();
-    bone.stretch_rate = 0;
-  }
-  return still_;
-}
-
-void Simulation::halt() {
-  std::visit(
-      [](auto& stepper) {
-        if constexpr (requires { stepper.halt(); }) stepper.halt();
-      },
-      stepper_);
-}
-
-void Simulation::relax_once() {
-  relaxation_->begin_iteration();
-  const Pose& now = pose_of_stepper();
-  set_time();
-  StepSums sums;
-  bool at_rest = false;
-  const auto iterate = [&](auto& stepper) {
-    if constexpr (requires { stepper.halt(); }) {
-      sums = stepper.try_step(now, relaxation_->keep());
-      if (sums.failure) return;
-      at_rest = relaxation_->take(sums);
-      if (at_rest) return;
-      stepper.accept();
-      ++steps_;
-    }
-  };
-  std::visit(iterate, stepper_);
-  if (sums.failure) {
-    offenders_ = std::move(sums.failure->all);
-    halt();
-    if (!relaxation_->shorten())
-      fail(*std::max_element(offenders_.begin(), offenders_.end(), moved_less));
-    set_step(relaxation_->step());
-  }
-  if (at_rest) halt();
-}
 
 void Simulation::play(Motion motion) {
   motion_ = std::make_shared<const Motion>(std::move(motion));
@@ -191,12 +119,13 @@ void Simulation::step() {
   StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
   if (sums.failure) {
     offenders_ = std::move(sums.failure->all);
-    fail(*std::max_element(offenders_.begin(), offenders_.end(), moved_less));
+    fail();
   }
   ledger_.add_step(sums.power, sums.lost);
   world_ledger_.add_step(sums.world_power, 0);
   if (steps_ == 0) held_at_start_ = sums.held_kinetic;
   ++steps_;
+  check_groups();
 }
 
 void Simulation::set_time() const {
@@ -211,7 +140,8 @@ void Simulation::forget_read() {
   read_ = false;
 }
 
-void Simulation::fail(const Offender& worst) {
+void Simulation::fail() {
+  const Offender& worst = *std::max_element(offenders_.begin(), offenders_.end(), moved_less);
   const std::int32_t id = particles_.id[worst.particle];
   const auto bones = body_->binding.of(id);
   evaluate();
@@ -306,7 +236,7 @@ Energies Simulation::energies() {
   energies.pair = balance_.pair_energy;
   energies.bone = balance_.bone_energy;
   energies.work_of_bones = ledger_.work_until(balance_.power);
-  energies.dissipation = ledger_.dissipation_until(balance_.lost);
+  energies.dissipation = ledger_.dissipation_until(balance_.lost) + regrouping_.lost;
   energies.contact = balance_.contact_energy;
   if (relaxation_) {  // no moment follows from the one before by a motion
     energies.work_of_bones = energies.work_of_world = energies.dissipation =
@@ -364,6 +294,7 @@ SimulationState Simulation::save() const {
   state.world_ledger = world_ledger_.entries();
   state.held_at_start = held_at_start_;
   if (relaxation_) state.relaxation = relaxation_->state();
+  if (dynamic_) state.grouping = body_->grouping->group, state.regrouping = regrouping_;
   return state;
 }
 
@@ -373,6 +304,7 @@ void Simulation::restore(const SimulationState& state) {
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
   if (relaxation_) relaxation_->restore(state.relaxation);
+  if (dynamic_) set_grouping(state.grouping), regrouping_ = state.regrouping;
   const double last =
       relaxation_ ? relaxation_->step() : plan_.step(std::max<std::int64_t>(0, state.steps - 1));
   set_step(last);

@@ -18,6 +18,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/physics/forces.h>
+#include <sinew/physics/hierarchy/dynamic_groups.h>
 #include <sinew/physics/lists/list_stepper.h>
 #include <sinew/physics/reference/cell_stepper.h>
 #include <sinew/physics/relaxation.h>
@@ -45,6 +46,13 @@ class Simulation {
   void relax(LoadSteps steps);
   /// What it has come to; none where it was not asked to.
   const Relaxation* relaxation() const { return relaxation_ ? &*relaxation_ : nullptr; }
+
+  /// From now on, groups of particles change as the body moves. Throws bad input for the reference
+  /// stepper.
+  void group_as_it_moves(const DynamicOptions& options);
+  /// Lost where particles joined groups, J; part of the dissipation.
+  double lost_by_merging() const { return regrouping_.lost; }
+  std::int64_t regroupings() const { return regrouping_.times; }
 
   /// From now on the bones move so; at the present moment the pose should be the same.
   void play(Motion motion);
@@ -113,20 +121,26 @@ class Simulation {
     return mass_of(*body_, static_cast<std::size_t>(particles_.id[i]), particles_.mass);
   }
   void relax_once();
+  GroupingMoment grouping_moment() const;
+  void check_groups();
+  void regroup(std::span<const HeldCell> held, bool must);
+  void set_grouping(std::vector<std::int32_t> group);
   void halt();
   const Pose& pose_of_stepper() const;
   void forget_read();
   void set_time() const;
   void set_step(double step);
   void change_step(double step);
-  [[noreturn]] void fail(const Offender& worst);
+  [[noreturn]] void fail();  ///< because of the worst of the offenders
 
-  std::shared_ptr<const Body> body_;
+  std::shared_ptr<Body> body_;  ///< whose grouping may change
   std::shared_ptr<const Motion> motion_;
   mutable PoseCursor cursor_;
   Stepping stepping_;  ///< with the step made last
   StepPlan plan_;
   std::optional<Relaxation> relaxation_;
+  std::optional<DynamicGroups> dynamic_;
+  RegroupingState regrouping_;
   mutable Pose still_;   ///< the pose without its velocities
   double unit_of_time_;  ///< of velocities in single precision, s
   std::int64_t steps_ = 0;

@@ -130,7 +130,6 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
     support_series_.emplace(folder, format_of(output, "supports", body.material.pair.r), kept);
   }
-  if (body.grouping) group_ = body.grouping->group, level_ = body.grouping->levels();
   if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
@@ -244,6 +243,7 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
     frame.of_loads = simulation.of_loads();
   }
   if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
+  frame.grouping = simulation.body().grouping;
   frame.reactions = simulation.reactions_of_bones();
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
@@ -322,6 +322,8 @@ void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
                                       selection_.ids, frame.moment));
   }
   const Forces& forces = frame.forces;
+  std::vector<std::int32_t> group, level;
+  if (frame.grouping) group = frame.grouping->group, level = frame.grouping->levels();
   const bool all = selection_.ids.empty();
   Dataset particles = particles_dataset({frame.particles,
                                          body_.rest,
@@ -335,8 +337,8 @@ void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
                                          body_.material_number,
                                          frame.broken_bonds,
                                          {},
-                                         group_,
-                                         level_,
+                                         group,
+                                         level,
                                          forces.group},
                                         all ? std::move(frame.positions) : frame.positions,
                                         frame.moment, selection_);

@@ -81,6 +81,7 @@ class FrameWriter {
     Points positions;             ///< by id
     Particles particles;          ///< without positions
     Forces forces;
+    std::shared_ptr<const Grouping> grouping;
     std::vector<std::int32_t> broken_bonds;
     std::vector<double> bond_rest;    ///< where bonds change
     std::vector<Mat3> muscle_stress;  ///< by id, where stress is written
@@ -119,11 +120,9 @@ class FrameWriter {
   std::filesystem::path folder_;
   double interval_;  ///< s between frames
   const Body& body_;
-  std::span<const std::int32_t> group_;  ///< by id; empty without groups
-  std::vector<std::int32_t> level_;      ///< by id
-  ParticleSelection selection_;          ///< what the frames of particles contain
-  std::size_t every_;                    ///< of so many frames, one contains particles
-  std::size_t taken_;                    ///< frames so far
+  ParticleSelection selection_;  ///< what the frames of particles contain
+  std::size_t every_;            ///< of so many frames, one contains particles
+  std::size_t taken_;            ///< frames so far
   Skin skin_;
   Triangles surface_;  ///< its points as they are in the frame being written
   std::vector<std::int32_t> surface_bone_;

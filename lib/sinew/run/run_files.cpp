@@ -115,7 +115,8 @@ Points positions_in(const RunFiles& run, const Dataset& data) {
 
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
-  const Dataset data = read_vtu(file, {"displacement", "velocity", "broken_bonds", "von_mises"});
+  const Dataset data =
+      read_vtu(file, {"displacement", "velocity", "broken_bonds", "von_mises", "group"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
     frame.positions = positions_in(run, data);
@@ -127,6 +128,7 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
     frame.energies = energies_of(data);
     if (find(data.point_columns, "broken_bonds") && run.ids.empty())  // of bonds that are all there
       frame.broken_bonds = integers(data.point_columns, "broken_bonds");
+    if (find(data.point_columns, "group")) frame.group = integers(data.point_columns, "group");
     if (find(data.point_columns, "von_mises"))
       frame.von_mises = numbers(data.point_columns, "von_mises");
   });
@@ -384,7 +386,8 @@ FrameState measured_frame(RunFrame frame) {
           std::move(frame.broken_bonds),
           {},
           {},
-          std::move(frame.von_mises)};
+          std::move(frame.von_mises),
+          std::move(frame.group)};
 }
 
 }  // namespace sinew

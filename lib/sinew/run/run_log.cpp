@@ -222,6 +222,11 @@ void RunLog::end(const std::string& status, const Simulation& simulation) {
   record_["steps"] = simulation.steps();
   record_["particle_steps_per_second"] =
       stepping > 0 ? steps * static_cast<double>(simulation.particles().size()) / stepping : 0.0;
+  if (simulation.body().grouping) {
+    describe(simulation.body().grouping.get());
+    record_["hierarchy"]["regroupings"] = simulation.regroupings();
+    record_["hierarchy"]["lost_by_merging"] = simulation.lost_by_merging();
+  }
   record_["lists"] = lists_of(simulation.list_counts());
   record_["state_hash"] = hash_text(state_hash(simulation.particles()));
   write_record(folder_, record_);

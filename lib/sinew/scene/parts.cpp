@@ -186,10 +186,9 @@ bool is_by_direction(PartSettings part) {
 }  // namespace
 
 Triangles Parts::pressed_faces(const PartSettings& part, const std::string& path) const {
-  constexpr double sides = 3;  // radii: about as many corners as particles at the surface
   if (!is_by_direction(part) || surface_.faces.empty()) return faces(part, path);
   const Test test(*this, part, path);
-  const Triangles coarse = refined(surface_, sides * body_.material.pair.r);
+  const Triangles coarse = refined(surface_, longest_pressed_side * body_.material.pair.r);
   std::vector<std::array<int, 3>> found;
   for (const auto& face : coarse.faces)
     if (test.faces(area_vector(coarse, face))) found.push_back(face);

@@ -209,6 +209,7 @@ std::shared_ptr<const Grouping> grouping_of(const Settings& settings, const Body
                                             const Motion& motion) {
   if (!settings.hierarchy.enabled) return {};
   check_groups(settings, body);
+  if (settings.hierarchy.dynamic) return {};
   const auto moves = moving_joints(body.skeleton, motion, settings.solver.duration);
   StaticGroups options;
   options.joint_distance = settings.hierarchy.joint_distance;
@@ -234,6 +235,8 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
   setup.body.grouping = grouping_of(settings, setup.body, setup.motion);
+  if (settings.hierarchy.enabled && settings.hierarchy.dynamic)
+    setup.dynamic_groups = {settings.hierarchy.joint_distance, settings.hierarchy.tolerance};
   if (is_static(settings)) {
     refuse_free(settings, setup.body);
     setup.body = undamped(std::move(setup.body));
@@ -283,6 +286,7 @@ Simulation start(const Settings& settings, Setup setup, Particles particles) {
     simulation.relax(*std::move(setup.load_steps));
   else
     simulation.follow(std::move(setup.plan));
+  if (setup.dynamic_groups) simulation.group_as_it_moves(*setup.dynamic_groups);
   return simulation;
 }
 

@@ -49,6 +49,7 @@ struct Setup {
   StepChoice steps;
   StepPlan plan;
   std::optional<LoadSteps> load_steps = {};  ///< of the static method
+  std::optional<DynamicOptions> dynamic_groups = {};
   std::vector<Triangles> obstacles;  ///< of the world, as surfaces in coordinates of their shapes
   std::vector<Probe> probes;
   double joint_zone = 0;       ///< in square roots of the bones' cross-section

@@ -179,7 +179,9 @@ struct SolverSettings {
 
 struct HierarchySettings {
   bool enabled = false;
+  bool dynamic = false;
   double joint_distance = 1;
+  double tolerance = 0.03;
 };
 
 struct OutputSettings {

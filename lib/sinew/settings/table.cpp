@@ -311,9 +311,12 @@ std::vector<Field<Settings>> make_hierarchy() {
       field<S>("hierarchy", "enabled", SINEW_AT(S, hierarchy.enabled), "",
                "particles far from joints that move are grouped, and each group moves affinely; "
                "forces within groups are zero and are not computed; fcc only"),
+      field<S>("hierarchy", "dynamic", SINEW_AT(S, hierarchy.dynamic), "",
+               "groups change: cells join that move affinely, and leave where forces tear"),
       field<S>("hierarchy", "joint_distance", SINEW_AT(S, hierarchy.joint_distance), "sqrt(A)",
-               "distance from joints, along the bone, within which particles are free",
-               not_negative),
+               "free up to here from joints that move, along the bone", not_negative),
+      field<S>("hierarchy", "tolerance", SINEW_AT(S, hierarchy.tolerance), "r",
+               "what may join dynamic groups is off by less; what leaves would be", positive),
   };
 }
 

@@ -33,6 +33,7 @@ Groups<Real>::Groups(std::shared_ptr<const Body> body, double mass)
   if (!body_->grouping || body_->grouping->size() == 0) return;
   motions_.resize(body_->grouping->size());
   next_ = motions_;
+  accelerations_.resize(motions_.size());
   stretch_ = stretch_range(*body_);
   if (has_affine_forces(*body_)) affine_.emplace(*body_);
   find_shapes();
@@ -164,6 +165,7 @@ void Groups<Real>::sum(const kernel::Functions<Real>& kernel, const kernel::Step
         force * all[g].fX + (skin.fX + drag.fX) / mass_ + by.gravity * shape.moment.transpose();
     const Vec3 a = f / shape.size;
     const Mat3 A = fX * shape.inverse;
+    accelerations_[g] = {a, A};
     sums_.lost -=
         mass_ * force * by.middle * (damping[g].f.dot(a) + damping[g].fX.cwiseProduct(A).sum());
     const Motion& now = motions_[g];
@@ -174,6 +176,24 @@ void Groups<Real>::sum(const kernel::Functions<Real>& kernel, const kernel::Step
     next.V = now.V + by.kick * A;
     next.c = now.c + by.drift * (by.drift_first ? now.v : next.v);
     next.F = now.F + by.drift * (by.drift_first ? now.V : next.V);
+  }
+}
+
+template <class Real>
+void Groups<Real>::add_held(std::span<const std::int32_t> cell, const Units& units,
+                            std::span<HeldCell> held) const {
+  const double force = units.length / (units.time * units.time);
+  for (const Run& run : rim_) {
+    const Sum& moved = accelerations_[static_cast<std::size_t>(run.group)];
+    for (std::uint32_t k = run.begin; k < run.end; ++k) {
+      const auto row = static_cast<std::size_t>(run.row) + k - run.begin;
+      const Vec3 own(static_cast<double>(acceleration_[0][row]),
+                     static_cast<double>(acceleration_[1][row]),
+                     static_cast<double>(acceleration_[2][row]));
+      HeldCell& there = held[static_cast<std::size_t>(cell[static_cast<std::size_t>(id_[k])])];
+      there.squares += (force * own - moved.f - moved.fX * place_at_rest(k)).squaredNorm();
+      there.count += 1;
+    }
   }
 }
 

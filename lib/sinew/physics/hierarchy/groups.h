@@ -42,6 +42,12 @@
 
 namespace sinew {
 
+/// What keeps the particles of a cell of the body in their groups.
+struct HeldCell {
+  double squares = 0;  ///< sum of squares of accelerations that their groups do not follow, m^2/s^4
+  double count = 0;    ///< of particles
+};
+
 /// How a step advances a group, s.
 struct GroupStep {
   double kick = 0, drift = 0, middle = 0;
@@ -99,6 +105,10 @@ class Groups {
   void bound(const Units& units, bool drift_first, const kernel::PieceMotion<Real>* motions,
              std::span<kernel::Totals> totals) const;
   void advance();
+  /// Adds, to the cell of each particle on which forces were gathered in the last step, what of its
+  /// acceleration the group does not follow. `cell`: by id.
+  void add_held(std::span<const std::int32_t> cell, const Units& units,
+                std::span<HeldCell> held) const;
   /// Throws Error (unstable) where a group is squeezed so much that more particles than the layers
   /// take for neighbors would exert forces on each other, or stretched so much that fewer would.
   void check_stretch() const;
@@ -205,6 +215,7 @@ class Groups {
   std::optional<AffineForces> affine_;
   std::vector<Shape> shapes_;
   std::vector<Motion> motions_, next_;
+  std::vector<Sum> accelerations_;                ///< of the last step: of c, and of F; m/s^2
   std::vector<std::int32_t> group_;               ///< by place in the kernel's order; -1: free
   std::array<std::vector<double>, 3> X_;          ///< by place, m
   std::array<std::vector<Real>, 3> X_of_kernel_;  ///< by place, padded, m

@@ -7,8 +7,8 @@
 
 #include <vector>
 
+#include <sinew/physics/hierarchy/bone_parts.h>
 #include <sinew/physics/hierarchy/grouping.h>
-#include <sinew/rig/motion.h>
 
 namespace sinew {
 
@@ -26,5 +26,9 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
 /// muscles act on, or that no bone holds, are free.
 Grouping static_groups(const Body& body, const std::vector<bool>& moves,
                        const StaticGroups& options);
+
+/// Numbers what hangs together in each group anew; what has fewer particles than `least` becomes
+/// free.
+void separate(const Body& body, std::size_t least, std::vector<std::int32_t>& group);
 
 }  // namespace sinew

@@ -371,6 +371,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   layout_ = std::move(layout);
   bonds_ = std::move(bonds);
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
+  groups_ = Groups<Real>(body_, mass_);
   find_slots();
   groups_.restore(state);
   surroundings_.restore(state);

@@ -47,6 +47,11 @@ class ListStepper {
   std::vector<Reaction> of_supports() const { return surroundings_.of_supports(); }
   std::vector<Reaction> of_loads() const { return surroundings_.of_loads(); }
 
+  /// After the body's grouping has changed: the groups move as their particles do, as nearly as
+  /// they can.
+  void regroup();
+  /// By cell of the body (`cell`: of each particle, by id), after a step.
+  std::vector<HeldCell> held(std::span<const std::int32_t> cell, std::size_t cells) const;
   /// Groups move as their particles do, as nearly as they can.
   void fit_groups() { groups_.begin(layout_.now, layout_.units()); }
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a simulation changes its groups of particles. All depends on the count of steps and on the
+// state alone, so that a resumed run does the same.
+#include <algorithm>
+#include <utility>
+
+#include <sinew/core/error.h>
+#include <sinew/physics/simulation.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::int64_t steps_between_checks = 32;
+// Looking for what may join takes as long as many steps within groups do.
+constexpr std::int64_t steps_between_merges = 512;
+constexpr double least_gain = 0.05;  // of the particles, in groups
+
+std::size_t count_grouped(const std::vector<std::int32_t>& group) {
+  return static_cast<std::size_t>(
+      std::count_if(group.begin(), group.end(), [](std::int32_t one) { return one >= 0; }));
+}
+
+}  // namespace
+
+void Simulation::group_as_it_moves(const DynamicOptions& options) {
+  if (std::holds_alternative<CellStepper>(stepper_))
+    throw bad_input("the paper's cells have no groups", "search neighbors by lists");
+  check_groupable(*body_);
+  set_grouping(std::vector<std::int32_t>(body_->rest.size(), -1));
+  std::visit(
+      [](auto& stepper) {
+        if constexpr (requires { stepper.regroup(); }) stepper.regroup();
+      },
+      stepper_);
+  dynamic_.emplace(body_, *motion_, particles_.mass, options);
+  regrouping_.still_since.assign(body_->skeleton.size(), -1);
+  regroup({}, false);
+}
+
+void Simulation::set_grouping(std::vector<std::int32_t> group) {
+  if (group.size() != body_->rest.size()) throw not_a_state("it has no groups");
+  body_->grouping = std::make_shared<const Grouping>(make_grouping(*body_, std::move(group)));
+}
+
+GroupingMoment Simulation::grouping_moment() const {
+  return {time(), static_cast<double>(steps_between_checks) * stepping_.step,
+          regrouping_.still_since};
+}
+
+/// After a step.
+void Simulation::check_groups() {
+  if (!dynamic_ || steps_ % steps_between_checks != 0) return;
+  std::vector<HeldCell> held;
+  std::visit(
+      [&](auto& stepper) {
+        if constexpr (requires { stepper.regroup(); })
+          held = stepper.held(dynamic_->cells(), dynamic_->cell_count());
+      },
+      stepper_);
+  if (dynamic_->must_split(grouping_moment(), held)) return regroup(held, true);
+  const auto all = static_cast<double>(body_->rest.size());
+  const auto grouped = static_cast<double>(body_->grouping->grouped());
+  if (steps_ % steps_between_merges == 0 && all - grouped > least_gain * all) regroup(held, false);
+}
+
+void Simulation::regroup(std::span<const HeldCell> held, bool must) {
+  NewGroups made = dynamic_->regroup(grouping_moment(), held, particles());
+  const auto gain = static_cast<double>(count_grouped(made.group)) -
+                    static_cast<double>(body_->grouping->grouped());
+  if (!must && gain < least_gain * static_cast<double>(made.group.size())) return;
+  const double before = energies().stored();
+  set_grouping(std::move(made.group));
+  std::visit(
+      [](auto& stepper) {
+        if constexpr (requires { stepper.regroup(); }) stepper.regroup();
+      },
+      stepper_);
+  evaluated_ = false;
+  forget_read();
+  regrouping_.lost += before - energies().stored();
+  regrouping_.still_since = std::move(made.still_since);
+  ++regrouping_.times;
+  evaluated_ = false;
+  forget_read();
+}
+
+}  // namespace sinew

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Groups that change while a body moves.
+#include <gtest/gtest.h>
+
+#include <sinew/core/parallel.h>
+#include <sinew/physics/hierarchy/dynamic_groups.h>
+
+#include "expect_error.h"
+#include "grouped_bar.h"
+
+namespace sinew::groups_test {
+namespace {
+
+constexpr int width = 17, height = 97;
+constexpr DynamicOptions options{0.7, 0.03, 256};
+// Beyond the time for which the first groups are made.
+constexpr double start = 0.3, bent = 0.4;
+
+/// The upper half of a bar bends by 20 degrees from `start` until `bent`, and back until `back`.
+Bar swinging(MaterialModel model, Precision precision = Precision::binary64, double back = 10) {
+  Settings settings = test::in(precision, test::box_scene(height));
+  settings.material.model = model;
+  settings.material.young_modulus = 1e5;
+  settings.tracks = {test::track(
+      "upper", {test::bend_key(start, 0), test::bend_key(bent, 20), test::bend_key(back, 0)})};
+  return Bar(settings, width, height, [](const Vec3&) { return -1; });
+}
+
+Simulation begin(const Bar& bar) {
+  Simulation simulation = bar.begin();
+  simulation.group_as_it_moves(options);
+  return simulation;
+}
+
+double grouped_share(const Simulation& simulation) {
+  const Grouping& grouping = *simulation.body().grouping;
+  return static_cast<double>(grouping.grouped()) / static_cast<double>(grouping.group.size());
+}
+
+TEST(DynamicGroups, ABodyIsOneUntilAJointMoves) {
+  const Bar bar = swinging(MaterialModel::bonded);
+  Simulation simulation = begin(bar);
+  EXPECT_EQ(simulation.body().grouping->size(), 1U);
+  EXPECT_EQ(grouped_share(simulation), 1);
+  while (simulation.time() < 0.5 * start) simulation.step();
+  EXPECT_EQ(grouped_share(simulation), 1);
+  while (simulation.time() < start) simulation.step();
+  const Grouping& grouping = *simulation.body().grouping;
+  EXPECT_EQ(grouping.size(), 2U);
+  EXPECT_GT(grouped_share(simulation), 0.2);
+  const double joint = bar.body.skeleton.bones[1].head().z();
+  const double free = options.joint_distance * std::sqrt(bar.body.binding.cross_section[1]);
+  for (std::size_t i = 0; i < bar.rest.size(); ++i)
+    EXPECT_TRUE(grouping.group[i] < 0 || std::abs(bar.rest[i].z() - joint) >= free) << i;
+}
+
+TEST(DynamicGroups, WhatHasComeBackJoinsAgain) {
+  Simulation simulation = begin(swinging(MaterialModel::bonded, Precision::binary64, 0.5));
+  double least = 1;
+  while (simulation.time() < 1.2) {
+    simulation.step();
+    least = std::min(least, grouped_share(simulation));
+  }
+  EXPECT_LT(least, 0.8);
+  EXPECT_GT(grouped_share(simulation), 0.9);
+}
+
+TEST(DynamicGroups, ABendIsNearlyTheSame) {
+  for (const MaterialModel model : models) {
+    const Bar bar = swinging(model);
+    Simulation full = bar.begin(), grouped = begin(bar);
+    while (full.time() < bent + 0.05) full.step(), grouped.step();
+    const Particles &a = full.particles(), &b = grouped.particles();
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a.position(i) - b.position(i)).squaredNorm();
+    EXPECT_LT(std::sqrt(sum / static_cast<double>(a.size())), 0.3 * r);
+  }
+}
+
+TEST(DynamicGroups, TheLedgerClosesWithWhatMergingLoses) {
+  Simulation simulation = begin(swinging(MaterialModel::bonded, Precision::binary64, 0.5));
+  const double before = simulation.energies().stored();
+  while (simulation.time() < 1) simulation.step();
+  const Energies now = simulation.energies();
+  EXPECT_GT(simulation.regroupings(), 2);
+  EXPECT_NEAR(now.stored() - before, now.work() - now.dissipation, 0.01 * now.work_of_bones);
+  EXPECT_LT(std::abs(simulation.lost_by_merging()), 0.01 * now.work_of_bones);
+}
+
+TEST(DynamicGroups, TheSameBitsOnAnyNumberOfThreadsAndAfterASave) {
+  for (const Precision precision : test::precisions) {
+    const Bar bar = swinging(MaterialModel::bonded, precision);
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 3})
+      with_threads(threads, [&] {
+        Simulation simulation = begin(bar);
+        while (simulation.time() < start + 0.03) {
+          simulation.step();
+          if (threads == 1 || simulation.steps() % 57 != 0) continue;
+          Simulation resumed = begin(bar);
+          resumed.restore(simulation.save());
+          simulation = std::move(resumed);
+        }
+        hashes.push_back(state_hash(simulation.particles()));
+      });
+    EXPECT_EQ(hashes[0], hashes[1]);
+  }
+}
+
+/// A bar without bones that flies, deformed as a whole by 1 %.
+Bar flying(MaterialModel model) {
+  Settings settings = test::unbound(scene_of(model, DampingForm::central));
+  Bar bar(settings, width, height, [](const Vec3&) { return -1; });
+  const Vec3 spin(0.1, -0.2, 0.4), velocity(0.1, 0, 0.3);
+  for (std::size_t i = 0; i < bar.rest.size(); ++i)
+    bar.particles.set_velocity(i, velocity + spin.cross(bar.rest[i]));
+  return bar;
+}
+
+TEST(DynamicGroups, KeepMomentumWhereTheyChange) {
+  for (const MaterialModel model : models) {
+    Bar bar = flying(model);
+    // One half is faster, and waves go through the bar.
+    for (std::size_t i = 0; i < bar.rest.size(); ++i)
+      if (bar.rest[i].z() > 48 * half_plane_spacing(r)) bar.particles.w[i] += 0.05;
+    Simulation simulation = begin(bar);
+    const Conserved before = conserved(simulation.particles());
+    while (simulation.steps() < 1600) simulation.step();
+    const Conserved after = conserved(simulation.particles());
+    const double scale = static_cast<double>(bar.rest.size());
+    EXPECT_GT(simulation.regroupings(), 1);
+    EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * scale);
+    EXPECT_LT((after.angular - before.angular).norm(),
+              1e-4 * scale * bounds(bar.rest).sizes().norm());
+  }
+}
+
+TEST(DynamicGroups, WhatABallHitsIsFree) {
+  Bar bar = flying(MaterialModel::bonded);
+  for (std::size_t i = 0; i < bar.rest.size(); ++i) bar.particles.set_velocity(i, Vec3(0, 0, -1));
+  World world;
+  Obstacle floor;
+  floor.shape = PlaneShape{{0, 0, -0.05}, {0, 0, 1}};
+  floor.stiffness = bar.body.material.pair.contact_stiffness();
+  world.obstacles = {floor};
+  bar.body.world = std::make_shared<const World>(world);
+  Simulation simulation = begin(bar);
+  EXPECT_EQ(grouped_share(simulation), 1);
+  const auto lowest = [&] {
+    const std::vector<double>& z = simulation.particles().z;
+    return *std::min_element(z.begin(), z.end());
+  };
+  while (lowest() > -0.05 + r) simulation.step();
+  for (int step = 0; step < 100; ++step) simulation.step();
+  EXPECT_LT(grouped_share(simulation), 1);
+  const Grouping& grouping = *simulation.body().grouping;
+  for (std::size_t i = 0; i < bar.rest.size(); ++i)
+    EXPECT_TRUE(bar.rest[i].z() > 4 * r || grouping.group[i] < 0) << i;
+}
+
+TEST(DynamicGroups, RefuseWhatTheyCannotBeCombinedWith) {
+  Bar bar = flying(MaterialModel::bonded);
+  bar.settings.solver.neighbor_search = NeighborSearch::cells;
+  bar.body.grouping.reset();
+  Simulation cells = bar.begin();
+  test::expect_bad_input([&] { cells.group_as_it_moves(options); }, {"cells have no groups"});
+}
+
+}  // namespace
+}  // namespace sinew::groups_test
