@@ -110,6 +110,62 @@ TEST(Groups, AllOfABodyTurnsAsItWouldAlone) {
   }
 }
 
+/// The share of a wave's energy that a group as thick as `share` of its length throws back: what
+/// moves before the group, beside a bar without, once the wave has passed. The wave is of 20
+/// diameters along a bar, and at first goes both ways.
+double thrown_back(MaterialModel model, double share) {
+  constexpr double length = 40 * r, from = 4 * length, group_at = 6 * length, until = 7 * length;
+  Settings settings = test::unbound(scene_of(model));
+  settings.material.damping = 0;
+  const double thickness = share * length;
+  Bar bar(settings, 9, static_cast<int>(9 * length / half_plane_spacing(r)),
+          [&](const Vec3& X) { return std::abs(X.z() - group_at) < thickness / 2 ? 0 : -1; });
+  const auto wave = [](double z) {
+    const double along = (z - from) / length;
+    return 0.1 * r * std::exp(-along * along) * std::sin(2 * std::numbers::pi * along);
+  };
+  const double poisson = bar.body.material.constants().C12 /
+                         (bar.body.material.constants().C11 + bar.body.material.constants().C12);
+  for (std::size_t i = 0; i < bar.rest.size(); ++i) {
+    const Vec3& X = bar.rest[i];
+    const double strain = (wave(X.z() + r) - wave(X.z() - r)) / (2 * r);
+    bar.particles.x[i] -= poisson * strain * X.x();
+    bar.particles.y[i] -= poisson * strain * X.y();
+    bar.particles.z[i] += wave(X.z());
+  }
+  Simulation grouped = bar.begin();
+  bar.body.grouping.reset();
+  Simulation alone = bar.begin();
+  const auto moves = [&](const Points& v, double low, double high) {
+    double sum = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+      if (bar.rest[i].z() > low && bar.rest[i].z() < high) sum += v[i].squaredNorm();
+    return sum;
+  };
+  const auto velocities = [](const Particles& particles) {
+    Points v;
+    for (std::size_t i = 0; i < particles.size(); ++i) v.push_back(particles.velocity(i));
+    return v;
+  };
+  constexpr double all = std::numeric_limits<double>::infinity();
+  Points full;
+  do {
+    for (int k = 0; k < 20; ++k) alone.step();
+    full = velocities(alone.particles());
+  } while (moves(full, until, all) < 0.25 * moves(full, 0, all));
+  while (grouped.steps() < alone.steps()) grouped.step();
+  Points off = velocities(grouped.particles());
+  for (std::size_t i = 0; i < off.size(); ++i) off[i] -= full[i];
+  return moves(off, from, group_at - thickness) / moves(full, group_at, all);
+}
+
+TEST(Groups, LetWavesPassThatAreLong) {
+  for (const MaterialModel model : models) {
+    EXPECT_LT(thrown_back(model, 0.125), 0.005);
+    EXPECT_LT(thrown_back(model, 0.25), 0.05);
+  }
+}
+
 /// Both halves of a bar that bends are grouped, but for the middle.
 Bar bending(MaterialModel model, DampingForm form, Precision precision, int width = 25,
             int height = 81) {
