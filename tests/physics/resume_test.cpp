@@ -24,6 +24,7 @@ struct World {
   Vec3 velocity = Vec3::Zero();
   std::shared_ptr<const sinew::World> around = {};
   std::vector<int> parts = {};  // of the steps, by intervals of 37 of them
+  bool is_cut = false;          // the last interval is shorter than the others
 
   Simulation begin() const {
     Body body = test::make_body(settings, rest);
@@ -34,7 +35,9 @@ struct World {
     body.world = around;
     Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, step));
-    simulation.follow(StepPlan(step, 37, parts));
+    std::optional<WholeSteps> last;
+    if (is_cut) last = {11, 0.9 * step};
+    simulation.follow(StepPlan(step, 37, parts, last));
     return simulation;
   }
 };
@@ -101,6 +104,13 @@ World tearing(const std::string& name, MaterialModel model) {
 World divided(const std::string& name, World world) {
   world.name = name;
   world.parts = {1, 4, 3, 1, 1, 20, 1};
+  return world;
+}
+
+World cut(const std::string& name, World world) {
+  world.name = name;
+  world.parts = {1, 2};
+  world.is_cut = true;
   return world;
 }
 
@@ -189,7 +199,9 @@ std::vector<World> worlds() {
       divided("DividedTearing", tearing("", MaterialModel::bonded_volume)),
       divided("DividedTearingInSingle", in(binary32, tearing("", MaterialModel::bonded))),
       divided("DividedInCells", with(bend("", binary64, 17), NeighborSearch::cells)),
-      divided("DividedAndSurrounded", surrounded("", Integrator::symplectic_euler))};
+      divided("DividedAndSurrounded", surrounded("", Integrator::symplectic_euler)),
+      cut("CutInSingle", bend("", binary32)),
+      cut("CutVerletSurrounded", surrounded("", Integrator::velocity_verlet))};
 }
 
 /// All results of a simulation at one moment.

@@ -69,7 +69,7 @@ class Stops(SmallRun):
         self.assertEqual(self.everything(self.out), self.everything(whole))
 
     def test_wall_time_stops_a_run_that_resumes_with_the_same_bits(self):
-        words = ["--set", "solver.precision=single", "--set", "solver.duration=2"]
+        words = ["--set", "solver.precision=single", "--set", "solver.duration=2", "--set", "output.interval=0.15"]
         done = self.simulate(*words, "--set", "solver.wall_time=0.05", check=130)
         self.assertIn("--resume", done.stderr)
         self.assertEqual(self.record()["status"], "stopped")

@@ -117,7 +117,6 @@ class FrameWriter {
   void list_new_frames();
 
   std::filesystem::path folder_;
-  double interval_;  ///< s between frames
   const Body& body_;
   std::span<const std::int32_t> group_;  ///< by id; empty without groups
   std::vector<std::int32_t> level_;      ///< by id
