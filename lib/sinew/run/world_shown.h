@@ -19,8 +19,9 @@ std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle);
 /// Indices of the held particles in the frames, ascending.
 std::vector<std::size_t> held_in_frames(const RunFiles& run);
 
-/// Marks the held particles of a playback and adds the obstacles to its frames. `frame_of`: the
-/// run's frame of a playback's. Throws bad input, naming the file, for damaged frames.
+/// Marks the held particles of a playback, names its materials and adds the obstacles to its
+/// frames. `frame_of`: the run's frame of a playback's. Throws bad input, naming the file, for
+/// damaged frames.
 void show_world(Playback& playback, const RunFiles& run,
                 const std::function<std::size_t(std::size_t)>& frame_of);
 
