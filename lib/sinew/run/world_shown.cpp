@@ -34,14 +34,18 @@ void name_materials(Playback& playback, const RunFiles& run) {
   const auto* numbers = column ? std::get_if<std::vector<std::int32_t>>(&column->values) : nullptr;
   if (numbers == nullptr) return;
   const auto most = static_cast<std::int32_t>(run.settings.materials.size());
-  playback.material_names = {"the rest"};
-  for (const LocalMaterialSettings& one : run.settings.materials)
-    playback.material_names.push_back(one.name);
+  playback.material_names = names_of_materials(run);
   for (const std::uint32_t i : playback.particles)
     playback.material.push_back(std::clamp(numbers->at(i), 0, most));
 }
 
 }  // namespace
+
+std::vector<std::string> names_of_materials(const RunFiles& run) {
+  std::vector<std::string> names = {"the rest"};
+  for (const LocalMaterialSettings& one : run.settings.materials) names.push_back(one.name);
+  return names;
+}
 
 std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle) {
   if (run.ids.empty())

@@ -6,12 +6,16 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <sinew/metrics/report/playback.h>
 #include <sinew/run/run_files.h>
 
 namespace sinew {
+
+/// By the numbers in array material of the particles: 0 is what no entry of the scene's list holds.
+std::vector<std::string> names_of_materials(const RunFiles& run);
 
 /// The index of a particle of the body in the frames; -1 where they do not contain it.
 std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle);
