@@ -141,8 +141,8 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("time_step", setup.steps.step, "s");
   results.add("time_step_factor", setup.steps.factor());
   results.add("steps_per_frame", setup.steps.per_frame);
-  results.add("frames", setup.frames + 1);
-  results.add("steps", setup.plan.steps_until(setup.frames));
+  results.add("frames", setup.frames.count + 1);
+  results.add("steps", setup.plan.steps_until(setup.frames.count));
   if (setup.plan.divided() > 0) {
     results.add("intervals_of_shorter_steps", setup.plan.divided());
     results.add("shortest_time_step", setup.steps.step / setup.plan.most_parts(), "s");
@@ -184,14 +184,14 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   const Triangles& skin = surface.triangles;
   const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
   const StepperChoice choice = stepper_choice(settings.solver);
-  const double speed = farthest_carried(setup, settings.output.interval);
+  const double speed = farthest_carried(setup);
   auto warnings = warnings_of(setup, surface, speed);
   warn_of_stiffness(setup.body, warnings);
   warn_of_memory(needs, warnings);
   warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
   const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);
   const double rate = speed_in_motion(setup, choice, at_rest);
-  const double work = static_cast<double>(setup.plan.steps_until(setup.frames)) *
+  const double work = static_cast<double>(setup.plan.steps_until(setup.frames.count)) *
                       static_cast<double>(filling.particles.size());
 
   Results results;

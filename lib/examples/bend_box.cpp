@@ -11,9 +11,9 @@ int main(int argc, char** argv) {
     const sinew::ReadyScene ready = sinew::prepare(scene);
     sinew::Simulation simulation = sinew::start(scene, ready);
     sinew::FrameWriter writer(argv[2], scene.output, ready);
-    for (int frame = 0; frame <= ready.setup.frames; ++frame) {
+    for (int frame = 0; frame <= ready.setup.frames.count; ++frame) {
       while (simulation.steps() < ready.setup.plan.steps_until(frame)) simulation.step();
-      writer.add(simulation, frame * scene.output.interval);
+      writer.add(simulation, ready.setup.frames.at(frame));
     }
     writer.close();
     std::printf("%d frames of %zu particles\n", writer.written(), ready.body.particles.size());

@@ -19,6 +19,13 @@ TEST(Error, GivesPlaceWhatAndCureInOneLine) {
   EXPECT_EQ(not_written("", "", "").exit(), Exit::not_written);
 }
 
+TEST(Error, NamesItsPlaceOnce) {
+  const Error error = bad_input({"a.yaml", 3, 7}, "it is wrong", "right it");
+  EXPECT_STREQ(error.with_context({"a.yaml", 2, 1}).what(), error.what());
+  const Error through = error.with_context({"b.yaml", 2});
+  EXPECT_STREQ(through.with_context({"b.yaml", 1}).what(), through.what());
+}
+
 TEST(Place, LeavesOutWhatIsUnknown) {
   EXPECT_EQ((Place{"a.yaml", 3, 7}.text()), "a.yaml:3:7");
   EXPECT_EQ((Place{"a.yaml", 3, 0}.text()), "a.yaml:3");

@@ -31,8 +31,15 @@ class MovingSurface : public Scratch {
     PointCache cache(folder / "surface.pc2", surface_.points.size());
     for (std::size_t k = 0; k < samples; ++k) cache.add(at(static_cast<double>(k)));
     cache.close();
-    write_moving_surface(folder / "surface.glb", surface_.faces, folder / "surface.pc2", interval);
+    write_moving_surface(folder / "surface.glb", surface_.faces, folder / "surface.pc2",
+                         times_of(samples));
     return folder / "surface.glb";
+  }
+
+  static std::vector<double> times_of(std::size_t samples) {
+    std::vector<double> times;
+    for (std::size_t k = 0; k < samples; ++k) times.push_back(interval * static_cast<double>(k));
+    return times;
   }
 
   /// The corners that VTK shows are those of `points`, turned to y up.
@@ -83,7 +90,7 @@ TEST_F(MovingSurface, OfManyMomentsTakesSomeAndTheLast) {
 TEST_F(MovingSurface, OfACacheThatIsNoneIsRefused) {
   put(folder / "surface.pc2", "POINTCACHE2");
   const auto write = [&] {
-    write_moving_surface(folder / "a.glb", surface_.faces, folder / "surface.pc2", interval);
+    write_moving_surface(folder / "a.glb", surface_.faces, folder / "surface.pc2", {});
   };
   EXPECT_EQ(error_of(write).exit(), Exit::bad_input);
 }

@@ -167,6 +167,21 @@ TEST(WorstFrames, AreOfferedOfWhatWentWrong) {
   EXPECT_EQ(worst[0].frame, 2u);
 }
 
+TEST(Charts, OfATestingMachineFollowTheForceThatWorks) {
+  PageData data;
+  data.machine = {{"time", "s", {0, 1}},
+                  {"clamp: force_x", "N", {0, -20}},
+                  {"hand: force_x", "N", {0, 20}},
+                  {"hand: force_z", "N", {0, 5}},
+                  {"hand: displacement_x", "m", {0, 0.1}},
+                  {"hand: displacement_z", "m", {0, -0.3}},
+                  {"roller: force_x", "N", {0, 40}},
+                  {"roller: displacement_x", "m", {0, 0}}};
+  const Json machine = Json::parse(page_json(data))["machine"];
+  EXPECT_EQ(machine["across"], 4);
+  EXPECT_EQ(machine["up"], 2);
+}
+
 TEST(Charts, OfATestingMachineBeginWithAForceOverItsDisplacement) {
   PageData data;
   EXPECT_FALSE(Json::parse(page_json(data)).contains("machine"));
@@ -182,8 +197,12 @@ TEST(Charts, OfATestingMachineBeginWithAForceOverItsDisplacement) {
   const Json machine = Json::parse(page_json(data))["machine"];
   EXPECT_EQ(machine["columns"].size(), 8U);
   EXPECT_EQ(machine["columns"][6]["values"], Json::parse("[0, null]"));
-  EXPECT_EQ(machine["across"], 3);
-  EXPECT_EQ(machine["up"], 7);
+  EXPECT_EQ(machine["across"], 2);  // along the force
+  EXPECT_EQ(machine["up"], 5);
+  data.machine[5].values = {1, 1};
+  const Json creeps = Json::parse(page_json(data))["machine"];
+  EXPECT_EQ(creeps["across"], 3);
+  EXPECT_EQ(creeps["up"], 7);
   EXPECT_NE(machine_section(data.machine).find("id=\"machine\""), std::string::npos);
 }
 

@@ -97,6 +97,39 @@ TEST(Playback, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
 }
 
+TEST(Playback, WithoutBonesHasNoFieldOfThem) {
+  RestInput input = box_input();
+  input.bones.clear();
+  input.bone.assign(input.positions.size(), -1);
+  const RestBody body = rest_body(input);
+  for (const auto& field :
+       nlohmann::json::parse(playback_json(whole_playback(body, 2)))["fields"]) {
+    EXPECT_NE(field["name"], "weight of its bone");
+    EXPECT_NE(field["name"], "distance to rigid pose");
+  }
+}
+
+TEST(Playback, NamesTheMaterialsOfBothRuns) {
+  const RestBody body = rest_body(box_input());
+  Playback one = whole_playback(body, 1), other = one;
+  EXPECT_TRUE(nlohmann::json::parse(playback_json(one))["materialNames"].empty());
+  one.material_names = {"the rest", "fat"};
+  one.material.assign(one.particles.size(), 1);
+  other.material_names = {"the rest", "bone", "fat"};
+  other.material.assign(other.particles.size(), 2);
+  other.material[0] = 1;
+  const Playback both = side_by_side(one, other, {"a: ", "b: "});
+  EXPECT_EQ(both.material_names, (std::vector<std::string>{"the rest", "fat", "bone"}));
+  const std::size_t n = one.particles.size();
+  EXPECT_EQ(both.material[n - 1], 1);
+  EXPECT_EQ(both.material[n], 2);
+  EXPECT_EQ(both.material[n + 1], 1);
+  const Playback half = side_by_side(whole_playback(body, 1), one, {"a: ", "b: "});
+  EXPECT_EQ(half.material[0], 0);
+  EXPECT_EQ(half.material[n], 1);
+  EXPECT_EQ(nlohmann::json::parse(playback_json(half))["materialNames"].size(), 2u);
+}
+
 TEST(Playback, HasABoxAroundAllOfIt) {
   Playback playback;
   EXPECT_TRUE(box_of(playback).isEmpty());

@@ -89,6 +89,15 @@ TEST(Relaxation, ARollerHasNoForceAlongItsFreeAxes) {
   EXPECT_GT(std::abs(roller.force.y()), 1e-3);
 }
 
+TEST(Relaxation, LastMomentMayComeSooner) {
+  LoadSteps steps = two_moments();
+  steps.interval = 2;
+  steps.last = 0.5;
+  const Simulation whole = gripped().at_rest(two_moments()), cut = gripped().at_rest(steps);
+  EXPECT_EQ(cut.time(), 1);
+  EXPECT_EQ(hash_of(cut.particles()), hash_of(whole.particles()));
+}
+
 TEST(Relaxation, ABarShowsItsModulus) {
   Machine machine(bonded, 41);
   machine.world.supports = {{"roller", machine.bottom(), {false, false, true}},

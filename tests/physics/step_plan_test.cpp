@@ -32,6 +32,23 @@ TEST(StepPlan, FillsEachIntervalWithItsSteps) {
   EXPECT_EQ(plan.divided(), 3);
 }
 
+TEST(StepPlan, LastIntervalMayBeShorterThanTheOthers) {
+  for (const std::vector<int>& parts : {std::vector<int>{1, 1, 1}, std::vector<int>{1, 3, 2}}) {
+    const StepPlan plan(0.01, 5, parts, WholeSteps{2, 0.008});
+    EXPECT_FALSE(plan.is_even());
+    const std::int64_t begin = plan.steps_until(2), end = plan.steps_until(3);
+    EXPECT_EQ(end - begin, 2 * parts[2]);
+    EXPECT_NEAR(plan.time(begin), 0.1, 1e-15);
+    EXPECT_NEAR(plan.time(end), 0.116, 1e-15);
+    EXPECT_NEAR(plan.time(end + 1), 0.126, 1e-15);
+    EXPECT_DOUBLE_EQ(plan.step(begin - 1), 0.01 / parts[1]);
+    EXPECT_DOUBLE_EQ(plan.step(begin), 0.008 / parts[2]);
+    EXPECT_DOUBLE_EQ(plan.step(end), 0.01);
+    EXPECT_EQ(plan.intervals_begun(end), 3);
+    EXPECT_EQ(plan.intervals_begun(end + 1), 4);
+  }
+}
+
 TEST(StepPlan, OfWholeStepsIsThatOfEqualOnes) {
   const StepPlan plan(1.0 / 3, 4, {1, 1, 1}), equal(1.0 / 3);
   EXPECT_TRUE(plan.is_even());
@@ -50,7 +67,7 @@ TEST(Divided, FreeFallKeepsItsEnergyToTheLastDigits) {
       const Body body = test::make_body(settings, rest);
       Simulation simulation(body, {}, test::shaken(rest, body.material, 0, 0),
                             stepping_of(settings.solver, 1e-3));
-      simulation.follow(StepPlan(1e-3, 10, {1, 5, 1, 20, 2, 1}));
+      simulation.follow(StepPlan(1e-3, 10, {1, 5, 1, 20, 2, 1, 1}, WholeSteps{7, 0.8e-3}));
       simulation.step();
       const double begun = simulation.energies().stored();
       const double fallen_energy = body.material.mass * rest.size() * 9.81 * 0.1;
@@ -99,21 +116,21 @@ TEST(Divided, BendsToTheSameEndAndBalancesItsEnergy) {
 }
 
 /// A bar whose upper bone rests, swings by 60 degrees in a tenth of a second, and rests.
-Setup swinging(std::optional<double> time_step) {
+Setup swinging(std::optional<double> time_step, double interval = 0.05) {
   Settings settings = test::box_scene(25);
   settings.tracks = {test::track(
       "upper", {test::bend_key(0, 0), test::bend_key(0.5, 0), test::bend_key(0.6, 60)})};
   settings.tracks[0].interpolation = Interpolation::linear;
   settings.solver.duration = 3;
   settings.solver.time_step = time_step;
-  settings.output.interval = 0.05;
+  settings.output.interval = interval;
   const Points rest = test::fcc_box(7, 7, 25, r);
   return set_up(settings, {}, test::particles_of(settings, rest));
 }
 
 TEST(PlanOfAScene, DividesStepsWhereBonesAreFastAndForAWhileAfter) {
   const auto setup = swinging({});
-  const std::vector<double> speeds = bone_speeds(setup, 0.05);
+  const std::vector<double> speeds = bone_speeds(setup);
   ASSERT_EQ(speeds.size(), 60u);
   EXPECT_EQ(speeds[5], 0);
   const double tail = setup.body.skeleton.bones[1].length;
@@ -122,13 +139,43 @@ TEST(PlanOfAScene, DividesStepsWhereBonesAreFastAndForAWhileAfter) {
   EXPECT_GT(setup.plan.parts(10), 1);
   EXPECT_GT(setup.plan.parts(12), 1) << "the flesh still swings";
   EXPECT_EQ(setup.plan.parts(59), 1);
-  EXPECT_LE(farthest_carried(setup, 0.05), most_carried * (1 + 1e-12));
+  EXPECT_LE(farthest_carried(setup), most_carried * (1 + 1e-12));
+}
+
+TEST(FrameTimes, EndWithTheDuration) {
+  const auto times = [](double interval, double duration) {
+    Settings settings;
+    settings.output.interval = interval;
+    settings.solver.duration = duration;
+    const FrameTimes frames = frame_times(settings);
+    std::vector<double> found;
+    for (int frame = 0; frame <= frames.count; ++frame) found.push_back(frames.at(frame));
+    return found;
+  };
+  EXPECT_EQ(times(0.25, 1), (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(times(0.3, 1), (std::vector<double>{0, 0.3, 0.6, 3 * 0.3, 1}));
+  EXPECT_EQ(times(0.1, 0.3), (std::vector<double>{0, 0.1, 0.2, 0.3}));
+  EXPECT_EQ(times(1, 1), (std::vector<double>{0, 1}));
+  EXPECT_EQ(times(1, 0), std::vector<double>{0});
+  EXPECT_EQ(times(1.0 / 30, 3).size(), 91u);
+}
+
+TEST(PlanOfAScene, EndsWithTheDuration) {
+  for (const std::optional<double> step : {std::optional<double>(), std::optional<double>(1e-3)}) {
+    const auto setup = swinging(step, 0.07);
+    EXPECT_EQ(setup.frames.count, 43);
+    const std::int64_t end = setup.plan.steps_until(43), begin = setup.plan.steps_until(42);
+    EXPECT_NEAR(setup.plan.time(begin), 42 * 0.07, 1e-12);
+    EXPECT_NEAR(setup.plan.time(end), 3, 1e-12);
+    EXPECT_LE(setup.plan.step(begin), setup.steps.step * (1 + 1e-12));
+    EXPECT_GE(setup.plan.step(begin) * setup.plan.parts(42), setup.steps.step / 2);
+  }
 }
 
 TEST(PlanOfAScene, LeavesAStepThatIsGivenAsItIs) {
   const auto setup = swinging(1e-3);
   EXPECT_TRUE(setup.plan.is_even());
-  EXPECT_GT(farthest_carried(setup, 0.05), most_carried);
+  EXPECT_GT(farthest_carried(setup), most_carried);
 }
 
 }  // namespace sinew::step_plan_test

@@ -62,6 +62,18 @@ TEST(Text, stands_where_it_is_aligned) {
   EXPECT_GT(painted(image, 151, 0, 60, 60), 0.03);
 }
 
+TEST(Text, color_bar_of_names_has_a_part_for_each) {
+  const TextStyle style{14};
+  Image image(200, color_bar_height(style) + 10);
+  const ColorScale scale{"material", "", 0, 2, ColorMap::indigo, {"flesh", "fat", "bone"}};
+  draw_color_bar(image, scale, 10, 5, 180, style);
+  const int middle = 5 + line_height(style) + line_height(style) / 3;
+  for (int part = 0; part < 3; ++part)
+    for (const int x : {11 + 60 * part, 40 + 60 * part, 69 + 60 * part})
+      for (int c = 0; c < 3; ++c)
+        EXPECT_EQ(image.at(x, middle)[c], scale.color(part)[static_cast<std::size_t>(c)]) << x;
+}
+
 TEST(Text, color_bar_runs_from_low_to_high) {
   Image image(200, 80);
   const TextStyle style{16, palette::ink, Align::left};

@@ -191,7 +191,8 @@ class OnLammps(SmallRun):
     def test_shorter_steps_where_bones_are_fast_are_taken_on_both(self):
         fast = self.folder / "fast.yaml"
         fast.write_text(self.scene.read_text().replace("angle: 30", "angle: 30\n          translation: [0.5, 0, 0]"))
-        words = ["--set", "output.double_precision=true", "--set", "solver.integrator=velocity_verlet"]
+        words = ["--set", "output.double_precision=true", "--set", "solver.integrator=velocity_verlet",
+                 "--set", "output.interval=0.15"]
         whole = self.folder / "whole"
         sinew("simulate", fast, "-o", whole, *words, check=0)
         sinew("simulate", fast, "-o", self.out, *words, *ON_LAMMPS, 2, check=0)

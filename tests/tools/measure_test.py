@@ -230,6 +230,16 @@ class Measure(unittest.TestCase):
                 self.assertIn(file, done.stderr)
                 shutil.rmtree(run)
 
+    def test_a_run_without_frames_says_so_and_what_to_do(self):
+        run = self.copy_of("paper")
+        for series in [*run.glob("*.pvd")]:
+            series.unlink()
+            shutil.rmtree(run / series.stem)
+        for status, cure in {"running": "--resume", "stopped": "--resume", "unstable": "--force"}.items():
+            record = json.loads((run / "run.json").read_text())
+            (run / "run.json").write_text(json.dumps(record | {"status": status}))
+            self.assert_refused(run, f"{run}: the run has no frames", cure)
+
     def test_a_series_that_is_shorter_is_measured_up_to_its_end_with_a_warning(self):
         run = self.copy_of("paper")
         text = (run / "surface.pvd").read_text()

@@ -95,6 +95,12 @@ class Static(unittest.TestCase):
         metrics = json.loads((self.out / "metrics.json").read_text())
         self.assertNotIn("nan", json.dumps(metrics).lower())
 
+    def test_the_last_moment_is_the_duration(self):
+        self.run_scene(CLAMP.replace("FORCE", "5"), "--set", "output.interval=0.25")
+        ends = [row for row in self.rows("supports.csv") if row["name"] == "side"]
+        self.assertEqual([row["time"] for row in ends], ["0", "0.25", "0.4"])
+        self.assertAlmostEqual(float(ends[-1]["force_x"]), 5, 9)
+
     def test_what_does_not_come_to_rest_is_kept_and_resumed(self):
         machine = CLAMP.replace("FORCE", "5")
         whole = self.folder / "whole"

@@ -4,6 +4,7 @@
 
 usage: stops_test.py BIN SOURCE      folder of the programs, folder of the project
 """
+import json
 import os
 import pty
 import re
@@ -68,8 +69,24 @@ class Stops(SmallRun):
         self.assertEqual(self.record()["state_hash"], self.record(whole)["state_hash"])
         self.assertEqual(self.everything(self.out), self.everything(whole))
 
+    def test_frames_end_with_the_duration(self):
+        ways = ["solver.integrator=velocity_verlet", "solver.neighbor_search=cells", "solver.precision=single",
+                "solver.time_step=1e-3", "hierarchy.enabled=true"]
+        for way in ways:
+            words = ["--set", "output.interval=0.15", "--set", way]
+            self.simulate("--force", *words)
+            for name in SERIES:
+                times = re.findall(r'timestep="([^"]*)"', (self.out / f"{name}.pvd").read_text())
+                self.assertEqual(times, ["0", "0.15", "0.3", "0.4"], (way, name))
+            self.assertEqual(self.record()["frames"], 4)
+            checked = json.loads(sinew("check", self.scene, *words, "--json", check=0).stdout)
+            self.assertEqual((checked["frames"], checked["steps"]), (4, self.record()["steps"]))
+            sinew("measure", self.out, check=0)
+            rows = (self.out / "metrics.csv").read_text().splitlines()
+            self.assertEqual(rows[-1].split(",")[rows[0].split(",").index("time")], "0.4")
+
     def test_wall_time_stops_a_run_that_resumes_with_the_same_bits(self):
-        words = ["--set", "solver.precision=single", "--set", "solver.duration=2"]
+        words = ["--set", "solver.precision=single", "--set", "solver.duration=2", "--set", "output.interval=0.03"]
         done = self.simulate(*words, "--set", "solver.wall_time=0.05", check=130)
         self.assertIn("--resume", done.stderr)
         self.assertEqual(self.record()["status"], "stopped")

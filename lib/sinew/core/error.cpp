@@ -14,7 +14,10 @@ std::string Place::text() const {
 
 Error Error::with_context(const Place& place) const {
   const std::string where = place.text();
-  return where.empty() ? *this : Error(exit_, where + ": " + what());
+  if (where.empty() || place.file == file_) return *this;
+  Error error(exit_, where + ": " + what());
+  error.file_ = place.file;
+  return error;
 }
 
 Error Error::about(std::string key) const {

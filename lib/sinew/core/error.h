@@ -36,7 +36,8 @@ class Error : public std::runtime_error {
 
   Exit exit() const { return exit_; }
 
-  /// The same error with a `place` before it (a scene's line that names a bad mesh).
+  /// The same error with a `place` before it (a scene's line that names a bad mesh), unless it
+  /// begins with a place in that file already.
   Error with_context(const Place& place) const;
 
   /// The key of the invalid value of a description, such as "bones[1].tail"; "" without one.
@@ -45,6 +46,7 @@ class Error : public std::runtime_error {
 
  private:
   Exit exit_;
+  std::string file_;  ///< of the place before it
   std::string key_;
 };
 

@@ -167,6 +167,7 @@ void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
   setup.steps_per_frame = run.steps_per_frame;
   setup.frames = run.frames;
   for (int frame = 0; frame < run.frames; ++frame) setup.parts.push_back(run.plan.parts(frame));
+  setup.last = run.plan.last();
   setup.start.steps = run.state.steps;
   setup.start.kicked = run.state.kicked;
   setup.start.ledger = run.state.ledger;

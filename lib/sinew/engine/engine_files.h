@@ -77,12 +77,13 @@ struct EngineSetup {
   Stepping stepping;  ///< with the whole step of the plan
   int steps_per_frame = 0, frames = 0;
   std::vector<int> parts;  ///< of each frame's steps, see StepPlan
+  std::optional<WholeSteps> last;
   EngineMoment start;
   bool with_forces = false;
   std::optional<EnginePieces> pieces;
   std::optional<World> world;  ///< without motions
 
-  StepPlan plan() const { return StepPlan(stepping.step, steps_per_frame, parts); }
+  StepPlan plan() const { return StepPlan(stepping.step, steps_per_frame, parts, last); }
 };
 
 /// A run that is to be stepped elsewhere.

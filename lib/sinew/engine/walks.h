@@ -126,6 +126,12 @@ void walk(EngineMoment& moment, Transfer& transfer) {
 }
 
 template <class Transfer>
+void walk(WholeSteps& steps, Transfer& transfer) {
+  transfer(steps.count);
+  transfer(steps.step);
+}
+
+template <class Transfer>
 void walk(EngineSetup& setup, Transfer& transfer) {
   transfer(setup.particles);
   for (std::int32_t* width : {&setup.shape.bones, &setup.shape.nearest, &setup.shape.second})
@@ -138,6 +144,7 @@ void walk(EngineSetup& setup, Transfer& transfer) {
   transfer(setup.steps_per_frame);
   transfer(setup.frames);
   transfer(setup.parts);
+  transfer(setup.last);
   transfer(setup.start);
   transfer(setup.with_forces);
   transfer(setup.pieces);

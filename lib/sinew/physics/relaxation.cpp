@@ -50,10 +50,18 @@ int Relaxation::ramp() const {
   return next == 0 || next > steps_.ramp.size() ? 1 : steps_.ramp[next - 1];
 }
 
+/// In intervals.
+double Relaxation::moment(std::int64_t index) const {
+  const std::int64_t last = steps_.count - 1;
+  const double whole = static_cast<double>(std::min(index, last));
+  return index < last || last < 1 ? whole : whole - 1 + steps_.last;
+}
+
 double Relaxation::time() const {
   if (now_.at_rest == 0) return 0;
   const double passed = static_cast<double>(now_.iterations) / ramp();
-  return steps_.interval * (static_cast<double>(now_.at_rest - 1) + std::min(passed, 1.0));
+  const double from = moment(now_.at_rest - 1), length = moment(now_.at_rest) - from;
+  return steps_.interval * (from + length * std::min(passed, 1.0));
 }
 
 double Relaxation::keep() const {
@@ -135,7 +143,7 @@ void Relaxation::refuse_noise() const {
 
 std::string Relaxation::moment_text() const {
   return "load step " + std::to_string(now_.at_rest) + " at " +
-         three_digits(static_cast<double>(now_.at_rest) * steps_.interval) + " s";
+         three_digits(moment(now_.at_rest) * steps_.interval) + " s";
 }
 
 void Relaxation::give_up() const {

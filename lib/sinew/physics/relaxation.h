@@ -22,7 +22,7 @@
 
 namespace sinew {
 
-/// When a body is to be at rest: at 0 and then every `interval`.
+/// When a body is to be at rest: at 0 and then every `interval`; the last may come sooner.
 struct LoadSteps {
   double interval = 0;     ///< s
   int count = 1;           ///< moments, that at 0 included
@@ -33,6 +33,7 @@ struct LoadSteps {
   std::vector<int> ramp = {};
   /// A residual that rounding may leave where it hides the one above; 0: none.
   double acceptable = 0;
+  double last = 1;  ///< the length of the last interval, in whole ones
 };
 
 /// The largest step of a relaxation over the step limit: bent bodies rattle beyond.
@@ -84,6 +85,7 @@ class Relaxation {
 
  private:
   int ramp() const;
+  double moment(std::int64_t index) const;
   bool judge(const StepSums& sums);
   void find_damping(const Imbalance& sums);
   double reference() const;

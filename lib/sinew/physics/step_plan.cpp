@@ -6,12 +6,14 @@
 
 namespace sinew {
 
-StepPlan::StepPlan(double step, int per_interval, std::vector<int> parts)
-    : step_(step), per_interval_(per_interval), parts_(std::move(parts)) {
-  if (most_parts() == 1) return;
+StepPlan::StepPlan(double step, int per_interval, std::vector<int> parts,
+                   std::optional<WholeSteps> last)
+    : step_(step), per_interval_(per_interval), parts_(std::move(parts)), last_(last) {
+  if (most_parts() == 1 && !last_) return;
   first_ = {0};
   for (const int count : parts_)
     first_.push_back(first_.back() + std::int64_t{count} * per_interval_);
+  if (last_) first_.back() = first_.end()[-2] + std::int64_t{parts_.back()} * last_->count;
 }
 
 std::size_t StepPlan::interval_of(std::int64_t n) const {
@@ -19,16 +21,27 @@ std::size_t StepPlan::interval_of(std::int64_t n) const {
                                   first_.begin() - 1);
 }
 
+double StepPlan::whole_step(std::size_t interval) const {
+  return last_ && interval + 1 == parts_.size() ? last_->step : step_;
+}
+
 double StepPlan::step(std::int64_t n) const {
   if (is_even()) return step_;
-  return step_ / parts(static_cast<int>(interval_of(n)));
+  const std::size_t index = interval_of(n);
+  return whole_step(index) / parts(static_cast<int>(index));
 }
 
 double StepPlan::time(std::int64_t n) const {
   if (is_even()) return static_cast<double>(n) * step_;
-  const std::size_t index = interval_of(n);
-  const auto whole = static_cast<double>(per_interval_) * static_cast<double>(index);
-  return (whole + static_cast<double>(n - first_[index]) / parts(static_cast<int>(index))) * step_;
+  const std::size_t index = interval_of(n), whole_ones = parts_.size() - (last_ ? 1 : 0);
+  const double within = static_cast<double>(n - first_[index]) / parts(static_cast<int>(index));
+  const auto whole_until = [&](std::size_t interval) {
+    return static_cast<double>(per_interval_) * static_cast<double>(interval);
+  };
+  if (!last_ || index < whole_ones) return (whole_until(index) + within) * step_;
+  const double until = whole_until(whole_ones) * step_;
+  if (index == whole_ones) return until + within * last_->step;
+  return until + last_->count * last_->step + within * step_;
 }
 
 std::int64_t StepPlan::steps_until(int index) const {

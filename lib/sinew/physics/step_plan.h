@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When the steps of a run take place. They are equal, but where bones are fast for a moment: there
-// each is divided into parts, the same number throughout an interval (from frame to frame).
+// each is divided into parts, the same number throughout an interval (from frame to frame), and in
+// a last interval that is shorter than the others.
 //
 //     const StepPlan plan(choice, interval, {1, 1, 4, 1});
 //     while (simulation.steps() < plan.steps_until(frame)) simulation.step();
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sinew {
+
+/// Of an interval, before they are divided.
+struct WholeSteps {
+  int count = 0;
+  double step = 0;  ///< s
+};
 
 class StepPlan {
  public:
   /// Equal steps, s.
   explicit StepPlan(double step = 0) : step_(step) {}
   /// Intervals of `per_interval` steps of `step` s, each divided into `parts` of the interval;
-  /// after the last of them steps are whole.
-  StepPlan(double step, int per_interval, std::vector<int> parts);
+  /// after the last of them steps are whole. Where the last is shorter than the others, its steps.
+  StepPlan(double step, int per_interval, std::vector<int> parts,
+           std::optional<WholeSteps> last = {});
 
   bool is_even() const { return first_.empty(); }
   /// The size of step `n`, from 0, s.
@@ -33,13 +42,16 @@ class StepPlan {
   int parts(int index) const;
   int most_parts() const;
   int divided() const;  ///< intervals of which the steps are
+  const std::optional<WholeSteps>& last() const { return last_; }
 
  private:
   std::size_t interval_of(std::int64_t n) const;
+  double whole_step(std::size_t interval) const;
 
   double step_ = 0;  ///< s, whole
   int per_interval_ = 0;
   std::vector<int> parts_;
+  std::optional<WholeSteps> last_;
   std::vector<std::int64_t> first_;  ///< step of each interval, and of the end; none: all even
 };
 

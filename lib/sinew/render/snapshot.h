@@ -71,6 +71,7 @@ struct ColorScale {
   std::string unit;  ///< "m", or empty for a plain number
   double low = 0, high = 1;
   ColorMap map = ColorMap::indigo;
+  std::vector<std::string> names = {};  ///< of the values 0, 1, ... up to `high`, if they have any
 
   /// Position of `value` between low and high: 0 .. 1, clamped; not-a-number of not-a-number.
   double position(double value) const;

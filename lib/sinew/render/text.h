@@ -25,8 +25,8 @@ int line_height(const TextStyle& style);
 /// Writes the lines of `text` (UTF-8) downward from y; x is their left end, middle or right end.
 void write_text(Image& image, const std::string& text, int x, int y, const TextStyle& style);
 
-/// The colors of `scale` from left to right with its limits below and its name above, `width`
-/// pixels wide and color_bar_height() pixels high.
+/// The colors of `scale` from left to right with its limits, or the names of its values, below and
+/// its name above, `width` pixels wide and color_bar_height() pixels high.
 void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
                     const TextStyle& style);
 int color_bar_height(const TextStyle& style);

@@ -8,6 +8,7 @@
 #include <sinew/core/text.h>
 #include <sinew/render/figure.h>
 #include <sinew/render/movie.h>
+#include <sinew/run/world_shown.h>
 #include <sinew/scene/check.h>
 
 namespace sinew {
@@ -55,6 +56,10 @@ ColorScale FigureSet::scale() const {
   for (std::size_t run = 1; run < runs_.size(); ++run) {
     scale.low = std::min(scale.low, drawn(run).range.low);
     scale.high = std::max(scale.high, drawn(run).range.high);
+  }
+  if (scale.name == "material") {
+    scale.names = names_of_materials(runs_.front()->files());
+    scale.low = 0, scale.high = std::max(1.0, static_cast<double>(scale.names.size()) - 1);
   }
   if (options_.range) scale.low = (*options_.range)[0], scale.high = (*options_.range)[1];
   if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing moves

@@ -108,7 +108,6 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
                          std::vector<Triangles> obstacles, std::span<const double> kept,
                          SurfaceLook look, std::vector<Probe> probes)
     : folder_(folder),
-      interval_(output.interval),
       body_(body),
       selection_{written_particles(output, body.rest), frame_arrays(output.only)},
       every_(static_cast<std::size_t>(output.every)),
@@ -382,7 +381,9 @@ void FrameWriter::close() {
   }
   if (!export_) return;
   export_->close();
-  write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", interval_,
+  std::vector<double> times;
+  for (const PvdRow& row : skins_.rows()) times.push_back(row.time);
+  write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", times,
                        look_);
   for (const char* name : {"surface.obj", "surface.pc2", "surface.glb"}) checksums_->add(name);
 }

@@ -118,7 +118,6 @@ class FrameWriter {
   void list_new_frames();
 
   std::filesystem::path folder_;
-  double interval_;  ///< s between frames
   const Body& body_;
   ParticleSelection selection_;  ///< what the frames of particles contain
   std::size_t every_;            ///< of so many frames, one contains particles

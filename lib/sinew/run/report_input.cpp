@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -166,10 +167,11 @@ FactGroup material_facts(const nlohmann::ordered_json& record) {
 FactGroup load_step_facts(const nlohmann::ordered_json& record) {
   FactGroup group{"Load steps", {}};
   const double interval = record.value("frame_interval", 0.0);
+  const double end = record.value("duration", std::numeric_limits<double>::infinity());
   for (const auto& one : record.value("load_steps", nlohmann::ordered_json::array())) {
     const int frame = one.value("frame", 0);
     group.facts.push_back(
-        {"frame " + std::to_string(frame) + ", " + with_unit(frame * interval, "s"),
+        {"frame " + std::to_string(frame) + ", " + with_unit(std::min(frame * interval, end), "s"),
          std::to_string(one.value("iterations", std::int64_t{0})) + " iterations, residual " +
              three_digits(one.value("residual", 0.0))});
   }

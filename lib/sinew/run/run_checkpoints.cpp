@@ -83,7 +83,7 @@ std::uint64_t body_hash(const Body& body, const Triangles& surface) {
 /// The bones at sampled times of the run, and the obstacles around it.
 std::uint64_t motion_hash(const Setup& setup) {
   constexpr int moments = 1000;
-  const double end = setup.plan.time(setup.plan.steps_until(setup.frames));
+  const double end = setup.plan.time(setup.plan.steps_until(setup.frames.count));
   Hash hash;
   for (int i = 0; i <= moments; ++i)
     for (const BonePose& bone : pose_at(setup.body.skeleton, setup.motion, end * i / moments)) {

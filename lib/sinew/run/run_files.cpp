@@ -13,6 +13,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/physics/laws.h>
+#include <sinew/run/run_record.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
@@ -179,9 +180,7 @@ void trim_rows(RunFiles& run) {
     frames = std::min(frames, rows->size());
     run.frames_named = std::max(run.frames_named, rows->size());
   }
-  if (frames == 0)
-    throw bad_input(Place{run.folder.path.string()}, "the run has no frames",
-                    "run the scene again");
+  if (frames == 0) throw without_frames(run.folder);
   for (const auto& [name, rows] : series) {
     rows->resize(frames);
     for (std::size_t i = 0; i < frames; ++i)
@@ -233,6 +232,7 @@ RunFiles open_run(const RunFolder& folder) {
   if (!folder.used())
     throw bad_input(Place{folder.path.string()}, "is not the folder of a run",
                     "give the folder that sinew run or sinew simulate has written");
+  refuse_without_frames(folder);
   RunFiles run;
   run.folder = folder;
   run.scene_text = read_file(folder.scene());

@@ -129,7 +129,7 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
-  describe(setup.plan, setup.frames);
+  describe(setup.plan, setup.frames.count);
   describe(stepper_choice(settings.solver));
   describe(setup.body.grouping.get());
   record_["steps"] = 0;
@@ -137,7 +137,7 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["arrays"] = arrays_with_units();
   write_record(folder_, record_);
   log(std::to_string(setup.body.rest.size()) + " particles of radius " +
-      number_text(setup.body.material.pair.r) + " m, " + std::to_string(setup.frames) +
+      number_text(setup.body.material.pair.r) + " m, " + std::to_string(setup.frames.count) +
       " frames of " + std::to_string(steps.per_frame) + " steps");
   log("stability limit " + number_text(steps.limit) + " s, step " + number_text(steps.step) +
       " s, factor " + number_text(steps.factor()));

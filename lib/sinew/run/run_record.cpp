@@ -79,6 +79,24 @@ std::string status_of(const RunFolder& folder) {
   return status != record.end() && status->is_string() ? status->get<std::string>() : "";
 }
 
+Error without_frames(const RunFolder& folder) {
+  const Place place{folder.path.string()};
+  const std::string status = status_of(folder);
+  if (status == "running" || status == "stopped")
+    return bad_input(place, "the run has no frames yet",
+                     "wait for the first, or go on with --resume where it has stopped");
+  return bad_input(
+      place, "the run has no frames",
+      "see why in " + folder.log().string() + ", and run the scene again with --force");
+}
+
+void refuse_without_frames(const RunFolder& folder) {
+  std::error_code unreachable;
+  for (const char* file : {"particles.pvd", "particles/particles_000000.vtu"})
+    if (std::filesystem::exists(folder.path / file, unreachable)) return;
+  throw without_frames(folder);
+}
+
 Json begin_record(const std::vector<std::string>& command) {
   Json record;
   record["program"] = "sinew";

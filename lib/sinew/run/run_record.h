@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sinew/core/error.h>
 #include <sinew/run/run_folder.h>
 
 namespace sinew {
@@ -23,6 +24,11 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
 
 /// "status" of the run: running, finished, stopped, unstable, failed; "" without a record.
 std::string status_of(const RunFolder& folder);
+
+/// For a run whose first frame is still to come, or never came: says so, and what to do.
+Error without_frames(const RunFolder& folder);
+/// Throws it where nothing of a first frame is there.
+void refuse_without_frames(const RunFolder& folder);
 
 /// A record with version, command line, host and start time filled in.
 nlohmann::ordered_json begin_record(const std::vector<std::string>& command);

@@ -44,23 +44,22 @@ bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
 
 /// How the run advances through time.
 struct Schedule {
-  int frames = 0;  ///< after the first
+  FrameTimes frames;
   StepPlan plan;
-  double interval = 0;   ///< s between frames
   bool relaxes = false;  ///< steps are iterations, as many as each frame takes
   int there = 0;         ///< frames that are written already
 
   std::vector<double> times_there() const {
     std::vector<double> times;
     times.reserve(static_cast<std::size_t>(there));
-    for (int frame = 0; frame < there; ++frame) times.push_back(frame * interval);
+    for (int frame = 0; frame < there; ++frame) times.push_back(frames.at(frame));
     return times;
   }
 
   /// Frames up to a state; one that lies after the end is not of this run.
   int frames_until(const SimulationState& state) const {
     if (relaxes) return static_cast<int>(state.relaxation.at_rest);
-    const std::int64_t last = plan.steps_until(frames);
+    const std::int64_t last = plan.steps_until(frames.count);
     if (state.steps > last)
       throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
                           ", and the run ends with step " + std::to_string(last),
@@ -120,8 +119,7 @@ class Run {
   }
 
   void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
-    schedule_ = {ready.setup.frames, ready.setup.plan, scene_.output.interval,
-                 ready.setup.load_steps.has_value()};
+    schedule_ = {ready.setup.frames, ready.setup.plan, ready.setup.load_steps.has_value()};
     const StepChoice steps = ready.setup.steps;
     const Motion motion = ready.setup.motion;
     std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
@@ -139,7 +137,7 @@ class Run {
     if (options_.engine)
       elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,
                          stepping_of(scene_.solver, steps.step), schedule_.plan, steps.per_frame,
-                         schedule_.frames, pieces());
+                         schedule_.frames.count, pieces());
     simulation_->forces();  // finds the first neighbors: no part of what writing costs
   }
 
@@ -195,7 +193,7 @@ class Run {
         log_.spend("writing", watch.lap());  // what the stepping waited for it
         report(frame++);
       }
-      if (frame > schedule_.frames) return Exit::done;
+      if (frame > schedule_.frames.count) return Exit::done;
       report_iterations(frame);
       const bool stop = asked_to_stop(simulation_->steps() > begun);
       if (!stop && !checkpoints_.due()) continue;
@@ -228,7 +226,7 @@ class Run {
   }
 
   void add_frame(int frame) {
-    const double time = frame * schedule_.interval;
+    const double time = schedule_.frames.at(frame);
     const bool moved = elsewhere_ && elsewhere_->moment().steps == simulation_->steps();
     writer_->add(*simulation_, time, moved && elsewhere_->moment().in_frame);
     log_.frame(frame, time);
@@ -238,8 +236,8 @@ class Run {
 
   void report(int frame) const {
     if (options_.progress)
-      options_.progress({frame, schedule_.frames, frame * schedule_.interval, simulation_->steps(),
-                         writer_->waited()});
+      options_.progress({frame, schedule_.frames.count, schedule_.frames.at(frame),
+                         simulation_->steps(), writer_->waited()});
   }
 
   void report_iterations(int frame) const {
@@ -247,8 +245,9 @@ class Run {
     if (relaxation == nullptr || !options_.progress) return;
     const std::int64_t iterations = relaxation->state().iterations;
     if (iterations == 0 || iterations % 1000 != 0) return;
-    options_.progress({frame, schedule_.frames, frame * schedule_.interval, simulation_->steps(),
-                       writer_->waited(), iterations, relaxation->residual()});
+    options_.progress({frame, schedule_.frames.count, schedule_.frames.at(frame),
+                       simulation_->steps(), writer_->waited(), iterations,
+                       relaxation->residual()});
   }
 
   void save() {
@@ -322,8 +321,7 @@ std::vector<std::string> fill_warnings(const BodyFile& body) {
   return meta["fill"].value("warnings", std::vector<std::string>());
 }
 
-void say_what_is_doubtful(const Settings& scene, const ReadyScene& ready,
-                          const SimulateOptions& options) {
+void say_what_is_doubtful(const ReadyScene& ready, const SimulateOptions& options) {
   const Setup& setup = ready.setup;
   if (const auto& relaxed = setup.load_steps)
     say(options, "equilibria at " + std::to_string(relaxed->count) +
@@ -333,7 +331,7 @@ void say_what_is_doubtful(const Settings& scene, const ReadyScene& ready,
     say(options, "step " + three_digits(setup.steps.step) + " s, " +
                      three_digits(setup.steps.factor()) + " of the stability limit " +
                      three_digits(setup.steps.limit) + " s");
-  const double speed = farthest_carried(setup, scene.output.interval);
+  const double speed = farthest_carried(setup);
   std::vector<std::string> warnings = fill_warnings(ready.body);
   for (std::string& warning : warnings_of(setup, ready.surface, speed))
     warnings.push_back(std::move(warning));
@@ -367,7 +365,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   log.spend("binding", ready.seconds_binding);
   log.describe(scene, ready.setup);
   if (options.engine) log.describe(*options.engine);
-  say_what_is_doubtful(scene, ready, options);
+  say_what_is_doubtful(ready, options);
   if (options.before_stepping) options.before_stepping();
   const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
   return {exit, false, log.record().dump()};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <sinew/core/dataset.h>
 #include <sinew/run/scene_picture.h>
 
 namespace sinew {
@@ -25,7 +26,26 @@ Triangles picked(const Triangles& obstacles, const ThinSurface& thin) {
   return some;
 }
 
+/// The materials of a playback's particles, where the scene has several and frames tell them.
+void name_materials(Playback& playback, const RunFiles& run) {
+  if (run.settings.materials.empty() || run.particle_rows.empty()) return;
+  const Dataset data = read_vtu(run.folder.path / run.particle_rows.front().file, {"material"});
+  const Column* column = find(data.point_columns, "material");
+  const auto* numbers = column ? std::get_if<std::vector<std::int32_t>>(&column->values) : nullptr;
+  if (numbers == nullptr) return;
+  const auto most = static_cast<std::int32_t>(run.settings.materials.size());
+  playback.material_names = names_of_materials(run);
+  for (const std::uint32_t i : playback.particles)
+    playback.material.push_back(std::clamp(numbers->at(i), 0, most));
+}
+
 }  // namespace
+
+std::vector<std::string> names_of_materials(const RunFiles& run) {
+  std::vector<std::string> names = {"the rest"};
+  for (const LocalMaterialSettings& one : run.settings.materials) names.push_back(one.name);
+  return names;
+}
 
 std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle) {
   if (run.ids.empty())
@@ -53,6 +73,7 @@ void show_world(Playback& playback, const RunFiles& run,
   for (std::uint32_t i = 0; i < playback.particles.size(); ++i)
     if (std::binary_search(held.begin(), held.end(), playback.particles[i]))
       playback.held.push_back(i);
+  name_materials(playback, run);
   if (run.obstacle_rows.empty() || playback.frames.empty()) return;
   const Box space = obstacle_space(box_of(playback));
   const ThinSurface thin = thinned(run, playback.frames.size());

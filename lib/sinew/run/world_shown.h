@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <sinew/metrics/report/playback.h>
@@ -13,14 +14,18 @@
 
 namespace sinew {
 
+/// By the numbers in array material of the particles: 0 is what no entry of the scene's list holds.
+std::vector<std::string> names_of_materials(const RunFiles& run);
+
 /// The index of a particle of the body in the frames; -1 where they do not contain it.
 std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle);
 
 /// Indices of the held particles in the frames, ascending.
 std::vector<std::size_t> held_in_frames(const RunFiles& run);
 
-/// Marks the held particles of a playback and adds the obstacles to its frames. `frame_of`: the
-/// run's frame of a playback's. Throws bad input, naming the file, for damaged frames.
+/// Marks the held particles of a playback, names its materials and adds the obstacles to its
+/// frames. `frame_of`: the run's frame of a playback's. Throws bad input, naming the file, for
+/// damaged frames.
 void show_world(Playback& playback, const RunFiles& run,
                 const std::function<std::size_t(std::size_t)>& frame_of);
 

@@ -93,7 +93,7 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
       particles * (checkpoints_per_particle + (bonds ? bonds_per_particle : 0));
   Needs needs;
   needs.disk = static_cast<std::uint64_t>(
-      (coded + exported + bytes_per_frame_beside) * (setup.frames + 1) + checkpoints);
+      (coded + exported + bytes_per_frame_beside) * (setup.frames.count + 1) + checkpoints);
   const StepperChoice choice = stepper_choice(settings.solver);
   double per_particle = memory_per_particle(choice, setup.body);
   if (output.bonds) per_particle += memory_of_bonds;

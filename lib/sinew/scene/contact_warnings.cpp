@@ -233,7 +233,7 @@ Touching meeting(const Body& body, const Pose& pose, const std::vector<Particle>
 void warn_of_meeting_limbs(const Setup& setup, const NeighborLists& lists, Warnings& warnings) {
   constexpr int moments = 16;
   const std::vector<Particle> outer = outer_particles(setup.body, lists);
-  const double end = setup.plan.time(setup.plan.steps_until(setup.frames));
+  const double end = setup.plan.time(setup.plan.steps_until(setup.frames.count));
   PoseCursor poses(setup.body.skeleton, setup.motion);
   for (int k = 0; k <= moments; ++k) {
     const double time = end * k / moments;

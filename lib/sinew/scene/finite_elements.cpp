@@ -13,6 +13,7 @@
 #include <sinew/physics/world/region.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/element_parts.h>
+#include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
 
 namespace sinew {
@@ -354,13 +355,11 @@ double turn_of(const std::vector<NodeSupport>& supports, double from, double to)
 
 /// Of each frame, as the static method has them; and of moments between, where supports turn: what
 /// goes straight from one place to another does not turn.
-std::vector<double> step_times(const SolverSettings& solver, double interval,
-                               const std::vector<NodeSupport>& supports) {
+std::vector<double> step_times(const FrameTimes& frames, const std::vector<NodeSupport>& supports) {
   const double most_turn = radians(15);
-  const int frames = static_cast<int>(std::ceil(solver.duration / interval - 1e-6));
   std::vector<double> times = {0};
-  for (int frame = 1; frame <= frames; ++frame) {
-    const double from = (frame - 1) * interval, to = frame * interval;
+  for (int frame = 1; frame <= frames.count; ++frame) {
+    const double from = frames.at(frame - 1), to = frames.at(frame);
     const int parts =
         std::max(1, static_cast<int>(std::ceil(turn_of(supports, from, to) / most_turn - 1e-6)));
     for (int part = 1; part < parts; ++part) times.push_back(from + (to - from) * part / parts);
@@ -387,7 +386,7 @@ Deck deck_of(const Settings& settings, const Surface& surface, const ElementOpti
   for (const NodeSupport& support : supports) deck.sets.push_back({support.name, support.nodes});
   const Holders holders = holders_of(settings, supports);
   const std::vector<NodeLoad> loads = loads_of(settings, deck.mesh, parts);
-  for (const double time : step_times(settings.solver, settings.output.interval, supports)) {
+  for (const double time : step_times(frame_times(settings), supports)) {
     DeckStep step = step_at(time, deck.mesh.nodes, holders, loads);
     if (time == 0 && settings.solver.duration > 0 && is_at_rest(step)) continue;
     deck.steps.push_back(std::move(step));

@@ -101,14 +101,6 @@ bool is_static(const Settings& settings) {
 
 constexpr double most_steps = 2e9;  // files count them in 32 bits
 
-int frames_of(const Settings& settings) {
-  const double frames = std::ceil(settings.solver.duration / settings.output.interval - 1e-6);
-  if (!(frames <= 1e6))
-    throw bad_input(settings.place("solver.duration"), "the run would have over a million frames",
-                    "make output.interval longer");
-  return static_cast<int>(frames);
-}
-
 /// Of a scene that asks for a damping ratio: what gives it to the body.
 void set_damping_ratio(const Settings& settings, Body& body) {
   if (!settings.material.damping_ratio || is_static(settings)) return;
@@ -222,7 +214,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
              LocalMaterial local) {
   check_packing(settings);
   Setup setup;
-  setup.frames = frames_of(settings);
+  setup.frames = frame_times(settings);
   SceneRig rig = rig_of(settings, files);
   const std::vector<std::int32_t> component = local.component;
   setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(local));
@@ -246,7 +238,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   if (is_static(settings)) setup.load_steps = load_steps_of(settings, setup);
   with_context(settings, "output.region",
                [&] { written_particles(settings.output, setup.body.rest); });
-  if (static_cast<double>(setup.plan.steps_until(setup.frames)) > most_steps)
+  if (static_cast<double>(setup.plan.steps_until(setup.frames.count)) > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");
   return setup;

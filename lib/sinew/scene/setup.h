@@ -55,7 +55,7 @@ struct Setup {
   double joint_zone = 0;       ///< in square roots of the bones' cross-section
   bool weights_given = false;  ///< by a file: they distribute rotations in their own manner
   std::vector<std::string> file_warnings = {};  ///< what its rigs get wrong, with their places
-  int frames = 0;  ///< after the first; the last is at solver.duration or just beyond
+  FrameTimes frames;
 };
 
 /// Binds the particles to the bones and chooses the step. Errors name the scene's line.

@@ -130,15 +130,27 @@ class Speedometer {
 
 }  // namespace
 
-std::vector<double> bone_speeds(const Setup& setup, double interval) {
+FrameTimes frame_times(const Settings& settings) {
+  FrameTimes times{settings.output.interval, settings.solver.duration};
+  const double frames = std::ceil(times.end / times.interval - FrameTimes::negligible);
+  if (!(frames <= 1e6))
+    throw bad_input(settings.place("solver.duration"), "the run would have over a million frames",
+                    "make output.interval longer");
+  times.count = static_cast<int>(frames);
+  return times;
+}
+
+std::vector<double> bone_speeds(const Setup& setup) {
   constexpr int samples = 8;  // per interval: clips have up to 120 frames per second
   std::vector<double> speeds;
-  Speedometer bones(setup, interval / samples);
+  const FrameTimes& frames = setup.frames;
+  Speedometer bones(setup, frames.interval / samples);
   double last = bones.at(0);
-  for (int frame = 0; frame < setup.frames; ++frame) {
+  for (int frame = 0; frame < frames.count; ++frame) {
     double fastest = last;
+    const double share = frames.before(frame + 1) / frames.interval;
     for (int sample = 1; sample <= samples; ++sample) {
-      last = bones.at((frame + static_cast<double>(sample) / samples) * interval);
+      last = bones.at((frame + share * sample / samples) * frames.interval);
       fastest = std::max(fastest, last);
     }
     speeds.push_back(fastest);
@@ -158,21 +170,38 @@ double crossing_time(const Body& body) {
 
 }  // namespace
 
-StepPlan plan_of(const Settings& settings, const Setup& setup) {
-  const StepChoice& steps = setup.steps;
-  const double interval = settings.output.interval;
-  if (settings.solver.method == Method::static_equilibrium)
-    return StepPlan(interval, 1, std::vector<int>(static_cast<std::size_t>(setup.frames), 1));
-  const double kept = std::exp(-interval / crossing_time(setup.body));  // of a speed
+namespace {
+
+/// Into how many parts the steps before each frame are divided.
+std::vector<int> parts_of_steps(const Setup& setup) {
+  const double kept = std::exp(-setup.frames.interval / crossing_time(setup.body));  // of a speed
   std::vector<int> parts;
   double speed = 0;
-  if (!settings.solver.time_step)
-    for (const double of_bones : bone_speeds(setup, interval)) {
-      speed = std::max(of_bones, kept * speed);
-      const double carried = speed * steps.step / setup.body.material.pair.r;
-      parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / most_carried), 1.0, 1e6)));
-    }
-  return StepPlan(steps.step, steps.per_frame, std::move(parts));
+  for (const double of_bones : bone_speeds(setup)) {
+    speed = std::max(of_bones, kept * speed);
+    const double carried = speed * setup.steps.step / setup.body.material.pair.r;
+    parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / most_carried), 1.0, 1e6)));
+  }
+  return parts;
+}
+
+}  // namespace
+
+StepPlan plan_of(const Settings& settings, const Setup& setup) {
+  const StepChoice& steps = setup.steps;
+  const FrameTimes& frames = setup.frames;
+  std::vector<int> parts(static_cast<std::size_t>(frames.count), 1);
+  std::optional<WholeSteps> last;
+  if (settings.solver.method == Method::static_equilibrium) {
+    if (frames.is_cut(frames.count)) last = WholeSteps{1, frames.before(frames.count)};
+    return StepPlan(frames.interval, 1, std::move(parts), last);
+  }
+  if (!settings.solver.time_step) parts = parts_of_steps(setup);
+  if (frames.is_cut(frames.count)) {
+    const auto choice = choose_step(steps.step, 1, steps.limit, frames.before(frames.count));
+    last = WholeSteps{choice.per_frame, choice.step};
+  }
+  return StepPlan(steps.step, steps.per_frame, std::move(parts), last);
 }
 
 namespace {
@@ -194,28 +223,30 @@ bool changes(const Body& body, double from, double to) {
 LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
   // Slow beside waves, which would strain the body more than its load does.
   constexpr double carried_in_radii = 0.02, crossings = 4;
-  const double interval = settings.output.interval, r = setup.body.material.pair.r;
+  const double r = setup.body.material.pair.r;
+  const FrameTimes& frames = setup.frames;
   LoadSteps steps;
-  steps.interval = interval;
-  steps.count = setup.frames + 1;
+  steps.interval = frames.interval;
+  steps.last = frames.before(frames.count) / frames.interval;
+  steps.count = frames.count + 1;
   steps.most_iterations = settings.solver.iterations;
   const bool single = settings.solver.precision == Precision::binary32;
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
   steps.acceptable = settings.solver.residual ? 0 : 1e-4;
   const double crossing = crossings * crossing_time(setup.body) / setup.steps.step;
-  for (const double speed : bone_speeds(setup, interval)) {
-    const auto frame = static_cast<double>(steps.ramp.size());
-    const bool loads = changes(setup.body, frame * interval, (frame + 1) * interval);
-    const double carried = speed * interval / (carried_in_radii * r);
+  for (const double speed : bone_speeds(setup)) {
+    const int frame = static_cast<int>(steps.ramp.size());
+    const bool loads = changes(setup.body, frames.at(frame), frames.at(frame + 1));
+    const double carried = speed * frames.before(frame + 1) / (carried_in_radii * r);
     const double ramp = carried > 0 || loads ? std::max(carried, crossing) : 1;
     steps.ramp.push_back(static_cast<int>(std::clamp(std::ceil(ramp), 1.0, 1e8)));
   }
   return steps;
 }
 
-double farthest_carried(const Setup& setup, double interval) {
+double farthest_carried(const Setup& setup) {
   double farthest = 0;
-  const std::vector<double> speeds = bone_speeds(setup, interval);
+  const std::vector<double> speeds = bone_speeds(setup);
   for (std::size_t i = 0; i < speeds.size(); ++i)
     farthest = std::max(farthest, speeds[i] / setup.plan.parts(static_cast<int>(i)));
   return farthest * setup.steps.step / setup.body.material.pair.r;

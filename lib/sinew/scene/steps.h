@@ -6,6 +6,7 @@
 //     setup.plan = plan_of(settings, setup);
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,24 @@ namespace sinew {
 
 struct Setup;
 
+/// The moments of frames: one every `interval` from 0 on, and the last at `end`.
+struct FrameTimes {
+  double interval = 0, end = 0;  ///< s
+  int count = 0;                 ///< after that at 0
+
+  double at(int frame) const { return std::min(frame * interval, end); }
+  /// Of what comes before a frame, s.
+  double before(int frame) const { return is_cut(frame) ? end - at(frame - 1) : interval; }
+  /// Whether it comes sooner than a whole interval after the one before.
+  bool is_cut(int frame) const {
+    return frame == count && frame * interval - end > negligible * interval;
+  }
+
+  static constexpr double negligible = 1e-6;  ///< of an interval
+};
+/// Throws bad input, with the scene's line, for over a million.
+FrameTimes frame_times(const Settings& settings);
+
 /// The settings of section solver for stepping, with the chosen step, s.
 Stepping stepping_of(const SolverSettings& solver, double step);
 StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
@@ -27,9 +46,9 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
 /// For a body. Throws bad input, with the scene's line, where no step is stable.
 StepChoice steps_of(const Settings& settings, const Body& body);
 
-/// An upper bound of the speed at which bones and supports carry any particle, m/s: by interval of
-/// that length (s), from frame to frame.
-std::vector<double> bone_speeds(const Setup& setup, double interval);
+/// An upper bound of the speed at which bones and supports carry any particle, m/s: from each frame
+/// to the next.
+std::vector<double> bone_speeds(const Setup& setup);
 
 /// With time_step: auto, the steps of each interval are divided until bones carry no particle
 /// farther in one than most_carried radii; otherwise all are even.
@@ -37,7 +56,7 @@ StepPlan plan_of(const Settings& settings, const Setup& setup);
 inline constexpr double most_carried = 0.2;
 
 /// An upper bound of how far bones carry any particle in one step, in radii.
-double farthest_carried(const Setup& setup, double interval);
+double farthest_carried(const Setup& setup);
 
 /// Of a scene of the static method: its frames are moments at which the body is at rest.
 LoadSteps load_steps_of(const Settings& settings, const Setup& setup);

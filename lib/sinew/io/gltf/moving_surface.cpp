@@ -87,10 +87,9 @@ class Moments {
     return change;
   }
 
-  Floats times(double interval) const {
+  Floats times(std::span<const double> of_samples) const {
     Floats times;
-    for (const std::size_t sample : taken_)
-      times.push_back(static_cast<float>(static_cast<double>(sample) * interval));
+    for (const std::size_t sample : taken_) times.push_back(static_cast<float>(of_samples[sample]));
     return times;
   }
 
@@ -253,7 +252,7 @@ OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Content
 
 /// The file's JSON; declares the data in the order in which write_data() writes it.
 OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMaterials& materials,
-                     double interval, Contents& contents) {
+                     std::span<const double> times, Contents& contents) {
   OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = list_of({{"nodes", list_of(0)}});
   json["nodes"] = list_of({{"name", "surface"}, {"mesh", 0}});
@@ -262,8 +261,7 @@ OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMa
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
   json["meshes"] = list_of(mesh);
   if (moments.targets() > 0)
-    json["animations"] =
-        list_of(animation_of(moments.times(interval), moments.targets(), contents));
+    json["animations"] = list_of(animation_of(moments.times(times), moments.targets(), contents));
   put_into(json, materials, contents);
   contents.put_into(json);
   return json;
@@ -291,7 +289,7 @@ void write_image(NewFile& file, const std::string& image) {
 }
 
 void write_data(NewFile& file, Moments& moments, const SplitSurface& surface,
-                const GltfMaterials& materials, double interval) {
+                const GltfMaterials& materials, std::span<const double> times) {
   for (const SplitSurface::Patch& patch : surface.patches) write(file, patch.corners);
   write(file, moments.first());
   write(file, moments.first_normals());
@@ -303,7 +301,7 @@ void write_data(NewFile& file, Moments& moments, const SplitSurface& surface,
     write(file, change.normals);
   }
   if (moments.targets() > 0) {
-    write(file, moments.times(interval));
+    write(file, moments.times(times));
     write(file, moments.weights());
   }
   for (const std::string& image : materials.images) write_image(file, image);
@@ -317,13 +315,13 @@ std::string chunk(std::size_t size, const char* kind) {
 
 void write_moving_surface(const std::filesystem::path& path,
                           const std::vector<std::array<int, 3>>& faces,
-                          const std::filesystem::path& cache, double interval,
+                          const std::filesystem::path& cache, std::span<const double> times,
                           const SurfaceLook& look) {
   SplitSurface surface = split_surface(faces, CachedPoints(cache).points(), look);
   const GltfMaterials materials = materials_of(surface, look);
   Moments moments(cache, surface);
   Contents contents;
-  std::string json = describe(moments, surface, materials, interval, contents).dump();
+  std::string json = describe(moments, surface, materials, times, contents).dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + contents.bytes();
   const std::string head = "glTF" + little_endian(2) +
@@ -331,7 +329,7 @@ void write_moving_surface(const std::filesystem::path& path,
                            chunk(json.size(), "JSON") + json + chunk(contents.bytes(), "BIN\0");
   NewFile file(path);
   file.write(head.data(), head.size());
-  write_data(file, moments, surface, materials, interval);
+  write_data(file, moments, surface, materials, times);
   file.finish();
 }
 

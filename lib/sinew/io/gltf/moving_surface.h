@@ -4,10 +4,11 @@
 // (glTF 2.0, section 3.7.2.2), with the look of the mesh's file. Converted from the scene's axes, x
 // forward and z up, to glTF's, z forward and y up; meters.
 //
-//     write_moving_surface("surface.glb", surface.faces, "surface.pc2", 1.0 / 30, look);
+//     write_moving_surface("surface.glb", surface.faces, "surface.pc2", times, look);
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
@@ -15,13 +16,13 @@
 namespace sinew {
 
 /// `faces` of the points in `cache` (a PC2 of <sinew/io/point_cache.h>), whose samples are
-/// `interval` s apart. Of more than 500 samples, or 1 GiB of them, every second, third, ... is
+/// of these `times` (s). Of more than 500 samples, or 1 GiB of them, every second, third, ... is
 /// taken, and the last. Of the `look` of the faces, coordinates, normals, layers and materials are
 /// written: vertices are split where these differ, and normals move with the faces around them.
 /// Throws bad input where `cache` is not a PC2, and not written.
 void write_moving_surface(const std::filesystem::path& path,
                           const std::vector<std::array<int, 3>>& faces,
-                          const std::filesystem::path& cache, double interval,
+                          const std::filesystem::path& cache, std::span<const double> times,
                           const SurfaceLook& look = {});
 
 }  // namespace sinew

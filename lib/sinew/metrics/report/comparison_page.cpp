@@ -197,6 +197,23 @@ void join_bones(Playback& playback, const Playback& second,
   }
 }
 
+/// Those of the second appended; the same name is the same material.
+void join_materials(Playback& playback, const Playback& second) {
+  if (playback.material.empty() && second.material.empty()) return;
+  std::vector<std::string>& names = playback.material_names;
+  if (names.empty()) names = {second.material_names.front()};
+  playback.material.resize(playback.particles.size(), 0);
+  std::vector<int> number;
+  for (const std::string& name : second.material_names) {
+    const auto same = std::find(names.begin(), names.end(), name);
+    number.push_back(static_cast<int>(same - names.begin()));
+    if (same == names.end()) names.push_back(name);
+  }
+  for (std::size_t i = 0; i < second.particles.size(); ++i)
+    playback.material.push_back(
+        second.material.empty() ? 0 : number[static_cast<std::size_t>(second.material[i])]);
+}
+
 void join_shape(Playback& playback, const Playback& second,
                 const std::array<std::string, 2>& prefixes) {
   const auto bones = static_cast<int>(playback.bone_names.size());
@@ -207,6 +224,7 @@ void join_shape(Playback& playback, const Playback& second,
     playback.faces.push_back({a + points, b + points, c + points});
   for (const std::uint32_t held : second.held)
     playback.held.push_back(held + static_cast<std::uint32_t>(playback.particles.size()));
+  join_materials(playback, second);
   playback.particles.insert(playback.particles.end(), second.particles.begin(),
                             second.particles.end());
   playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());

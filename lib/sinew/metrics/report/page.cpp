@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/summary.h>
@@ -65,7 +66,7 @@ double range_of(const MachineColumn& column) {
 }
 
 std::string owner_of(const MachineColumn& column) {
-  return column.name.substr(0, column.name.find(':') + 1);
+  return column.name.substr(0, column.name.rfind(':') + 1);
 }
 
 /// The column with the largest range of those that are wanted; `otherwise` where none changes.
@@ -81,7 +82,46 @@ std::size_t widest(const std::vector<MachineColumn>& columns, std::size_t otherw
   return otherwise;
 }
 
-/// At first a force is over the displacement that changes most.
+/// Two columns of a chart.
+struct Pair {
+  std::size_t across = 0, up = 0;
+};
+
+/// A force over the displacement along it, of what does most work: that of a load or a support that
+/// moves something. None where no force changes.
+std::optional<Pair> along_a_force(const std::vector<MachineColumn>& columns) {
+  std::optional<Pair> best;
+  double most = 0;
+  for (std::size_t up = 0; up < columns.size(); ++up) {
+    const std::string owner = owner_of(columns[up]), &name = columns[up].name;
+    if (!name.substr(owner.size()).starts_with(" force_")) continue;
+    for (std::size_t across = 0; across < columns.size(); ++across) {
+      if (columns[across].name != owner + " displacement_" + name.back()) continue;
+      const double work = range_of(columns[up]) * range_of(columns[across]);
+      if (work > most) best = Pair{across, up};
+      most = std::max(most, work);
+    }
+  }
+  return best;
+}
+
+/// Of the same owner, where one has both: the displacement and the force that change most.
+Pair widest_pair(const std::vector<MachineColumn>& columns) {
+  const auto has_force = [&](const std::string& owner) {
+    return std::any_of(columns.begin(), columns.end(), [&](const MachineColumn& one) {
+      return one.unit == "N" && owner_of(one) == owner;
+    });
+  };
+  Pair pair;
+  pair.across = widest(columns, 0, [&](const MachineColumn& one) {
+    return one.name.find(": displacement_") != std::string::npos && has_force(owner_of(one));
+  });
+  pair.up = widest(columns, columns.size() - 1, [&](const MachineColumn& one) {
+    return one.unit == "N" && (pair.across == 0 || owner_of(one) == owner_of(columns[pair.across]));
+  });
+  return pair;
+}
+
 Json machine_json(const std::vector<MachineColumn>& columns) {
   Json all = Json::array();
   for (const MachineColumn& column : columns) {
@@ -89,18 +129,9 @@ Json machine_json(const std::vector<MachineColumn>& columns) {
     for (const double value : column.values) values.push_back(shown(value));
     all.push_back({{"name", column.name}, {"unit", column.unit}, {"values", std::move(values)}});
   }
-  const auto has_force = [&](const std::string& owner) {
-    return std::any_of(columns.begin(), columns.end(), [&](const MachineColumn& one) {
-      return one.unit == "N" && owner_of(one) == owner;
-    });
-  };
-  const std::size_t across = widest(columns, 0, [&](const MachineColumn& one) {
-    return one.name.find(": displacement_") != std::string::npos && has_force(owner_of(one));
-  });
-  const std::size_t up = widest(columns, columns.size() - 1, [&](const MachineColumn& one) {
-    return one.unit == "N" && (across == 0 || owner_of(one) == owner_of(columns[across]));
-  });
-  return {{"columns", std::move(all)}, {"across", across}, {"up", up}};
+  const std::optional<Pair> along = along_a_force(columns);
+  const Pair first = along ? *along : widest_pair(columns);
+  return {{"columns", std::move(all)}, {"across", first.across}, {"up", first.up}};
 }
 
 bool has_bones(const std::vector<double>& angles) {

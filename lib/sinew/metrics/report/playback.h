@@ -50,7 +50,9 @@ struct Playback {
   std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
   std::vector<std::uint32_t> particles;                           ///< of the run, ascending
   std::vector<Balls> balls;                                       ///< the particles, in their order
-  std::vector<int> bone;                  ///< that each of them follows, -1 for none
+  std::vector<int> bone;           ///< that each of them follows, -1 for none
+  std::vector<int> material = {};  ///< of each of them, a number of a name; empty: unknown
+  std::vector<std::string> material_names = {};
   std::vector<std::uint32_t> held = {};   ///< indices of those that are held, into `particles`
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points

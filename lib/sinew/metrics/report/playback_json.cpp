@@ -111,6 +111,7 @@ Json fields_of(const Playback& playback) {
   Json fields = Json::array();
   for (std::size_t f = 0; f < playback_fields().size(); ++f) {
     const PlaybackField& field = playback_fields()[f];
+    if (field.values == &ParticleValues::weight && playback.bone_names.empty()) continue;
     for (const Range range : range_of(playback, f))
       fields.push_back({{"name", field.name},
                         {"unit", field.unit},
@@ -146,7 +147,9 @@ std::string corners_of(const Playback& playback) {
 
 std::string playback_json(const Playback& playback) {
   const Cube cube = cube_of(playback);
-  const std::vector<std::int16_t> bone(playback.bone.begin(), playback.bone.end());
+  const auto numbers = [](const std::vector<int>& all) {
+    return base64_of(std::vector<std::int16_t>(all.begin(), all.end()));
+  };
   const Json json = {{"run",
                       {{"frames", playback.run_frames},
                        {"particles", playback.run_particles},
@@ -157,9 +160,11 @@ std::string playback_json(const Playback& playback) {
                      {"snapshots", snapshots_of(playback)},
                      {"particles", places_of(playback, cube, &PlaybackFrame::particles)},
                      {"ids", base64_of(playback.particles)},
-                     {"bone", base64_of(bone)},
+                     {"bone", numbers(playback.bone)},
                      {"boneNames", playback.bone_names},
                      {"boneColor", playback.bone_color},
+                     {"material", numbers(playback.material)},
+                     {"materialNames", playback.material_names},
                      {"surface", places_of(playback, cube, &PlaybackFrame::surface)},
                      {"corners", corners_of(playback)},
                      {"bones", places_of(playback, cube, &PlaybackFrame::bones)},

@@ -26,6 +26,7 @@ function unpackedPlayback(playback) {
     surface: places(playback.surface),
     bones: places(playback.bones),
     bone: new Int16Array(bytesOf(playback.bone).buffer),
+    material: new Int16Array(bytesOf(playback.material).buffer),
     ids: new Uint32Array(bytesOf(playback.ids).buffer),
     corners: new Uint32Array(bytesOf(playback.corners).buffer),
     held: new Uint32Array(bytesOf(playback.held).buffer),

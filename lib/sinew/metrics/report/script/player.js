@@ -2,17 +2,25 @@
 // The controls beneath the 3D view: time, color, parts, and the worst frames.
 "use strict";
 
-function fillFields(playback) {
-  const options = playback.fields.map((field, i) =>
-    element("option", { value: i, textContent: field.name }));
-  byId("field").append(element("option", { value: -1, textContent: "bone it follows" }), ...options);
+/** What particles are colored by that has names instead of a scale. */
+function categoriesOf({ bone, boneNames, boneColor, material, materialNames }) {
+  return [
+    { name: "bone it follows", of: bone, names: boneNames, color: boneColor },
+    { name: "material", of: material, names: materialNames, color: materialNames.map((_, i) => i) },
+  ].filter(({ names }) => names.length > 0);
 }
 
-const mostNames = 12; // bones named beside the view; more would take too much space
+function fillFields(playback, categories) {
+  const option = (value, { name }) => element("option", { value, textContent: name });
+  byId("field").append(...categories.map((one, i) => option(`-${i + 1}`, one)),
+    ...playback.fields.map((one, i) => option(String(i), one)));
+}
 
-/** The legend of bone colors. Two runs have one entry for bones of the same name. */
-function fillBoneNames(playback) {
-  const all = new Map(playback.boneNames.map((name, b) => [name, playback.boneColor[b]]));
+const mostNames = 12; // bones or materials named beside the view; more would take too much space
+
+/** The legend of colors. Two runs have one entry for bones of the same name. */
+function showNames(category) {
+  const all = new Map(category.names.map((name, i) => [name, category.color[i]]));
   const names = [...all].slice(0, mostNames).map(([name, color]) => {
     const dot = element("i");
     dot.style.background = palette[color % palette.length];
@@ -20,11 +28,12 @@ function fillBoneNames(playback) {
   });
   const more = all.size - names.length;
   if (more > 0) names.push(element("span", { textContent: `and ${more} more` }));
-  byId("bone-names").append(...names);
+  byId("bone-names").replaceChildren(...names);
 }
 
-function showScale(playback, field) {
-  byId("bone-names").hidden = Boolean(field);
+function showScale({ field, category }) {
+  byId("bone-names").hidden = !category;
+  if (category) showNames(category);
   const [low, bar, high] = byId("scale").children;
   byId("scale").hidden = !field;
   if (!field) return;
@@ -53,7 +62,12 @@ function showWorst(playback, go) {
 function makePlayer(view) {
   const { playback } = view;
   const player = { snapshot: 0, timer: null };
-  const field = () => playback.fields[Number(byId("field").value)] ?? null;
+  const categories = categoriesOf(playback);
+  fillFields(playback, categories);
+  const colored = () => {
+    const number = Number(byId("field").value);
+    return { field: playback.fields[number] ?? null, category: categories[-1 - number] ?? null };
+  };
   player.show = () => {
     const { frame, time } = playback.snapshots[player.snapshot];
     byId("time").value = player.snapshot;
@@ -62,8 +76,8 @@ function makePlayer(view) {
     view.skin.visible = byId("show-surface").checked;
     view.obstacles.visible = byId("show-obstacles").checked;
     for (const bone of view.bones) bone.visible = byId("show-bones").checked;
-    showScale(playback, field());
-    showSnapshot(view, { snapshot: player.snapshot, field: field(), cut: byId("cut").checked });
+    showScale(colored());
+    showSnapshot(view, { snapshot: player.snapshot, cut: byId("cut").checked, ...colored() });
     markTime(time);
   };
   player.go = (snapshot) => {
@@ -90,6 +104,7 @@ function play(player, playback) {
 
 function connect(player, view) {
   const { playback } = view;
+  byId("has-bones").hidden = playback.boneNames.length === 0;
   byId("has-held").hidden = playback.held.length === 0;
   byId("has-obstacles").hidden = playback.obstacles.every((corners) => corners.length === 0);
   byId("time").max = playback.snapshots.length - 1;
@@ -106,8 +121,6 @@ function startPlayback(packed) {
   const playback = unpackedPlayback(packed);
   const view = makeView(playback, byId("stage"));
   const player = makePlayer(view);
-  fillFields(playback);
-  fillBoneNames(playback);
   connect(player, view);
   player.show();
   return { view, player };

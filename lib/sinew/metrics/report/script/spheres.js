@@ -54,7 +54,7 @@ function makeSpheres(balls) {
 // Viridis (van der Walt and Smith), perceptually uniform, at nine places.
 const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
   [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
-const boneColors = palette.map((color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16)));
+const nameColors = palette.map((color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16)));
 const noColor = [150, 150, 150];
 const heldColor = [30, 34, 40]; // as in the pictures
 

@@ -156,13 +156,13 @@ function placeBones(view, snapshot) {
   });
 }
 
-/** field: an item of playback.fields, or null for the bone each particle follows. */
-function tint(view, snapshot, field) {
+/** field: an item of playback.fields; where it is null, particles have the color of their category. */
+function tint(view, snapshot, { field, category }) {
   const tints = view.spheres.geometry.attributes.tint;
   const count = view.counts.particles;
   for (let i = 0; i < count; ++i) {
     const color = field ? levelColors[field.levels[snapshot * count + i]]
-      : boneColors[view.playback.boneColor[view.playback.bone[i]] % boneColors.length] ?? noColor;
+      : nameColors[category?.color[category.of[i]] % nameColors.length] ?? noColor;
     for (let k = 0; k < 3; ++k) tints.array[3 * i + k] = color[k] / 255;
   }
   for (const i of view.playback.held)
@@ -170,11 +170,11 @@ function tint(view, snapshot, field) {
   tints.needsUpdate = true;
 }
 
-function showSnapshot(view, { snapshot, field, cut }) {
+function showSnapshot(view, { snapshot, cut, ...shown }) {
   placeParticles(view, snapshot, cut);
   placeSkin(view, snapshot);
   placeObstacles(view, snapshot);
   placeBones(view, snapshot);
-  tint(view, snapshot, field);
+  tint(view, snapshot, shown);
   view.draw();
 }
