@@ -4,6 +4,7 @@
 #include <string>
 
 #include <sinew/mesh/refine.h>
+#include <sinew/physics/hierarchy/static_groups.h>
 #include <sinew/physics/world/world.h>
 
 #include "bench/states.h"
@@ -23,7 +24,7 @@ constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed", "bend
 constexpr std::array variant_names{
     "paper",    "initial_neighbors", "bonded",  "twelve_bonds", "bonded_volume", "breaking",
     "yielding", "symmetric",         "central", "plane",        "sphere",        "pinned",
-    "muscle",   "relaxing",          "pressed"};
+    "muscle",   "relaxing",          "pressed", "grouped"};
 
 struct Bar {
   int across = 0, along = 0;  // half-planes, odd: a site is in the middle
@@ -231,6 +232,9 @@ Scene scene_of(Condition condition, std::size_t count, Variant variant) {
   scene.body = test::make_body(settings, rest_of(condition, bar));
   scene.body.world = world_of(variant, bar, scene.body.rest, scene.body.material);
   scene.motion = motion_of(settings, scene.body.skeleton);
+  if (variant == Variant::grouped)
+    scene.body.grouping = std::make_shared<const Grouping>(
+        static_groups(scene.body, moving_joints(scene.body.skeleton, scene.motion, 1), {}));
   scene.start = start_of(condition, bar, scene.body);
   if (condition == Condition::bending) {
     settings.tracks = {bending(0, bar)};

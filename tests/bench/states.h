@@ -40,6 +40,7 @@ enum class Variant {
   muscle,    ///< in all of it
   relaxing,  ///< bonded, with two branches
   pressed,   ///< bonded, on its whole surface
+  grouped,   ///< far from joints that move
 };
 
 inline constexpr std::array variants{Variant::paper,         Variant::initial_neighbors,
@@ -49,7 +50,7 @@ inline constexpr std::array variants{Variant::paper,         Variant::initial_ne
                                      Variant::central,       Variant::plane,
                                      Variant::sphere,        Variant::pinned,
                                      Variant::muscle,        Variant::relaxing,
-                                     Variant::pressed};
+                                     Variant::pressed,       Variant::grouped};
 
 std::string_view name_of(Condition condition);
 std::string_view name_of(Variant variant);

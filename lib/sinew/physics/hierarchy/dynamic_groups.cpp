@@ -20,6 +20,7 @@ constexpr int moments_ahead = 16;
 constexpr double checks_ahead = 16;
 constexpr int most_rounds = 4;      // of what is grown and found not to fit
 constexpr double free_share = 0.5;  // of the tolerance, for what was free
+constexpr double torn_share = 0.5;  // of the tolerance: what leaves where something must
 // Of a particle that is moved while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 
@@ -131,12 +132,14 @@ std::vector<bool> DynamicGroups::moving(const GroupingMoment& now, double ahead)
   return moves;
 }
 
-bool DynamicGroups::is_torn(const HeldCell& cell) const {
-  return cell.squares > most_held_ * most_held_ * cell.count;
+bool DynamicGroups::is_held_above(double share, const HeldCell& cell) const {
+  const double most = share * most_held_;
+  return cell.squares > most * most * cell.count;
 }
 
 bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCell> held) const {
-  if (std::any_of(held.begin(), held.end(), [&](const HeldCell& cell) { return is_torn(cell); }))
+  if (std::any_of(held.begin(), held.end(),
+                  [&](const HeldCell& cell) { return is_held_above(1, cell); }))
     return true;
   const std::vector<bool> moves = moving(now, now.interval);
   for (std::size_t b = 0; b < moves.size(); ++b)
@@ -144,12 +147,12 @@ bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCe
   return false;
 }
 
-/// 1 for cells that are held too strongly, and those around them.
+/// 1 for cells that are held too strongly, or soon will be, and those around them.
 std::vector<std::uint8_t> DynamicGroups::torn_around(std::span<const HeldCell> held) const {
   std::vector<std::uint8_t> torn(count_, 0);
   const auto& [nx, ny, nz] = cells_along_;
   for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(held.size()); ++cell) {
-    if (!is_torn(held[static_cast<std::size_t>(cell)])) continue;
+    if (!is_held_above(torn_share, held[static_cast<std::size_t>(cell)])) continue;
     const std::int32_t x = cell % nx, y = cell / nx % ny, z = cell / (nx * ny);
     for (std::int32_t k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k)
       for (std::int32_t j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)

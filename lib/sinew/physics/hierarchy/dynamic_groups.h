@@ -61,7 +61,7 @@ class DynamicGroups {
   struct Unit;
   using Units = std::vector<Unit>;
 
-  bool is_torn(const HeldCell& cell) const;
+  bool is_held_above(double share, const HeldCell& cell) const;
   std::vector<bool> moving(const GroupingMoment& now, double ahead) const;
   std::vector<std::uint8_t> torn_around(std::span<const HeldCell> held) const;
   std::vector<std::int32_t> find_units(const BoneParts& parts, Units& units) const;

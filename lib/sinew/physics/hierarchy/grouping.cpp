@@ -250,7 +250,8 @@ StretchRange stretch_range(const Body& body) {
 void check_groupable(const Body& body) {
   if (bonds_change(body.material))
     throw bad_input("bonds that break, flow or relax remember more than groups do",
-                    "remove breaking_strain, fracture_energy, yield_strain and relaxation_shares");
+                    "remove breaking_strain, fracture_energy, yield_strain, relaxation_shares and "
+                    "relaxation_times");
   if (!body.density.empty())
     throw bad_input("groups are of particles of one mass", "remove density from materials");
   if (body.material.friction > 0)

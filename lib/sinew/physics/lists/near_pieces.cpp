@@ -12,9 +12,13 @@ namespace {
 
 constexpr std::size_t pieces_per_task = 16;
 constexpr std::size_t branches = 4;  // of the tree of boxes
-// Pieces this much farther apart than lists reach count as near: they are found again when
+// Pieces this much farther apart than lists reach are candidates: they are found again when
 // particles may have come that much nearer. In outer ranges, and in steps of the fastest one.
-constexpr double least_margin = 0.5, margin_in_steps = 24;
+constexpr double least_margin = 0.5, margin_in_steps = 96;
+// Candidates are near if their velocity fields may bring them within reach before the next survey,
+// at most so many steps later, or particles that drift by half of this, in outer ranges.
+constexpr int most_steps = 24;
+constexpr double drift_margin = 0.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
 constexpr double jump = 0.06;
 // Surveys serve when particles have drifted by this share of the inner skin, but not every few
@@ -87,37 +91,62 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     common_ += piece.velocity_at(piece.box.center()) / static_cast<double>(pieces_.size());
   traveled_ = drifted_ = 0;
   steps_ = 0;
+  const double horizon = most_steps * time;
   const double wanted =
       std::max(least_margin * ranges_.outer, margin_in_steps * fastest_of(pieces_) * time);
   // Until the next survey, particles may come nearer by another half of the margin.
-  if (wanted > margin_ || 4 * since_near_ > margin_) {
+  if (wanted > margin_ || 4 * since_found_ > margin_) {
     margin_ = wanted;
-    find_near();
+    find_candidates();
   }
   fastest_point_ = fastest_of(pieces_);
+  near_.resize(pieces_.size());
+  meets_others_.resize(pieces_.size());
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t piece = begin; piece < end; ++piece) find_rates(piece);
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      find_near(piece, horizon);
+      find_rates(piece);
+    }
   });
 }
 
-void NearPieces::find_near() {
-  since_near_ = 0;
-  near_.resize(pieces_.size());
-  meets_others_.assign(pieces_.size(), 0);
+void NearPieces::find_candidates() {
+  since_found_ = 0;
+  candidates_.assign(pieces_.size(), {});
   if (pieces_.empty()) return;
   const auto levels = tree_of(pieces_);
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t piece = begin; piece < end; ++piece) find_near(piece, levels);
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      auto add = [&](std::size_t other) {
+        candidates_[piece].push_back(static_cast<std::uint32_t>(other));
+      };
+      for_each_near(levels, levels.size() - 1, 0, pieces_[piece].box, ranges_.outer + margin_, add);
+    }
   });
 }
 
-void NearPieces::find_near(std::size_t piece, const std::vector<std::vector<Box>>& levels) {
+/// Whether particles of both may come within the outer range of each other, until the horizon.
+bool NearPieces::may_meet(const PieceNow& one, const PieceNow& other, double horizon) const {
+  const double apart =
+      std::sqrt(one.box.squaredExteriorDistance(other.box)) - (1 + drift_margin) * ranges_.outer;
+  if (apart < 0) return true;
+  // As fast as anywhere in the first box, wherever its particles have traveled.
+  const Vec3 middle = one.box.center();
+  const double radius = one.box.diagonal().norm() / 2 + std::sqrt(3.0) * margin_ / 4;
+  const double rate = (one.velocity_at(middle) - other.velocity_at(middle)).norm() +
+                      (one.spin - other.spin).norm() * radius;
+  return apart < rate * (1 + 1e-6) * horizon;
+}
+
+void NearPieces::find_near(std::size_t piece, double horizon) {
   const std::vector<Near> before = std::move(near_[piece]);
   near_[piece].clear();
-  auto add = [&](std::size_t other) { add_near(piece, static_cast<std::uint32_t>(other), before); };
-  for_each_near(levels, levels.size() - 1, 0, pieces_[piece].box, ranges_.outer + margin_, add);
-  for (const Near& near : near_[piece])
-    if (!are_bound(piece, near.piece)) meets_others_[piece] = 1;
+  meets_others_[piece] = 0;
+  for (const std::uint32_t other : candidates_[piece]) {
+    if (!may_meet(pieces_[piece], pieces_[other], horizon)) continue;
+    add_near(piece, other, before);
+    if (!are_bound(piece, other)) meets_others_[piece] = 1;
+  }
 }
 
 /// A piece that was not near has come no nearer than the outer range.
@@ -163,9 +192,11 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   for (const double one : fastest) most = std::max(most, one);
   drifted_ += most * time;
   traveled_ += (fastest_point_ + most) * time;
-  since_near_ += (fastest_point_ + most) * time;
+  since_found_ += (fastest_point_ + most) * time;
   ++steps_;
-  if (4 * traveled_ > margin_ * (1 + 1e-9)) return false;
+  if (4 * traveled_ > margin_ * (1 + 1e-9) || steps_ > most_steps ||
+      2 * drifted_ > drift_margin * ranges_.outer)
+    return false;
   least_.resize(pieces_.size());
   parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
@@ -207,9 +238,11 @@ Box NearPieces::box_of(std::size_t piece, double elapsed) const {
 
 bool NearPieces::survey_due() const {
   // A step may take particles as far again as the last one did, or farther.
-  const double mean = steps_ > 0 ? traveled_ / steps_ : 0;
-  const double soon = traveled_ + std::max(mean, jump * ranges_.outer);
-  return 4 * soon > margin_ ||
+  const auto soon = [&](double gone) {
+    return gone + std::max(steps_ > 0 ? gone / steps_ : 0, jump * ranges_.outer);
+  };
+  return 4 * soon(traveled_) > margin_ || 2 * soon(drifted_) > drift_margin * ranges_.outer ||
+         steps_ >= most_steps ||
          (steps_ >= least_steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
 }
 

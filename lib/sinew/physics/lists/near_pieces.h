@@ -66,8 +66,8 @@ class NearPieces {
   /// The mean velocity. Until the next survey, the velocity fields travel with it.
   const Vec3& common_velocity() const { return common_; }
   /// After a step of `time`, in which no particle was faster than `fastest` of its piece relative
-  /// to the velocity field. False where particles have gone too far since the survey: all lists are
-  /// to be made again.
+  /// to the velocity field. False where particles have gone too far since the survey, or it was too
+  /// long ago: all lists are to be made again.
   bool advance(std::span<const double> fastest, double time);
   /// Around the particles of a piece now, `elapsed` after the survey.
   Box box_of(std::size_t piece, double elapsed) const;
@@ -88,8 +88,9 @@ class NearPieces {
   bool meets_others(std::size_t piece) const { return meets_others_[piece] != 0; }
 
  private:
-  void find_near();
-  void find_near(std::size_t piece, const std::vector<std::vector<Box>>& levels);
+  void find_candidates();
+  void find_near(std::size_t piece, double horizon);
+  bool may_meet(const PieceNow& one, const PieceNow& other, double horizon) const;
   void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
   void find_rates(std::size_t piece);
   void sort_out();
@@ -107,14 +108,15 @@ class NearPieces {
   ListRanges ranges_;
   std::vector<std::int32_t> bound_to_;
   std::vector<std::uint8_t> meets_others_;
-  double margin_ = 0;  ///< beyond the outer range, within which pieces count as near
+  double margin_ = 0;  ///< beyond the outer range, within which pieces are candidates
   std::vector<PieceNow> pieces_;
+  std::vector<std::vector<std::uint32_t>> candidates_;  ///< by piece: what may become near
   std::vector<std::vector<Near>> near_;
   Vec3 common_ = Vec3::Zero();
   // Relative to the common velocity:
   double fastest_point_ = 0;  ///< of any piece as a rigid body
   double traveled_ = 0;       ///< by any particle since the survey, at most
-  double since_near_ = 0;     ///< by any particle since near_ was found, at most
+  double since_found_ = 0;    ///< by any particle since the candidates were found, at most
   double drifted_ = 0;        ///< relative to the velocity fields since the survey, at most
   int steps_ = 0;             ///< since the survey
   std::vector<Spare> least_;
