@@ -287,6 +287,12 @@ probes:
                     "--set", "solver.duration=0.2")
         self.assertIn("shorter_steps", json.loads((self.out / "run.json").read_text()))
 
+    def test_a_load_on_what_is_held_is_doubtful(self):
+        load = "loads:\n  - {name: hand, force: [1, 0, 0], facing: [0, 0, -1]}\n"
+        for hold, doubtful in {"xyz": True, "z": False}.items():
+            done = sinew("check", self.scene(f"supports:\n  - {{name: s, facing: [0, 0, -1], hold: {hold}}}\n" + load))
+            self.assertEqual("load 'hand' acts on held particles alone" in done.stderr + done.stdout, doubtful)
+
     def test_mistakes_are_named_with_their_line_and_cure(self):
         for machine, said in [
                 ("supports:\n  - {name: a, low: [1, 1, 1], high: [2, 2, 2]}\n",
