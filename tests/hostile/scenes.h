@@ -230,6 +230,8 @@ inline const std::vector<Hostile> scenes = {
      "body: {mesh: b, radius: 1}\nskeleton:\n  bones:\n"
      "    - {name: a, parent: b, tail: [0, 0, 1]}\n    - {name: b, parent: a, tail: [0, 0, 2]}\n",
      "4:25", "no bone before this one"},
+    {"EmptyEntry", small_scene + "supports:\n  - {name: a}\n  -\n", "10:5",
+     "supports[1].name is missing"},
     {"UnknownOrder", motion("      order: xxy\n      keys: [{time: 0}]\n"), "12:14", "xxy"},
 };
 

@@ -97,6 +97,20 @@ TEST(Playback, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
 }
 
+TEST(Playback, WritesTheForcesOfSupportsAndLoads) {
+  const RestBody body = rest_body(box_input());
+  Playback playback = whole_playback(body, 2);
+  playback.is_load = {false, true};
+  for (PlaybackFrame& frame : playback.frames) frame.forces = {0, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0};
+  EXPECT_EQ(box_of(playback).max().z(), 1);
+  const auto json = nlohmann::json::parse(playback_json(playback));
+  EXPECT_EQ(json["isLoad"], (std::vector<bool>{false, true}));
+  EXPECT_EQ(json["forces"].get<std::string>().size(), 64u);  // 2 frames of 12 numbers of 2 bytes
+  const Playback both = side_by_side(playback, playback, {"a: ", "b: "});
+  EXPECT_EQ(both.is_load, (std::vector<bool>{false, true, false, true}));
+  EXPECT_EQ(both.frames[0].forces.size(), 24u);
+}
+
 TEST(Playback, WithoutBonesHasNoFieldOfThem) {
   RestInput input = box_input();
   input.bones.clear();

@@ -242,6 +242,24 @@ class ViewPreset(unittest.TestCase):
         for picture, seen in drawn.items():
             self.assertEqual(len(seen), len(worlds), picture)
 
+    def test_supports_and_loads_are_arrows_in_pictures_report_and_paraview(self):
+        run, pictures = self.pictures / "pressed", self.pictures / "live.png"
+        modules = without(PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages"))
+        drawn = []
+        for supports in ("supports.pvd", None):
+            done = []
+            if supports:
+                done.append(sinew("simulate", SOURCE / "configs/limb_press.yaml", "-o", run, "--set", "body.radius=0.025"))
+            done += [sinew("render", run, "--no-movie", "--times", "1", *SIZE), sinew("measure", run, "--quiet"),
+                     sinew("view", run, "--live", "--picture", pictures, "--size", "400", "200", env=modules)]
+            self.assertEqual([one.returncode for one in done], [0] * len(done), [one.stderr for one in done])
+            drawn.append([(run / "pictures/body_000002.png").read_bytes(), pictures.read_bytes()])
+            self.assertEqual('"isLoad":[false,true]' in (run / "report.html").read_text(), bool(supports))
+            (run / "supports.pvd").unlink(missing_ok=True)
+            shutil.rmtree(run / "supports", ignore_errors=True)
+        for one, other in zip(*drawn):
+            self.assertNotEqual(one, other)
+
     def test_a_disk_that_is_full_is_one_line(self):
         few = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
         done = self.render("--no-movie", preexec_fn=few, restore_signals=False,

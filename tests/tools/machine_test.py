@@ -287,6 +287,12 @@ probes:
                     "--set", "solver.duration=0.2")
         self.assertIn("shorter_steps", json.loads((self.out / "run.json").read_text()))
 
+    def test_a_load_on_what_is_held_is_doubtful(self):
+        load = "loads:\n  - {name: hand, force: [1, 0, 0], facing: [0, 0, -1]}\n"
+        for hold, doubtful in {"xyz": True, "z": False}.items():
+            done = sinew("check", self.scene(f"supports:\n  - {{name: s, facing: [0, 0, -1], hold: {hold}}}\n" + load))
+            self.assertEqual("load 'hand' acts on held particles alone" in done.stderr + done.stdout, doubtful)
+
     def test_mistakes_are_named_with_their_line_and_cure(self):
         for machine, said in [
                 ("supports:\n  - {name: a, low: [1, 1, 1], high: [2, 2, 2]}\n",
@@ -298,13 +304,41 @@ probes:
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, low: [0, 0, 0], high: [1, 1, 1]}\n", "material 'a' has nothing of its own; give"),
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, poisson_ratio: 0.3}\n", "ratio of bonds alone is 1/4"),
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: 5, mesh: none.obj}\n", "none.obj"),
+                ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: -5}\n", "density is '-5', out of range; give"),
+                ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: 5, low: [5, 5, 5], high: [6, 6, 6]}\n",
+                 r"no particle is in the part of materials\[0\]; choose"),
+                ("supports:\n  - {name: a, hold_along: [0, 0, 0]}\n", "a direction without length; give"),
+                ("supports:\n  - {name: a, point: [0, 0, 0]}\n", "half of a plane; give"),
+                ("supports:\n  - {name: a, center: [0, 0, 0]}\n", "half of a ball; give"),
+                ("supports:\n  - {name: a, low: [1, 1, 1], high: [0, 0, 0]}\n", "not below high on all axes; give"),
+                ("supports:\n  - {name: a, keys: [{time: 1}, {time: 0}]}\n", "not in ascending time; sort"),
+                ("supports:\n  - {name: a, keys: [{time: 0, angle: 5}]}\n", "is not at rest; begin"),
+                ("supports:\n  - {name: a, holds: z}\n", "unknown key 'holds' .*; did you mean hold"),
+                ("supports:\n  - {name: a, hold: xw}\n", "hold is 'xw'; use one of"),
+                ("supports:\n  - {name: a}\n  -\n", r"supports\[1\].name is missing; add"),
+                ("supports:\n  - {name: a}\n  - {name: a}\n", "two of supports are named 'a'; give"),
+                ("supports:\n  - {name: a, hold_along: [1, 1, 0]}\n  - {name: b, hold: x}\n", "oblique direction; make"),
+                ("loads:\n  - {name: a, force: [1, 0, 0], low: [1, 1, 1], high: [2, 2, 2]}\n",
+                 r"no particle is in the part of loads\[0\]; choose"),
+                ("loads:\n  - {name: a, force: [1, 0, 0], pressure: 5}\n", "more than one kind of load; give"),
+                ("loads:\n  - {name: a}\n", "no kind of load; give"),
+                ("loads:\n  - {name: a, force: 5}\n", "not a list of three numbers; give"),
+                ("loads:\n  - {name: a, force: [1, 0, 0], keys: [{time: 1, factor: full}]}\n", "'full', not a number; give"),
+                ("supports: [{name: s}]\nprobes:\n  - {name: a, low: [1, 1, 1], high: [2, 2, 2]}\n",
+                 r"no particle is in the part of probes\[0\]; choose"),
+                ("supports: [{name: s}]\nprobes:\n  - {name: a, at: [9, 0, 0]}\n", r"probe 'a' is 8.9\d* m away .*; give a point"),
+                ("supports: [{name: s}]\nprobes:\n  - {name: a, at: [0, 0, 0], ids: [1]}\n", "a point and a part; keep one"),
                 ("supports:\n  - {name: a, hold: x, hold_along: [1, 1, 0]}\n", "has hold and hold_along; keep one"),
                 ("loads:\n  - {name: a, force: [0, 0, 1], component: 3}\n", "no particle is in the part"),
                 ("supports:\n  - {name: a, hold: z}\n  - {name: b, keys: [{time: 0}, {time: 1, angle: 5}]}\n",
                  r"supports 'a' and 'b' both hold z of \d+ particles, and move them differently; make")]:
-            done = sinew("check", self.scene(machine), check=2)
-            self.assertRegex(done.stderr, r"bar.yaml:\d+:\d+: .*" + said)
-            self.assertEqual(len(re.findall("^sinew: (?!warning)", done.stderr, re.M)), 1)
+            out = self.folder / "a" / "b"
+            for done in (sinew("check", self.scene(machine), check=2),
+                         sinew("simulate", self.scene(machine), "-o", out, check=2)):
+                self.assertRegex(done.stderr, r"bar.yaml:\d+:\d+: .*" + said)
+                self.assertEqual(len(re.findall("^sinew: (?!warning)", done.stderr, re.M)), 1)
+                self.assertEqual(done.stderr.count("bar.yaml:"), 1, done.stderr)
+            self.assertFalse(out.parent.exists(), "something is written")
 
 
 if __name__ == "__main__":

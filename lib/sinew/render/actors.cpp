@@ -264,17 +264,18 @@ void add_obstacles(vtkRenderer& renderer, const Snapshot& snapshot, double line)
 
 namespace {
 
-vtkNew<vtkPolyData> data_of(const std::vector<SnapshotArrow>& arrows, const ColorScale& scale) {
+template <class Arrow, class ColorOf>
+vtkNew<vtkPolyData> data_of(const std::vector<Arrow>& arrows, const ColorOf& color_of) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkDoubleArray> along;
   along->SetName("along");
   along->SetNumberOfComponents(3);
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetNumberOfComponents(3);
-  for (const SnapshotArrow& arrow : arrows) {
+  for (const Arrow& arrow : arrows) {
     points->InsertNextPoint(arrow.from.data());
     along->InsertNextTuple(arrow.along.data());
-    colors->InsertNextTypedTuple(scale.color(arrow.value).data());
+    colors->InsertNextTypedTuple(color_of(arrow).data());
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
@@ -283,17 +284,14 @@ vtkNew<vtkPolyData> data_of(const std::vector<SnapshotArrow>& arrows, const Colo
   return data;
 }
 
-}  // namespace
-
-void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale) {
-  if (snapshot.arrows.empty()) return;
+void add_glyphs(vtkRenderer& renderer, vtkPolyData* arrows) {
   vtkNew<vtkArrowSource> shape;
   shape->SetTipRadius(0.11);
   shape->SetShaftRadius(0.04);
   shape->SetTipResolution(16);
   shape->SetShaftResolution(12);
   vtkNew<vtkGlyph3DMapper> mapper;
-  mapper->SetInputData(data_of(snapshot.arrows, scale));
+  mapper->SetInputData(arrows);
   mapper->SetSourceConnection(shape->GetOutputPort());
   mapper->SetOrientationArray("along");
   mapper->SetScaleArray("along");
@@ -303,6 +301,21 @@ void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScal
   actor->GetProperty()->SetAmbient(0.3);
   actor->GetProperty()->SetDiffuse(0.75);
   renderer.AddActor(actor);
+}
+
+}  // namespace
+
+void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale) {
+  if (snapshot.arrows.empty()) return;
+  const auto color = [&](const SnapshotArrow& arrow) { return scale.color(arrow.value); };
+  add_glyphs(renderer, data_of(snapshot.arrows, color));
+}
+
+void add_forces(vtkRenderer& renderer, const Snapshot& snapshot) {
+  const auto color = [](const SnapshotForce& force) {
+    return force.is_load ? palette::loaded : palette::held;
+  };
+  add_glyphs(renderer, data_of(snapshot.forces, color));
 }
 
 namespace {

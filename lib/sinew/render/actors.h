@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The objects in a picture as VTK actors: particles, skin, edges, bones, obstacles,
-// arrows, lines and traces.
+// arrows, lines, traces and forces.
 //
 //     add_particles(stage.renderer(), snapshot, scale);
 #pragma once
@@ -48,5 +48,8 @@ void add_traces(vtkRenderer& renderer, const Snapshot& snapshot, double thicknes
 
 /// Each arrow in its length, in the color of its value.
 void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
+
+/// The forces of supports and loads as arrows.
+void add_forces(vtkRenderer& renderer, const Snapshot& snapshot);
 
 }  // namespace sinew

@@ -37,6 +37,10 @@ void for_each_point(const Snapshot& snapshot, Add&& add_finite) {
     for (const Vec3& point : trace.path) add(point, snapshot.radius);
   for (const SnapshotBone& bone : snapshot.bones)
     add(bone.head, snapshot.radius), add(bone.tail, snapshot.radius);
+  for (const SnapshotForce& force : snapshot.forces) {
+    add(force.from, 0);
+    add(force.from + force.along, 0);
+  }
   if (snapshot.obstacles.points.empty()) return;
   const Box reach = bounds(snapshot.obstacles.points).intersection(snapshot.obstacle_space);
   if (reach.isEmpty()) return;

@@ -201,6 +201,13 @@ void Painter::put_traces(Exposure& picture, const Snapshot& snapshot, const Size
   shine_through(picture.image, stage_.render(), 1);
 }
 
+/// Nothing hides them either.
+void Painter::put_forces(Exposure& picture, const Snapshot& snapshot) {
+  if (snapshot.forces.empty()) return;
+  add_forces(stage_.renderer(), snapshot);
+  shine_through(picture.image, stage_.render(), 1);
+}
+
 Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
   check(snapshot, skin_, options);
   const Image image = drawn(snapshot, options);
@@ -241,6 +248,7 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
   Exposure picture = body(snapshot, sizes, options.view);
   put_obstacles(picture, snapshot, sizes);
   put_traces(picture, snapshot, sizes);
+  put_forces(picture, snapshot);
   write_labels(picture.image, snapshot, options, pixel);
   return std::move(picture.image);
 }

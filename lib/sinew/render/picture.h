@@ -62,6 +62,7 @@ class Painter {
   Exposure pale_skin(const Snapshot& snapshot, const Sizes& sizes);
   void tint_muscles(Exposure& picture, const Snapshot& snapshot);
   void put_traces(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
+  void put_forces(Exposure& picture, const Snapshot& snapshot);
   void put_obstacles(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
 
   Shading skin_;

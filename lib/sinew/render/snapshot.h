@@ -25,6 +25,12 @@ struct SnapshotArrow {
   double value = 0;                                ///< shown in color
 };
 
+/// The force of a support or a load on the body.
+struct SnapshotForce {
+  Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; `along` is the arrow as drawn
+  bool is_load = false;                            ///< drawn violet; else of a support, dark
+};
+
 /// A line between two points, such as a bond of two particles.
 struct SnapshotLine {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< m
@@ -57,6 +63,7 @@ struct Snapshot {
   std::vector<SnapshotArrow> arrows;
   std::vector<SnapshotLine> lines;
   std::vector<SnapshotTrace> traces;  ///< over everything else
+  std::vector<SnapshotForce> forces;  ///< over everything else
   std::vector<Mark> marks;            ///< one per particle; empty: none
   Triangles obstacles;                ///< translucent
   Box obstacle_space;  ///< they are drawn as far as they lie in it, in the scene's axes, m

@@ -252,6 +252,7 @@ RunFiles open_run(const RunFolder& folder) {
   run.lbs_rows = thinned(rows_if_there(folder, "skin_lbs"), every);
   run.dqs_rows = thinned(rows_if_there(folder, "skin_dqs"), every);
   run.obstacle_rows = thinned(rows_if_there(folder, "obstacles"), every);
+  run.support_rows = thinned(rows_if_there(folder, "supports"), every);
   run.bond_rows = rows_if_there(folder, "bonds");
   read_rest_surface(run);
   return run;

@@ -40,6 +40,7 @@ struct RunFiles {
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< equally many of each
   std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the skinned surfaces; none if not written
   std::vector<PvdRow> obstacle_rows;       ///< none without obstacles
+  std::vector<PvdRow> support_rows;        ///< of supports and loads; none without
   std::vector<PvdRow> bond_rows;           ///< none if not written
 
   std::size_t frames_named = 0;  ///< by the longest series

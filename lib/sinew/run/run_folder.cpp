@@ -77,12 +77,17 @@ RunFolder run_folder(const fs::path& scene, const fs::path& chosen) {
   return {chosen.empty() ? fs::path("out") / scene.stem() : chosen};
 }
 
-void create(const RunFolder& folder) {
+fs::path create(const RunFolder& folder) {
   std::error_code failed;
+  fs::path created;
+  for (fs::path path = fs::absolute(folder.path / "").parent_path();
+       !fs::exists(path, failed) && path.has_relative_path(); path = path.parent_path())
+    created = path;
   fs::create_directories(folder.path, failed);
   if (failed)
     throw not_written(folder.path.string(), "cannot be created (" + failed.message() + ")",
                       "choose another folder with -o");
+  return created;
 }
 
 void remove_old_run(const RunFolder& folder) {
@@ -176,7 +181,8 @@ bool put_holder(int lock, const std::string& holder) {
 
 }  // namespace
 
-FolderLock::FolderLock(const RunFolder& folder) {
+FolderLock::FolderLock(const RunFolder& folder, fs::path created)
+    : folder_(folder.path), created_(std::move(created)) {
   const fs::path path = folder.path / ".lock";
   const auto cannot_be_made = [&] {
     const std::string why = std::strerror(errno);
@@ -198,8 +204,19 @@ FolderLock::FolderLock(const RunFolder& folder) {
   if (!put_holder(file_, this_process() + '\n')) throw cannot_be_made();
 }
 
+void FolderLock::leave_nothing() const {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder_, failed))
+    if (entry.path().filename() != ".lock") return;
+  if (failed || created_.empty()) return;
+  fs::remove(folder_ / ".lock", failed);
+  fs::path path = fs::absolute(folder_ / "").parent_path();
+  while (!failed && fs::remove(path, failed) && path != created_) path = path.parent_path();
+}
+
 FolderLock::~FolderLock() {
   put_holder(file_, "");
+  leave_nothing();
   ::close(file_);
 }
 

@@ -39,8 +39,9 @@ struct RunFolder {
 /// out/NAME-OF-SCENE below the current directory, or the folder chosen with -o.
 RunFolder run_folder(const std::filesystem::path& scene, const std::filesystem::path& chosen);
 
-/// Creates the folder. Throws not written.
-void create(const RunFolder& folder);
+/// Creates the folder. Returns the outermost of the folders that were not there; "" for none.
+/// Throws not written.
+std::filesystem::path create(const RunFolder& folder);
 
 /// Removes the files of an older run and nothing else; the body is kept, since it may fit the
 /// scene. If killed in between, it leaves a folder that it can be applied to again. Throws not
@@ -68,12 +69,13 @@ class PicturesLock {
 };
 
 /// Held while a run works in its folder; the kernel releases it however the program ends. DIR/.lock
-/// names the process that holds it.
+/// names the process that holds it. Where nothing else has come into the folder, the file is
+/// removed at the end, and the folders from `created` on.
 class FolderLock {
  public:
   /// Throws bad input, naming the process, where another one holds the lock, and not written where
   /// the lock cannot be created.
-  explicit FolderLock(const RunFolder& folder);
+  explicit FolderLock(const RunFolder& folder, std::filesystem::path created = {});
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -82,6 +84,9 @@ class FolderLock {
   const std::string& left_by() const { return left_by_; }
 
  private:
+  void leave_nothing() const;
+
+  std::filesystem::path folder_, created_;
   int file_ = -1;
   std::string left_by_;
 };

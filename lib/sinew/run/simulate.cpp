@@ -346,8 +346,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   if (options.engine) refuse_for_engine(scene, options.engine->name);
   if (given.skeleton.fit != Fit::none) say(options, fit_text(scene.skeleton));
   refuse_foreign_files(folder);  // before anything is written there, a lock included
-  create(folder);
-  const FolderLock lock(folder);
+  const FolderLock lock(folder, create(folder));
   if (!lock.left_by().empty())
     say(options, "taking over from " + lock.left_by() + ", which ended without a word");
   if (!may_begin(folder, options)) return {Exit::done, true, ""};

@@ -17,7 +17,6 @@
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/scene_picture.h>
-#include <sinew/run/world_shown.h>
 
 namespace sinew {
 
@@ -190,6 +189,7 @@ DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
     marks_.resize(run_.body.particles.size(), Mark::none);
     marks_[held] = Mark::held;
   }
+  forces_.emplace(run_);
   read_overview();
 }
 
@@ -252,6 +252,11 @@ void DrawnRun::read_overview() {
     Snapshot obstacles;
     add_obstacles(obstacles, i);
     extend(obstacles);
+  }
+  for (std::size_t i = 0; i < run_.support_rows.size(); ++i) {
+    Snapshot machine;
+    machine.forces = forces_->at(i);
+    extend(machine);
   }
 }
 
@@ -360,6 +365,7 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   snapshot.marks = marks_;
   show_selected(snapshot);
   add_obstacles(snapshot, index);
+  snapshot.forces = forces_->at(index);
   add_traces(snapshot, index);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);

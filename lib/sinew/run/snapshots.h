@@ -15,6 +15,7 @@
 #include <sinew/run/drawn_bonds.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/view_presets.h>
+#include <sinew/run/world_shown.h>
 
 namespace sinew {
 
@@ -127,6 +128,7 @@ class DrawnRun {
   DrawnRunOptions options_;
   std::vector<DrawnView> views_;
   RunOverview overview_;
+  std::optional<ShownForces> forces_;
   std::vector<bool> selected_;  ///< bones; empty: all
   std::vector<Mark> marks_;     ///< of the written particles; empty: none
 };

@@ -39,7 +39,43 @@ void name_materials(Playback& playback, const RunFiles& run) {
     playback.material.push_back(std::clamp(numbers->at(i), 0, most));
 }
 
+void add_forces(Playback& playback, const RunFiles& run,
+                const std::function<std::size_t(std::size_t)>& frame_of) {
+  const ShownForces forces(run);
+  for (PlaybackFrame& frame : playback.frames) {
+    playback.is_load.clear();
+    for (const SnapshotForce& one : forces.at(frame_of(frame.frame))) {
+      playback.is_load.push_back(one.is_load);
+      for (const Vec3& end : {one.from, Vec3(one.from + one.along)})
+        for (const double coordinate : end) frame.forces.push_back(static_cast<float>(coordinate));
+    }
+  }
+}
+
 }  // namespace
+
+ShownForces::ShownForces(const RunFiles& run) : run_(&run) {
+  constexpr double longest = 0.2;  // of the body
+  double hardest = 0;
+  for (const PvdRow& row : run.support_rows)
+    for (const Vec3& force :
+         vectors(read_vtu(run.folder.path / row.file, {"force"}).point_columns, "force"))
+      hardest = std::max(hardest, force.norm());
+  const double size = bounds(positions_of(run.body.particles)).diagonal().norm();
+  if (hardest > 0) scale_ = longest * size / hardest;
+}
+
+std::vector<SnapshotForce> ShownForces::at(std::size_t frame) const {
+  std::vector<SnapshotForce> shown;
+  if (frame >= run_->support_rows.size()) return shown;
+  const Dataset data =
+      read_vtu(run_->folder.path / run_->support_rows[frame].file, {"force", "load"});
+  const Points force = vectors(data.point_columns, "force");
+  const std::vector<std::int32_t>& load = integers(data.point_columns, "load");
+  for (std::size_t k = 0; k < data.points.size(); ++k)
+    shown.push_back({data.points[k], scale_ * force[k], load[k] != 0});
+  return shown;
+}
 
 std::vector<std::string> names_of_materials(const RunFiles& run) {
   std::vector<std::string> names = {"the rest"};
@@ -74,6 +110,7 @@ void show_world(Playback& playback, const RunFiles& run,
     if (std::binary_search(held.begin(), held.end(), playback.particles[i]))
       playback.held.push_back(i);
   name_materials(playback, run);
+  add_forces(playback, run, frame_of);
   if (run.obstacle_rows.empty() || playback.frames.empty()) return;
   const Box space = obstacle_space(box_of(playback));
   const ThinSurface thin = thinned(run, playback.frames.size());

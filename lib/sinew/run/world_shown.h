@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sinew/metrics/report/playback.h>
+#include <sinew/render/snapshot.h>
 #include <sinew/run/run_files.h>
 
 namespace sinew {
@@ -23,7 +24,22 @@ std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle);
 /// Indices of the held particles in the frames, ascending.
 std::vector<std::size_t> held_in_frames(const RunFiles& run);
 
-/// Marks the held particles of a playback, names its materials and adds the obstacles to its
+/// The forces of supports and loads on the body, as arrows; the longest at any time is a fifth of
+/// the body.
+class ShownForces {
+ public:
+  /// Throws bad input, naming the file, for damaged frames.
+  explicit ShownForces(const RunFiles& run);
+
+  /// At a frame of the run; none where it has neither.
+  std::vector<SnapshotForce> at(std::size_t frame) const;
+
+ private:
+  const RunFiles* run_;
+  double scale_ = 0;  ///< m/N
+};
+
+/// Marks the held particles of a playback, names its materials and adds forces and obstacles to its
 /// frames. `frame_of`: the run's frame of a playback's. Throws bad input, naming the file, for
 /// damaged frames.
 void show_world(Playback& playback, const RunFiles& run,

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/machine.h>
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
+#include <sinew/core/text.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/world.h>
 
@@ -73,9 +76,19 @@ Load load_of(const LoadSettings& given, const std::string& path, const Body& bod
   return load;
 }
 
-Probe point_probe(const std::string& name, const Vec3& at, const Body& body) {
-  FollowingPoints point = following({at}, body.rest, body.material.pair.r);
-  return {name, std::move(point.particle), std::move(point.weight), true};
+Probe point_probe(const Settings& settings, std::size_t index, const Body& body) {
+  constexpr double farthest = 4;  // radii: corners of coarse bodies are outside of all particles
+  const ProbeSettings& given = settings.probes[index];
+  const double radius = body.material.pair.r;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& place : body.rest) nearest = std::min(nearest, (place - *given.at).norm());
+  if (nearest > farthest * radius)
+    throw bad_input(settings.place(path_of_one("probes", index) + ".at"),
+                    "probe '" + given.name + "' is " + three_digits(nearest) +
+                        " m away from the nearest particle",
+                    "give a point of the body at rest, " + extent_text(body.rest));
+  FollowingPoints point = following({*given.at}, body.rest, radius);
+  return {given.name, std::move(point.particle), std::move(point.weight), true};
 }
 
 Probe part_probe(const std::string& name, std::vector<std::uint32_t> particles) {
@@ -90,7 +103,7 @@ void add_machine(const Settings& settings, const Body& body, const Parts& parts,
   for (std::size_t k = 0; k < settings.supports.size(); ++k)
     world.supports.push_back(
         support_of(settings.supports[k], path_of_one("supports", k), body, parts));
-  with_context(settings, "supports", [&] { hold(world, body.rest.size()); });
+  at_keys(settings, "", [&] { hold(world, body.rest.size()); });
   for (std::size_t k = 0; k < settings.loads.size(); ++k) {
     const std::string path = path_of_one("loads", k);
     world.loads.push_back(with_context(
@@ -103,7 +116,7 @@ std::vector<Probe> probes_of(const Settings& settings, const Body& body, const P
   for (std::size_t k = 0; k < settings.probes.size(); ++k) {
     const ProbeSettings& given = settings.probes[k];
     probes.push_back(
-        given.at ? point_probe(given.name, *given.at, body)
+        given.at ? point_probe(settings, k, body)
                  : part_probe(given.name, parts.particles(given.part, path_of_one("probes", k))));
   }
   return probes;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <sinew/core/text.h>
 #include <sinew/physics/hierarchy/grouping.h>
@@ -263,6 +264,20 @@ void warn_of_groups(const Grouping* grouping, Warnings& warnings) {
                        "hierarchy.enabled to false");
 }
 
+/// Loads whose particles are held on all axes.
+void warn_of_idle_loads(const World* world, Warnings& warnings) {
+  if (world == nullptr) return;
+  std::set<std::uint32_t> held;
+  for (const Pinned& pin : world->pins)
+    if (pin.holds(0) && pin.holds(1) && pin.holds(2)) held.insert(pin.particle);
+  for (const Load& load : world->loads)
+    if (std::all_of(load.particles.begin(), load.particles.end(),
+                    [&](std::uint32_t i) { return held.contains(i); }))
+      warnings.push_back("load '" + load.name +
+                         "' acts on held particles alone and moves nothing; give it a part that is "
+                         "free to move");
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
@@ -280,6 +295,7 @@ std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
   warn_of_unit(setup.body, warnings);
   warn_of_radians(setup, warnings);
   warn_of_idle_bones(setup.body, warnings);
+  warn_of_idle_loads(setup.body.world.get(), warnings);
   warn_of_far_particles(setup.body, warnings);
   warn_of_unreached(setup.body.binding, warnings);
   warn_of_overlaps(setup, warnings);

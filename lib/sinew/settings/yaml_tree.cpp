@@ -131,6 +131,8 @@ class Builder : public YAML::EventHandler {
       if (parent.node.kind == YamlNode::Kind::map && node.kind == YamlNode::Kind::empty)
         node.place =
             parent.node.keys.back().place;  // the parser reports the place of the next token
+      if (parent.node.kind == YamlNode::Kind::list && node.kind == YamlNode::Kind::empty)
+        node.place = parent.node.items.empty() ? parent.node.place : parent.node.items.back().place;
       parent.node.items.push_back(std::move(node));
     }
   }

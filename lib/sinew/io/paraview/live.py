@@ -6,8 +6,8 @@
     pvbatch live.py --help                                  all options
 
 The layout is that of view.py. New frame files, which a run writes atomically, are looked for ten
-times a second. The range of colors grows with the run. Of a run that has ended it shows the last
-frame; view.py shows all of them.
+times a second. The ranges of colors and forces grow with the run. Of a run that has ended it shows
+the last frame; view.py shows all of them.
 """
 import json
 import time
@@ -16,7 +16,7 @@ import types
 from options import *
 
 SCRIPT = "live.py"
-SERIES = ["particles", "surface", "bones", "frames", "obstacles"]
+SERIES = ["particles", "surface", "bones", "frames"]
 
 
 class Follower:
@@ -24,13 +24,14 @@ class Follower:
 
     def __init__(self, folder, options):
         self.folder, self.options = folder, options
-        self.series = SERIES[:4]
+        self.series = list(SERIES)
         self.number = self.ranged = -1
         self.shown = {}
         self.limits = None
+        self.hardest = 0
+        self.scene = None
         self.wait_for_first()
-        if os.path.exists(self.path("obstacles", 0)):
-            self.series = SERIES
+        self.series += [series for series in ("obstacles", "supports") if os.path.exists(self.path(series, 0))]
 
     def path(self, series, number):
         return os.path.join(self.folder, series, f"{series}_{number:06d}.vtu")
@@ -96,6 +97,9 @@ class Follower:
             low, high = range_in(array_or_stop(self.path("particles", number), self.options.array))
             old = self.limits or (low, high)
             self.limits = min(low, old[0]), max(high, old[1])
+            if "supports" in self.series:
+                force = described_array(self.path("supports", number), "force")
+                self.hardest = max(self.hardest, range_in(force)[1])
         self.ranged = self.number
         return self.limits != before
 
@@ -103,6 +107,9 @@ class Follower:
         if self.grow_limits() and not self.options.range:
             colors = GetColorTransferFunction(self.options.array)
             colors.RescaleTransferFunction(*self.limits)
+        if self.scene and self.scene.hardest != self.hardest:
+            self.scene.hardest = self.hardest
+            resize_arrows(self.scene)
 
 
 def live_source(series):
@@ -129,6 +136,8 @@ def scene_of(folder, follower, options):
     scene.array = array_or_stop(newest, options.array)
     follower.grow_limits()
     scene.limits = options.range or follower.limits
+    scene.hardest = follower.hardest
+    follower.scene = scene
     scene.strongest = range_in(array_or_stop(newest, options.forces or "force_pair"))[1]
     scene.corners += roomier(scene)
     return scene

@@ -140,6 +140,11 @@ def arrow_scale(scene):
     return 0.2 * scene.size / scene.hardest if scene.hardest > 0 else 0
 
 
+def resize_arrows(scene):
+    for arrows in scene.arrows:
+        arrows.ScaleFactor = arrow_scale(scene)
+
+
 def show_supports(source, view, scene):
     """An arrow for the force of each support (dark) and load (red) on the body, at the middle of its
     part; the longest at any time is a fifth of the body."""
@@ -151,6 +156,7 @@ def show_supports(source, view, scene):
         arrows.OrientationArray = ["POINTS", "force"]
         arrows.ScaleArray = ["POINTS", "force"]
         arrows.ScaleFactor = arrow_scale(scene)
+        scene.arrows.append(arrows)
         arrows.GlyphMode = "All Points"
         arrows.GlyphType.TipResolution = arrows.GlyphType.ShaftResolution = 24
         show_plain(arrows, view, color)

@@ -93,6 +93,7 @@ class Scene:
         self.limits = (0, 1)    # its lowest and highest value
         self.strongest = 0      # the largest of the forces shown, N
         self.hardest = 0        # the largest force of a support or a load, N
+        self.arrows = []        # of these forces
 
 
 def array_or_stop(path, name):

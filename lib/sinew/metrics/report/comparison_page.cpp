@@ -175,6 +175,7 @@ PlaybackFrame joined(PlaybackFrame frame, const PlaybackFrame& other, const Vec3
   append_moved(frame.particles, other.particles, shift);
   append_moved(frame.surface, other.surface, shift);
   append_moved(frame.bones, other.bones, shift);
+  append_moved(frame.forces, other.forces, shift);
   append_moved(frame.obstacles, other.obstacles, shift);
   return frame;
 }
@@ -225,6 +226,7 @@ void join_shape(Playback& playback, const Playback& second,
   for (const std::uint32_t held : second.held)
     playback.held.push_back(held + static_cast<std::uint32_t>(playback.particles.size()));
   join_materials(playback, second);
+  playback.is_load.insert(playback.is_load.end(), second.is_load.begin(), second.is_load.end());
   playback.particles.insert(playback.particles.end(), second.particles.begin(),
                             second.particles.end());
   playback.balls.insert(playback.balls.end(), second.balls.begin(), second.balls.end());

@@ -147,7 +147,8 @@ std::span<const PlaybackField> playback_fields() {
 Box box_of(const Playback& playback) {
   Box box;
   for (const PlaybackFrame& frame : playback.frames)
-    for (const auto* places : {&frame.particles, &frame.surface, &frame.bones, &frame.obstacles})
+    for (const auto* places :
+         {&frame.particles, &frame.surface, &frame.bones, &frame.forces, &frame.obstacles})
       for (std::size_t i = 0; i + 2 < places->size(); i += 3)
         box.extend(Vec3((*places)[i], (*places)[i + 1], (*places)[i + 2]));
   return box;

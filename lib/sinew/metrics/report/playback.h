@@ -35,6 +35,7 @@ struct PlaybackFrame {
   std::vector<float> particles, surface;   ///< x y z each, m
   std::vector<float> bones;                ///< head and tail, x y z each, m
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
+  std::vector<float> forces = {};          ///< of supports and loads: both ends of arrows, m
   std::vector<float> obstacles = {};       ///< three corners of each triangle, x y z each, m
 };
 
@@ -57,7 +58,8 @@ struct Playback {
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
   std::vector<std::string> bone_names;
-  std::vector<int> bone_color;  ///< number of the color of each: of two runs, that of its name
+  std::vector<int> bone_color;     ///< number of the color of each: of two runs, that of its name
+  std::vector<bool> is_load = {};  ///< of each force in the frames; else of a support
   std::vector<PlaybackFrame> frames;
 
   bool wants(std::size_t frame) const;

@@ -168,6 +168,8 @@ std::string playback_json(const Playback& playback) {
                      {"surface", places_of(playback, cube, &PlaybackFrame::surface)},
                      {"corners", corners_of(playback)},
                      {"bones", places_of(playback, cube, &PlaybackFrame::bones)},
+                     {"forces", places_of(playback, cube, &PlaybackFrame::forces)},
+                     {"isLoad", playback.is_load},
                      {"held", base64_of(playback.held)},
                      {"obstacles", obstacles_of(playback, cube)},
                      {"fields", fields_of(playback)}};

@@ -42,7 +42,8 @@ struct Conflict {
   const auto name = [&](std::int32_t k) {
     return '\'' + world.supports[static_cast<std::size_t>(k)].name + '\'';
   };
-  throw bad_input("supports " + name(one.first) + " and " + name(one.second) + " both hold " +
+  throw bad_value("supports[" + std::to_string(one.second) + ']',
+                  "supports " + name(one.first) + " and " + name(one.second) + " both hold " +
                       axis_names[one.axis] + " of " + std::to_string(particles) +
                       " particles, and move them differently",
                   "make their regions disjoint, or let one of them hold other axes");
@@ -62,7 +63,8 @@ class Holder {
       if (fresh)
         add({particle});
       else if (held_[place_[particle]].is_pin())
-        throw bad_input(name_of(support) + " holds particle " + std::to_string(particle) +
+        throw bad_value(path_of(support),
+                        name_of(support) + " holds particle " + std::to_string(particle) +
                             ", which world.pins hold",
                         "make their regions disjoint, or replace the pin by a support");
       Pinned& pin = held_[place_[particle]];
@@ -89,10 +91,15 @@ class Holder {
 
   [[noreturn]] void refuse_oblique(const Support& support, const Pinned& pin) const {
     const std::int32_t other = *std::max_element(pin.support.begin(), pin.support.end());
-    throw bad_input("supports '" + world_.supports[static_cast<std::size_t>(other)].name +
+    throw bad_value(path_of(support),
+                    "supports '" + world_.supports[static_cast<std::size_t>(other)].name +
                         "' and '" + support.name + "' both hold particle " +
                         std::to_string(pin.particle) + ", one of them along an oblique direction",
                     "make their regions disjoint");
+  }
+
+  std::string path_of(const Support& support) const {
+    return "supports[" + std::to_string(&support - world_.supports.data()) + ']';
   }
 
   void add(const Pinned& pin) {

@@ -25,6 +25,7 @@ function unpackedPlayback(playback) {
     particles: places(playback.particles),
     surface: places(playback.surface),
     bones: places(playback.bones),
+    forces: places(playback.forces),
     bone: new Int16Array(bytesOf(playback.bone).buffer),
     material: new Int16Array(bytesOf(playback.material).buffer),
     ids: new Uint32Array(bytesOf(playback.ids).buffer),

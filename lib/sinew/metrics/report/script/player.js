@@ -76,6 +76,7 @@ function makePlayer(view) {
     view.skin.visible = byId("show-surface").checked;
     view.obstacles.visible = byId("show-obstacles").checked;
     for (const bone of view.bones) bone.visible = byId("show-bones").checked;
+    for (const force of view.forces) force.visible = byId("show-forces").checked;
     showScale(colored());
     showSnapshot(view, { snapshot: player.snapshot, cut: byId("cut").checked, ...colored() });
     markTime(time);
@@ -105,13 +106,14 @@ function play(player, playback) {
 function connect(player, view) {
   const { playback } = view;
   byId("has-bones").hidden = playback.boneNames.length === 0;
+  for (const part of ["has-forces", "force-names"]) byId(part).hidden = playback.isLoad.length === 0;
   byId("has-held").hidden = playback.held.length === 0;
   byId("has-obstacles").hidden = playback.obstacles.every((corners) => corners.length === 0);
   byId("time").max = playback.snapshots.length - 1;
   byId("time").addEventListener("input", () => player.go(Number(byId("time").value)));
   byId("play").addEventListener("click", () => play(player, playback));
   byId("reset").addEventListener("click", () => aim(view));
-  for (const id of ["field", "show-particles", "show-surface", "show-bones", "show-obstacles", "cut"])
+  for (const id of ["field", "show-particles", "show-surface", "show-bones", "show-forces", "show-obstacles", "cut"])
     byId(id).addEventListener("change", player.show);
   marked.go = (time) => player.go(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
   showWorst(playback, player.go);

@@ -56,7 +56,7 @@ const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33,
   [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 const nameColors = palette.map((color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16)));
 const noColor = [150, 150, 150];
-const heldColor = [30, 34, 40]; // as in the pictures
+const [heldColor, loadColor] = [[30, 34, 40], [134, 72, 178]]; // as in the pictures
 
 /** The color at a fraction between 0 and 1, 0 to 255 each. */
 function viridisAt(share) {

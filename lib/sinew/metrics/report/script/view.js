@@ -49,11 +49,12 @@ function addParts(view) {
     side: THREE.DoubleSide, transparent: true, opacity: 0.4, depthWrite: false }));
   view.obstacles.frustumCulled = false;
   view.bones = playback.boneColor.map(makeBone);
+  view.forces = playback.isLoad.map(makeForce);
   const sun = new THREE.DirectionalLight(0xffffff, 0.75);
   sun.position.set(0.35, 0.55, 0.8);
   view.camera.add(sun);
   scene.add(view.camera, new THREE.AmbientLight(0xffffff, 0.5), view.skin, view.spheres,
-    view.obstacles, ...view.bones);
+    view.obstacles, ...view.bones, ...view.forces);
 }
 
 function makeSkin(playback, points) {
@@ -77,6 +78,23 @@ function makeBone(number) {
   for (const part of [geometry, foot]) bone.add(Object.assign(new THREE.Mesh(part, material),
     { renderOrder: 1 }));
   return bone;
+}
+
+/** An arrow of length 1 along y with a white rim, drawn over everything. */
+function makeForce(isLoad) {
+  const shaft = new THREE.CylinderBufferGeometry(0.025, 0.025, 0.75, 12).translate(0, 0.375, 0);
+  const tip = new THREE.CylinderBufferGeometry(0, 0.08, 0.25, 24).translate(0, 0.875, 0);
+  const [red, green, blue] = (isLoad ? loadColor : heldColor).map((part) => part / 255);
+  const drawn = { transparent: true, depthTest: false };
+  const material = new THREE.MeshLambertMaterial({ color: new THREE.Color(red, green, blue), ...drawn });
+  const white = new THREE.MeshBasicMaterial({ color: 0xffffff, ...drawn });
+  const arrow = new THREE.Group();
+  for (const part of [shaft, tip]) {
+    const rim = Object.assign(new THREE.Mesh(part, white), { renderOrder: 2 });
+    rim.scale.set(1.4, 1.03, 1.4);
+    arrow.add(rim, Object.assign(new THREE.Mesh(part, material), { renderOrder: 3 }));
+  }
+  return arrow;
 }
 
 /** Places the camera to see the whole playback, along the axis of least motion. */
@@ -145,14 +163,16 @@ function placeObstacles(view, snapshot) {
   geometry.computeVertexNormals();
 }
 
-function placeBones(view, snapshot) {
-  const ends = snapshotOf(view.playback.bones, 2 * view.counts.bones, snapshot);
-  view.bones.forEach((bone, b) => {
-    const head = new THREE.Vector3().fromArray(ends, 6 * b);
-    const along = new THREE.Vector3().fromArray(ends, 6 * b + 3).sub(head);
-    bone.position.copy(head);
-    bone.scale.setScalar(Math.max(along.length(), 1e-9));
-    bone.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());
+/** Parts of length 1 along y, each from one point to another; short ones are no thinner than `least`. */
+function placeBetween(parts, places, snapshot, least = 0) {
+  const ends = snapshotOf(places, 2 * parts.length, snapshot);
+  parts.forEach((part, k) => {
+    const from = new THREE.Vector3().fromArray(ends, 6 * k);
+    const along = new THREE.Vector3().fromArray(ends, 6 * k + 3).sub(from);
+    part.position.copy(from);
+    const length = Math.max(along.length(), 1e-9), thick = Math.max(length, least);
+    part.scale.set(thick, length, thick);
+    part.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());
   });
 }
 
@@ -174,7 +194,8 @@ function showSnapshot(view, { snapshot, cut, ...shown }) {
   placeParticles(view, snapshot, cut);
   placeSkin(view, snapshot);
   placeObstacles(view, snapshot);
-  placeBones(view, snapshot);
+  placeBetween(view.bones, view.playback.bones, snapshot);
+  placeBetween(view.forces, view.playback.forces, snapshot, 0.15 * view.playback.edge);
   tint(view, snapshot, shown);
   view.draw();
 }
