@@ -264,18 +264,24 @@ void warn_of_groups(const Grouping* grouping, Warnings& warnings) {
                        "hierarchy.enabled to false");
 }
 
-/// Loads whose particles are held on all axes.
+/// Loads that act on particles which are held on all axes.
 void warn_of_idle_loads(const World* world, Warnings& warnings) {
+  constexpr double mostly = 0.5;
   if (world == nullptr) return;
   std::set<std::uint32_t> held;
   for (const Pinned& pin : world->pins)
     if (pin.holds(0) && pin.holds(1) && pin.holds(2)) held.insert(pin.particle);
-  for (const Load& load : world->loads)
-    if (std::all_of(load.particles.begin(), load.particles.end(),
-                    [&](std::uint32_t i) { return held.contains(i); }))
+  for (const Load& load : world->loads) {
+    double idle = 0, all = 0;  // shares below 0 balance those of particles nearer to the surface
+    for (std::size_t n = 0; n < load.particles.size(); ++n) {
+      all += std::abs(load.share[n]);
+      if (held.contains(load.particles[n])) idle += std::abs(load.share[n]);
+    }
+    if (idle > mostly * all)
       warnings.push_back("load '" + load.name +
-                         "' acts on held particles alone and moves nothing; give it a part that is "
-                         "free to move");
+                         "' acts on held particles, which it does not move; give it a part that is "
+                         "free");
+  }
 }
 
 }  // namespace
