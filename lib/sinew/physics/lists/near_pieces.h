@@ -66,8 +66,8 @@ class NearPieces {
   /// The mean velocity. Until the next survey, the velocity fields travel with it.
   const Vec3& common_velocity() const { return common_; }
   /// After a step of `time`, in which no particle was faster than `fastest` of its piece relative
-  /// to the velocity field. False where particles have gone too far since the survey, or it was too
-  /// long ago: all lists are to be made again.
+  /// to the velocity field. False where particles have gone too far since the survey: all lists are
+  /// to be made again.
   bool advance(std::span<const double> fastest, double time);
   /// Around the particles of a piece now, `elapsed` after the survey.
   Box box_of(std::size_t piece, double elapsed) const;
