@@ -45,6 +45,8 @@ Checkpoint sample(bool single = false) {
   state.sliding_pairs = {0, 3, 3, 0};
   state.sliding = {0.1, 0.2, 0.3, -0.1, -0.2, -0.3};
   state.groups = {1, -2, 0.5};
+  state.grouping = {0, -1, 0, 0, 1};
+  state.regrouping = {3, 0.25, {-1, 0.5}};
   return sample;
 }
 
@@ -121,8 +123,8 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 5;
-  expect_refused(resealed(other), {"version 5, not 4"});
+  other[12] = 6;
+  expect_refused(resealed(other), {"version 6, not 5"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});

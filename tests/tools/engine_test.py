@@ -127,7 +127,7 @@ class OnLammps(SmallRun):
         sinew("measure", self.out, check=0)
 
     def test_the_papers_box_is_bent_alike_for_a_thousand_steps(self):
-        words = [SOURCE / "configs/box_bend.yaml", "--set", "solver.duration=1.75",
+        words = [SOURCE / "configs/box_bend.yaml", "--set", "solver.duration=1.8",
                  "--set", "output.double_precision=true"]
         whole = self.folder / "whole"
         sinew("simulate", *words, "-o", whole, check=0)

@@ -15,7 +15,8 @@ namespace {
 constexpr double shortest = 1.0 / 64;  // of the step, before a body counts as unstable
 // Of the shear beyond yield, what flows in an iteration.
 constexpr double share_of_flow = 0.1;
-constexpr double at_rounding = 3;  // times the noise: forces that are nothing else
+constexpr double near_rounding = 20;  // times the noise, which is an estimate
+constexpr double at_rounding = 3;     // times the noise: forces that are nothing else
 
 ObstacleMotion standing(const ObstacleMotion& motion) {
   if (!motion) return motion;
@@ -147,11 +148,15 @@ std::string Relaxation::moment_text() const {
 }
 
 void Relaxation::give_up() const {
+  const bool near_noise = now_.unbalanced < near_rounding * noise_;
   throw Error(Exit::unstable,
               moment_text() + " is not in equilibrium: the residual is " +
                   three_digits(residual()) + " after " + std::to_string(now_.iterations) +
                   " iterations, not " + three_digits(steps_.residual) +
-                  "; make solver.iterations larger and resume, or make output.interval shorter");
+                  (near_noise ? "; rounding may leave no less: make the load or solver.residual "
+                                "larger, or in single precision set solver.precision to double"
+                              : "; make solver.iterations larger and resume, or make "
+                                "output.interval shorter"));
 }
 
 void Relaxation::restore(const RelaxationState& state) { now_ = state; }
