@@ -47,7 +47,7 @@ class Live(unittest.TestCase):
 
     def follow(self, *options):
         return subprocess.run([PARAVIEW, MODULES, self.run_folder / "live.py", *options],
-                              capture_output=True, text=True, timeout=100)
+                              capture_output=True, text=True, timeout=250)
 
     def test_follows_a_growing_run_and_leaves_a_picture(self):
         run = self.start_run(5000, 0.05)
@@ -71,7 +71,7 @@ class Live(unittest.TestCase):
                        "OMPI_MCA_orte_tmpdir_base": str(self.run_folder)}
         done = subprocess.run(["xvfb-run", "-a", "pvbatch", self.run_folder / "live.py", "--frames", "2", "--size",
                                "400", "200", "--picture", str(picture)], env=environment, capture_output=True,
-                              text=True, timeout=50)
+                              text=True, timeout=250)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("frame 2\nthe run has ended, 1 shown; view.py", done.stdout)
         self.assertNotIn("rror", done.stderr)
@@ -84,7 +84,7 @@ class Live(unittest.TestCase):
         environment.pop("DISPLAY", None)
         for script in ("live.py", "view.py"):
             done = subprocess.run(["pvbatch", self.run_folder / script], env=environment, capture_output=True,
-                                  text=True, timeout=50)
+                                  text=True, timeout=250)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertEqual(done.stderr.strip(), f"{script}: there is no screen; draw without one by: xvfb-run -a "
                                                   f"pvbatch {script} --picture FILE.png")

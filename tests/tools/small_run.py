@@ -69,12 +69,12 @@ class SmallRun(unittest.TestCase):
         return json.loads(((folder or self.out) / "run.json").read_text())
 
     def wait_for(self, child, file):
-        for _ in range(1000):
+        for _ in range(3000):
             if (self.out / file).exists():
                 return
             self.assertIsNone(child.poll(), "the run ended by itself")
             time.sleep(0.02)
-        self.fail(f"no {file} after 20 s")
+        self.fail(f"no {file} after a minute")
 
     def assert_one_line(self, done, exit_code, *parts):
         self.assertEqual(done.returncode, exit_code, done.stderr)
