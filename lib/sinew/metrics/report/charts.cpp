@@ -31,7 +31,7 @@ std::vector<ChartPlan> plans_of_shape() {
        {"broken_neighbors", "new_neighbors", "broken_bonds"},
        Shown::in_percent},
       {"Groups",
-       "Particles that move in groups, and that are free",
+       "Particles that move in groups; all others are free",
        "%",
        {"grouped"},
        Shown::in_percent},
