@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
@@ -43,7 +44,7 @@ class LayerFinder {
         r_(body.material.pair.r),
         range_(holds_seconds(body) ? second_neighbor_range * r_ : rest_neighbor_range(r_)),
         whole_(holds_seconds(body) ? near_sites : nearest_sites),
-        grid_(body.rest, range_) {
+        near_(neighbors_within(body.rest, range_)) {
     if (has_affine_forces(body)) affine_.emplace(body);
   }
 
@@ -123,13 +124,8 @@ class LayerFinder {
   std::vector<std::uint8_t> marked(const Holds& holds) const {
     std::vector<std::uint8_t> marks(group_.size(), 0);
     parallel_for(marks.size(), particles_per_layering, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::uint32_t> near;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (group_[i] < 0) continue;
-        near.clear();
-        append_neighbors(grid_, body_.rest, i, range_, near);
-        marks[i] = holds(static_cast<std::uint32_t>(i), near) ? 1 : 0;
-      }
+      for (std::size_t i = begin; i < end; ++i)
+        if (group_[i] >= 0) marks[i] = holds(static_cast<std::uint32_t>(i), near_.of(i)) ? 1 : 0;
     });
     return marks;
   }
@@ -142,7 +138,7 @@ class LayerFinder {
   }
 
   /// Whether the neighbors of a particle are all there, opposite to each other, with equal bonds.
-  bool is_center(std::uint32_t i, const std::vector<std::uint32_t>& near) const {
+  bool is_center(std::uint32_t i, std::span<const std::uint32_t> near) const {
     if (near.size() != whole_ || !body_.factors.of(i).empty()) return false;
     const Vec3& here = body_.rest[i];
     return all(near, [&](std::uint32_t j) {
@@ -163,7 +159,7 @@ class LayerFinder {
   }
 
   /// Whether forces on a particle would follow from a group's motion.
-  bool has_sites(std::uint32_t i, const std::vector<std::uint32_t>& near) const {
+  bool has_sites(std::uint32_t i, std::span<const std::uint32_t> near) const {
     return affine_ && all(near, [&](std::uint32_t j) {
              return affine_->site_of(body_.rest[j] - body_.rest[i]) >= 0;
            });
@@ -173,7 +169,7 @@ class LayerFinder {
   const std::vector<std::int32_t>& group_;
   double r_, range_;
   std::size_t whole_;
-  CellGrid grid_;
+  NeighborLists near_;
   std::optional<AffineForces> affine_;
 };
 
