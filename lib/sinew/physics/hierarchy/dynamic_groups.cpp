@@ -24,31 +24,29 @@ constexpr double torn_share = 0.5;  // of the tolerance: what leaves where somet
 // Of a particle that is moved while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 
-/// x = c + F (X - center) and its rate, by least squares from sums over particles, of places that
-/// are near the origin.
+/// x = c + F (X - center), and its rate.
 struct AffineMap {
   Vec3 center = Vec3::Zero(), c = Vec3::Zero(), v = Vec3::Zero();
   Mat3 F = Mat3::Identity(), V = Mat3::Zero();
 };
 
+/// Over particles, of places that are near the origin.
 struct Sums {
   double n = 0;
   Vec3 X = Vec3::Zero(), x = Vec3::Zero(), v = Vec3::Zero();
   Mat3 XX = Mat3::Zero(), xX = Mat3::Zero(), vX = Mat3::Zero();
-  double xx = 0, vv = 0;
 
   void add(const Vec3& rest, const Vec3& at, const Vec3& velocity) {
     n += 1, X += rest, x += at, v += velocity;
     XX += rest * rest.transpose(), xX += at * rest.transpose(), vX += velocity * rest.transpose();
-    xx += at.squaredNorm(), vv += velocity.squaredNorm();
   }
   Sums& operator+=(const Sums& other) {
     n += other.n, X += other.X, x += other.x, v += other.v;
     XX += other.XX, xX += other.xX, vX += other.vX;
-    xx += other.xx, vv += other.vv;
     return *this;
   }
   Mat3 spread() const { return XX - X * X.transpose() / n; }
+  /// By least squares.
   AffineMap map() const {
     // What lies in a plane or a line has no strain across it that anyone could know.
     const Mat3 S = spread();
