@@ -20,6 +20,7 @@ constexpr double crushed_width = 0.75;  // near the body-centered packing: 14 ne
 constexpr double strong_grip = 64;      // springs as stiff as bonds in the paper's box
 constexpr int paper_across = 11, paper_along = 49;  // half-planes
 constexpr double approach = 0.5;                    // s, of bones that bend
+constexpr int steps_of_loading = 1000;              // until loads act in full
 constexpr std::array names{"rest", "bent", "twisted", "crushed", "flowed", "bending"};
 constexpr std::array variant_names{
     "paper",    "initial_neighbors", "bonded",  "twelve_bonds", "bonded_volume", "breaking",
@@ -203,8 +204,15 @@ Particles in_written_order(const Particles& particles) {
   return written;
 }
 
+bool is_loaded(const Scene& scene) { return scene.body.world && !scene.body.world->loads.empty(); }
+
 Particles after(int steps, Scene scene, const Particles& start) {
   if (!scene.approach.tracks.empty()) scene.motion = scene.approach;
+  if (is_loaded(scene)) {  // by what grows: a shock is another state
+    World growing = *scene.body.world;
+    for (Load& load : growing.loads) load.scale = {{0, steps * scene.step}, {0, 1}};
+    scene.body.world = std::make_shared<const World>(std::move(growing));
+  }
   Simulation simulation = simulation_of(scene, start, Precision::binary64, NeighborSearch::lists);
   for (int step = 0; step < steps; ++step) simulation.step();
   return in_written_order(simulation.particles());
@@ -248,7 +256,8 @@ Scene scene_of(Condition condition, std::size_t count, Variant variant) {
 }
 
 Particles settled(const Scene& scene, Condition condition) {
-  if (condition == Condition::rest) return scene.start;
+  if (condition == Condition::rest && !is_loaded(scene)) return scene.start;
+  if (condition == Condition::rest) return after(steps_of_loading, scene, scene.start);
   if (condition == Condition::bending) return after(scene.approach_steps, scene, scene.start);
   if (condition != Condition::flowed) return after(100, scene, scene.start);
   Particles particles = scene.start;  // overlapping, they would burst apart in full steps

@@ -123,8 +123,8 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 6;
-  expect_refused(resealed(other), {"version 6, not 5"});
+  other[12] = 7;
+  expect_refused(resealed(other), {"version 7, not 6"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});

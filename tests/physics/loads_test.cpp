@@ -2,6 +2,8 @@
 // Forces and pressures on parts of a body, and points that follow particles.
 #include <sinew/physics/world/loads.h>
 
+#include <functional>
+#include <numbers>
 #include <random>
 
 #include <sinew/core/parallel.h>
@@ -78,7 +80,8 @@ TEST(Loads, APressureOnAClosedBodySumsToZeroWithItsMoments) {
   const Points rest = test::fcc_box(7, 7, 15, r), now = deformed(rest);
   const Load load = pressure_load("press", around(rest), 2000, rest, r);
   LoadNow at(load);
-  at.find(load, 0.5, [&](std::size_t k) { return now[load.particles[k]]; });
+  at.find(
+      0.5, [&](std::size_t k) { return now[load.particles[k]]; }, false);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
   double most = 0;
   for (std::size_t k = 0; k < load.particles.size(); ++k) {
@@ -96,7 +99,8 @@ TEST(Loads, TheWorkOfAPressureIsTheVolumeLost) {
   Triangles skin = around(rest);
   const Load load = pressure_load("press", skin, 2000, rest, r);
   LoadNow at(load);
-  at.find(load, 1, [&](std::size_t k) { return now[load.particles[k]]; });
+  at.find(
+      1, [&](std::size_t k) { return now[load.particles[k]]; }, false);
   const FollowingPoints points = following(skin.points, rest, r, followed_by_corners);
   std::mt19937 random(5);
   double power = 0;
@@ -135,7 +139,8 @@ TEST(Loads, TurnWithTheSurfaceOnlyIfTheyArePressures) {
   const double side = bounds(skin.points).sizes().x(), area = side * side;
   for (const Load* load : {&pressure, &traction}) {
     LoadNow at(*load);
-    at.find(*load, 1, [&](std::size_t k) { return now[load->particles[k]]; });
+    at.find(
+        1, [&](std::size_t k) { return now[load->particles[k]]; }, false);
     const Vec3 expected = load == &pressure ? Vec3(-1000 * area, 0, 0) : Vec3(0, 0, -1000 * area);
     EXPECT_LT((force_of(*load, at) - expected).norm(), 1e-9 * 1000 * area);
     EXPECT_LT((load->pivot - Vec3(0, 0, z)).norm(), 1e-9 * r);
@@ -149,7 +154,8 @@ TEST(Loads, AreTheSameBitsOnAnyNumberOfThreads) {
     with_threads(threads, [&] {
       const Load load = pressure_load("press", around(rest), 2000, rest, r);
       LoadNow at(load);
-      at.find(load, 0.7, [&](std::size_t k) { return now[load.particles[k]]; });
+      at.find(
+          0.7, [&](std::size_t k) { return now[load.particles[k]]; }, false);
       for (std::size_t k = 0; k < load.particles.size(); ++k) found.push_back(at.force(k));
     });
     return found;
@@ -157,6 +163,118 @@ TEST(Loads, AreTheSameBitsOnAnyNumberOfThreads) {
   const Points one = forces(1), three = forces(3);
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t k = 0; k < one.size(); ++k) ASSERT_EQ(one[k], three[k]);
+}
+
+/// A closed surface's forces at one step after another, and how far they are off at each.
+struct Followed {
+  int found = 0;        ///< how often they were found anew
+  double farthest = 0;  ///< from those of the moment, over those
+  double mean = 0;      ///< of these differences, summed before their size is taken
+};
+
+Followed followed(const Points& rest, const std::function<Vec3(const Vec3&, int)>& motion) {
+  constexpr int steps = 320;
+  const Load load = pressure_load("press", around(rest), 2000, rest, r);
+  LoadNow held(load);
+  Points sum(load.particles.size(), Vec3::Zero());
+  double size = 0;
+  Followed result;
+  for (int step = 0; step < steps; ++step) {
+    const auto position = [&](std::size_t k) { return motion(rest[load.particles[k]], step); };
+    LoadNow exact(load);
+    exact.find(1, position, false);
+    if (held.find(1, position, true)) ++result.found;
+    double off = 0;
+    size = 0;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      const Vec3 difference = held.force(k) - exact.force(k);
+      sum[k] += difference / steps;
+      off += difference.squaredNorm();
+      size += exact.force(k).squaredNorm();
+    }
+    result.farthest = std::max(result.farthest, std::sqrt(off / size));
+  }
+  double off = 0;
+  for (const Vec3& one : sum) off += one.squaredNorm();
+  result.mean = std::sqrt(off / size);
+  return result;
+}
+
+TEST(Loads, OfPressuresHoldForStepsWhileTheSurfaceTurnsEvenly) {
+  const Points rest = test::fcc_box(7, 7, 15, r);
+  constexpr double in_step = 1e-3;
+  const Followed turning = followed(rest, [](const Vec3& at, int step) -> Vec3 {
+    return Eigen::AngleAxisd(in_step * step, Vec3(1, 2, 3).normalized()) * at;
+  });
+  EXPECT_LT(turning.found, 320 / PressedFaces::most_steps + 6);
+  EXPECT_LT(turning.farthest, 8.5 * in_step);  // from the middle of 16 steps
+  EXPECT_LT(turning.mean, 2e-4);               // none of it lasts
+  const Followed resting = followed(rest, [](const Vec3& at, int) { return at; });
+  EXPECT_LT(resting.found, 320 / PressedFaces::most_steps + 6);
+  EXPECT_LT(resting.farthest, 1e-12);
+}
+
+TEST(Loads, OfPressuresAreFoundInEveryStepWhereTheSurfaceShakes) {
+  const Points rest = test::fcc_box(7, 7, 15, r);
+  const Followed shaking = followed(rest, [](const Vec3& at, int step) -> Vec3 {
+    return (1 + 0.02 * std::sin(step * std::numbers::pi / 5)) * at;
+  });
+  EXPECT_GT(shaking.found, 310);
+  EXPECT_LT(shaking.farthest, 1e-12);
+  const Followed slower = followed(rest, [](const Vec3& at, int step) -> Vec3 {
+    return (1 + 0.002 * std::sin(step * std::numbers::pi / 50)) * at;
+  });
+  EXPECT_LT(slower.found, 160);
+  EXPECT_LT(slower.farthest, 0.003);
+}
+
+/// Without damping, what a body stores and the volume that its pressure has taken stay in balance,
+/// however long it swings.
+TEST(Loads, OfPressuresKeepTheEnergyOfABodyThatSwings) {
+  Machine machine;
+  machine.settings.material.damping = 0;
+  Triangles skin = around(machine.rest);
+  constexpr double pressure = 300;
+  machine.world.loads = {pressure_load("press", skin, pressure, machine.rest, r)};
+  const FollowingPoints points = following(skin.points, machine.rest, r, followed_by_corners);
+  Simulation simulation = machine.begin();
+  const auto all = [&] {
+    Points now(machine.rest.size());
+    const Particles& particles = simulation.particles();
+    for (std::size_t i = 0; i < now.size(); ++i) now[particles.id[i]] = particles.position(i);
+    skin.points = points.at(now);
+    return simulation.energies().stored() + pressure * volume(skin);
+  };
+  simulation.step();
+  const double start = all();
+  double swung = 0;
+  while (simulation.steps() < 4000) {
+    simulation.step();
+    swung = std::max(swung, simulation.energies().kinetic);
+  }
+  EXPECT_NEAR(all(), start, 0.02 * swung);
+}
+
+TEST(Loads, OfPressuresAreThoseOfTheMomentInEquilibrium) {
+  Machine machine;
+  machine.world.supports = {{"clamp", machine.bottom()}};
+  const Triangles skin = around(machine.rest);
+  machine.world.loads = {pressure_load("press", skin, 600, machine.rest, r),
+                         machine.pull(machine.top(), {0.05, 0, 0})};
+  Simulation simulation = machine.at_rest();
+  const Particles& particles = simulation.particles();
+  Points now(machine.rest.size());
+  for (std::size_t i = 0; i < now.size(); ++i) now[particles.id[i]] = particles.position(i);
+  const Load& load = machine.world.loads[0];
+  LoadNow exact(load);
+  exact.find(
+      1, [&](std::size_t k) { return now[load.particles[k]]; }, false);
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t k = 0; k < load.particles.size(); ++k)
+    moment += (now[load.particles[k]] - load.pivot).cross(exact.force(k));
+  const Reaction held = simulation.of_loads()[0];
+  EXPECT_LT((held.force - force_of(load, exact)).norm(), 1e-6 * exact.size());
+  EXPECT_LT((held.moment - moment).norm(), 1e-6 * exact.size() * r);
 }
 
 /// A load that grows does what a body stores and loses.

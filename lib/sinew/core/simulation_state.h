@@ -103,6 +103,8 @@ struct SimulationState {
   // Of friction between particles that touch: whose springs, and their stretches, m.
   std::vector<std::int32_t> sliding_pairs;  ///< two ids each
   std::vector<double> sliding;              ///< three each
+  /// Of each pressure: of its steps, and of each corner the place, m, and its motion in a step, m.
+  std::vector<double> pressed = {};
 };
 
 }  // namespace sinew

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 5, oldest_version = 3;
+constexpr std::uint32_t format_version = 6, oldest_version = 3;
 constexpr std::size_t name_size = 8;
 // Bonds: 18 neighbors at rest, from both sides; branches of them; positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
@@ -81,12 +81,13 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("regroups", state.regrouping.times);
   transfer("merging", state.regrouping.lost);
   transfer("still", state.regrouping.still_since);
+  transfer("pressed", state.pressed);
 }
 
 /// Sections that earlier versions lack, after all others.
 bool is_new(std::string_view name) {
   return name == "slidpair" || name == "sliding" || name == "groups" || name == "grouping" ||
-         name == "regroups" || name == "merging" || name == "still";
+         name == "regroups" || name == "merging" || name == "still" || name == "pressed";
 }
 
 template <class Value>

@@ -39,6 +39,7 @@ void LoadLists<Real>::set_order(std::span<const std::int32_t> id) {
   const std::size_t blocks = (id.size() + block - 1) / block;
   on_.assign(blocks, 0);
   particles_.clear();
+  per_force_ = 0;
   for (auto& axis : acceleration_) axis.assign(blocks * block, 0);
   for (std::uint32_t k = 0; k < id.size(); ++k) {
     if (first_[k] == first_[k + 1]) continue;
@@ -49,19 +50,29 @@ void LoadLists<Real>::set_order(std::span<const std::int32_t> id) {
 
 template <class Real>
 void LoadLists<Real>::find(std::span<const double> scale, const BlockState<Real>& state,
-                           const Units& units) {
-  for (std::size_t n = 0; n < given_.size(); ++n)
-    now_[n].find(given_[n], scale[n],
-                 [&](std::size_t at) { return state.position(places_[n][at], units); });
+                           const Units& units, bool stepping) {
   const double per_force = units.time * units.time / (mass_ * units.length);
-  parallel_for(particles_.size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      const std::size_t k = particles_[n];
-      const Vec3 acceleration = per_force * force(k);
+  bool changed = per_force != per_force_;
+  per_force_ = per_force;
+  for (std::size_t n = 0; n < given_.size(); ++n)
+    if (now_[n].find(
+            scale[n], [&](std::size_t at) { return state.position(places_[n][at], units); },
+            stepping))
+      changed = true;
+  if (!changed) return;
+  const auto on_all = [&](std::size_t count, const auto& each) {
+    parallel_for(count, particles_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t at = begin; at < end; ++at) each(at);
+    });
+  };
+  for (auto& axis : acceleration_)
+    on_all(particles_.size(), [&](std::size_t at) { axis[particles_[at]] = 0; });
+  for (std::size_t n = 0; n < given_.size(); ++n)
+    on_all(places_[n].size(), [&](std::size_t at) {
+      const Vec3 more = per_force * now_[n].force(at);
       for (std::size_t axis = 0; axis < 3; ++axis)
-        acceleration_[axis][k] = static_cast<Real>(acceleration[static_cast<int>(axis)]);
-    }
-  });
+        acceleration_[axis][places_[n][at]] += static_cast<Real>(more[static_cast<int>(axis)]);
+    });
 }
 
 template <class Real>
@@ -91,9 +102,9 @@ void LoadLists<Real>::add(std::size_t k, const Vec3& position, const Vec3& veloc
 }
 
 template <class Real>
-double LoadLists<Real>::sizes(std::span<const double> scale) const {
+double LoadLists<Real>::sizes() const {
   double sum = 0;
-  for (std::size_t n = 0; n < given_.size(); ++n) sum += now_[n].size(given_[n], scale[n]);
+  for (const LoadNow& load : now_) sum += load.size();
   return sum;
 }
 

@@ -3,7 +3,7 @@
 //
 //     LoadLists<Real> loads(world.loads, mass);
 //     loads.set_order(id);
-//     loads.find(factors, state, units);     // before a step
+//     loads.find(factors, state, units, true);  // before a step
 //     step.loads = loads.arrays();
 #pragma once
 
@@ -29,8 +29,9 @@ class LoadLists {
   std::size_t size() const { return given_.size(); }
   /// The particles `id` in the kernel's order.
   void set_order(std::span<const std::int32_t> id);
-  /// At a moment with those factors on the loads.
-  void find(std::span<const double> scale, const BlockState<Real>& state, const Units& units);
+  /// At a moment with those factors on the loads; `stepping`: for a step that follows.
+  void find(std::span<const double> scale, const BlockState<Real>& state, const Units& units,
+            bool stepping);
   kernel::Loads<Real> arrays() const;
 
   bool is_on(std::size_t block) const { return !on_.empty() && on_[block] != 0; }
@@ -38,7 +39,10 @@ class LoadLists {
   /// Adds what each load does to particle k at `position` with that `velocity`.
   void add(std::size_t k, const Vec3& position, const Vec3& velocity,
            std::span<Reaction> of_loads) const;
-  double sizes(std::span<const double> scale) const;  ///< the lengths of all forces, N
+  double sizes() const;  ///< the lengths of all forces, N
+
+  void save(SimulationState& state) const { save_loads(now_, state); }
+  void restore(const SimulationState& state) { restore_loads(state, now_); }
 
  private:
   /// A load's force on a particle, by its place among the load's particles.
@@ -54,6 +58,7 @@ class LoadLists {
   std::vector<Loaded> loaded_;
   std::vector<std::uint32_t> particles_;  ///< that have some, ascending
   std::vector<std::uint8_t> on_;          ///< by block
+  double per_force_ = 0;                  ///< of the accelerations, in units of the kernel
   std::array<std::vector<Real>, 3> acceleration_;
 };
 

@@ -171,7 +171,7 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
   units_ = units;
   forces_ = forces;
   if (forces_ != nullptr) forces_->assign(state.size(), Vec3::Zero());
-  loads_.find(now_.loads, state, units_);
+  loads_.find(now_.loads, state, units_, forces == nullptr);
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};

@@ -57,13 +57,19 @@ class Surroundings {
 
   void set_step(double step);  ///< s
 
-  void save(SimulationState& state) const { sliding_.save(state); }
-  void restore(const SimulationState& state) { sliding_.restore(state); }
+  void save(SimulationState& state) const {
+    sliding_.save(state);
+    loads_.save(state);
+  }
+  void restore(const SimulationState& state) {
+    sliding_.restore(state);
+    loads_.restore(state);
+  }
 
   /// Of the last step or probe, added in the order of the pieces.
   WorldSums sums() const;
   /// The lengths of the forces of loads at present, N.
-  double loaded() const { return loads_.sizes(now_.loads); }
+  double loaded() const { return loads_.sizes(); }
   std::vector<Reaction> reactions() const;          ///< of obstacles
   std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
   std::vector<Reaction> of_supports() const;        ///< on the body, of each

@@ -64,8 +64,10 @@ void CellStepper::find_loads(const WorldNow& now) {
   of_loads_.assign(loads_.size(), {});
   for (std::size_t n = 0; n < loads_.size(); ++n) {
     const Load& load = body_->world->loads[n];
-    loads_[n].find(load, now.loads[n],
-                   [&](std::size_t at) { return particles_.position(place_[load.particles[at]]); });
+    loads_[n].find(
+        now.loads[n],
+        [&](std::size_t at) { return particles_.position(place_[load.particles[at]]); },
+        stepping_now_);
     for (std::size_t k = 0; k < load.particles.size(); ++k)
       load_[place_[load.particles[k]]] += loads_[n].force(k);
   }
@@ -188,6 +190,7 @@ void CellStepper::save(SimulationState& state) const {
   state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
   state.kicked = kicked_;
   sliding_.save(state);
+  save_loads(loads_, state);
   if (!solid_) return;
   state.rest_length = solid_->rest_lengths();
   solid_->branches().save(state);
@@ -204,6 +207,7 @@ void CellStepper::restore(const SimulationState& state) {
     throw not_a_state("it has bonds");
   }
   sliding_.restore(state);
+  restore_loads(state, loads_);
   Particles& now = particles_;
   now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
   now.u = moving->v[0], now.v = moving->v[1], now.w = moving->v[2];

@@ -3,24 +3,23 @@
 // keep their direction, and a pressure, which follows the surface.
 //
 //     LoadNow now(load);
-//     now.find(load, load.scale.at(time), [&](std::size_t k) { return position_of(k); });
+//     now.find(load.scale.at(time), [&](std::size_t k) { return position_of(k); }, true);
 //     force += now.force(k);   // on particle load.particles[k]
-//
-// A pressure p acts on triangles whose corners y follow the particles: p A n / 3 inward on each
-// corner, with the area and the normal of the moment, and from there by the corner's weights on
-// particles. On a closed surface forces and moments so sum to zero, and the work is p times the
-// volume that is lost.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <sinew/core/parallel.h>
+#include <sinew/core/simulation_state.h>
 #include <sinew/core/triangles.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/world/following_points.h>
+#include <sinew/physics/world/pressed_faces.h>
 #include <sinew/physics/world/region.h>
 
 namespace sinew {
@@ -65,51 +64,45 @@ struct AreaShares {
 };
 AreaShares area_shares(const Triangles& surface, const Points& rest, double radius);
 
-/// The forces of a load at one moment.
+/// The forces of a load, which must outlive this, at one moment.
 class LoadNow {
  public:
-  explicit LoadNow(const Load& load);
+  explicit LoadNow(const Load& load)
+      : load_(&load), pressed_(load.faces, load.corners, load.particles.size()) {}
 
-  /// Finds the forces at a moment; `position(k)`: of load.particles[k], m. In parallel; the same
-  /// bits for any number of threads.
+  /// Finds the forces at a moment; `position(k)`: of load.particles[k], m; `stepping`: for a step
+  /// that follows. Returns whether they may have changed. In parallel; the same bits for any number
+  /// of threads.
   template <class Position>
-  void find(const Load& load, double scale, const Position& position) {
-    if (!load.faces.empty())
-      parallel_for(load.particles.size(), particles_per_task,
-                   [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t k = begin; k < end; ++k) at_[k].head<3>() = position(k);
-                   });
-    find_forces(load, scale);
+  bool find(double scale, const Position& position, bool stepping) {
+    const bool scaled = scale != scale_;
+    scale_ = scale;
+    return pressed_.find(position, stepping) || scaled;
   }
 
-  Vec3 force(std::size_t k) const { return forces_[k].head<3>(); }  ///< on load.particles[k], N
+  /// On load.particles[k], N.
+  Vec3 force(std::size_t k) const {
+    Vec3 sum = scale_ * load_->share[k] * load_->force;
+    if (!pressed_.empty()) sum += scale_ * load_->pressure * pressed_.force(k);
+    return sum;
+  }
   /// Of its forces as found last, those of a pressure by their lengths, N.
-  double size(const Load& load, double scale) const;
+  double size() const {
+    return std::abs(scale_) * (load_->force.norm() + std::abs(load_->pressure) * pressed_.size());
+  }
+
+  PressedFaces& pressed() { return pressed_; }
+  const PressedFaces& pressed() const { return pressed_; }
 
  private:
-  static constexpr std::size_t particles_per_task = 512;
-  using Four = Eigen::Vector4d;  ///< as two pairs: x, y, z, 0
-
-  /// Sums over entries of rows: row k has the entries [first[k], first[k + 1]).
-  struct Weights {
-    std::vector<std::uint32_t> first, source;
-    std::vector<double> weight;
-
-    Four sum(std::size_t k, const std::vector<Four>& of) const {
-      Four all = Four::Zero();
-      for (std::uint32_t e = first[k]; e < first[k + 1]; ++e) all += weight[e] * of[source[e]];
-      return all;
-    }
-  };
-
-  void order_corners(const Load& load);
-  void find_forces(const Load& load, double scale);
-  void find_pressure(const Load& load, double scale);
-
-  Weights of_corners_, of_particles_, of_faces_;  ///< corners from particles, and back; from faces
-  std::vector<std::array<std::uint32_t, 3>> face_;
-  std::vector<Four> at_, corner_, area_, pushed_, forces_;
+  const Load* load_;
+  PressedFaces pressed_;
+  double scale_ = std::numeric_limits<double>::quiet_NaN();
 };
+
+void save_loads(std::span<const LoadNow> loads, SimulationState& state);
+/// Throws bad input for a state of other loads.
+void restore_loads(const SimulationState& state, std::span<LoadNow> loads);
 
 /// An upper bound of the stiffness that a load adds to a particle of `radius` (m), N/m.
 double load_stiffness(const Load& load, double radius);
