@@ -239,6 +239,7 @@ std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& s
                           double radius) {
   std::string cards;
   for (const VerdictItem& item : verdict(frames, summary, radius)) {
+    if (item.level == Level::unknown) continue;  // a body without bones has no pose to follow
     const std::string kind = std::string("class=\"word ") + name_of(item.level) + '"';
     cards += element("div",
                      element("b", escaped(item.value)) +

@@ -62,7 +62,7 @@ struct Page {
 /// The whole page, UTF-8, with its style, script and libraries.
 std::string page_html(const Page& page);
 
-/// The verdict's cards; radius in m.
+/// The cards of what the verdict could judge; radius in m.
 std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& summary,
                           double radius);
 
