@@ -26,12 +26,7 @@ void Simulation::group_as_it_moves(const DynamicOptions& options) {
   if (std::holds_alternative<CellStepper>(stepper_))
     throw bad_input("the paper's cells have no groups", "search neighbors by lists");
   check_groupable(*body_);
-  set_grouping(std::vector<std::int32_t>(body_->rest.size(), -1));
-  std::visit(
-      [](auto& stepper) {
-        if constexpr (requires { stepper.regroup(); }) stepper.regroup();
-      },
-      stepper_);
+  move_in(std::vector<std::int32_t>(body_->rest.size(), -1));
   dynamic_.emplace(body_, *motion_, particles_.mass, options);
   regrouping_.still_since.assign(body_->skeleton.size(), -1);
   regroup({}, false);
@@ -40,6 +35,18 @@ void Simulation::group_as_it_moves(const DynamicOptions& options) {
 void Simulation::set_grouping(std::vector<std::int32_t> group) {
   if (group.size() != body_->rest.size()) throw not_a_state("it has no groups");
   body_->grouping = std::make_shared<const Grouping>(make_grouping(*body_, std::move(group)));
+}
+
+/// The particles go on in these groups, from where they are.
+void Simulation::move_in(std::vector<std::int32_t> group) {
+  set_grouping(std::move(group));
+  std::visit(
+      [](auto& stepper) {
+        if constexpr (requires { stepper.regroup(); }) stepper.regroup();
+      },
+      stepper_);
+  evaluated_ = false;
+  forget_read();
 }
 
 GroupingMoment Simulation::grouping_moment() const {
@@ -69,19 +76,10 @@ void Simulation::regroup(std::span<const HeldCell> held, bool must) {
                     static_cast<double>(body_->grouping->grouped());
   if (!must && gain < least_gain * static_cast<double>(made.group.size())) return;
   const double before = energies().stored();
-  set_grouping(std::move(made.group));
-  std::visit(
-      [](auto& stepper) {
-        if constexpr (requires { stepper.regroup(); }) stepper.regroup();
-      },
-      stepper_);
-  evaluated_ = false;
-  forget_read();
+  move_in(std::move(made.group));
   regrouping_.lost += before - energies().stored();
   regrouping_.still_since = std::move(made.still_since);
   ++regrouping_.times;
-  evaluated_ = false;
-  forget_read();
 }
 
 }  // namespace sinew
