@@ -72,7 +72,8 @@ std::vector<OffsetLists> lists_of(const kernel::Functions<Real>& kernel, World<R
       (world.state.blocks() + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece;
   std::vector<std::uint32_t> all(pieces);
   std::iota(all.begin(), all.end(), 0U);
-  BlockBoxes boxes(pieces);
+  BlockBoxes boxes;
+  boxes.resize(pieces);
   for (const std::uint32_t piece : all) find_boxes(world.state, piece, boxes);
   std::vector<OffsetLists> lists;
   for (const std::uint32_t piece : all)

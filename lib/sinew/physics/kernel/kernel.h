@@ -298,6 +298,14 @@ struct BlockBounds {
   float low[bound_axes][blocks_per_piece], high[bound_axes][blocks_per_piece];
 };
 
+/// Some pieces, ascending.
+struct SomePieces {
+  const std::uint32_t* number;
+  std::size_t count;
+  const BlockBounds*
+      around;  ///< as if each piece were a block: of the first ones, of the next ones
+};
+
 /// Prunes the differences of a block's candidates: those with a pair within range are kept.
 template <class Real>
 struct PruneInput {
@@ -333,8 +341,8 @@ struct Functions {
   void (*pull)(const Step<Real>&, const PulledBlocks<Real>&, PullSums&);
   /// Finds the blocks of `pieces`, ascending, whose bounds are within range of those of a block;
   /// returns how many.
-  std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const std::uint32_t* pieces,
-                      std::size_t count, float range, std::uint32_t* found);
+  std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const SomePieces& pieces,
+                      float range, std::uint32_t* found);
   /// Finds the differences with a pair of the block and one of the others (ascending) within range,
   /// ascending; returns how many. At most twice a block's size for each of the others.
   std::size_t (*list)(const PruneInput<Real>&, std::size_t block, const std::uint32_t* others,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds the differences of a block: first the blocks near it, by bounds, then those of pairs within
-// range.
+// Finds the differences of a block: first the pieces and the blocks near it, by bounds, then those
+// of pairs within range.
 #pragma once
 
 #include <algorithm>
@@ -26,19 +26,26 @@ SINEW_INLINE typename L::V gap_between(const BlockBounds& one, std::size_t at,
 }
 
 template <class L>
-std::size_t near_blocks(const BlockBounds* bounds, std::size_t block, const std::uint32_t* pieces,
-                        std::size_t count, float range, std::uint32_t* found) {
+std::size_t near_blocks(const BlockBounds* bounds, std::size_t block, const SomePieces& pieces,
+                        float range, std::uint32_t* found) {
   const BlockBounds& one = bounds[block / blocks_per_piece];
   const std::size_t at = block % blocks_per_piece;
   std::uint32_t* end = found;
-  for (const std::uint32_t* piece = pieces; piece != pieces + count; ++piece)
-    for (std::size_t first = 0; first < blocks_per_piece; first += L::width) {
-      const auto gap = gap_between<L>(one, at, bounds[*piece], first);
-      for (std::uint32_t near = L::bits(L::at_most(gap, L::all(range))); near != 0;
-           near &= near - 1)
-        *end++ = static_cast<std::uint32_t>(*piece * blocks_per_piece + first) +
-                 static_cast<std::uint32_t>(std::countr_zero(near));
-    }
+  const auto for_each_near = [&](const BlockBounds& others, std::size_t first, const auto& visit) {
+    const auto gap = gap_between<L>(one, at, others, first);
+    for (std::uint32_t near = L::bits(L::at_most(gap, L::all(range))); near != 0; near &= near - 1)
+      visit(first + static_cast<std::size_t>(std::countr_zero(near)));
+  };
+  for (std::size_t n = 0; n < pieces.count; n += L::width) {
+    const std::size_t chunk = n / blocks_per_piece;
+    for_each_near(pieces.around[chunk], n % blocks_per_piece, [&](std::size_t which) {
+      const std::size_t piece = pieces.number[chunk * blocks_per_piece + which];
+      for (std::size_t first = 0; first < blocks_per_piece; first += L::width)
+        for_each_near(bounds[piece], first, [&](std::size_t other) {
+          *end++ = static_cast<std::uint32_t>(piece * blocks_per_piece + other);
+        });
+    });
+  }
   return static_cast<std::size_t>(end - found);
 }
 

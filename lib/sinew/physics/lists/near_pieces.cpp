@@ -24,6 +24,7 @@ constexpr double jump = 0.06;
 // steps.
 constexpr double drift_share = 0.1;
 constexpr int least_steps = 8;
+constexpr double unknown = std::numeric_limits<double>::infinity();
 
 Box expanded(Box box, double by) {
   box.min().array() -= by;
@@ -35,13 +36,22 @@ Box expanded(Box box, double by) {
 double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) {
   const Vec3 first = a.velocity_at(box.min()) - b.velocity_at(box.min());
   const Vec3 spin = a.spin - b.spin, sizes = box.sizes();
+  const Vec3 along_x(0, spin.z() * sizes.x(), -spin.y() * sizes.x());
+  const Vec3 along_y(-spin.z() * sizes.y(), 0, spin.x() * sizes.y());
+  const Vec3 along_z(spin.y() * sizes.z(), -spin.x() * sizes.z(), 0);
   double most = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 along((corner & 1) != 0 ? sizes.x() : 0, (corner & 2) != 0 ? sizes.y() : 0,
-                     (corner & 4) != 0 ? sizes.z() : 0);
-    most = std::max(most, (first + spin.cross(along)).squaredNorm());
-  }
+  for (const Vec3& x : {first, Vec3(first + along_x)})
+    for (const Vec3& y : {x, Vec3(x + along_y)})
+      most = std::max({most, y.squaredNorm(), (y + along_z).squaredNorm()});
   return std::sqrt(most);
+}
+
+/// That piece among those near one, which ascend, or null.
+const NearPieces::Near* found(std::span<const NearPieces::Near> near, std::uint32_t piece) {
+  const auto at = std::lower_bound(
+      near.begin(), near.end(), piece,
+      [](const NearPieces::Near& one, std::uint32_t number) { return one.piece < number; });
+  return at != near.end() && at->piece == piece ? &*at : nullptr;
 }
 
 /// Boxes of the pieces, around several of them, around several of those, and so on up to one.
@@ -84,7 +94,12 @@ double NearPieces::fastest_of(std::span<const PieceNow> pieces) const {
 }
 
 void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
+  parallel_for(near_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) settle(piece);
+  });
   pieces_ = std::move(pieces);
+  gone_.assign(pieces_.size(), 0);
+  elapsed_ = 0;
   common_.setZero();
   for (const PieceNow& piece : pieces_)
     common_ += piece.velocity_at(piece.box.center()) / static_cast<double>(pieces_.size());
@@ -100,12 +115,17 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
   fastest_point_ = fastest_of(pieces_);
   const double horizon = fastest_point_ > 0 ? margin_ / (4 * fastest_point_) : 0;
   near_.resize(pieces_.size());
+  spare_.assign(pieces_.size(), {});
   meets_others_.resize(pieces_.size());
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       find_near(piece, horizon);
       find_rates(piece);
     }
+  });
+  parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) copy_rates(piece);
+    for (std::size_t piece = begin; piece < end; ++piece) find_spare(piece);
   });
 }
 
@@ -150,10 +170,7 @@ void NearPieces::find_near(std::size_t piece, double horizon) {
 
 /// A piece that was not near has come no nearer than the outer range.
 void NearPieces::add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before) {
-  const auto known =
-      std::lower_bound(before.begin(), before.end(), other,
-                       [](const Near& one, std::uint32_t number) { return one.piece < number; });
-  if (known != before.end() && known->piece == other) {
+  if (const Near* known = found(before, other); known != nullptr) {
     near_[piece].push_back(*known);
     return;
   }
@@ -161,11 +178,21 @@ void NearPieces::add_near(std::size_t piece, std::uint32_t other, std::span<cons
   near_[piece].push_back({other, 0, 0, apart, apart});
 }
 
-/// Of approach to each piece near one, in the region where particles of both may be within the
-/// outer range of each other before the next survey. Where there is none, nothing was used up.
+/// Of approach of two pieces, in the region where particles of both may be within the outer range
+/// of each other before the next survey.
+float NearPieces::rate_between(const PieceNow& one, const PieceNow& other) const {
+  const double travel = margin_ / 4, reach = ranges_.outer;
+  const Box here = expanded(one.box, travel), there = expanded(other.box, travel);
+  const double rate =
+      std::min(largest_difference(one, other, here.intersection(expanded(there, reach))),
+               largest_difference(one, other, there.intersection(expanded(here, reach))));
+  return static_cast<float>(rate * (1 + 1e-6));
+}
+
+/// To each piece near one, of those with lower numbers in the end. Where there is no region,
+/// nothing was used up.
 void NearPieces::find_rates(std::size_t piece) {
   const PieceNow& one = pieces_[piece];
-  const double travel = margin_ / 4;
   if (!meets_others(piece)) return;
   for (Near& near : near_[piece]) {
     if (are_bound(piece, near.piece)) continue;
@@ -176,13 +203,20 @@ void NearPieces::find_rates(std::size_t piece) {
     const double apart = std::min(near.gap, ranges_.outer) - ranges_.force;
     near.outer = std::max(near.outer, apart);
     near.inner = std::max(near.inner, apart);
-    if (near.gap >= ranges_.outer + 2 * travel) continue;
-    const Box here = expanded(one.box, travel), there = expanded(other.box, travel);
-    const double reach = ranges_.outer;
-    const double rate =
-        std::min(largest_difference(one, other, here.intersection(expanded(there, reach))),
-                 largest_difference(one, other, there.intersection(expanded(here, reach))));
-    near.rate = static_cast<float>(rate * (1 + 1e-6));
+    if (near.piece > piece && may_touch(near)) near.rate = rate_between(one, other);
+  }
+}
+
+/// The same both ways.
+void NearPieces::copy_rates(std::size_t piece) {
+  if (!meets_others(piece)) return;
+  for (Near& near : near_[piece]) {
+    if (near.piece >= piece) break;
+    if (are_bound(piece, near.piece) || !may_touch(near)) continue;
+    const Near* known = found(near_[near.piece], static_cast<std::uint32_t>(piece));
+    near.rate = known != nullptr && meets_others(near.piece)
+                    ? known->rate
+                    : rate_between(pieces_[near.piece], pieces_[piece]);
   }
 }
 
@@ -195,24 +229,41 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   ++steps_;
   if (4 * traveled_ > margin_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer)
     return false;
-  least_.resize(pieces_.size());
+  elapsed_ += time;
+  for (std::size_t piece = 0; piece < gone_.size(); ++piece) gone_[piece] += fastest[piece] * time;
   parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
-      Spare& least = least_[piece] = {};
-      if (!meets_others(piece)) continue;
-      for (Near& near : near_[piece]) {
-        if (are_bound(piece, near.piece)) continue;
-        const double used =
-            (fastest[piece] + fastest[near.piece] + static_cast<double>(near.rate)) * time;
-        near.outer -= used;
-        near.inner -= used;
-        least.outer = std::min(least.outer, near.outer);
-        least.inner = std::min(least.inner, near.inner);
-      }
+      Spare& spare = spare_[piece];
+      spare.used += (fastest[piece] + most + spare.rate) * time;
+      if (!(spare.used < std::min(spare.outer, spare.inner))) find_spare(piece);
     }
   });
   sort_out();
   return true;
+}
+
+/// What the pieces near one have left at present.
+void NearPieces::find_spare(std::size_t piece) {
+  Spare& spare = spare_[piece] = {};
+  if (!meets_others(piece)) return;
+  for (const Near& near : near_[piece]) {
+    if (are_bound(piece, near.piece)) continue;
+    const double used = used_of(piece, near);
+    spare.outer = std::min(spare.outer, near.outer - used);
+    spare.inner = std::min(spare.inner, near.inner - used);
+    spare.rate = std::max(spare.rate, static_cast<double>(near.rate));
+  }
+}
+
+/// Before the next survey: from now on, nothing has been used of what is left.
+void NearPieces::settle(std::size_t piece) {
+  if (!meets_others(piece)) return;
+  for (Near& near : near_[piece]) {
+    if (are_bound(piece, near.piece)) continue;
+    const double used = used_of(piece, near);
+    near.outer -= used;
+    near.inner -= used;
+  }
 }
 
 /// Whose lists are due: outer lists also where too little is left for inner lists to last.
@@ -220,8 +271,8 @@ void NearPieces::sort_out() {
   to_list_.clear();
   to_prune_.clear();
   const double little = (ranges_.inner - ranges_.force) / 4;
-  for (std::uint32_t piece = 0; piece < least_.size(); ++piece) {
-    const Spare& least = least_[piece];
+  for (std::uint32_t piece = 0; piece < spare_.size(); ++piece) {
+    const Spare& least = spare_[piece];
     if (least.outer < 0 || (least.inner < 0 && least.outer < little))
       to_list_.push_back(piece);
     else if (least.inner < 0)
@@ -244,14 +295,17 @@ bool NearPieces::survey_due() const {
 }
 
 void NearPieces::listed(std::size_t piece) {
-  for (Near& near : near_[piece]) near.outer = ranges_.outer - ranges_.force;
+  for (Near& near : near_[piece]) near.outer = ranges_.outer - ranges_.force + used_of(piece, near);
+  spare_[piece].used = unknown;
 }
 
 void NearPieces::pruned(std::size_t piece) {
   for (Near& near : near_[piece]) {
     const double apart = std::min(near.gap - 2 * traveled_, ranges_.outer) - ranges_.force;
-    near.inner = std::max(apart, std::min(ranges_.inner - ranges_.force, near.outer));
+    const double used = used_of(piece, near);
+    near.inner = used + std::max(apart, std::min(ranges_.inner - ranges_.force, near.outer - used));
   }
+  spare_[piece].used = unknown;
 }
 
 }  // namespace sinew

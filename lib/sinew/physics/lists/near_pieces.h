@@ -50,9 +50,10 @@ class NearPieces {
   /// Another piece that may be within the outer range.
   struct Near {
     std::uint32_t piece;
-    float rate;           ///< of approach by the difference of the velocity fields
-    double gap;           ///< between the boxes at the survey
-    double outer, inner;  ///< how much nearer particles may come that the lists do not pair
+    float rate;  ///< of approach by the difference of the velocity fields
+    double gap;  ///< between the boxes at the survey
+    /// How much nearer than at the survey particles may come that the lists do not pair.
+    double outer, inner;
   };
 
   NearPieces() = default;
@@ -92,17 +93,29 @@ class NearPieces {
   void find_near(std::size_t piece, double horizon);
   bool may_meet(const PieceNow& one, const PieceNow& other, double horizon) const;
   void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
+  float rate_between(const PieceNow& one, const PieceNow& other) const;
   void find_rates(std::size_t piece);
+  void copy_rates(std::size_t piece);
+  void settle(std::size_t piece);
+  void find_spare(std::size_t piece);
   void sort_out();
+  /// How much nearer particles of a piece and one near it may have come since the survey.
+  double used_of(std::size_t piece, const Near& near) const {
+    return gone_[piece] + gone_[near.piece] + static_cast<double>(near.rate) * elapsed_;
+  }
+  /// Whether particles of both may be within the outer range before the next survey.
+  bool may_touch(const Near& near) const { return near.gap < ranges_.outer + margin_ / 2; }
   bool are_bound(std::size_t a, std::size_t b) const {
     return !bound_to_.empty() && bound_to_[a] >= 0 && bound_to_[a] == bound_to_[b];
   }
   double speed_of(const PieceNow& piece) const;
   double fastest_of(std::span<const PieceNow> pieces) const;
 
-  /// The least that is left of the skins between a piece and any near it.
+  /// The least that was left of the skins between a piece and any near it when it was looked at.
   struct Spare {
     double outer = std::numeric_limits<double>::infinity(), inner = outer;
+    double rate = 0;  ///< the largest of those near it
+    double used = 0;  ///< since then, at most
   };
 
   ListRanges ranges_;
@@ -119,7 +132,10 @@ class NearPieces {
   double since_found_ = 0;    ///< by any particle since the candidates were found, at most
   double drifted_ = 0;        ///< relative to the velocity fields since the survey, at most
   int steps_ = 0;             ///< since the survey
-  std::vector<Spare> least_;
+  std::vector<Spare> spare_;
+  std::vector<double>
+      gone_;            ///< by piece: relative to its velocity field since the survey, at most
+  double elapsed_ = 0;  ///< since the survey
   std::vector<std::uint32_t> to_list_, to_prune_;
 };
 

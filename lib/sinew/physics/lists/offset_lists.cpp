@@ -41,6 +41,13 @@ struct AxisBounds {
     }
   }
 
+  void extend(const AxisBounds& other) {
+    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
+      low[axis] = std::min(low[axis], other.low[axis]);
+      high[axis] = std::max(high[axis], other.high[axis]);
+    }
+  }
+
   /// In floats, rounded outwards; diagonals in lengths.
   void put(std::size_t block, kernel::BlockBounds& bounds) const {
     constexpr float rounding = 2e-7F;
@@ -54,26 +61,56 @@ struct AxisBounds {
   }
 };
 
-}  // namespace
-
-template <class Real>
-void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes) {
-  constexpr std::size_t size = BlockState<Real>::block;
+/// Of blocks that there are not.
+void clear(kernel::BlockBounds& bounds) {
   constexpr float never = std::numeric_limits<float>::infinity();
-  const auto arrays = state.arrays();
-  const BlocksOf blocks(piece, state.blocks());
-  kernel::BlockBounds& bounds = boxes[piece];
   for (int axis = 0; axis < kernel::bound_axes; ++axis) {
     std::fill_n(bounds.low[axis], blocks_per_piece, never);
     std::fill_n(bounds.high[axis], blocks_per_piece, -never);
   }
+}
+
+/// Around some pieces, as if each were a block.
+std::vector<kernel::BlockBounds> bounds_of(std::span<const std::uint32_t> pieces,
+                                           const BlockBoxes& boxes) {
+  std::vector<kernel::BlockBounds> bounds((pieces.size() + blocks_per_piece - 1) /
+                                          blocks_per_piece);
+  if (!bounds.empty()) clear(bounds.back());
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    const kernel::BlockBounds& from = boxes.of_pieces[pieces[n] / blocks_per_piece];
+    kernel::BlockBounds& to = bounds[n / blocks_per_piece];
+    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
+      to.low[axis][n % blocks_per_piece] = from.low[axis][pieces[n] % blocks_per_piece];
+      to.high[axis][n % blocks_per_piece] = from.high[axis][pieces[n] % blocks_per_piece];
+    }
+  }
+  return bounds;
+}
+
+}  // namespace
+
+void BlockBoxes::resize(std::size_t pieces) {
+  of_blocks.resize(pieces);
+  of_pieces.resize((pieces + blocks_per_piece - 1) / blocks_per_piece);
+}
+
+template <class Real>
+void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes) {
+  constexpr std::size_t size = BlockState<Real>::block;
+  const auto arrays = state.arrays();
+  const BlocksOf blocks(piece, state.blocks());
+  kernel::BlockBounds& bounds = boxes.of_blocks[piece];
+  clear(bounds);
+  AxisBounds all;
   for (std::size_t block = blocks.first; block < blocks.last; ++block) {
     AxisBounds around;
     for (std::size_t k = block * size; k < std::min((block + 1) * size, state.size()); ++k)
       around.extend(static_cast<double>(arrays.x[0][k]), static_cast<double>(arrays.x[1][k]),
                     static_cast<double>(arrays.x[2][k]));
     around.put(block - blocks.first, bounds);
+    all.extend(around);
   }
+  all.put(piece % blocks_per_piece, boxes.of_pieces[piece / blocks_per_piece]);
 }
 
 template <class Real>
@@ -86,11 +123,13 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
   OffsetLists lists;
   lists.first.push_back(0);
   std::vector<std::uint32_t> others(near.size() * blocks_per_piece);
+  const std::vector<kernel::BlockBounds> around = bounds_of(near, boxes);
+  const kernel::SomePieces pieces{near.data(), near.size(), around.data()};
   std::vector<std::int32_t> found;
   const BlocksOf blocks(piece, state.blocks());
   for (std::size_t block = blocks.first; block < blocks.last; ++block) {
     const std::size_t blocks_near =
-        kernel.near(boxes.data(), block, near.data(), near.size(), reach, others.data());
+        kernel.near(boxes.of_blocks.data(), block, pieces, reach, others.data());
     found.resize(std::max(found.size(), most_of_a_block * blocks_near));
     const std::size_t count = kernel.list(input, block, others.data(), blocks_near, found.data());
     lists.value.insert(lists.value.end(), found.data(), found.data() + count);

@@ -23,10 +23,14 @@ struct OffsetLists {
   }
 };
 
-/// By piece.
-using BlockBoxes = std::vector<kernel::BlockBounds>;
+struct BlockBoxes {
+  std::vector<kernel::BlockBounds> of_blocks;  ///< by piece
+  std::vector<kernel::BlockBounds> of_pieces;  ///< around as many of them as a piece has blocks
 
-/// Renews the bounds of a piece's blocks.
+  void resize(std::size_t pieces);
+};
+
+/// Renews the bounds of a piece and of its blocks.
 template <class Real>
 void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes);
 
