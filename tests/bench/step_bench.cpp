@@ -215,11 +215,13 @@ void register_steps(Condition condition, std::size_t count, Kind kind) {
 }
 
 void register_laws(Variant variant, Condition condition, std::size_t count) {
-  for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells})
+  for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells}) {
+    if (kind == Kind::cells && variant == Variant::grouped) continue;  // lists alone have groups
     for (const int threads : {1, 2}) {
       const Case what{condition, count, kind, threads, variant};
       register_case(path_of("law", name_of(variant), case_path(what)), what);
     }
+  }
 }
 
 void register_all() {

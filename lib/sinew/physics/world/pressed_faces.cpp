@@ -170,7 +170,7 @@ bool PressedFaces::restore(const double* state) {
   const auto is_count = [](double value) {
     return value >= 0 && value <= most_steps && value == std::floor(value);
   };
-  if (!is_count(state[1]) || !is_count(state[2])) return false;
+  if (!is_count(state[1]) || !is_count(state[2]) || (state[0] != 0 && state[1] < 1)) return false;
   moving_ = *state++ != 0;
   steps_ = static_cast<int>(*state++);
   left_ = static_cast<int>(*state++);
