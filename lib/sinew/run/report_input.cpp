@@ -220,8 +220,7 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
 std::string caption_of(const std::filesystem::path& picture, const Measured& measured) {
   const std::string name = picture.stem().string();
   const auto digits = name.find_first_of("0123456789");
-  if (name == "scene")
-    return "The scene at rest: the bones in the mesh from two sides, with axes in meters";
+  if (name == "scene") return "The scene at rest from two sides, with axes in meters";
   const std::string bonds = name.starts_with("bonds_") ? "The bonds, " : "";
   if (digits == std::string::npos) return bonds.empty() ? "Over time" : bonds + "over time";
   const auto frame = std::strtoul(name.c_str() + digits, nullptr, 10);

@@ -302,8 +302,7 @@ struct BlockBounds {
 struct SomePieces {
   const std::uint32_t* number;
   std::size_t count;
-  const BlockBounds*
-      around;  ///< as if each piece were a block: of the first ones, of the next ones
+  const BlockBounds* around;  ///< as if each of them were a block
 };
 
 /// Prunes the differences of a block's candidates: those with a pair within range are kept.

@@ -133,8 +133,8 @@ class NearPieces {
   double drifted_ = 0;        ///< relative to the velocity fields since the survey, at most
   int steps_ = 0;             ///< since the survey
   std::vector<Spare> spare_;
-  std::vector<double>
-      gone_;            ///< by piece: relative to its velocity field since the survey, at most
+  /// By piece, how far any particle has gone from its velocity field since the survey, at most.
+  std::vector<double> gone_;
   double elapsed_ = 0;  ///< since the survey
   std::vector<std::uint32_t> to_list_, to_prune_;
 };
