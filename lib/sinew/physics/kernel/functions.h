@@ -69,8 +69,8 @@ constexpr Functions<typename L::Real> functions() {
   add<L, among_neighbors>(all);
   add<L, springs>(all);
   add<L, changing_springs>(all);
-  all.near = near_blocks<lanes::Floats>;
-  all.list = list_block<L>;
+  all.bound = bound_piece<lanes::Floats, typename L::Real>;
+  all.list = list_two<lanes::Floats, typename L::Real>;
   all.prune = prune_list<L>;
   all.survey = survey<L>;
   return all;

@@ -298,11 +298,27 @@ struct BlockBounds {
   float low[bound_axes][blocks_per_piece], high[bound_axes][blocks_per_piece];
 };
 
-/// Some pieces, ascending.
-struct SomePieces {
-  const std::uint32_t* number;
+/// From what the lists of a piece are made: the pieces near it, ascending, itself included.
+template <class Real>
+struct ListInput {
+  State<Real> state;
+  const std::uint32_t* pieces;
   std::size_t count;
-  const BlockBounds* around;  ///< as if each of them were a block
+  std::size_t own;            ///< which of them it is
+  const BlockBounds* bounds;  ///< by piece of the body
+  const BlockBounds* around;  ///< as if each of those near were a block
+  float range;
+  Coord<Real> center[3];  ///< a place within the piece
+  /// By block of the pieces near it: room for the places of its particles from the center, as four
+  /// fields of floats, and whether they have been found.
+  float* places;
+  std::uint8_t* placed;
+};
+
+/// A block near one or both of two, counted from the first of the pieces near theirs; the bits of
+/// `of` tell near which.
+struct NearBlock {
+  std::uint32_t which, of;
 };
 
 /// Prunes the differences of a block's candidates: those with a pair within range are kept.
@@ -338,14 +354,13 @@ struct Functions {
   /// Of groups: force_moments sums; what bones exert.
   void (*moments)(const MomentInput<Real>&, double* sums);
   void (*pull)(const Step<Real>&, const PulledBlocks<Real>&, PullSums&);
-  /// Finds the blocks of `pieces`, ascending, whose bounds are within range of those of a block;
-  /// returns how many.
-  std::size_t (*near)(const BlockBounds* bounds, std::size_t block, const SomePieces& pieces,
-                      float range, std::uint32_t* found);
-  /// Finds the differences with a pair of the block and one of the others (ascending) within range,
-  /// ascending; returns how many. At most twice a block's size for each of the others.
-  std::size_t (*list)(const PruneInput<Real>&, std::size_t block, const std::uint32_t* others,
-                      std::size_t count, std::int32_t* found);
+  /// Bounds the blocks of a piece, of a body of so many particles.
+  void (*bound)(const State<Real>&, std::size_t piece, std::size_t particles, BlockBounds&);
+  /// Finds differences of a block, which is of even number, and of the next one, if there is one;
+  /// ascending: all that have a pair within range, and few others, barely beyond it. `near`: room
+  /// for all blocks of the pieces; `found`: each for twice as many particles; `counts`: how many.
+  void (*list)(const ListInput<Real>&, std::size_t block, NearBlock* near,
+               std::int32_t* const found[2], std::size_t counts[2]);
   /// Keeps the differences with a pair within range; returns how many.
   std::size_t (*prune)(const PruneInput<Real>&, std::size_t block, const Candidates& from,
                        const Candidates& kept);

@@ -1,14 +1,89 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the differences of a block: first the pieces and the blocks near it, by bounds, then those
-// of pairs within range.
+// of pairs within range. All in floats: places are offsets from one in the middle.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 
 #include <sinew/physics/kernel/parts.h>
 
 namespace sinew::kernel {
+
+/// a - b, in the kernel's arithmetic.
+SINEW_INLINE float float_offset(double a, double b) { return static_cast<float>(a - b); }
+SINEW_INLINE float float_offset(std::int32_t a, std::int32_t b) {
+  return static_cast<float>(
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b)));
+}
+
+// Places of a block, field after field: offsets from the center, and their negative squares.
+
+template <class Real>
+void place_block(const ListInput<Real>& input, std::size_t block, float* to) {
+  constexpr std::size_t size = Traits<Real>::block;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Coord<Real>* from = input.state.x[axis] + block * size;
+    for (std::size_t k = 0; k < size; ++k)
+      to[axis * size + k] = float_offset(from[k], input.center[axis]);
+  }
+  for (std::size_t k = 0; k < size; ++k) {
+    const float x = to[k], y = to[size + k], z = to[2 * size + k];
+    to[3 * size + k] = -(x * x + (y * y + z * z));
+  }
+}
+
+// Bounds of blocks.
+
+/// Coordinates of a piece, by place in the block, then by block. Where there is no particle, one of
+/// the same block is, or of the first.
+template <class Real>
+struct ByPlace {
+  float x[3][Traits<Real>::block][blocks_per_piece];
+
+  ByPlace(const State<Real>& state, std::size_t piece, std::size_t particles) {
+    constexpr std::size_t size = Traits<Real>::block;
+    const std::size_t begin = piece * blocks_per_piece * size;
+    for (std::size_t block = 0; block < blocks_per_piece; ++block) {
+      const std::size_t own = begin + block * size, first = own < particles ? own : begin;
+      for (std::size_t k = 0; k < size; ++k)
+        for (int axis = 0; axis < 3; ++axis)
+          x[axis][k][block] =
+              static_cast<float>(state.x[axis][first + k < particles ? first + k : first]);
+    }
+  }
+};
+
+/// Of a vector of blocks, rounded outwards.
+template <class L, class Real>
+SINEW_INLINE void bound_blocks(const ByPlace<Real>& places, std::size_t first,
+                               BlockBounds& bounds) {
+  using V = typename L::V;
+  V low[bound_axes], high[bound_axes], farthest = L::all(0);
+  for (int k = 0; k < Traits<Real>::block; ++k) {
+    const V x = L::load(places.x[0][k] + first), y = L::load(places.x[1][k] + first),
+            z = L::load(places.x[2][k] + first);
+    const V along[bound_axes] = {x, y, z, x + y, x - y, y + z, y - z, z + x, z - x};
+    farthest = L::larger(farthest, L::larger(L::size(x), L::larger(L::size(y), L::size(z))));
+    for (int axis = 0; axis < bound_axes; ++axis) {
+      low[axis] = k == 0 ? along[axis] : L::smaller(along[axis], low[axis]);
+      high[axis] = k == 0 ? along[axis] : L::larger(along[axis], high[axis]);
+    }
+  }
+  const V more = L::all(4e-7F) * farthest;
+  for (int axis = 0; axis < bound_axes; ++axis) {
+    const V scale = L::all(axis < 3 ? 1.0F : 0.70710678F);  // diagonals in lengths
+    L::store(bounds.low[axis] + first, scale * low[axis] - more);
+    L::store(bounds.high[axis] + first, scale * high[axis] + more);
+  }
+}
+
+template <class L, class Real>
+void bound_piece(const State<Real>& state, std::size_t piece, std::size_t particles,
+                 BlockBounds& bounds) {
+  const ByPlace<Real> places(state, piece, particles);
+  for (std::size_t first = 0; first < blocks_per_piece; first += L::width)
+    bound_blocks<L>(places, first, bounds);
+}
 
 // Blocks near a block.
 
@@ -25,25 +100,39 @@ SINEW_INLINE typename L::V gap_between(const BlockBounds& one, std::size_t at,
   return gap;
 }
 
-template <class L>
-std::size_t near_blocks(const BlockBounds* bounds, std::size_t block, const SomePieces& pieces,
-                        float range, std::uint32_t* found) {
-  const BlockBounds& one = bounds[block / blocks_per_piece];
-  const std::size_t at = block % blocks_per_piece;
-  std::uint32_t* end = found;
+/// The blocks whose particles fill a vector of floats, or one.
+template <class L, class Real>
+inline constexpr int listed_together =
+    L::width > Traits<Real>::block ? L::width / Traits<Real>::block : 1;
+
+/// Finds the blocks of the pieces near `block` and those listed together with it, ascending.
+template <class L, class Real>
+std::size_t near_blocks(const ListInput<Real>& input, std::size_t block, NearBlock* found) {
+  constexpr int together = listed_together<L, Real>;
+  const BlockBounds& ones = input.bounds[block / blocks_per_piece];
+  NearBlock* end = found;
   const auto for_each_near = [&](const BlockBounds& others, std::size_t first, const auto& visit) {
-    const auto gap = gap_between<L>(one, at, others, first);
-    for (std::uint32_t near = L::bits(L::at_most(gap, L::all(range))); near != 0; near &= near - 1)
-      visit(first + static_cast<std::size_t>(std::countr_zero(near)));
+    std::uint32_t near[together], any = 0;
+    for (int n = 0; n < together; ++n) {
+      const auto gap = gap_between<L>(ones, block % blocks_per_piece + n, others, first);
+      any |= near[n] = L::bits(L::at_most(gap, L::all(input.range)));
+    }
+    for (; any != 0; any &= any - 1) {
+      const int lane = std::countr_zero(any);
+      std::uint32_t of = 0;
+      for (int n = 0; n < together; ++n) of |= (near[n] >> lane & 1) << n;
+      visit(first + static_cast<std::size_t>(lane), of);
+    }
   };
-  for (std::size_t n = 0; n < pieces.count; n += L::width) {
+  for (std::size_t n = 0; n < input.count; n += L::width) {
     const std::size_t chunk = n / blocks_per_piece;
-    for_each_near(pieces.around[chunk], n % blocks_per_piece, [&](std::size_t which) {
-      const std::size_t piece = pieces.number[chunk * blocks_per_piece + which];
+    for_each_near(input.around[chunk], n % blocks_per_piece, [&](std::size_t which, std::uint32_t) {
+      const std::size_t nth = chunk * blocks_per_piece + which;
       for (std::size_t first = 0; first < blocks_per_piece; first += L::width)
-        for_each_near(bounds[piece], first, [&](std::size_t other) {
-          *end++ = static_cast<std::uint32_t>(piece * blocks_per_piece + other);
-        });
+        for_each_near(input.bounds[input.pieces[nth]], first,
+                      [&](std::size_t other, std::uint32_t of) {
+                        *end++ = {static_cast<std::uint32_t>(nth * blocks_per_piece + other), of};
+                      });
     });
   }
   return static_cast<std::size_t>(end - found);
@@ -51,111 +140,96 @@ std::size_t near_blocks(const BlockBounds* bounds, std::size_t block, const Some
 
 // Differences of their pairs.
 
-/// A block's particles in reverse, so that a mask of those within range of a particle j is one of
-/// differences j - i, ascending.
-template <class L>
-class Listing {
+/// The places of blocks near a piece, each found when it is first asked for.
+template <class Real>
+class Places {
  public:
-  using Real = typename L::Real;
-  static constexpr int size = Traits<Real>::block;
+  static constexpr std::size_t size = Traits<Real>::block;
 
-  Listing(const PruneInput<Real>& input, std::size_t block) : input_(input) {
-    const std::size_t first = block * size;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < size; ++k)
-        reversed_[axis][size - 1 - k] = input.state.x[axis][first + static_cast<std::size_t>(k)];
-      first_[axis] = reversed_[axis][size - 1];
-    }
-    find_bounds();
+  explicit Places(const ListInput<Real>& input) : input_(input) {}
+
+  /// Among the blocks of the body.
+  std::size_t number(std::size_t near) const {
+    return std::size_t{input_.pieces[near / blocks_per_piece]} * blocks_per_piece +
+           near % blocks_per_piece;
   }
 
-  /// Bits of the differences j - i that have a pair within range, j in block `other`: the first is
-  /// of -(size - 1) between their places in the blocks.
-  std::uint64_t differences(std::size_t other) const {
-    const auto first = static_cast<std::ptrdiff_t>(other * size);
-    std::uint64_t found = 0;
-    for (int lane = 0; lane < size; lane += L::width)
-      for (std::uint32_t near = near_bounds(first + lane); near != 0; near &= near - 1) {
-        const int place = lane + std::countr_zero(near);
-        found |= in_range_of(first + place) << place;
+  const float* of(std::size_t near) const {
+    float* places = input_.places + near * 4 * size;
+    if (input_.placed[near] == 0) {
+      place_block(input_, number(near), places);
+      input_.placed[near] = 1;
+    }
+    return places;
+  }
+
+ private:
+  const ListInput<Real>& input_;
+};
+
+/// Bits of the differences j - i of pairs of some blocks with another one: the first bit is of
+/// 1 - size between the particles' places in the blocks.
+template <class Real, int together>
+struct FoundBits {
+  std::uint64_t of[together] = {};
+};
+
+/// Blocks in reverse, so that a mask of their particles within range of a particle j is one of
+/// differences j - i, ascending. |x_i - x_j|^2 = x_i^2 - 2 x_i x_j + x_j^2 is rounded by less than
+/// 16 units in the last place of (|x_i| + |x_j|)^2: the range is longer by as much.
+template <class L, class Real>
+class Listing {
+ public:
+  static constexpr int size = Traits<Real>::block, together = listed_together<L, Real>;
+
+  Listing(const Places<Real>& places, std::size_t first, float range) {
+    constexpr int room = vectors * L::width;
+    float x[3][room], square[room];
+    const float range2 = range * range * (1 + 2e-6F);
+    for (int n = 0; n < together; ++n) {
+      const float* from = places.of(first + n);
+      float* to[] = {x[0], x[1], x[2], square};
+      for (int k = 0; k < size; ++k) {
+        const int at = (together - n) * size - 1 - k;
+        for (int axis = 0; axis < 3; ++axis) to[axis][at] = -2 * from[axis * size + k];
+        square[at] = -from[3 * size + k] * (1 - 8e-6F) - range2;
       }
+    }
+    for (int n = 0; n < vectors; ++n) {
+      x_[n] = L::load(x[0] + n * L::width);
+      y_[n] = L::load(x[1] + n * L::width);
+      z_[n] = L::load(x[2] + n * L::width);
+      square_[n] = L::load(square + n * L::width);
+    }
+  }
+
+  SINEW_INLINE FoundBits<Real, together> differences(const float* others) const {
+    constexpr std::uint64_t own = (std::uint64_t{1} << size) - 1;
+    FoundBits<Real, together> found;
+    for (int k = 0; k < size; ++k) {
+      const std::uint64_t lanes = in_range_of(others + k);
+      for (int n = 0; n < together; ++n)
+        found.of[n] |= (lanes >> (together - 1 - n) * size & own) << k;
+    }
     return found;
   }
 
  private:
-  using Coord = typename L::Coord;
+  static constexpr int vectors = together * size / L::width;
+  using V = typename L::V;
 
-  /// No padding, from which offsets would wrap around.
-  Place<L> first() const {
-    return {L::all_coord(first_[0]), L::all_coord(first_[1]), L::all_coord(first_[2])};
-  }
-
-  /// Along the axes of bounds, the diagonals not divided by the root of 2.
-  static void along_axes(const Triple<L>& at, typename L::V (&along)[bound_axes]) {
-    const typename L::V all[bound_axes] = {at.x,        at.y,        at.z,
-                                           at.x + at.y, at.x - at.y, at.y + at.z,
-                                           at.y - at.z, at.z + at.x, at.z - at.x};
-    for (int axis = 0; axis < bound_axes; ++axis) along[axis] = all[axis];
-  }
-
-  /// Around the block, of offsets from its first particle.
-  void find_bounds() {
-    typename L::V lows[bound_axes], highs[bound_axes], along[bound_axes];
-    for (int axis = 0; axis < bound_axes; ++axis) lows[axis] = highs[axis] = L::all(0);
-    for (int k = 0; k < size; k += L::width) {
-      along_axes(offset<L>(reversed(k), first()), along);
-      for (int axis = 0; axis < bound_axes; ++axis) {
-        lows[axis] = L::smaller(along[axis], lows[axis]);
-        highs[axis] = L::larger(along[axis], highs[axis]);
-      }
-    }
-    for (int axis = 0; axis < bound_axes; ++axis) {
-      Real least[L::width], most[L::width];
-      L::store(least, lows[axis]), L::store(most, highs[axis]);
-      low_[axis] = *std::min_element(least, least + L::width);
-      high_[axis] = *std::max_element(most, most + L::width);
-      // Offsets are rounded.
-      const Real more = (high_[axis] - low_[axis]) * static_cast<Real>(1e-5);
-      low_[axis] -= more, high_[axis] += more;
-    }
-  }
-
-  Place<L> reversed(int k) const {
-    return {L::load_coord(reversed_[0] + k), L::load_coord(reversed_[1] + k),
-            L::load_coord(reversed_[2] + k)};
-  }
-
-  SINEW_INLINE typename L::V gap(int axis, typename L::V x) const {
-    return L::larger(L::larger(L::all(low_[axis]) - x, x - L::all(high_[axis])), L::all(0));
-  }
-
-  /// Lanes within range of the bounds.
-  std::uint32_t near_bounds(std::ptrdiff_t j) const {
-    typename L::V along[bound_axes];
-    along_axes(offset<L>(load_place<L>(input_.state.x, j), first()), along);
-    const Triple<L> gaps{gap(0, along[0]), gap(1, along[1]), gap(2, along[2])};
-    typename L::V diagonal = gap(3, along[3]);
-    for (int axis = 4; axis < bound_axes; ++axis)
-      diagonal = L::larger(diagonal, gap(axis, along[axis]));
-    const typename L::V half = L::all(static_cast<Real>(0.5)) * diagonal * diagonal;
-    const Real range2 = input_.range2 * static_cast<Real>(1 + 1e-5);
-    return L::bits(L::at_most(L::larger(squared_distance<L>(gaps), half), L::all(range2)));
-  }
-
-  std::uint64_t in_range_of(std::ptrdiff_t j) const {
-    const Place<L> there{L::all_coord(input_.state.x[0][j]), L::all_coord(input_.state.x[1][j]),
-                         L::all_coord(input_.state.x[2][j])};
+  SINEW_INLINE std::uint64_t in_range_of(const float* place) const {
+    const V x = L::all(place[0]), y = L::all(place[size]), z = L::all(place[2 * size]);
+    const V minus_square = L::all(place[3 * size]);
     std::uint64_t lanes = 0;
-    for (int k = 0; k < size; k += L::width) {
-      const typename L::V squared = squared_distance<L>(offset<L>(reversed(k), there));
-      lanes |= std::uint64_t{L::bits(L::less(squared, L::all(input_.range2)))} << k;
+    for (int n = 0; n < vectors; ++n) {
+      const V others = L::fused(x_[n], x, L::fused(y_[n], y, L::fused(z_[n], z, square_[n])));
+      lanes |= std::uint64_t{L::bits(L::less(others, minus_square))} << (n * L::width);
     }
     return lanes;
   }
 
-  PruneInput<Real> input_;
-  Coord reversed_[3][size], first_[3];
-  Real low_[bound_axes], high_[bound_axes];  ///< of offsets from the first particle
+  V x_[vectors], y_[vectors], z_[vectors], square_[vectors];
 };
 
 /// Writes the differences of the bits, the first of which is of `from`.
@@ -165,25 +239,66 @@ inline std::int32_t* put_differences(std::uint64_t bits, std::int64_t from, std:
   return to;
 }
 
-template <class L>
-std::size_t list_block(const PruneInput<typename L::Real>& input, std::size_t block,
-                       const std::uint32_t* others, std::size_t count, std::int32_t* found) {
-  constexpr int size = Traits<typename L::Real>::block;
-  constexpr std::uint64_t low_half = (std::uint64_t{1} << size) - 1;
-  const Listing<L> listing(input, block);
-  std::int32_t* end = found;
-  std::uint64_t open = 0;  // of the block before, those that the next one may have too
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int64_t first =
-        (static_cast<std::int64_t>(others[k]) - static_cast<std::int64_t>(block)) * size -
-        (size - 1);
-    std::uint64_t bits = listing.differences(others[k]) | open;
-    if (others[k] == block) bits &= ~(std::uint64_t{1} << (size - 1));  // a particle and itself
-    const bool followed = k + 1 < count && others[k + 1] == others[k] + 1;
-    end = put_differences(followed ? bits & low_half : bits, first, end);
-    open = followed ? bits >> size : 0;
+/// The list of a block, written as its differences with one block after another are found.
+template <class Real>
+class BlockList {
+ public:
+  BlockList(std::size_t block, std::int32_t* to) : block_(block), begin_(to), end_(to) {}
+
+  /// `other` ascends.
+  void add(std::size_t other, std::uint64_t bits) {
+    if (bits == 0) return;
+    if (other != last_ + 1) close();
+    const std::uint64_t all = bits | open_;
+    put(other, all & low_half);
+    open_ = all >> size;
+    last_ = other;
   }
-  return static_cast<std::size_t>(end - found);
+
+  std::size_t close() {
+    if (open_ != 0) put(last_ + 1, open_);
+    open_ = 0;
+    return static_cast<std::size_t>(end_ - begin_);
+  }
+
+ private:
+  static constexpr int size = Traits<Real>::block;
+  static constexpr std::uint64_t low_half = (std::uint64_t{1} << size) - 1;
+
+  void put(std::size_t other, std::uint64_t bits) {
+    const std::int64_t apart = static_cast<std::int64_t>(other) - static_cast<std::int64_t>(block_);
+    if (apart == 0) bits &= ~(std::uint64_t{1} << (size - 1));  // a particle and itself
+    end_ = put_differences(bits, apart * size - (size - 1), end_);
+  }
+
+  std::size_t block_;
+  std::int32_t *begin_, *end_;
+  std::uint64_t open_ = 0;  ///< those that the next block may have too
+  std::size_t last_ = ~std::size_t{1};
+};
+
+template <class L, class Real>
+SINEW_INLINE void list_together(const ListInput<Real>& input, std::size_t block, NearBlock* near,
+                                BlockList<Real>* lists) {
+  constexpr int together = listed_together<L, Real>;
+  const Places<Real> places(input);
+  const Listing<L, Real> listing(places, input.own * blocks_per_piece + block % blocks_per_piece,
+                                 input.range);
+  const NearBlock* end = near + near_blocks<L>(input, block, near);
+  for (; near != end; ++near) {
+    const auto bits = listing.differences(places.of(near->which));
+    for (int n = 0; n < together; ++n)
+      if ((near->of >> n & 1) != 0) lists[n].add(places.number(near->which), bits.of[n]);
+  }
+}
+
+template <class L, class Real>
+void list_two(const ListInput<Real>& input, std::size_t block, NearBlock* near,
+              std::int32_t* const found[2], std::size_t counts[2]) {
+  BlockList<Real> lists[2] = {{block, found[0]}, {block + 1, found[1]}};
+  for (int n = 0; n < 2; n += listed_together<L, Real>)
+    list_together<L>(input, block + static_cast<std::size_t>(n), near, lists + n);
+  for (int n = 0; n < 2; ++n) counts[n] = lists[n].close();
 }
 
 }  // namespace sinew::kernel

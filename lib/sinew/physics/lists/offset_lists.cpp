@@ -2,9 +2,9 @@
 #include <sinew/physics/lists/offset_lists.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <limits>
-#include <numbers>
+#include <memory>
 
 namespace sinew {
 
@@ -24,49 +24,20 @@ struct BlocksOf {
       : first(piece * blocks_per_piece), last(std::min(first + blocks_per_piece, blocks)) {}
 };
 
-/// Along the axes of bounds.
-struct AxisBounds {
-  double low[kernel::bound_axes], high[kernel::bound_axes];
-
-  AxisBounds() {
-    std::fill_n(low, kernel::bound_axes, std::numeric_limits<double>::infinity());
-    std::fill_n(high, kernel::bound_axes, -std::numeric_limits<double>::infinity());
-  }
-
-  void extend(double x, double y, double z) {
-    const double along[kernel::bound_axes] = {x, y, z, x + y, x - y, y + z, y - z, z + x, z - x};
-    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
-      low[axis] = std::min(low[axis], along[axis]);
-      high[axis] = std::max(high[axis], along[axis]);
-    }
-  }
-
-  void extend(const AxisBounds& other) {
-    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
-      low[axis] = std::min(low[axis], other.low[axis]);
-      high[axis] = std::max(high[axis], other.high[axis]);
-    }
-  }
-
-  /// In floats, rounded outwards; diagonals in lengths.
-  void put(std::size_t block, kernel::BlockBounds& bounds) const {
-    constexpr float rounding = 2e-7F;
-    for (int axis = 0; axis < kernel::bound_axes; ++axis) {
-      const double scale = axis < 3 ? 1 : std::numbers::sqrt2 / 2;
-      const auto least = static_cast<float>(scale * low[axis]);
-      const auto most = static_cast<float>(scale * high[axis]);
-      bounds.low[axis][block] = least - rounding * std::abs(least);
-      bounds.high[axis][block] = most + rounding * std::abs(most);
-    }
-  }
-};
-
-/// Of blocks that there are not.
-void clear(kernel::BlockBounds& bounds) {
+/// Of the blocks from `first` on, which there are not.
+void clear(kernel::BlockBounds& bounds, std::size_t first) {
   constexpr float never = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < kernel::bound_axes; ++axis) {
-    std::fill_n(bounds.low[axis], blocks_per_piece, never);
-    std::fill_n(bounds.high[axis], blocks_per_piece, -never);
+    std::fill(bounds.low[axis] + first, std::end(bounds.low[axis]), never);
+    std::fill(bounds.high[axis] + first, std::end(bounds.high[axis]), -never);
+  }
+}
+
+/// The one around all of them.
+void unite(const kernel::BlockBounds& from, std::size_t at, kernel::BlockBounds& bounds) {
+  for (int axis = 0; axis < kernel::bound_axes; ++axis) {
+    bounds.low[axis][at] = *std::min_element(from.low[axis], std::end(from.low[axis]));
+    bounds.high[axis][at] = *std::max_element(from.high[axis], std::end(from.high[axis]));
   }
 }
 
@@ -75,7 +46,7 @@ std::vector<kernel::BlockBounds> bounds_of(std::span<const std::uint32_t> pieces
                                            const BlockBoxes& boxes) {
   std::vector<kernel::BlockBounds> bounds((pieces.size() + blocks_per_piece - 1) /
                                           blocks_per_piece);
-  if (!bounds.empty()) clear(bounds.back());
+  if (!bounds.empty()) clear(bounds.back(), 0);
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     const kernel::BlockBounds& from = boxes.of_pieces[pieces[n] / blocks_per_piece];
     kernel::BlockBounds& to = bounds[n / blocks_per_piece];
@@ -95,45 +66,50 @@ void BlockBoxes::resize(std::size_t pieces) {
 }
 
 template <class Real>
-void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes) {
-  constexpr std::size_t size = BlockState<Real>::block;
-  const auto arrays = state.arrays();
+void find_boxes(const kernel::Functions<Real>& kernel, BlockState<Real>& state, std::size_t piece,
+                BlockBoxes& boxes) {
   const BlocksOf blocks(piece, state.blocks());
   kernel::BlockBounds& bounds = boxes.of_blocks[piece];
-  clear(bounds);
-  AxisBounds all;
-  for (std::size_t block = blocks.first; block < blocks.last; ++block) {
-    AxisBounds around;
-    for (std::size_t k = block * size; k < std::min((block + 1) * size, state.size()); ++k)
-      around.extend(static_cast<double>(arrays.x[0][k]), static_cast<double>(arrays.x[1][k]),
-                    static_cast<double>(arrays.x[2][k]));
-    around.put(block - blocks.first, bounds);
-    all.extend(around);
-  }
-  all.put(piece % blocks_per_piece, boxes.of_pieces[piece / blocks_per_piece]);
+  kernel.bound(state.arrays(), piece, state.size(), bounds);
+  clear(bounds, blocks.last - blocks.first);
+  unite(bounds, piece % blocks_per_piece, boxes.of_pieces[piece / blocks_per_piece]);
 }
 
 template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          std::size_t piece, std::span<const std::uint32_t> near,
                          const BlockBoxes& boxes, double range) {
-  constexpr std::size_t most_of_a_block = 2 * BlockState<Real>::block;
-  const auto input = prune_input(state, range);
-  const auto reach = static_cast<float>(range * (1 + 1e-6));
+  constexpr std::size_t size = BlockState<Real>::block;
+  const std::size_t room = near.size() * blocks_per_piece;
+  const std::vector<kernel::BlockBounds> around = bounds_of(near, boxes);
+  const auto places = std::make_unique_for_overwrite<float[]>(room * 4 * size);
+  const auto others = std::make_unique_for_overwrite<kernel::NearBlock[]>(room);
+  const auto differences = std::make_unique_for_overwrite<std::int32_t[]>(2 * room * 2 * size);
+  std::int32_t* const found[] = {differences.get(), differences.get() + room * 2 * size};
+  std::vector<std::uint8_t> placed(room, 0);
+  const BlocksOf blocks(piece, state.blocks());
+  const auto own = std::lower_bound(near.begin(), near.end(), piece) - near.begin();
+  kernel::ListInput<Real> input{state.arrays(),
+                                near.data(),
+                                near.size(),
+                                static_cast<std::size_t>(own),
+                                boxes.of_blocks.data(),
+                                around.data(),
+                                static_cast<float>(range * (1 + 1e-6)),
+                                {},
+                                places.get(),
+                                placed.data()};
+  const std::size_t middle = (blocks.first + blocks.last) / 2 * size;
+  for (int axis = 0; axis < 3; ++axis) input.center[axis] = input.state.x[axis][middle];
   OffsetLists lists;
   lists.first.push_back(0);
-  std::vector<std::uint32_t> others(near.size() * blocks_per_piece);
-  const std::vector<kernel::BlockBounds> around = bounds_of(near, boxes);
-  const kernel::SomePieces pieces{near.data(), near.size(), around.data()};
-  std::vector<std::int32_t> found;
-  const BlocksOf blocks(piece, state.blocks());
-  for (std::size_t block = blocks.first; block < blocks.last; ++block) {
-    const std::size_t blocks_near =
-        kernel.near(boxes.of_blocks.data(), block, pieces, reach, others.data());
-    found.resize(std::max(found.size(), most_of_a_block * blocks_near));
-    const std::size_t count = kernel.list(input, block, others.data(), blocks_near, found.data());
-    lists.value.insert(lists.value.end(), found.data(), found.data() + count);
-    lists.first.push_back(static_cast<std::uint32_t>(lists.value.size()));
+  for (std::size_t block = blocks.first; block < blocks.last; block += 2) {
+    std::size_t counts[2];
+    kernel.list(input, block, others.get(), found, counts);
+    for (std::size_t n = 0; n < 2 && block + n < blocks.last; ++n) {
+      lists.value.insert(lists.value.end(), found[n], found[n] + counts[n]);
+      lists.first.push_back(static_cast<std::uint32_t>(lists.value.size()));
+    }
   }
   return lists;
 }
@@ -172,8 +148,10 @@ OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real
   return lists;
 }
 
-template void find_boxes(BlockState<double>&, std::size_t, BlockBoxes&);
-template void find_boxes(BlockState<float>&, std::size_t, BlockBoxes&);
+template void find_boxes(const kernel::Functions<double>&, BlockState<double>&, std::size_t,
+                         BlockBoxes&);
+template void find_boxes(const kernel::Functions<float>&, BlockState<float>&, std::size_t,
+                         BlockBoxes&);
 template OffsetLists find_offsets(const kernel::Functions<double>&, BlockState<double>&,
                                   std::size_t, std::span<const std::uint32_t>, const BlockBoxes&,
                                   double);

@@ -32,10 +32,11 @@ struct BlockBoxes {
 
 /// Renews the bounds of a piece and of its blocks.
 template <class Real>
-void find_boxes(BlockState<Real>& state, std::size_t piece, BlockBoxes& boxes);
+void find_boxes(const kernel::Functions<Real>& kernel, BlockState<Real>& state, std::size_t piece,
+                BlockBoxes& boxes);
 
 /// All pairs of a piece closer than `range` (in lengths of the kernel) with particles of the pieces
-/// `near`, ascending, whose boxes are valid.
+/// `near`, ascending, itself included, whose boxes are valid; and few barely beyond it.
 template <class Real>
 OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                          std::size_t piece, std::span<const std::uint32_t> near,

@@ -310,7 +310,7 @@ void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
     for (const NearPieces::Near& near : near_.of(piece))
       if (std::exchange(boxed_[near.piece], moment_) != moment_) old.push_back(near.piece);
   parallel_for(old.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) find_boxes(state, old[k], boxes_);
+    for (std::size_t k = begin; k < end; ++k) find_boxes(kernel_, state, old[k], boxes_);
   });
 }
 
