@@ -14,6 +14,15 @@ namespace sinew::near_pieces_test {
 const ListRanges ranges{1, 1.2, 2};
 constexpr double dt = 0.01;
 
+/// Along axes that point anywhere.
+void bound(const Points& points, std::mt19937& random, PieceNow& piece) {
+  piece.axes = Quat(1, 0, 0, 0)
+                   .FromTwoVectors(Vec3::UnitX(), test::random_vector(random))
+                   .toRotationMatrix();
+  for (const Vec3& p : points)
+    piece.along.extend(Vec3(piece.axes.transpose() * (p - piece.center)));
+}
+
 /// Clusters of points that move by a law, with lists of the pairs of each by brute force.
 class Cloud {
  public:
@@ -99,6 +108,7 @@ class Cloud {
       PieceNow one;
       for (const Vec3& p : points_[piece]) one.box.extend(p);
       one.center = points_[piece].front();
+      if (piece % 2 == 0) bound(points_[piece], random_, one);
       if (field_ == Field::fitted) fit(piece, one);
       if (field_ == Field::wrong)
         one.velocity = test::random_vector(random_), one.spin = test::random_vector(random_);
@@ -155,6 +165,46 @@ TEST(NearPieces, LetNoPairInRangeGoUnlisted) {
           if (HasFatalFailure()) return;
         }
       }
+}
+
+TEST(NearPieces, AreNoNearerThanTheirGap) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    PieceNow pieces[2];
+    Points points[2];
+    for (int k = 0; k < 2; ++k) {
+      pieces[k].center = 3 * test::random_vector(random);
+      const Vec3 sizes = test::random_vector(random);
+      for (int n = 0; n < 30; ++n)
+        points[k].push_back(pieces[k].center + sizes.cwiseProduct(test::random_vector(random)));
+      for (const Vec3& p : points[k]) pieces[k].box.extend(p);
+      bound(points[k], random, pieces[k]);
+    }
+    double least = 1e9;
+    for (const Vec3& p : points[0])
+      for (const Vec3& q : points[1]) least = std::min(least, (p - q).norm());
+    const double gap = gap_between(pieces[0], pieces[1]);
+    ASSERT_LE(gap, least);
+    ASSERT_GE(gap, std::sqrt(pieces[0].box.squaredExteriorDistance(pieces[1].box)));
+  }
+}
+
+/// Slices of a bar at an angle to all axes: boxes along the axes overlap, theirs do not.
+TEST(NearPieces, AreApartAlongTheirOwnAxes) {
+  const Mat3 axes = test::turned(Vec3(1, 2, -1).normalized(), 33);
+  std::vector<PieceNow> slices(6);
+  for (int k = 0; k < 6; ++k) {
+    const Box along(Vec3(-5, -5, 2 * k), Vec3(5, 5, 2 * k + 2));
+    slices[k].axes = axes;
+    slices[k].along = along;
+    for (int corner = 0; corner < 8; ++corner)
+      slices[k].box.extend(Vec3(axes * along.corner(static_cast<Box::CornerType>(corner))));
+  }
+  for (int k = 0; k < 6; ++k)
+    EXPECT_NEAR(gap_between(slices[0], slices[k]), std::max(0, 2 * k - 2), 1e-12);
+  NearPieces near(ranges);
+  near.survey(slices, dt);
+  EXPECT_EQ(near.of(0).size(), 3u);  // itself, the next one, and one that is the outer range away
 }
 
 TEST(NearPieces, KeepTheListsOfABodyThatMovesAsOne) {

@@ -256,6 +256,11 @@ PieceNow Groups<Real>::piece_now(std::size_t piece, const Units& units) const {
   const Vec3 half = motion.F.cwiseAbs() * one.box.sizes() / (2 * units.length);
   const Vec3 more = half + Vec3::Constant(1e-6 * half.maxCoeff() + (sizeof(Real) == 4 ? 1 : 0));
   now.box = Box(Vec3(now.center - more), Vec3(now.center + more));
+  now.axes = Eigen::HouseholderQR<Mat3>(motion.F).householderQ();
+  const Vec3 own =
+      (now.axes.transpose() * motion.F).cwiseAbs() * one.box.sizes() / (2 * units.length) +
+      (more - half);
+  now.along = Box(Vec3(-own), own);
   now.velocity = units.time / units.length * (motion.v + motion.V * X);
   const Mat3 L = units.time * motion.V * motion.F.inverse();
   now.spin = Vec3(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)) / 2;

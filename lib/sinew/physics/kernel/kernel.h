@@ -275,7 +275,8 @@ struct Step {
 /// Sums over a piece's particles that determine its motion and extent, with coordinates x relative
 /// to one of them.
 struct Survey {
-  double low[3], high[3];  ///< of x
+  double low[3], high[3];              ///< of x
+  double low_along[3], high_along[3];  ///< of x along each of some axes
   double x[3], v[3];
   double xx[6];  ///< x x, y y, z z, y z, z x, x y
   double xv[3];  ///< x cross v
@@ -286,6 +287,7 @@ struct SurveyInput {
   State<Real> state;
   std::size_t blocks;
   const Real* live;  ///< as in Step
+  Real axes[3][3];   ///< one after another
 };
 
 /// Axes of bounds: x, y, z, then the diagonals between each two of them, which bound rows of a

@@ -10,16 +10,23 @@ namespace sinew::kernel {
 template <class L>
 struct SurveySums {
   static constexpr int block = Traits<typename L::Real>::block;
-  typename L::Real low[3][block] = {}, high[3][block] = {}, x[3][block] = {}, v[3][block] = {},
-                   xx[6][block] = {}, xv[3][block] = {};
+  using Row = typename L::Real[block];
+  Row low[3] = {}, high[3] = {}, low_along[3] = {}, high_along[3] = {};
+  Row x[3] = {}, v[3] = {}, xx[6] = {}, xv[3] = {};
 
-  SINEW_INLINE void add(int lane, const Triple<L>& at, const Triple<L>& velocity) {
+  static SINEW_INLINE void bound(Row& low, Row& high, int lane, typename L::V value) {
+    L::store(low + lane, L::smaller(value, L::load(low + lane)));
+    L::store(high + lane, L::larger(value, L::load(high + lane)));
+  }
+
+  SINEW_INLINE void add(int lane, const Triple<L>& at, const Triple<L>& velocity,
+                        const typename L::Real (&axes)[3][3]) {
     const Triple<L> moment = cross<L>(at, velocity);
     const typename L::V xs[3] = {at.x, at.y, at.z}, vs[3] = {velocity.x, velocity.y, velocity.z},
                         ms[3] = {moment.x, moment.y, moment.z};
     for (int k = 0; k < 3; ++k) {
-      L::store(low[k] + lane, L::smaller(xs[k], L::load(low[k] + lane)));
-      L::store(high[k] + lane, L::larger(xs[k], L::load(high[k] + lane)));
+      bound(low[k], high[k], lane, xs[k]);
+      bound(low_along[k], high_along[k], lane, dot<L>(all<L>(axes[k]), at));
       add_to<L>(x[k] + lane, xs[k]);
       add_to<L>(v[k] + lane, vs[k]);
       add_to<L>(xv[k] + lane, ms[k]);
@@ -28,16 +35,20 @@ struct SurveySums {
     }
   }
 
+  static void over_lanes(const Row& low, const Row& high, double& least, double& most) {
+    least = most = 0;
+    for (int lane = 0; lane < block; ++lane) {
+      const auto one = static_cast<double>(low[lane]), other = static_cast<double>(high[lane]);
+      least = one < least ? one : least;
+      most = other > most ? other : most;
+    }
+  }
+
   Survey over_lanes() const {
     Survey all;
     for (int k = 0; k < 3; ++k) {
-      all.low[k] = all.high[k] = 0;
-      for (int lane = 0; lane < block; ++lane) {
-        const auto least = static_cast<double>(low[k][lane]);
-        const auto most = static_cast<double>(high[k][lane]);
-        all.low[k] = least < all.low[k] ? least : all.low[k];
-        all.high[k] = most > all.high[k] ? most : all.high[k];
-      }
+      over_lanes(low[k], high[k], all.low[k], all.high[k]);
+      over_lanes(low_along[k], high_along[k], all.low_along[k], all.high_along[k]);
       all.x[k] = sum_of<L>(x[k]);
       all.v[k] = sum_of<L>(v[k]);
       all.xv[k] = sum_of<L>(xv[k]);
@@ -60,7 +71,7 @@ Survey survey(const SurveyInput<typename L::Real>& input, std::size_t piece,
       const auto i = static_cast<std::ptrdiff_t>(block) * size + lane;
       const typename L::V live = live_lanes<L>(input.blocks, input.live, block, lane);
       sums.add(lane, live * offset<L>(load_place<L>(input.state.x, i), middle),
-               live * load<L>(input.state.v, i));
+               live * load<L>(input.state.v, i), input.axes);
     }
   return sums.over_lanes();
 }

@@ -80,6 +80,18 @@ void for_each_near(const std::vector<std::vector<Box>>& levels, std::size_t leve
 
 }  // namespace
 
+double gap_between(const PieceNow& one, const PieceNow& other) {
+  const Mat3 turned = one.axes.transpose() * other.axes, both = turned.cwiseAbs();
+  const Vec3 half = one.along.sizes() / 2, others = other.along.sizes() / 2;
+  const Vec3 apart = other.center + other.axes * other.along.center() -
+                     (one.center + one.axes * one.along.center());
+  const Vec3 in_one = one.axes.transpose() * apart, in_other = other.axes.transpose() * apart;
+  const auto length = [](const Vec3& gap) { return gap.cwiseMax(0).squaredNorm(); };
+  return std::sqrt(std::max({one.box.squaredExteriorDistance(other.box),
+                             length(in_one.cwiseAbs() - half - both * others),
+                             length(in_other.cwiseAbs() - others - both.transpose() * half)}));
+}
+
 /// Relative to the common velocity, of its fastest point as a rigid body, wherever it has traveled
 /// before the next survey.
 double NearPieces::speed_of(const PieceNow& piece) const {
@@ -98,6 +110,11 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     for (std::size_t piece = begin; piece < end; ++piece) settle(piece);
   });
   pieces_ = std::move(pieces);
+  for (PieceNow& piece : pieces_)
+    if (piece.along.isEmpty()) {
+      piece.axes.setIdentity();
+      piece.along = Box(Vec3(piece.box.min() - piece.center), Vec3(piece.box.max() - piece.center));
+    }
   gone_.assign(pieces_.size(), 0);
   elapsed_ = 0;
   common_.setZero();
@@ -146,8 +163,7 @@ void NearPieces::find_candidates() {
 
 /// Whether particles of both may come within the outer range of each other, until the horizon.
 bool NearPieces::may_meet(const PieceNow& one, const PieceNow& other, double horizon) const {
-  const double apart =
-      std::sqrt(one.box.squaredExteriorDistance(other.box)) - (1 + drift_margin) * ranges_.outer;
+  const double apart = gap_between(one, other) - (1 + drift_margin) * ranges_.outer;
   if (apart < 0) return true;
   // As fast as anywhere in the first box, wherever its particles have traveled.
   const Vec3 middle = one.box.center();
@@ -197,7 +213,7 @@ void NearPieces::find_rates(std::size_t piece) {
   for (Near& near : near_[piece]) {
     if (are_bound(piece, near.piece)) continue;
     const PieceNow& other = pieces_[near.piece];
-    near.gap = one.box.exteriorDistance(other.box);
+    near.gap = gap_between(one, other);
     near.rate = 0;
     if (near.piece == piece) continue;
     const double apart = std::min(near.gap, ranges_.outer) - ranges_.force;

@@ -34,9 +34,16 @@ struct PieceNow {
   Box box;                     ///< around its particles
   Vec3 center = Vec3::Zero();  ///< where its velocity field has `velocity`
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  /// Another box around its particles, from the center along axes of its own, the columns; empty:
+  /// the same one.
+  Mat3 axes = Mat3::Identity();
+  Box along = {};
 
   Vec3 velocity_at(const Vec3& p) const { return velocity + spin.cross(p - center); }
 };
+
+/// No two particles of both are nearer to each other.
+double gap_between(const PieceNow& one, const PieceNow& other);
 
 /// Distances that lists hold.
 struct ListRanges {

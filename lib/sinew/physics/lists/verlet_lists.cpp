@@ -34,6 +34,14 @@ Mat3 symmetric(const double (&xx)[6]) {
   return all;
 }
 
+/// Along which particles with these moments extend.
+Mat3 axes_of(const Mat3& spread) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> found(spread);
+  return found.info() == Eigen::Success && found.eigenvectors().allFinite()
+             ? found.eigenvectors()
+             : Mat3(Mat3::Identity());
+}
+
 /// The angular velocity of particles with these moments: least squares.
 Vec3 spin_of(const Mat3& spread, const Vec3& moment) {
   const double size = spread.trace();
@@ -108,6 +116,7 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
   motions_.assign(pieces, {});
   speed_.assign(pieces, 0);
   centers_.assign(pieces, Vec3::Zero());
+  axes_.assign(pieces, Mat3::Identity());
   fastest_.assign(pieces, 0);
   boxes_.resize(pieces);
   boxed_.assign(pieces, -1);
@@ -174,8 +183,8 @@ void VerletLists<Real>::add_strained(const GroupedParticles& groups,
 
 template <class Real>
 PieceNow VerletLists<Real>::piece_now(const kernel::Survey& survey,
-                                      const kernel::Coord<Real>* center,
-                                      std::size_t particles) const {
+                                      const kernel::Coord<Real>* center, std::size_t particles,
+                                      Mat3& axes) const {
   const auto vector = [](const double* v) { return Vec3(v[0], v[1], v[2]); };
   const auto count = static_cast<double>(particles);
   const Vec3 mean = vector(survey.x) / count, velocity = vector(survey.v) / count;
@@ -188,8 +197,11 @@ PieceNow VerletLists<Real>::piece_now(const kernel::Survey& survey,
   now.box =
       Box(Vec3(middle + vector(survey.low) - more), Vec3(middle + vector(survey.high) + more));
   now.center = middle;
-  now.spin = spin_of(symmetric(survey.xx) - count * mean * mean.transpose(),
-                     vector(survey.xv) - count * mean.cross(velocity));
+  now.axes = axes;
+  now.along = Box(Vec3(vector(survey.low_along) - more), Vec3(vector(survey.high_along) + more));
+  const Mat3 spread = symmetric(survey.xx) - count * mean * mean.transpose();
+  axes = axes_of(spread);
+  now.spin = spin_of(spread, vector(survey.xv) - count * mean.cross(velocity));
   now.velocity = velocity - now.spin.cross(mean);
   return now;
 }
@@ -199,11 +211,14 @@ template <class Real>
 PieceNow VerletLists<Real>::survey(std::size_t piece, BlockState<Real>& state) {
   constexpr std::size_t size = blocks_per_piece * BlockState<Real>::block;
   const auto arrays = state.arrays();
-  const kernel::SurveyInput<Real> input{arrays, state.blocks(), state.live()};
+  kernel::SurveyInput<Real> input{arrays, state.blocks(), state.live(), {}};
+  for (int k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      input.axes[k][axis] = static_cast<Real>(axes_[piece](axis, k));
   const std::size_t first = piece * size, last = std::min(first + size, state.size());
   auto& center = motions_[piece].center;
   for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(first + last) / 2];
-  return piece_now(kernel_.survey(input, piece, center), center, last - first);
+  return piece_now(kernel_.survey(input, piece, center), center, last - first, axes_[piece]);
 }
 
 /// Finds out how all pieces move.

@@ -83,7 +83,7 @@ class VerletLists {
   void move_fields();
   void place_field(std::size_t piece, const Vec3& at);
   PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
-                     std::size_t particles) const;
+                     std::size_t particles, Mat3& axes) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
             const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups);
   void show_around(const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups) const;
@@ -103,6 +103,7 @@ class VerletLists {
   std::vector<double> fastest_;  ///< by piece, in the last step
   std::vector<kernel::PieceMotion<Real>> motions_;
   std::vector<Vec3> centers_;  ///< of them at the survey
+  std::vector<Mat3> axes_;     ///< of the pieces' particles, at the last survey
   double elapsed_ = 0;         ///< since then, in times of the kernel
   std::vector<double> speed_;  ///< by piece: of its velocity field, at most
   std::vector<OffsetLists> outer_, inner_;
