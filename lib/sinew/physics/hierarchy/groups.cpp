@@ -209,14 +209,13 @@ AffineSum Groups<Real>::drag_of(const Shape& shape, const Motion& motion) const 
 
 /// From the middle of each box, and how much faster than there its corners are at most.
 template <class Real>
-void Groups<Real>::bound(const Units& units, bool drift_first,
-                         const kernel::PieceMotion<Real>* motions,
+void Groups<Real>::bound(const Units& units, bool drift_first, const kernel::Parts<Real>& parts,
                          std::span<kernel::Totals> totals) const {
   const double speed = units.time / units.length;
   for (const PieceBox& one : boxes_) {
     const auto g = static_cast<std::size_t>(one.group);
     const Motion &now = motions_[g], &moving = drift_first ? now : next_[g];
-    const auto& field = motions[one.piece];
+    const auto& field = parts.motions[one.piece];
     Vec3 center, velocity;
     Mat3 turning;
     const auto spin = [&](int axis) { return static_cast<double>(field.spin[axis]); };
@@ -233,7 +232,8 @@ void Groups<Real>::bound(const Units& units, bool drift_first,
                             reach * (speed * moving.V - turning * now.F / units.length).norm();
     const double absolute = drifting.norm() + reach * speed * moving.V.norm();
     kernel::Totals& piece = totals[one.piece];
-    piece.fastest = std::max(piece.fastest, relative * relative);
+    Real& fastest = parts.fastest[one.piece];
+    fastest = std::max(fastest, static_cast<Real>(relative * relative * (1 + 1e-6)));
     piece.speed2 = std::max(piece.speed2, absolute * absolute);
   }
 }

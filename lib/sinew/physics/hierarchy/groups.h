@@ -17,7 +17,7 @@
 //     groups.wake(state);
 //     step.grouped = groups.arrays();
 //     groups.sum(kernel, step, units, by);
-//     groups.bound(units, false, motions, totals);
+//     groups.bound(units, false, parts, totals);
 //     groups.advance();                          // after it, unless it failed
 #pragma once
 
@@ -102,7 +102,7 @@ class Groups {
            const Units& units, const GroupStep& by);
   const GroupSums& sums() const { return sums_; }
   /// Raises the speeds in the totals of pieces to those of grouped particles in the step.
-  void bound(const Units& units, bool drift_first, const kernel::PieceMotion<Real>* motions,
+  void bound(const Units& units, bool drift_first, const kernel::Parts<Real>& parts,
              std::span<kernel::Totals> totals) const;
   void advance();
   /// Adds, to the cell of each particle on which forces were gathered in the last step, what of its

@@ -118,11 +118,22 @@ struct Holds {
   const BoneNow<Real>* bones;
 };
 
-/// The velocity field of a piece that moves as a rigid body: velocity + spin x (x - center).
+/// The velocity field of what moves as a rigid body: velocity + spin x (x - center).
 template <class Real>
-struct PieceMotion {
+struct RigidMotion {
   Coord<Real> center[3];
   Real velocity[3], spin[3];
+};
+
+/// Parts of pieces, which move on their own: particles that follow each other. A piece begins with
+/// a part.
+template <class Real>
+struct Parts {
+  const std::uint32_t* first;     ///< particle of each; one longer, ends with the last particle
+  const std::uint32_t* of_block;  ///< that of its first particle
+  std::uint32_t count;
+  const RigidMotion<Real>* motions;
+  Real* fastest;  ///< becomes the largest squared speed relative to the motion
 };
 
 /// What neighbors at rest exert because of the deformation around each particle: the force on i is
@@ -164,7 +175,6 @@ struct Totals {
   double lost;          ///< what the step dissipates per time
   double pair_energy;   ///< only from probe
   double bone_energy;   ///< only from probe
-  double fastest;       ///< largest squared speed relative to the piece's motion
   double speed2;        ///< the largest squared speed, of what steps store as fixed point
   bool sound;           ///< none too fast (see most_radii_per_step), all values finite
   bool broke;           ///< a bond
@@ -245,9 +255,9 @@ struct Step {
   State<Real> before, after;
   std::size_t blocks;
   const std::int32_t* id;
-  const Real* live;                  ///< lanes of the last block: 1 for a particle, 0 for padding
-  const Lists* lists;                ///< by piece
-  const PieceMotion<Real>* motions;  ///< by piece
+  const Real* live;    ///< lanes of the last block: 1 for a particle, 0 for padding
+  const Lists* lists;  ///< by piece
+  Parts<Real> parts;
   Holds<Real> holds;
   Law<Real> law;
   Real* share;        ///< 1 / neighbors, or 0; of pairwise damping
@@ -272,8 +282,8 @@ struct Step {
   Probed<Real> probed;
 };
 
-/// Sums over a piece's particles that determine its motion and extent, with coordinates x relative
-/// to one of them.
+/// Sums over particles that determine their motion and extent, with coordinates x relative to one
+/// of them.
 struct Survey {
   double low[3], high[3];              ///< of x
   double low_along[3], high_along[3];  ///< of x along each of some axes
@@ -285,9 +295,8 @@ struct Survey {
 template <class Real>
 struct SurveyInput {
   State<Real> state;
-  std::size_t blocks;
-  const Real* live;  ///< as in Step
-  Real axes[3][3];   ///< one after another
+  std::size_t begin, end;  ///< particles
+  Real axes[3][3];         ///< one after another
 };
 
 /// Axes of bounds: x, y, z, then the diagonals between each two of them, which bound rows of a
@@ -366,8 +375,8 @@ struct Functions {
   /// Keeps the differences with a pair within range; returns how many.
   std::size_t (*prune)(const PruneInput<Real>&, std::size_t block, const Candidates& from,
                        const Candidates& kept);
-  /// Surveys a piece relative to `center`.
-  Survey (*survey)(const SurveyInput<Real>&, std::size_t piece, const Coord<Real>* center);
+  /// Surveys particles relative to `center`.
+  Survey (*survey)(const SurveyInput<Real>&, const Coord<Real>* center);
 };
 
 enum class InstructionSet { plain, avx2, avx512 };

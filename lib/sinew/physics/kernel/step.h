@@ -23,6 +23,7 @@ struct Sums {
   Real driven_power[block] = {}, fastest[block] = {}, speed2[block] = {};
   Real aa[block] = {}, av[block] = {}, vv[block] = {}, unbalanced[block] = {}, pulled[block] = {};
   bool sound = true, broke = false;
+  std::uint32_t part = 0;  ///< of `fastest`
 };
 
 template <class L>
@@ -181,19 +182,26 @@ SINEW_INLINE void account_of_relaxing(const Step<typename L::Real>& step, std::s
   add_to<L>(sums.pulled + lane, live_lanes<L>(step.blocks, step.live, block, lane) * pulled);
 }
 
-/// The largest speed relative to the piece's motion.
+/// The squared speed relative to a part's motion.
 template <class L>
-SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t block, int lane,
-                                const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
-  const auto& motion = step.motions[block / blocks_per_piece];
+SINEW_INLINE typename L::V relative_speed2(const RigidMotion<typename L::Real>& motion,
+                                           const Place<L>& here, const Triple<L>& drifting) {
   const Place<L> center{L::all_coord(motion.center[0]), L::all_coord(motion.center[1]),
                         L::all_coord(motion.center[2])};
   const Triple<L> arm = offset<L>(here, center);
-  const typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
   const Triple<L> relative =
-      live * (drifting - all<L>(motion.velocity) - cross<L>(all<L>(motion.spin), arm));
-  L::store(sums.fastest + lane,
-           L::larger(dot<L>(relative, relative), L::load(sums.fastest + lane)));
+      drifting - all<L>(motion.velocity) - cross<L>(all<L>(motion.spin), arm);
+  return dot<L>(relative, relative);
+}
+
+/// The largest speed relative to the motion of the piece's first part.
+template <class L>
+SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t block, int lane,
+                                const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
+  const typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
+  const typename L::V speed2 =
+      live * relative_speed2<L>(step.parts.motions[sums.part], here, drifting);
+  L::store(sums.fastest + lane, L::larger(speed2, L::load(sums.fastest + lane)));
   if constexpr (sizeof(typename L::Real) == 4)
     L::store(sums.speed2 + lane,
              L::larger(live * dot<L>(drifting, drifting), L::load(sums.speed2 + lane)));
@@ -267,17 +275,13 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L
 
 template <class L>
 SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
-  typename L::Real fastest = 0, speed2 = 0;
-  for (int k = 0; k < Sums<L>::block; ++k) {
-    fastest = sums.fastest[k] > fastest ? sums.fastest[k] : fastest;
-    speed2 = sums.speed2[k] > speed2 ? sums.speed2[k] : speed2;
-  }
+  typename L::Real speed2 = 0;
+  for (const typename L::Real one : sums.speed2) speed2 = one > speed2 ? one : speed2;
   return {sum_of<L>(sums.power),
           sum_of<L>(sums.driven_power),
           sum_of<L>(sums.lost),
           sum_of<L>(sums.pair_energy),
           sum_of<L>(sums.bone_energy),
-          static_cast<double>(fastest),
           static_cast<double>(speed2),
           sums.sound,
           sums.broke,
@@ -285,19 +289,51 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
            sum_of<L>(sums.pulled)}};
 }
 
+/// Of parts of a piece after it has moved.
+template <class L>
+[[gnu::noinline]] void track_parts(const Step<typename L::Real>& step, std::uint32_t begin,
+                                   std::uint32_t end) {
+  const Parts<typename L::Real>& parts = step.parts;
+  const auto& drifting = step.drift_first ? step.before.v : step.after.v;
+  for (std::uint32_t part = begin; part < end; ++part) {
+    typename L::Real fastest = 0, speed2[L::width];
+    const std::uint32_t last = parts.first[part + 1];
+    for (std::uint32_t k = parts.first[part]; k < last; k += L::width) {
+      L::store(speed2, relative_speed2<L>(parts.motions[part], load_place<L>(step.before.x, k),
+                                          load<L>(drifting, k)));
+      for (std::uint32_t lane = 0; lane < L::width && k + lane < last; ++lane)
+        fastest = speed2[lane] > fastest ? speed2[lane] : fastest;
+    }
+    parts.fastest[part] = fastest;
+  }
+}
+
+/// The largest speeds in a piece that has moved.
+template <class L>
+SINEW_INLINE void store_fastest(const Step<typename L::Real>& step, std::size_t piece,
+                                const Sums<L>& sums) {
+  const std::size_t next = (piece + 1) * blocks_per_piece;
+  const std::uint32_t end = next < step.blocks ? step.parts.of_block[next] : step.parts.count;
+  if (end != sums.part + 1) return track_parts<L>(step, sums.part, end);
+  typename L::Real& fastest = step.parts.fastest[sums.part] = 0;
+  for (const typename L::Real one : sums.fastest) fastest = one > fastest ? one : fastest;
+}
+
 /// Calls visit(block, lane, sums) for every vector of the pieces but for idle ones, and stores
-/// their totals.
-template <class L, class Visit>
+/// their totals; `moves`: it moves them.
+template <class L, bool moves, class Visit>
 SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_t begin,
                                   std::size_t end, Visit visit) {
   constexpr int block_size = Traits<typename L::Real>::block;
   for (std::size_t piece = begin; piece < end; ++piece) {
     Sums<L> sums;
+    if constexpr (moves) sums.part = step.parts.of_block[piece * blocks_per_piece];
     const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
     for (std::size_t block = first; block < last && block < step.blocks; ++block) {
       if (step.grouped.role != nullptr && step.grouped.role[block] == idle) continue;
       for (int lane = 0; lane < block_size; lane += L::width) visit(block, lane, sums);
     }
+    if constexpr (moves) store_fastest<L>(step, piece, sums);
     step.totals[piece] = totals_of(sums);
   }
 }
@@ -305,7 +341,7 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
 template <class L, PairLaw pairs, Pass pass>
 void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const LawOf<L, pairs> law = law_of<L, pairs>(step);
-  for_each_vector<L>(
+  for_each_vector<L, true>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
         if constexpr (pairs != changing_springs)  // whose many streams leave no room in the caches
@@ -317,7 +353,7 @@ void step_pieces(const Step<typename L::Real>& step, std::size_t begin, std::siz
 template <class L, PairLaw pairs, Pass pass>
 void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   const LawOf<L, pairs> law = law_of<L, pairs>(step);
-  for_each_vector<L>(
+  for_each_vector<L, false>(
       step, begin,
       end, [&](std::size_t block, int lane, auto& sums) __attribute__((always_inline)) {
         probe_vector<L, pairs, pass>(step, law, block, lane, sums);

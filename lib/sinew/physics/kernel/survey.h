@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surveys a piece: how it moves and how large it is.
+// Surveys particles: how they move and how far they extend.
 #pragma once
 
 #include <sinew/physics/kernel/parts.h>
@@ -60,19 +60,20 @@ struct SurveySums {
 };
 
 template <class L>
-Survey survey(const SurveyInput<typename L::Real>& input, std::size_t piece,
-              const typename L::Coord* center) {
-  constexpr int size = Traits<typename L::Real>::block;
+Survey survey(const SurveyInput<typename L::Real>& input, const typename L::Coord* center) {
+  constexpr std::size_t size = Traits<typename L::Real>::block;
   const Place<L> middle{L::all_coord(center[0]), L::all_coord(center[1]), L::all_coord(center[2])};
   SurveySums<L> sums;
-  const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
-  for (std::size_t block = first; block < last && block < input.blocks; ++block)
-    for (int lane = 0; lane < size; lane += L::width) {
-      const auto i = static_cast<std::ptrdiff_t>(block) * size + lane;
-      const typename L::V live = live_lanes<L>(input.blocks, input.live, block, lane);
-      sums.add(lane, live * offset<L>(load_place<L>(input.state.x, i), middle),
-               live * load<L>(input.state.v, i), input.axes);
-    }
+  for (std::size_t first = input.begin / size * size; first < input.end; first += L::width) {
+    typename L::Real live[L::width];
+    for (std::size_t k = 0; k < L::width; ++k)
+      live[k] = first + k >= input.begin && first + k < input.end ? typename L::Real(1)
+                                                                  : typename L::Real(0);
+    const auto i = static_cast<std::ptrdiff_t>(first);
+    sums.add(static_cast<int>(first % size),
+             L::load(live) * offset<L>(load_place<L>(input.state.x, i), middle),
+             L::load(live) * load<L>(input.state.v, i), input.axes);
+  }
   return sums.over_lanes();
 }
 

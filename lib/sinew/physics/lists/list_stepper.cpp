@@ -89,7 +89,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.id = layout_.padded_id();
   step.live = layout_.now.live();
   step.lists = lists_.arrays();
-  step.motions = lists_.motions();
+  step.parts = lists_.parts();
   step.holds = holds();
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
@@ -234,7 +234,7 @@ void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
   groups_.sum(kernel_, now, layout_.units(),
               {seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
                stepping_.gravity});
-  groups_.bound(layout_.units(), now.drift_first, lists_.motions(), totals_);
+  groups_.bound(layout_.units(), now.drift_first, lists_.parts(), totals_);
   groups_.check_stretch();
 }
 
@@ -280,10 +280,7 @@ template <class Real>
 void ListStepper<Real>::add_moved() {
   for (std::size_t piece = 0; piece < moved_.size(); ++piece) {
     const double moved = std::exchange(moved_[piece], 0) / layout_.units().length;
-    if (moved == 0) continue;
-    const double speed =
-        std::sqrt(totals_[piece].fastest) + moved / (stepping_.step / layout_.units().time);
-    totals_[piece].fastest = speed * speed;
+    if (moved > 0 && lists_.made()) lists_.add_moved(piece, moved);
   }
 }
 
@@ -296,7 +293,12 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, bonds_, layout_.units(), grouped());
+  lists_.make(layout_.now, parts(), bonds_, layout_.units(), grouped());
+}
+
+template <class Real>
+PieceParts ListStepper<Real>::parts() const {
+  return piece_parts(*body_, layout_.id(), block);
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run
@@ -317,7 +319,7 @@ void ListStepper<Real>::sort() {
   VerletLists<Real> before = std::exchange(lists_, lists_.anew());
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
-  lists_.make_some(layout_.now, bonds_, layout_.units());
+  lists_.make_some(layout_.now, parts(), bonds_, layout_.units());
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {

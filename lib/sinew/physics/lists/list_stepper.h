@@ -85,6 +85,7 @@ class ListStepper {
   void sort();
   void add_moved();
   void make_lists();
+  PieceParts parts() const;
   void find_slots();
   StepSums sums_of_totals() const;
   Failure failure(const Pose& pose);

@@ -87,37 +87,39 @@ double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
 }
 
 template <class Real>
-void VerletLists<Real>::make(BlockState<Real>& state, const BondLists<Real>& bonds,
-                             const Units& units, const GroupedParticles& groups) {
-  make_each(1, state, bonds, units, groups);
+void VerletLists<Real>::make(BlockState<Real>& state, PieceParts parts,
+                             const BondLists<Real>& bonds, const Units& units,
+                             const GroupedParticles& groups) {
+  make_each(1, state, std::move(parts), bonds, units, groups);
   ++counts_.rebuilds;
 }
 
 template <class Real>
-void VerletLists<Real>::make_some(BlockState<Real>& state, const BondLists<Real>& bonds,
-                                  const Units& units) {
+void VerletLists<Real>::make_some(BlockState<Real>& state, PieceParts parts,
+                                  const BondLists<Real>& bonds, const Units& units) {
   const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
-  make_each(1 + pieces / pieces_in_sample, state, bonds, units, {});
+  make_each(1 + pieces / pieces_in_sample, state, std::move(parts), bonds, units, {});
   if (whole_) ++counts_.rebuilds;
 }
 
 template <class Real>
-void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state,
+void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, PieceParts parts,
                                   const BondLists<Real>& bonds, const Units& units,
                                   const GroupedParticles& groups) {
   whole_ = nth == 1;
+  of_ = std::move(parts);
   ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
              wanted_.outer / units.length};
   time_ = step_ / units.time;
   const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
+  motions_.assign(of_.size(), {});
+  speed_.assign(of_.size(), 0);
+  centers_.assign(of_.size(), Vec3::Zero());
+  axes_.assign(of_.size(), Mat3::Identity());
+  fastest_.assign(of_.size(), 0);
   outer_.assign(pieces, {});
   inner_.assign(pieces, {});
   arrays_.assign(pieces, {});
-  motions_.assign(pieces, {});
-  speed_.assign(pieces, 0);
-  centers_.assign(pieces, Vec3::Zero());
-  axes_.assign(pieces, Mat3::Identity());
-  fastest_.assign(pieces, 0);
   boxes_.resize(pieces);
   boxed_.assign(pieces, -1);
   listed_at_.assign(pieces, Mat3::Identity());
@@ -136,7 +138,7 @@ void VerletLists<Real>::show_around(const std::vector<std::uint32_t>& pieces,
                                     const GroupedParticles& groups) const {
   std::vector<std::uint32_t> around;
   for (const std::uint32_t piece : pieces)
-    for (const NearPieces::Near& near : near_.of(piece)) around.push_back(near.piece);
+    for (const std::uint32_t near : pieces_near(piece)) around.push_back(near);
   groups.show(around);
 }
 
@@ -206,74 +208,113 @@ PieceNow VerletLists<Real>::piece_now(const kernel::Survey& survey,
   return now;
 }
 
-/// Of a piece, at its places.
 template <class Real>
-PieceNow VerletLists<Real>::survey(std::size_t piece, BlockState<Real>& state) {
-  constexpr std::size_t size = blocks_per_piece * BlockState<Real>::block;
-  const auto arrays = state.arrays();
-  kernel::SurveyInput<Real> input{arrays, state.blocks(), state.live(), {}};
-  for (int k = 0; k < 3; ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      input.axes[k][axis] = static_cast<Real>(axes_[piece](axis, k));
-  const std::size_t first = piece * size, last = std::min(first + size, state.size());
-  auto& center = motions_[piece].center;
-  for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(first + last) / 2];
-  return piece_now(kernel_.survey(input, piece, center), center, last - first, axes_[piece]);
+kernel::Parts<Real> VerletLists<Real>::parts() {
+  return {of_.first.data(), of_.of_block.data(), static_cast<std::uint32_t>(of_.size()),
+          motions_.data(), fastest_.data()};
 }
 
-/// Finds out how all pieces move.
+template <class Real>
+void VerletLists<Real>::add_moved(std::size_t piece, double moved) {
+  for_each_part(piece, [&](std::uint32_t part) {
+    const double speed = std::sqrt(static_cast<double>(fastest_[part])) + moved / time_;
+    fastest_[part] = static_cast<Real>(speed * speed);
+  });
+}
+
+template <class Real>
+bool VerletLists<Real>::meets_others(std::size_t piece) const {
+  bool any = false;
+  for_each_part(piece, [&](std::uint32_t part) { any = any || near_.meets_others(part); });
+  return any;
+}
+
+void sort_once(std::vector<std::uint32_t>& pieces) {
+  std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+}
+
+template <class Real>
+std::vector<std::uint32_t> VerletLists<Real>::pieces_of(
+    const std::vector<std::uint32_t>& parts) const {
+  std::vector<std::uint32_t> pieces;
+  for (const std::uint32_t part : parts) pieces.push_back(of_.piece[part]);
+  return pieces;
+}
+
+/// Those that any of its parts is near, ascending.
+template <class Real>
+std::vector<std::uint32_t> VerletLists<Real>::pieces_near(std::size_t piece) const {
+  std::vector<std::uint32_t> pieces;
+  for_each_part(piece, [&](std::uint32_t part) {
+    for (const NearPieces::Near& near : near_.of(part)) pieces.push_back(of_.piece[near.piece]);
+  });
+  sort_once(pieces);
+  return pieces;
+}
+
+/// Of a part, at its places.
+template <class Real>
+PieceNow VerletLists<Real>::survey(std::size_t part, BlockState<Real>& state) {
+  const auto arrays = state.arrays();
+  const std::size_t begin = of_.first[part], end = of_.first[part + 1];
+  kernel::SurveyInput<Real> input{arrays, begin, end, {}};
+  for (int k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      input.axes[k][axis] = static_cast<Real>(axes_[part](axis, k));
+  auto& center = motions_[part].center;
+  for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(begin + end) / 2];
+  return piece_now(kernel_.survey(input, center), center, end - begin, axes_[part]);
+}
+
+/// Finds out how all parts move.
 template <class Real>
 void VerletLists<Real>::survey(BlockState<Real>& state, const GroupedParticles& groups) {
-  std::vector<PieceNow> pieces(motions_.size());
-  const auto is_of_group = [&](std::size_t piece) {
-    return !groups.of_piece.empty() && groups.of_piece[piece] >= 0;
+  std::vector<PieceNow> parts(of_.size());
+  const auto is_of_group = [&](std::size_t part) {
+    return !groups.of_piece.empty() && groups.of_piece[of_.piece[part]] >= 0;
   };
   std::vector<std::uint32_t> others;
-  for (std::uint32_t piece = 0; piece < pieces.size(); ++piece)
-    if (!is_of_group(piece)) others.push_back(piece);
+  for (std::uint32_t part = 0; part < parts.size(); ++part)
+    if (!is_of_group(part)) others.push_back(of_.piece[part]);
   groups.show(others);
-  parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t piece = begin; piece < end; ++piece) {
-      auto& motion = motions_[piece];
-      PieceNow& now = pieces[piece];
-      now = is_of_group(piece) ? groups.piece_now(piece) : survey(piece, state);
+  parallel_for(parts.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) {
+      auto& motion = motions_[part];
+      PieceNow& now = parts[part];
+      now = is_of_group(part) ? groups.piece_now(of_.piece[part]) : survey(part, state);
       for (int axis = 0; axis < 3; ++axis) {
         motion.velocity[axis] = static_cast<Real>(now.velocity[axis]);
         motion.spin[axis] = static_cast<Real>(now.spin[axis]);
         now.velocity[axis] = static_cast<double>(motion.velocity[axis]);
         now.spin[axis] = static_cast<double>(motion.spin[axis]);
       }
-      centers_[piece] = now.center;
-      place_field(piece, now.center);
-      speed_[piece] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
+      centers_[part] = now.center;
+      place_field(part, now.center);
+      speed_[part] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
     }
   });
-  near_.survey(std::move(pieces), time_);
+  near_.survey(std::move(parts), time_);
   elapsed_ = 0;
   ++counts_.surveys;
 }
 
 template <class Real>
-void VerletLists<Real>::place_field(std::size_t piece, const Vec3& at) {
+void VerletLists<Real>::place_field(std::size_t part, const Vec3& at) {
   for (int axis = 0; axis < 3; ++axis)
     if constexpr (sizeof(Real) == 4)
-      motions_[piece].center[axis] =
+      motions_[part].center[axis] =
           static_cast<std::int32_t>(static_cast<std::int64_t>(std::nearbyint(at[axis])));
     else
-      motions_[piece].center[axis] = at[axis];
+      motions_[part].center[axis] = at[axis];
 }
 
 /// The velocity fields travel with the common velocity.
 template <class Real>
 void VerletLists<Real>::move_fields() {
   elapsed_ += time_;
-  for (std::size_t piece = 0; piece < motions_.size(); ++piece)
-    place_field(piece, centers_[piece] + elapsed_ * near_.common_velocity());
-}
-
-void sort_once(std::vector<std::uint32_t>& pieces) {
-  std::sort(pieces.begin(), pieces.end());
-  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  for (std::size_t part = 0; part < motions_.size(); ++part)
+    place_field(part, centers_[part] + elapsed_ * near_.common_velocity());
 }
 
 /// Where a bond broke: its particles now touch like others.
@@ -291,15 +332,17 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
   // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
   // of the velocity fields.
   const double unit = sizeof(Real) == 4 ? 2 / time_ : 0;
-  for (std::size_t piece = 0; piece < totals.size(); ++piece)
-    fastest_[piece] =
-        std::sqrt(totals[piece].fastest) * (1 + 1e-5) + unit + rounding<Real> * speed_[piece];
-  if (!near_.advance(fastest_, time_)) return make(state, bonds, units, groups);
+  std::vector<double> fastest(of_.size());
+  for (std::size_t part = 0; part < fastest.size(); ++part)
+    fastest[part] = std::sqrt(static_cast<double>(fastest_[part])) * (1 + 1e-5) + unit +
+                    rounding<Real> * speed_[part];
+  if (!near_.advance(fastest, time_)) return make(state, of_, bonds, units, groups);
   if (near_.survey_due())
     survey(state, groups);
   else
     move_fields();
-  std::vector<std::uint32_t> listed = near_.to_list(), pieces = near_.to_prune();
+  std::vector<std::uint32_t> listed = pieces_of(near_.to_list()),
+                             pieces = pieces_of(near_.to_prune());
   add_strained(groups, listed, pieces);
   add_broken(totals, listed);
   counts_.checking += watch.lap();
@@ -322,8 +365,8 @@ void VerletLists<Real>::find_boxes_around(BlockState<Real>& state,
                                           const std::vector<std::uint32_t>& pieces) {
   std::vector<std::uint32_t> old;
   for (const std::uint32_t piece : pieces)
-    for (const NearPieces::Near& near : near_.of(piece))
-      if (std::exchange(boxed_[near.piece], moment_) != moment_) old.push_back(near.piece);
+    for (const std::uint32_t near : pieces_near(piece))
+      if (std::exchange(boxed_[near], moment_) != moment_) old.push_back(near);
   parallel_for(old.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) find_boxes(kernel_, state, old[k], boxes_);
   });
@@ -341,14 +384,13 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t piece = pieces[k];
-      std::vector<std::uint32_t> near;
-      for (const NearPieces::Near& one : near_.of(piece)) near.push_back(one.piece);
-      outer_[piece] = find_offsets(kernel_, state, piece, near, boxes_, ranges_.outer);
+      outer_[piece] =
+          find_offsets(kernel_, state, piece, pieces_near(piece), boxes_, ranges_.outer);
       if (contacts_) {
         remove_bonded(bonds, piece, outer_[piece]);
         outer_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.outer);
       }
-      near_.listed(piece);
+      for_each_part(piece, [&](std::uint32_t part) { near_.listed(part); });
       if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
         listed_at_[piece] = groups.stretch[static_cast<std::size_t>(groups.of_piece[piece])];
       prune(state, piece, groups);
@@ -363,14 +405,15 @@ void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece,
                               const GroupedParticles& groups) {
   inner_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.inner);
   arrays_[piece] = inner_[piece].arrays();
-  near_.pruned(piece);
+  for_each_part(piece, [&](std::uint32_t part) { near_.pruned(part); });
   if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
     pruned_at_[piece] = groups.stretch[static_cast<std::size_t>(groups.of_piece[piece])];
 }
 
 template <class Real>
 Box VerletLists<Real>::box_of(std::size_t piece, const Units& units) const {
-  Box box = near_.box_of(piece, elapsed_);
+  Box box;
+  for_each_part(piece, [&](std::uint32_t part) { box.extend(near_.box_of(part, elapsed_)); });
   box.min() = units.origin + units.length * box.min();
   box.max() = units.origin + units.length * box.max();
   return box;

@@ -9,9 +9,9 @@
 // Of materials that know their neighbors at rest, the lists hold contacts: pairs that are not
 // bonded, within 2r. In a packed body they are empty until its surface folds onto itself.
 //
-//     lists.make(state, bonds, units);            // at first, and in a new order
+//     lists.make(state, parts, bonds, units);     // at first, and in a new order
+//     step.lists = lists.arrays(), step.parts = lists.parts();
 //     lists.follow(state, bonds, units, totals);  // after every step
-//     step.lists = lists.arrays(), step.motions = lists.motions();
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/near_pieces.h>
 #include <sinew/physics/lists/offset_lists.h>
+#include <sinew/physics/lists/piece_parts.h>
 #include <sinew/physics/material.h>
 #include <sinew/physics/stepper.h>
 
@@ -46,24 +47,29 @@ class VerletLists {
   /// For steps of `step` (s).
   VerletLists(const kernel::Functions<Real>& kernel, const Material& material, double step);
 
-  /// The inner lists and the velocity fields, by piece.
+  /// The inner lists, by piece.
   const kernel::Lists* arrays() const { return arrays_.data(); }
-  const kernel::PieceMotion<Real>* motions() const { return motions_.data(); }
+  /// The parts of the pieces, their velocity fields, and where a step tells how far off these are.
+  kernel::Parts<Real> parts();
+  /// Counts what moved a particle of a piece by so much, in lengths of the kernel, with the step
+  /// before.
+  void add_moved(std::size_t piece, double moved);
 
   /// Lists of the same kind, not yet made, that go on with its counts.
   VerletLists anew() const;
   bool made() const { return !inner_.empty(); }
   /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
-  void make(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
-            const GroupedParticles& groups = {});
-  void make_some(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units);
+  void make(BlockState<Real>& state, PieceParts parts, const BondLists<Real>& bonds,
+            const Units& units, const GroupedParticles& groups = {});
+  void make_some(BlockState<Real>& state, PieceParts parts, const BondLists<Real>& bonds,
+                 const Units& units);
   /// Whether they are the lists of all pieces.
   bool whole() const { return whole_; }
   /// Makes those that are no longer valid after a step with these sums.
   void follow(BlockState<Real>& state, const BondLists<Real>& bonds, const Units& units,
               std::span<const kernel::Totals> totals, const GroupedParticles& groups = {});
   /// Whether a piece is near particles of others than its group.
-  bool meets_others(std::size_t piece) const { return near_.meets_others(piece); }
+  bool meets_others(std::size_t piece) const;
   /// Pieces whose inner lists were made since they were last asked for.
   std::vector<std::uint32_t> take_changed() { return std::exchange(changed_, {}); }
 
@@ -76,12 +82,19 @@ class VerletLists {
 
  private:
   static double mean(const std::vector<OffsetLists>& lists);
-  void make_each(std::size_t nth, BlockState<Real>& state, const BondLists<Real>& bonds,
-                 const Units& units, const GroupedParticles& groups);
+  void make_each(std::size_t nth, BlockState<Real>& state, PieceParts parts,
+                 const BondLists<Real>& bonds, const Units& units, const GroupedParticles& groups);
   void survey(BlockState<Real>& state, const GroupedParticles& groups);
-  PieceNow survey(std::size_t piece, BlockState<Real>& state);
+  PieceNow survey(std::size_t part, BlockState<Real>& state);
   void move_fields();
-  void place_field(std::size_t piece, const Vec3& at);
+  void place_field(std::size_t part, const Vec3& at);
+  template <class Visit>
+  void for_each_part(std::size_t piece, const Visit& visit) const {
+    for (std::uint32_t part = of_.of_piece[piece]; part < of_.of_piece[piece + 1]; ++part)
+      visit(part);
+  }
+  std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& parts) const;
+  std::vector<std::uint32_t> pieces_near(std::size_t piece) const;
   PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
                      std::size_t particles, Mat3& axes) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
@@ -99,13 +112,16 @@ class VerletLists {
   double time_ = 0;        ///< of a step, in times of the kernel
   ListRanges ranges_;      ///< in its lengths
 
+  PieceParts of_;
+  // By part:
   NearPieces near_;
-  std::vector<double> fastest_;  ///< by piece, in the last step
-  std::vector<kernel::PieceMotion<Real>> motions_;
+  std::vector<Real> fastest_;  ///< squared, in the last step
+  std::vector<kernel::RigidMotion<Real>> motions_;
   std::vector<Vec3> centers_;  ///< of them at the survey
-  std::vector<Mat3> axes_;     ///< of the pieces' particles, at the last survey
-  double elapsed_ = 0;         ///< since then, in times of the kernel
-  std::vector<double> speed_;  ///< by piece: of its velocity field, at most
+  std::vector<Mat3> axes_;     ///< of the particles, at the last survey
+  std::vector<double> speed_;  ///< of the velocity field, at most
+  double elapsed_ = 0;         ///< since the survey, in times of the kernel
+  // By piece:
   std::vector<OffsetLists> outer_, inner_;
   std::vector<kernel::Lists> arrays_;
   bool whole_ = false;

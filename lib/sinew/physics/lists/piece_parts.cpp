@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/physics/lists/piece_parts.h>
+
+#include <sinew/physics/kernel/kernel.h>
+
+namespace sinew {
+namespace {
+
+// Where bones alternate, as in a body that has been sorted into columns, parts would be many.
+constexpr std::size_t least_size = 32;
+
+/// Where particles of another bone begin.
+std::vector<std::size_t> begins_of_bones(const Body& body, std::span<const std::int32_t> id) {
+  std::vector<std::size_t> begins;
+  int before = 0;
+  for (std::size_t k = 0; k < id.size(); ++k) {
+    const int bone = body.binding.bone(static_cast<std::size_t>(id[k]));
+    if (k == 0 || bone != before) begins.push_back(k);
+    before = bone;
+  }
+  return begins;
+}
+
+}  // namespace
+
+PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
+  const std::size_t size = block * kernel::blocks_per_piece, count = id.size();
+  std::vector<std::size_t> begins;
+  if (!body.grouping && !body.binding.first.empty()) begins = begins_of_bones(body, id);
+  begins.push_back(count);
+  PieceParts parts;
+  std::size_t next = 0;
+  for (std::size_t first = 0; first < count; first += size) {
+    const std::size_t end = std::min(first + size, count);
+    parts.of_piece.push_back(static_cast<std::uint32_t>(parts.first.size()));
+    parts.first.push_back(static_cast<std::uint32_t>(first));
+    for (; begins[next] < end; ++next)
+      if (begins[next] >= parts.first.back() + least_size && begins[next] + least_size <= end &&
+          begins[next + 1] >= begins[next] + least_size)
+        parts.first.push_back(static_cast<std::uint32_t>(begins[next]));
+    parts.piece.resize(parts.first.size(), static_cast<std::uint32_t>(first / size));
+  }
+  parts.of_piece.push_back(static_cast<std::uint32_t>(parts.first.size()));
+  parts.first.push_back(static_cast<std::uint32_t>(count));
+  std::uint32_t part = 0;
+  for (std::size_t k = 0; k < count; k += block) {
+    while (parts.first[part + 1] <= k) ++part;
+    parts.of_block.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace sinew
