@@ -145,6 +145,26 @@ TEST(SteppersOfSolids, BreakTheSameBonds) {
   }
 }
 
+/// Lists look for flow only where it may have begun; cells look everywhere, in every step.
+TEST(SteppersOfSolids, FlowWhereAndWhenItBegins) {
+  Settings settings = test::box_scene(25);
+  settings.material.model = MaterialModel::bonded;
+  settings.material.yield_strain = 0.01;
+  settings.tracks = {test::track("upper", {test::bend_key(0.05, 0), test::bend_key(0.35, 20)})};
+  const Points rest = test::fcc_box(7, 7, 25, r);
+  const Body body = test::make_body(settings, rest);
+  Both both(settings, rest, particles_at(rest, r, body.material.mass),
+            test::step_of(settings, body));
+  both.step_until(static_cast<std::int64_t>(0.4 / both.step));
+  expect_same(both, 1e-9);
+  expect_same_bonds(both, rest);
+  int flowed = 0;
+  const auto lengths = both.lists.rest_of_bonds(neighbors_within(rest, rest_neighbor_range(r)), {});
+  for (const double length : lengths) flowed += std::abs(length - 2 * r) > 1e-3 * r;
+  EXPECT_GT(flowed, 100);
+  EXPECT_LT(2 * flowed, static_cast<int>(lengths.size()));
+}
+
 TEST(SteppersOfSolids, TakeTheSameStepsInAnyOrderAndPacking) {
   for (const auto& [name, settings] : solids()) {
     SCOPED_TRACE(name);

@@ -33,6 +33,16 @@ struct Branch {
 };
 inline constexpr int most_branches = 4;
 
+/// What was found of a piece's bonds when their flow was: how far its particles are from yielding,
+/// and what bounds how soon they may. Lengths in those of the kernel.
+template <class Real>
+struct FlowLook {
+  Real spare;     ///< the least yield shear less shear; negative: something flows
+  Real reach;     ///< the largest d + |d - l|
+  Real tension;   ///< the largest |d - l| d
+  Real nearest2;  ///< the least d squared
+};
+
 template <class Real>
 struct Bonds {
   const std::uint32_t* first;   ///< entries of block k: [first[k], first[k + 1])
@@ -44,6 +54,7 @@ struct Bonds {
   std::int32_t* broken;  ///< by particle
   Real* flow[6];         ///< by particle: P of ../solid.h, x x, y y, z z, y z, z x, x y
   Real* flows;           ///< by particle: positive where P is not 0
+  FlowLook<Real>* look;  ///< by piece
   Real yield;            ///< squared shear beyond which bonds creep; 0: never
   /// By particle, where they differ: `yield`; 1 and the strain at which its bonds break. Or null.
   const Real* yield_of;

@@ -35,10 +35,39 @@ struct StressSums {
   Symmetric<L> stress = spread;
 };
 
+/// Of a piece: FlowLook.
+template <class L>
+struct LookSums {
+  typename L::V spare, nearest2, reach = L::all(0), tension = reach;
+
+  SINEW_INLINE void add(typename L::M mask, typename L::V squared, typename L::V d,
+                        typename L::V free_length) {
+    const typename L::V off = L::size(d - free_length);
+    nearest2 = L::pick(mask, L::smaller(squared, nearest2), nearest2);
+    reach = L::larger(L::keep(mask, d + off), reach);
+    tension = L::larger(L::keep(mask, off * d), tension);
+  }
+
+  FlowLook<typename L::Real> over_lanes() const {
+    using Real = typename L::Real;
+    Real rows[4][L::width];
+    L::store(rows[0], spare), L::store(rows[1], nearest2);
+    L::store(rows[2], reach), L::store(rows[3], tension);
+    FlowLook<Real> all{rows[0][0], rows[2][0], rows[3][0], rows[1][0]};
+    for (int k = 1; k < L::width; ++k) {
+      all.spare = rows[0][k] < all.spare ? rows[0][k] : all.spare;
+      all.nearest2 = rows[1][k] < all.nearest2 ? rows[1][k] : all.nearest2;
+      all.reach = rows[2][k] > all.reach ? rows[2][k] : all.reach;
+      all.tension = rows[3][k] > all.tension ? rows[3][k] : all.tension;
+    }
+    return all;
+  }
+};
+
 template <class L, Shell shell>
 SINEW_INLINE void add_stress(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                              std::size_t block, int lane, std::ptrdiff_t i, const Place<L>& here,
-                             StressSums<L>& sums) {
+                             StressSums<L>& sums, LookSums<L>& look) {
   using V = typename L::V;
   const std::uint32_t between = step.bonds.second[block];
   for_each_bond<L, changing_springs>(
@@ -52,6 +81,7 @@ SINEW_INLINE void add_stress(const Step<typename L::Real>& step, const SolidLaw<
         const V k = L::keep(bond.mask, bond.stiffness), l0 = L::all(bond.kind->length);
         const V d = squared * inverse, weight = k * l0 * l0;
         const V pull = L::keep(bond.mask, bond.slope) * (d - bond.free_length) * d;
+        look.add(bond.mask, squared, d, bond.free_length);
         const V inverse2 = inverse * inverse;
         const Symmetric<L> nn = squares<L>(apart);
         sums.weights = sums.weights + weight;
@@ -79,31 +109,41 @@ SINEW_INLINE Symmetric<L> shear_of(const StressSums<L>& sums) {
   return D;
 }
 
+/// P of a vector.
+template <class L>
+SINEW_INLINE void find_flow(const Step<typename L::Real>& step, const SolidLaw<L>& law,
+                            std::size_t block, int lane, LookSums<L>& look) {
+  using V = typename L::V;
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  const Place<L> here = load_place<L>(step.before.x, i);
+  StressSums<L> sums;
+  add_stress<L, nearest>(step, law, block, lane, i, here, sums, look);
+  add_stress<L, second>(step, law, block, lane, i, here, sums, look);
+  const Symmetric<L> D = shear_of<L>(sums);
+  const V shear = product<L>(D, D);
+  const V yield =
+      step.bonds.yield_of == nullptr ? L::all(step.bonds.yield) : L::load(step.bonds.yield_of + i);
+  const V flows =
+      L::keep(L::less(yield, shear), L::all(1) - L::root(yield / L::larger(shear, yield)));
+  look.spare = L::smaller(L::root(yield) - L::root(shear), look.spare);
+  L::store(step.bonds.flows + i, flows);
+  for (int k = 0; k < 6; ++k) L::store(step.bonds.flow[k] + i, flows * D.at[k]);
+}
+
 /// P of all particles of the pieces [begin, end).
 template <class L>
 void flow_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
-  using V = typename L::V;
-  using Real = typename L::Real;
-  constexpr int size = Traits<Real>::block;
+  constexpr int size = Traits<typename L::Real>::block;
+  constexpr auto far = static_cast<typename L::Real>(1e30);
   const SolidLaw<L> law(step);
-  const V one = L::all(1);
-  const std::size_t last = end * blocks_per_piece;
-  for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block)
-    for (int lane = 0; lane < size; lane += L::width) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
-      const Place<L> here = load_place<L>(step.before.x, i);
-      StressSums<L> sums;
-      add_stress<L, nearest>(step, law, block, lane, i, here, sums);
-      add_stress<L, second>(step, law, block, lane, i, here, sums);
-      const Symmetric<L> D = shear_of<L>(sums);
-      const V shear = product<L>(D, D);
-      const V yield = step.bonds.yield_of == nullptr ? L::all(step.bonds.yield)
-                                                     : L::load(step.bonds.yield_of + i);
-      const V flows =
-          L::keep(L::less(yield, shear), one - L::root(yield / L::larger(shear, yield)));
-      L::store(step.bonds.flows + i, flows);
-      for (int k = 0; k < 6; ++k) L::store(step.bonds.flow[k] + i, flows * D.at[k]);
-    }
+  for (std::size_t piece = begin; piece < end; ++piece) {
+    LookSums<L> look{L::all(far), L::all(far)};
+    const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
+    for (std::size_t block = first; block < last && block < step.blocks; ++block)
+      for (int lane = 0; lane < size; lane += L::width) find_flow<L>(step, law, block, lane, look);
+    step.bonds.look[piece] = look.over_lanes();
+  }
 }
 
 /// Lets the branches of a vector's bonds relax at the distances that they have, both directions of

@@ -281,6 +281,7 @@ kernel::Bonds<Real> BondLists<Real>::arrays(const Material& material, double ste
   bonds.creep = creep.data();
   for (std::size_t k = 0; k < flow.size(); ++k) bonds.flow[k] = flow[k].data() + block;
   bonds.flows = flows.data() + block;
+  bonds.look = look.data();
   bonds.yield = real(strength.yield_shear * strength.yield_shear);
   if (!yield.empty()) bonds.yield_of = yield.data() + block;
   bonds.crept = real(-std::expm1(-strength.creep_rate * step));
@@ -374,6 +375,7 @@ BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::i
     bonds.creep.assign(bonds.entries.size() * size, 0);
     for (auto& values : bonds.flow) values.assign((blocks + 2) * size, 0);
     bonds.flows.assign((blocks + 2) * size, 0);
+    bonds.look.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
   }
   if (strength.breaking_strain > 0) bonds.broken.assign(blocks * size, 0);
   bonds.branches = BondBranches<Real>(strength, bonds.entries.size());

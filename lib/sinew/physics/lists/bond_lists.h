@@ -36,7 +36,8 @@ struct BondLists {
   /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
   std::array<Lines<Real>, 6> flow;
   Lines<Real> flows;
-  Lines<Real> yield, breaking;  ///< as flow, where particles differ: see kernel::Bonds
+  std::vector<kernel::FlowLook<Real>> look;  ///< by piece; empty: none flows
+  Lines<Real> yield, breaking;               ///< as flow, where particles differ: see kernel::Bonds
 
   /// Lengths and stiffness in these units; `id` in the kernel's order.
   void set_units(const Body& body, std::span<const std::int32_t> id, double mass,

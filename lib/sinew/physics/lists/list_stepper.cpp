@@ -154,8 +154,7 @@ template <class Real>
 void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   if (!strain_.empty())
     on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
-  if (!bonds_.flows.empty())
-    on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.flow(now, first, last); });
+  find_flow(now);
   if (share_.empty()) return;
   auto counting = now;
   // Within groups, the neighbors of idle blocks remain.

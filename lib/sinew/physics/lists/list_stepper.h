@@ -74,6 +74,7 @@ class ListStepper {
   void follow_units();
   kernel::Step<Real> begin(const Pose& pose, Points* world_forces, bool whole);
   void find_deformation(const kernel::Step<Real>& now);
+  void find_flow(const kernel::Step<Real>& now);
   GroupedParticles grouped();
   void move_groups(const kernel::Step<Real>& now);
   StepSums run(kernel::Step<Real> now, const Pose& pose);

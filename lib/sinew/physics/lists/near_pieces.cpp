@@ -191,7 +191,7 @@ void NearPieces::add_near(std::size_t piece, std::uint32_t other, std::span<cons
     return;
   }
   const double apart = ranges_.outer - ranges_.force;
-  near_[piece].push_back({other, 0, 0, apart, apart});
+  near_[piece].push_back({other, 0, 0, apart, apart, looks_ ? 0 : unknown});
 }
 
 /// Of approach of two pieces, in the region where particles of both may be within the outer range
@@ -251,7 +251,7 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       Spare& spare = spare_[piece];
       spare.used += (fastest[piece] + most + spare.rate) * time;
-      if (!(spare.used < std::min(spare.outer, spare.inner))) find_spare(piece);
+      if (!(spare.used < std::min({spare.outer, spare.inner, spare.still}))) find_spare(piece);
     }
   });
   sort_out();
@@ -267,6 +267,7 @@ void NearPieces::find_spare(std::size_t piece) {
     const double used = used_of(piece, near);
     spare.outer = std::min(spare.outer, near.outer - used);
     spare.inner = std::min(spare.inner, near.inner - used);
+    spare.still = std::min(spare.still, near.still - used);
     spare.rate = std::max(spare.rate, static_cast<double>(near.rate));
   }
 }
@@ -279,6 +280,7 @@ void NearPieces::settle(std::size_t piece) {
     const double used = used_of(piece, near);
     near.outer -= used;
     near.inner -= used;
+    near.still -= used;
   }
 }
 
@@ -286,9 +288,11 @@ void NearPieces::settle(std::size_t piece) {
 void NearPieces::sort_out() {
   to_list_.clear();
   to_prune_.clear();
+  to_look_at_.clear();
   const double little = (ranges_.inner - ranges_.force) / 4;
   for (std::uint32_t piece = 0; piece < spare_.size(); ++piece) {
     const Spare& least = spare_[piece];
+    if (least.still <= 0) to_look_at_.push_back(piece);
     if (least.outer < 0 || (least.inner < 0 && least.outer < little))
       to_list_.push_back(piece);
     else if (least.inner < 0)
@@ -308,6 +312,11 @@ bool NearPieces::survey_due() const {
   };
   return 4 * soon(traveled_) > margin_ || 2 * soon(drifted_) > drift_margin * ranges_.outer ||
          (steps_ >= least_steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
+}
+
+void NearPieces::looked_at(std::size_t piece, double still) {
+  for (Near& near : near_[piece]) near.still = still + used_of(piece, near);
+  spare_[piece].used = unknown;
 }
 
 void NearPieces::listed(std::size_t piece) {

@@ -61,13 +61,18 @@ class NearPieces {
     double gap;  ///< between the boxes at the survey
     /// How much nearer than at the survey particles may come that the lists do not pair.
     double outer, inner;
+    /// How far particles of both may move relative to each other since the survey before the caller
+    /// must look at them.
+    double still;
   };
 
   NearPieces() = default;
   /// `bound_to`: by piece, those with the same number are bound to each other, but for -1; empty:
   /// none are.
-  explicit NearPieces(const ListRanges& ranges, std::span<const std::int32_t> bound_to = {})
-      : ranges_(ranges), bound_to_(bound_to.begin(), bound_to.end()) {}
+  /// `looks`: the caller wants to look at pieces whose particles have moved relative to each other.
+  explicit NearPieces(const ListRanges& ranges, std::span<const std::int32_t> bound_to = {},
+                      bool looks = false)
+      : ranges_(ranges), bound_to_(bound_to.begin(), bound_to.end()), looks_(looks) {}
 
   /// How the pieces move and where they are from now on, for steps of `time`.
   void survey(std::vector<PieceNow> pieces, double time);
@@ -85,6 +90,11 @@ class NearPieces {
   /// Pieces whose outer lists are no longer valid, and others whose inner lists are not.
   const std::vector<std::uint32_t>& to_list() const { return to_list_; }
   const std::vector<std::uint32_t>& to_prune() const { return to_prune_; }
+  /// Pieces that the caller must look at.
+  const std::vector<std::uint32_t>& to_look_at() const { return to_look_at_; }
+  /// It has: until their particles have moved by so much relative to each other, and to those of
+  /// pieces near it, it need not again.
+  void looked_at(std::size_t piece, double still);
   /// The outer lists of the piece were made from its present neighbors.
   void listed(std::size_t piece);
   /// Its inner lists were made from its outer lists.
@@ -120,13 +130,14 @@ class NearPieces {
 
   /// The least that was left of the skins between a piece and any near it when it was looked at.
   struct Spare {
-    double outer = std::numeric_limits<double>::infinity(), inner = outer;
+    double outer = std::numeric_limits<double>::infinity(), inner = outer, still = outer;
     double rate = 0;  ///< the largest of those near it
     double used = 0;  ///< since then, at most
   };
 
   ListRanges ranges_;
   std::vector<std::int32_t> bound_to_;
+  bool looks_ = false;
   std::vector<std::uint8_t> meets_others_;
   double margin_ = 0;  ///< beyond the outer range, within which pieces are candidates
   std::vector<PieceNow> pieces_;
@@ -143,7 +154,7 @@ class NearPieces {
   /// By piece, how far any particle has gone from its velocity field since the survey, at most.
   std::vector<double> gone_;
   double elapsed_ = 0;  ///< since the survey
-  std::vector<std::uint32_t> to_list_, to_prune_;
+  std::vector<std::uint32_t> to_list_, to_prune_, to_look_at_;
 };
 
 }  // namespace sinew

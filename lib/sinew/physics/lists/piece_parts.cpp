@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/lists/piece_parts.h>
 
+#include <algorithm>
+#include <utility>
+
 #include <sinew/physics/kernel/kernel.h>
 
 namespace sinew {
 namespace {
 
-// Where bones alternate, as in a body that has been sorted into columns, parts would be many.
-constexpr std::size_t least_size = 32;
+// Fewer move with the part before them.
+constexpr std::size_t least_size = 4;
 
 /// Where particles of another bone begin.
 std::vector<std::size_t> begins_of_bones(const Body& body, std::span<const std::int32_t> id) {
@@ -21,12 +24,8 @@ std::vector<std::size_t> begins_of_bones(const Body& body, std::span<const std::
   return begins;
 }
 
-}  // namespace
-
-PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
-  const std::size_t size = block * kernel::blocks_per_piece, count = id.size();
-  std::vector<std::size_t> begins;
-  if (!body.grouping && !body.binding.first.empty()) begins = begins_of_bones(body, id);
+/// Into pieces, and these where something begins.
+PieceParts divided(std::size_t count, std::size_t size, std::vector<std::size_t> begins) {
   begins.push_back(count);
   PieceParts parts;
   std::size_t next = 0;
@@ -35,17 +34,27 @@ PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::
     parts.of_piece.push_back(static_cast<std::uint32_t>(parts.first.size()));
     parts.first.push_back(static_cast<std::uint32_t>(first));
     for (; begins[next] < end; ++next)
-      if (begins[next] >= parts.first.back() + least_size && begins[next] + least_size <= end &&
-          begins[next + 1] >= begins[next] + least_size)
+      if (begins[next] >= parts.first.back() + least_size && begins[next] + least_size <= end)
         parts.first.push_back(static_cast<std::uint32_t>(begins[next]));
     parts.piece.resize(parts.first.size(), static_cast<std::uint32_t>(first / size));
   }
   parts.of_piece.push_back(static_cast<std::uint32_t>(parts.first.size()));
   parts.first.push_back(static_cast<std::uint32_t>(count));
-  std::uint32_t part = 0;
-  for (std::size_t k = 0; k < count; k += block) {
+  return parts;
+}
+
+}  // namespace
+
+PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
+  const std::size_t size = block * kernel::blocks_per_piece, pieces = (id.size() + size - 1) / size;
+  std::vector<std::size_t> begins;
+  if (!body.grouping && !body.binding.first.empty()) begins = begins_of_bones(body, id);
+  // Where bones alternate, as in a body that has been sorted into columns, parts would be many.
+  if (begins.size() > pieces + 2 * body.skeleton.size()) begins.clear();
+  PieceParts parts = divided(id.size(), size, std::move(begins));
+  for (std::size_t k = 0, part = 0; k < id.size(); k += block) {
     while (parts.first[part + 1] <= k) ++part;
-    parts.of_block.push_back(part);
+    parts.of_block.push_back(static_cast<std::uint32_t>(part));
   }
   return parts;
 }

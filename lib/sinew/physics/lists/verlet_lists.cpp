@@ -57,7 +57,10 @@ Vec3 spin_of(const Mat3& spread, const Vec3& moment) {
 template <class Real>
 VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Material& material,
                                double step)
-    : kernel_(kernel), contacts_(law_of(material).has_memory), step_(step) {
+    : kernel_(kernel),
+      contacts_(law_of(material).has_memory),
+      looks_(material.bond.yield_shear > 0),
+      step_(step) {
   const double diameter = 2 * material.pair.r;
   if (contacts_)
     wanted_ = {diameter, diameter * (1 + inner_skin_of_contacts),
@@ -72,6 +75,7 @@ VerletLists<Real> VerletLists<Real>::anew() const {
   VerletLists lists;
   lists.kernel_ = kernel_;
   lists.contacts_ = contacts_;
+  lists.looks_ = looks_;
   lists.wanted_ = wanted_;
   lists.step_ = step_;
   lists.counts_ = counts_;
@@ -124,7 +128,8 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   boxed_.assign(pieces, -1);
   listed_at_.assign(pieces, Mat3::Identity());
   pruned_at_.assign(pieces, Mat3::Identity());
-  near_ = NearPieces(ranges_, groups.of_piece);
+  looked_.assign(pieces, 0);
+  near_ = NearPieces(ranges_, groups.of_piece, looks_);
   survey(state, groups);
   std::vector<std::uint32_t> some;
   for (std::size_t piece = 0; piece < pieces; piece += nth)
@@ -335,7 +340,7 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
   std::vector<double> fastest(of_.size());
   for (std::size_t part = 0; part < fastest.size(); ++part)
     fastest[part] = std::sqrt(static_cast<double>(fastest_[part])) * (1 + 1e-5) + unit +
-                    rounding<Real> * speed_[part];
+                    rounding<Real> * speed_[part] + (looks_ ? lengthening(part) : 0);
   if (!near_.advance(fastest, time_)) return make(state, of_, bonds, units, groups);
   if (near_.survey_due())
     survey(state, groups);
@@ -345,6 +350,9 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
                              pieces = pieces_of(near_.to_prune());
   add_strained(groups, listed, pieces);
   add_broken(totals, listed);
+  for (std::uint32_t piece = 0; piece < totals.size() && looks_; ++piece)
+    if (totals[piece].broke)
+      for (const std::uint32_t near : pieces_near(piece)) looked_[near] = 0;
   counts_.checking += watch.lap();
   sort_once(listed), sort_once(pieces);
   list(state, bonds, listed, groups);
@@ -358,6 +366,36 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
   });
   counts_.pruned += static_cast<std::int64_t>(pieces.size());
   counts_.pruning += watch.lap();
+}
+
+template <class Real>
+std::vector<std::uint32_t> VerletLists<Real>::to_look_at(
+    const std::function<bool(std::size_t)>& flows) const {
+  std::vector<std::uint32_t> pieces = pieces_of(near_.to_look_at());
+  for (std::uint32_t piece = 0; piece < looked_.size(); ++piece) {
+    if (looked_[piece] == 0) pieces.push_back(piece);
+    if (looked_[piece] == 0 || !flows(piece)) continue;
+    const std::vector<std::uint32_t> near = pieces_near(piece);
+    pieces.insert(pieces.end(), near.begin(), near.end());
+  }
+  sort_once(pieces);
+  return pieces;
+}
+
+template <class Real>
+void VerletLists<Real>::looked_at(std::size_t piece, double still) {
+  looked_[piece] = 1;
+  for_each_part(piece, [&](std::uint32_t part) { near_.looked_at(part, still); });
+}
+
+/// How much faster than by a rigid motion particles within reach of each other may part, since a
+/// step takes them along straight lines.
+template <class Real>
+double VerletLists<Real>::lengthening(std::size_t part) const {
+  const auto& spin = motions_[part].spin;
+  const Vec3 turning(static_cast<double>(spin[0]), static_cast<double>(spin[1]),
+                     static_cast<double>(spin[2]));
+  return turning.squaredNorm() * time_ / 2 * ranges_.outer;
 }
 
 template <class Real>

@@ -73,6 +73,13 @@ class VerletLists {
   /// Pieces whose inner lists were made since they were last asked for.
   std::vector<std::uint32_t> take_changed() { return std::exchange(changed_, {}); }
 
+  /// Where bonds may flow: pieces that a bond broke near, whose particles have moved too far
+  /// relative to each other since they were looked at, or that are near one that flows.
+  std::vector<std::uint32_t> to_look_at(const std::function<bool(std::size_t)>& flows) const;
+  void looked_at(std::size_t piece, double still);
+  /// Of the outer lists, in lengths of the kernel.
+  double outer_range() const { return ranges_.outer; }
+
   /// Around the particles of a piece, m.
   Box box_of(std::size_t piece, const Units& units) const;
 
@@ -87,6 +94,7 @@ class VerletLists {
   void survey(BlockState<Real>& state, const GroupedParticles& groups);
   PieceNow survey(std::size_t part, BlockState<Real>& state);
   void move_fields();
+  double lengthening(std::size_t part) const;
   void place_field(std::size_t part, const Vec3& at);
   template <class Visit>
   void for_each_part(std::size_t piece, const Visit& visit) const {
@@ -107,6 +115,7 @@ class VerletLists {
 
   kernel::Functions<Real> kernel_{};
   bool contacts_ = false;  ///< not all pairs
+  bool looks_ = false;     ///< bonds may flow
   ListRanges wanted_;      ///< m
   double step_ = 0;        ///< s
   double time_ = 0;        ///< of a step, in times of the kernel
@@ -129,6 +138,7 @@ class VerletLists {
   std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
   std::int64_t moment_ = 0;
   std::vector<std::uint32_t> changed_;
+  std::vector<std::uint8_t> looked_;  ///< by piece
   /// By piece of a group: its F when they were made.
   std::vector<Mat3> listed_at_, pruned_at_;
 
