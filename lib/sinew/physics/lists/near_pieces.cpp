@@ -161,16 +161,23 @@ void NearPieces::find_candidates() {
   });
 }
 
-/// Whether particles of both may come within the outer range of each other, until the horizon.
-bool NearPieces::may_meet(const PieceNow& one, const PieceNow& other, double horizon) const {
-  const double apart = gap_between(one, other) - (1 + drift_margin) * ranges_.outer;
-  if (apart < 0) return true;
+/// The gap between two pieces, if particles of both may come within the outer range of each other
+/// until the horizon; else something larger than that range.
+double NearPieces::gap_within(const PieceNow& one, const PieceNow& other, double horizon) const {
+  const double near = (1 + drift_margin) * ranges_.outer;
+  const double apart = std::sqrt(one.box.squaredExteriorDistance(other.box));
+  // Far more expensive, and seldom needed.
+  const double gap = apart < near ? gap_between(one, other) : apart;
+  if (gap < near) return gap;
   // As fast as anywhere in the first box, wherever its particles have traveled.
   const Vec3 middle = one.box.center();
   const double radius = one.box.diagonal().norm() / 2 + std::sqrt(3.0) * margin_ / 4;
   const double rate = (one.velocity_at(middle) - other.velocity_at(middle)).norm() +
                       (one.spin - other.spin).norm() * radius;
-  return apart < rate * (1 + 1e-6) * horizon;
+  const double reach = near + rate * (1 + 1e-6) * horizon;
+  if (!(gap < reach)) return unknown;
+  const double least = apart < near ? gap : gap_between(one, other);
+  return least < reach ? least : unknown;
 }
 
 void NearPieces::find_near(std::size_t piece, double horizon) {
@@ -178,8 +185,10 @@ void NearPieces::find_near(std::size_t piece, double horizon) {
   near_[piece].clear();
   meets_others_[piece] = 0;
   for (const std::uint32_t other : candidates_[piece]) {
-    if (!may_meet(pieces_[piece], pieces_[other], horizon)) continue;
+    const double gap = gap_within(pieces_[piece], pieces_[other], horizon);
+    if (gap == unknown) continue;
     add_near(piece, other, before);
+    near_[piece].back().gap = gap;
     if (!are_bound(piece, other)) meets_others_[piece] = 1;
   }
 }
@@ -213,7 +222,6 @@ void NearPieces::find_rates(std::size_t piece) {
   for (Near& near : near_[piece]) {
     if (are_bound(piece, near.piece)) continue;
     const PieceNow& other = pieces_[near.piece];
-    near.gap = gap_between(one, other);
     near.rate = 0;
     if (near.piece == piece) continue;
     const double apart = std::min(near.gap, ranges_.outer) - ranges_.force;

@@ -108,7 +108,7 @@ class NearPieces {
  private:
   void find_candidates();
   void find_near(std::size_t piece, double horizon);
-  bool may_meet(const PieceNow& one, const PieceNow& other, double horizon) const;
+  double gap_within(const PieceNow& one, const PieceNow& other, double horizon) const;
   void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
   float rate_between(const PieceNow& one, const PieceNow& other) const;
   void find_rates(std::size_t piece);
