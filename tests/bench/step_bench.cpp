@@ -236,7 +236,8 @@ void register_all() {
     for (const Condition condition : {Condition::rest, Condition::bending})
       for (const std::size_t count : {std::size_t{30'000}, std::size_t{300'000}})
         register_laws(variant, condition, count);
-  for (const Variant variant : {Variant::paper, Variant::bonded, Variant::bonded_volume})
+  for (const Variant variant :
+       {Variant::paper, Variant::twelve_bonds, Variant::bonded, Variant::bonded_volume})
     for (const Kind kind : {Kind::single, Kind::binary64, Kind::cells})
       benchmark::RegisterBenchmark(
           path_of("memory", name_of(variant), kinds[static_cast<int>(kind)]).c_str(), memory,

@@ -174,6 +174,73 @@ struct FoundBits {
   std::uint64_t of[together] = {};
 };
 
+/// A line through some particles, and a cylinder about it that holds them: those of a block are few
+/// rows of a lattice, wherever these point.
+class Cylinder {
+ public:
+  /// `x`: of `count` particles; `reach`: to what is near them.
+  template <int count>
+  Cylinder(const float (&x)[3][count], float reach) {
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis] = 0;
+      for (int k = 0; k < count; ++k) center[axis] += x[axis][k] / count;
+    }
+    find_direction(x);
+    float low = 0, high = 0, across2 = 0;
+    for (int k = 0; k < count; ++k) {
+      const float at[3] = {x[0][k] - center[0], x[1][k] - center[1], x[2][k] - center[2]};
+      const float t = product(at, along), off = product(at, at) - t * t;
+      low = t < low ? t : low, high = t > high ? t : high;
+      across2 = off > across2 ? off : across2;
+    }
+    const float half = (high - low) / 2 + reach;
+    for (int axis = 0; axis < 3; ++axis) center[axis] += (low + high) / 2 * along[axis];
+    const float across = root(across2) + reach;
+    // All of this is rounded.
+    half_length = half * 1.0001F;
+    across2_ = across * across * 1.0001F + half * half * 1e-4F;
+  }
+
+  /// Whether any of the block of these places may be near.
+  template <class L, int size>
+  SINEW_INLINE bool meets(const float* places) const {
+    std::uint32_t near = 0;
+    for (int k = 0; k < size; k += L::width) {
+      const auto field = [&](int axis) {
+        return L::load(places + axis * size + k) - L::all(center[axis]);
+      };
+      const Triple<L> at{field(0), field(1), field(2)};
+      const typename L::V t = dot<L>(at, {L::all(along[0]), L::all(along[1]), L::all(along[2])});
+      const typename L::V off = L::less_fused(t, t, dot<L>(at, at));
+      near |= L::bits(L::at_most(L::size(t), L::all(half_length))) &
+              L::bits(L::at_most(off, L::all(across2_)));
+    }
+    return (near & ((std::uint64_t{1} << size) - 1)) != 0;
+  }
+
+ private:
+  static float product(const float (&a)[3], const float (&b)[3]) {
+    return a[0] * b[0] + (a[1] * b[1] + a[2] * b[2]);
+  }
+  static float root(float value) { return __builtin_sqrtf(value); }
+
+  /// To the particle farthest from the center.
+  template <int count>
+  void find_direction(const float (&x)[3][count]) {
+    float most = 0;
+    along[0] = 1, along[1] = along[2] = 0;
+    for (int k = 0; k < count; ++k) {
+      const float at[3] = {x[0][k] - center[0], x[1][k] - center[1], x[2][k] - center[2]};
+      const float square = product(at, at);
+      if (!(square > most)) continue;
+      most = square;
+      for (int axis = 0; axis < 3; ++axis) along[axis] = at[axis] / root(square);
+    }
+  }
+
+  float center[3], along[3], half_length, across2_;
+};
+
 /// Blocks in reverse, so that a mask of their particles within range of a particle j is one of
 /// differences j - i, ascending. |x_i - x_j|^2 = x_i^2 - 2 x_i x_j + x_j^2 is rounded by less than
 /// 16 units in the last place of (|x_i| + |x_j|)^2: the range is longer by as much.
@@ -182,25 +249,12 @@ class Listing {
  public:
   static constexpr int size = Traits<Real>::block, together = listed_together<L, Real>;
 
-  Listing(const Places<Real>& places, std::size_t first, float range) {
-    constexpr int room = vectors * L::width;
-    float x[3][room], square[room];
-    const float range2 = range * range * (1 + 2e-6F);
-    for (int n = 0; n < together; ++n) {
-      const float* from = places.of(first + n);
-      float* to[] = {x[0], x[1], x[2], square};
-      for (int k = 0; k < size; ++k) {
-        const int at = (together - n) * size - 1 - k;
-        for (int axis = 0; axis < 3; ++axis) to[axis][at] = -2 * from[axis * size + k];
-        square[at] = -from[3 * size + k] * (1 - 8e-6F) - range2;
-      }
-    }
-    for (int n = 0; n < vectors; ++n) {
-      x_[n] = L::load(x[0] + n * L::width);
-      y_[n] = L::load(x[1] + n * L::width);
-      z_[n] = L::load(x[2] + n * L::width);
-      square_[n] = L::load(square + n * L::width);
-    }
+  Listing(const Places<Real>& places, std::size_t first, float range)
+      : Listing(OwnPlaces(places, first), range) {}
+
+  /// False where there are none: not all of them are computed then.
+  SINEW_INLINE bool meets(const float* others) const {
+    return cylinder_.template meets<L, size>(others);
   }
 
   SINEW_INLINE FoundBits<Real, together> differences(const float* others) const {
@@ -215,8 +269,41 @@ class Listing {
   }
 
  private:
-  static constexpr int vectors = together * size / L::width;
+  static constexpr int vectors = together * size / L::width, count = together * size;
   using V = typename L::V;
+
+  /// Of the blocks in reverse, with their squares.
+  struct OwnPlaces {
+    float x[3][count], square[count], largest = 0;
+
+    OwnPlaces(const Places<Real>& places, std::size_t first) {
+      for (int n = 0; n < together; ++n) {
+        const float* from = places.of(first + static_cast<std::size_t>(n));
+        for (int k = 0; k < size; ++k) {
+          const int at = (together - n) * size - 1 - k;
+          for (int axis = 0; axis < 3; ++axis) x[axis][at] = from[axis * size + k];
+          square[at] = -from[3 * size + k];
+          largest = square[at] > largest ? square[at] : largest;
+        }
+      }
+    }
+
+    /// Beyond all that rounding may let in.
+    float reach(float range) const {
+      return __builtin_sqrtf(range * range * (1 + 1e-5F) + largest * 2e-5F);
+    }
+  };
+
+  Listing(const OwnPlaces& own, float range) : cylinder_(own.x, own.reach(range)) {
+    const float range2 = range * range * (1 + 2e-6F);
+    const V minus_two = L::all(-2), shorter = L::all(1 - 8e-6F), less = L::all(range2);
+    for (int n = 0; n < vectors; ++n) {
+      x_[n] = minus_two * L::load(own.x[0] + n * L::width);
+      y_[n] = minus_two * L::load(own.x[1] + n * L::width);
+      z_[n] = minus_two * L::load(own.x[2] + n * L::width);
+      square_[n] = shorter * L::load(own.square + n * L::width) - less;
+    }
+  }
 
   SINEW_INLINE std::uint64_t in_range_of(const float* place) const {
     const V x = L::all(place[0]), y = L::all(place[size]), z = L::all(place[2 * size]);
@@ -229,6 +316,7 @@ class Listing {
     return lanes;
   }
 
+  Cylinder cylinder_;
   V x_[vectors], y_[vectors], z_[vectors], square_[vectors];
 };
 
@@ -286,7 +374,9 @@ SINEW_INLINE void list_together(const ListInput<Real>& input, std::size_t block,
                                  input.range);
   const NearBlock* end = near + near_blocks<L>(input, block, near);
   for (; near != end; ++near) {
-    const auto bits = listing.differences(places.of(near->which));
+    const float* others = places.of(near->which);
+    if (!listing.meets(others)) continue;
+    const auto bits = listing.differences(others);
     for (int n = 0; n < together; ++n)
       if ((near->of >> n & 1) != 0) lists[n].add(places.number(near->which), bits.of[n]);
   }
