@@ -13,7 +13,7 @@
 namespace sinew {
 
 struct PieceParts {
-  std::vector<std::uint32_t> first;     ///< particle of each part; then how many particles there are
+  std::vector<std::uint32_t> first;  ///< particle of each part; then how many particles there are
   std::vector<std::uint32_t> of_block;  ///< that of its first particle
   std::vector<std::uint32_t> of_piece;  ///< the first one; one longer than there are pieces
   std::vector<std::uint32_t> piece;     ///< of each part

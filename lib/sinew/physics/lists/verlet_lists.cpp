@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/lists/verlet_lists.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/physics/laws.h>
+#include <sinew/physics/lists/part_survey.h>
 
 namespace sinew {
 namespace {
@@ -27,30 +26,6 @@ using kernel::blocks_per_piece;
 /// Of the kernel's velocity fields, as a share of their speed.
 template <class Real>
 constexpr double rounding = sizeof(Real) == 4 ? 1e-6 : 1e-14;
-
-Mat3 symmetric(const double (&xx)[6]) {
-  Mat3 all;
-  all << xx[0], xx[5], xx[4], xx[5], xx[1], xx[3], xx[4], xx[3], xx[2];
-  return all;
-}
-
-/// Along which particles with these moments extend.
-Mat3 axes_of(const Mat3& spread) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> found(spread);
-  return found.info() == Eigen::Success && found.eigenvectors().allFinite()
-             ? found.eigenvectors()
-             : Mat3(Mat3::Identity());
-}
-
-/// The angular velocity of particles with these moments: least squares.
-Vec3 spin_of(const Mat3& spread, const Vec3& moment) {
-  const double size = spread.trace();
-  if (!(size > 0)) return Vec3::Zero();
-  // Particles in a line may turn about it at any rate.
-  const Mat3 inertia = (1 + 1e-6) * size * Mat3::Identity() - spread;
-  const Vec3 spin = inertia.inverse() * moment;
-  return spin.allFinite() ? spin : Vec3(Vec3::Zero());
-}
 
 }  // namespace
 
@@ -147,29 +122,6 @@ void VerletLists<Real>::show_around(const std::vector<std::uint32_t>& pieces,
   groups.show(around);
 }
 
-/// How much longer distances in groups were than they are now, at most. Most pieces of a group have
-/// been listed at the same moment.
-class Shrinking {
- public:
-  explicit Shrinking(const std::vector<Mat3>& stretch) {
-    for (const Mat3& F : stretch) inverse_.push_back(F.inverse());
-  }
-
-  double since(const Mat3& before, std::int32_t group) {
-    if (group == group_ && before == before_) return last_;
-    group_ = group, before_ = before;
-    const Mat3 back = before * inverse_[static_cast<std::size_t>(group)];
-    last_ = std::sqrt(1 + (back.transpose() * back - Mat3::Identity()).norm());
-    return last_;
-  }
-
- private:
-  std::vector<Mat3> inverse_;
-  std::int32_t group_ = -1;
-  Mat3 before_ = Mat3::Zero();
-  double last_ = 1;
-};
-
 /// Adds pieces of groups that have shrunk so much that particles of theirs may have come within
 /// range of each other.
 template <class Real>
@@ -186,31 +138,6 @@ void VerletLists<Real>::add_strained(const GroupedParticles& groups,
     else if (!(force * pruned.since(pruned_at_[piece], group) < ranges_.inner))
       to_prune.push_back(piece);
   }
-}
-
-template <class Real>
-PieceNow VerletLists<Real>::piece_now(const kernel::Survey& survey,
-                                      const kernel::Coord<Real>* center, std::size_t particles,
-                                      Mat3& axes) const {
-  const auto vector = [](const double* v) { return Vec3(v[0], v[1], v[2]); };
-  const auto count = static_cast<double>(particles);
-  const Vec3 mean = vector(survey.x) / count, velocity = vector(survey.v) / count;
-  const Vec3 middle(static_cast<double>(center[0]), static_cast<double>(center[1]),
-                    static_cast<double>(center[2]));
-  PieceNow now;
-  // Bounds of single precision are rounded.
-  const Vec3 more = Vec3::Constant(2 * rounding<Real> * vector(survey.high).maxCoeff() -
-                                   2 * rounding<Real> * vector(survey.low).minCoeff());
-  now.box =
-      Box(Vec3(middle + vector(survey.low) - more), Vec3(middle + vector(survey.high) + more));
-  now.center = middle;
-  now.axes = axes;
-  now.along = Box(Vec3(vector(survey.low_along) - more), Vec3(vector(survey.high_along) + more));
-  const Mat3 spread = symmetric(survey.xx) - count * mean * mean.transpose();
-  axes = axes_of(spread);
-  now.spin = spin_of(spread, vector(survey.xv) - count * mean.cross(velocity));
-  now.velocity = velocity - now.spin.cross(mean);
-  return now;
 }
 
 template <class Real>
@@ -269,7 +196,11 @@ PieceNow VerletLists<Real>::survey(std::size_t part, BlockState<Real>& state) {
       input.axes[k][axis] = static_cast<Real>(axes_[part](axis, k));
   auto& center = motions_[part].center;
   for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(begin + end) / 2];
-  return piece_now(kernel_.survey(input, center), center, end - begin, axes_[part]);
+  const Vec3 middle(static_cast<double>(center[0]), static_cast<double>(center[1]),
+                    static_cast<double>(center[2]));
+  const kernel::Survey found = kernel_.survey(input, center);
+  return motion_of(found, end - begin, middle,
+                   std::exchange(axes_[part], axes_of(found, end - begin)), rounding<Real>);
 }
 
 /// Finds out how all parts move.

@@ -22,6 +22,7 @@
 
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
+#include <sinew/physics/lists/grouped_particles.h>
 #include <sinew/physics/lists/near_pieces.h>
 #include <sinew/physics/lists/offset_lists.h>
 #include <sinew/physics/lists/piece_parts.h>
@@ -29,16 +30,6 @@
 #include <sinew/physics/stepper.h>
 
 namespace sinew {
-
-/// Groups of particles, which are not always at their places (../hierarchy/groups.h).
-struct GroupedParticles {
-  /// Puts those of some pieces there.
-  std::function<void(std::span<const std::uint32_t> pieces)> show = [](const auto&) {};
-  std::span<const std::int32_t> of_piece = {};  ///< a piece's only group, or -1; empty: all are -1
-  /// How a piece of one group moves.
-  std::function<PieceNow(std::size_t piece)> piece_now = {};
-  std::vector<Mat3> stretch = {};  ///< F of each group
-};
 
 template <class Real>
 class VerletLists {
@@ -103,8 +94,6 @@ class VerletLists {
   }
   std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& parts) const;
   std::vector<std::uint32_t> pieces_near(std::size_t piece) const;
-  PieceNow piece_now(const kernel::Survey& survey, const kernel::Coord<Real>* center,
-                     std::size_t particles, Mat3& axes) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
             const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups);
   void show_around(const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups) const;
