@@ -125,8 +125,7 @@ struct RigidMotion {
   Real velocity[3], spin[3];
 };
 
-/// Parts of pieces, which move on their own: particles that follow each other. A piece begins with
-/// a part.
+/// Parts of pieces move on their own: particles that follow each other. A piece begins with one.
 template <class Real>
 struct Parts {
   const std::uint32_t* first;     ///< particle of each; one longer, ends with the last particle

@@ -323,10 +323,8 @@ void VerletLists<Real>::looked_at(std::size_t piece, double still) {
 /// step takes them along straight lines.
 template <class Real>
 double VerletLists<Real>::lengthening(std::size_t part) const {
-  const auto& spin = motions_[part].spin;
-  const Vec3 turning(static_cast<double>(spin[0]), static_cast<double>(spin[1]),
-                     static_cast<double>(spin[2]));
-  return turning.squaredNorm() * time_ / 2 * ranges_.outer;
+  const Eigen::Map<const Eigen::Matrix<Real, 3, 1>> spin(motions_[part].spin);
+  return spin.template cast<double>().squaredNorm() * time_ / 2 * ranges_.outer;
 }
 
 template <class Real>
