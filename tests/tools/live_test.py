@@ -33,7 +33,8 @@ def pixels_of(path):
 
 class Live(unittest.TestCase):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
+        # Open MPI's daemon may still be removing its folder there.
+        self.scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.run_folder = Path(self.scratch.name) / "a run"
         self.addCleanup(self.scratch.cleanup)
 

@@ -21,7 +21,10 @@ export OMPI_MCA_orte_tmpdir_base
 exec {ready}< <(exec setpriv --pdeathsig TERM Xvfb -displayfd 1 -noreset -screen 0 1600x1200x24 \
   -nolisten tcp 2>/dev/null)
 server=$!
-trap 'kill "$server" 2>/dev/null || true; rm -rf "$OMPI_MCA_orte_tmpdir_base"' EXIT
+# The display has ended before this script does: while it ends, it would remove the socket of the next
+# one, which takes its number. Open MPI's daemon may still be removing its folder.
+trap 'kill "$server" 2>/dev/null || true; wait "$server" 2>/dev/null || true
+  rm -rf "$OMPI_MCA_orte_tmpdir_base" 2>/dev/null || true' EXIT
 trap 'exit 143' TERM INT
 if ! read -r -t 30 -u "$ready" number; then
   echo "paraview.sh: Xvfb gives no display; install xvfb" >&2
