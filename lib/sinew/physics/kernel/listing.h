@@ -3,6 +3,7 @@
 // one in the middle.
 #pragma once
 
+#include <array>
 #include <bit>
 
 #include <sinew/physics/kernel/block_bounds.h>
@@ -70,16 +71,17 @@ struct FoundBits {
 /// rows of a lattice, wherever these point. Padding is so far away that everything is within.
 class Cylinder {
  public:
-  /// `x`: of `count` particles; `reach`: to what is near them.
-  template <int count>
-  Cylinder(const float (&x)[3][count], float reach) {
+  Cylinder() = default;
+  /// `x`: the fields of particles, of which [begin, end); `reach`: to what is near them.
+  Cylinder(const float* const x[3], int begin, int end, float reach) {
     for (int axis = 0; axis < 3; ++axis) {
       center[axis] = 0;
-      for (int k = 0; k < count; ++k) center[axis] += x[axis][k] / count;
+      for (int k = begin; k < end; ++k)
+        center[axis] += x[axis][k] / static_cast<float>(end - begin);
     }
-    find_direction(x);
+    find_direction(x, begin, end);
     float low = 0, high = 0, across2 = 0;
-    for (int k = 0; k < count; ++k) {
+    for (int k = begin; k < end; ++k) {
       const float at[3] = {x[0][k] - center[0], x[1][k] - center[1], x[2][k] - center[2]};
       const float t = product(at, along), off = product(at, at) - t * t;
       low = t < low ? t : low, high = t > high ? t : high;
@@ -117,11 +119,10 @@ class Cylinder {
   static float root(float value) { return __builtin_sqrtf(value); }
 
   /// To the particle farthest from the center.
-  template <int count>
-  void find_direction(const float (&x)[3][count]) {
+  void find_direction(const float* const x[3], int begin, int end) {
     float most = 0;
     along[0] = 1, along[1] = along[2] = 0;
-    for (int k = 0; k < count; ++k) {
+    for (int k = begin; k < end; ++k) {
       const float at[3] = {x[0][k] - center[0], x[1][k] - center[1], x[2][k] - center[2]};
       const float square = product(at, at);
       if (!(square > most)) continue;
@@ -131,6 +132,37 @@ class Cylinder {
   }
 
   float center[3], along[3], half_length, across2_;
+};
+
+/// Around the particles of a block, or of some together. Where a row ends at one side of the body
+/// and the next begins at the other one, each has its own.
+class Cylinders {
+ public:
+  Cylinders(const float* const x[3], int count, float reach) {
+    float most = reach * reach;  // shorter gaps do not matter
+    int split = 0;
+    for (int k = 1; k < count; ++k) {
+      float square = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float apart = x[axis][k] - x[axis][k - 1];
+        square += apart * apart;
+      }
+      if (square > most) most = square, split = k;
+    }
+    one_ = Cylinder(x, split, count, reach);
+    if (split > 0) other_ = Cylinder(x, 0, split, reach);
+    both_ = split > 0;
+  }
+
+  template <class L, int size>
+  SINEW_INLINE bool meet(const float* places) const {
+    return one_.template meets<L, size>(places) ||
+           (both_ && other_.template meets<L, size>(places));
+  }
+
+ private:
+  Cylinder one_, other_;
+  bool both_;
 };
 
 /// Blocks in reverse, so that a mask of their particles within range of a particle j is one of
@@ -146,7 +178,7 @@ class Listing {
 
   /// False where there are none: not all of them are computed then.
   SINEW_INLINE bool meets(const float* others) const {
-    return cylinder_.template meets<L, size>(others);
+    return cylinders_.template meet<L, size>(others);
   }
 
   SINEW_INLINE FoundBits<Real, together> differences(const float* others) const {
@@ -180,13 +212,16 @@ class Listing {
       }
     }
 
+    std::array<const float*, 3> fields() const { return {x[0], x[1], x[2]}; }
+
     /// Beyond all that rounding may let in.
     float reach(float range) const {
       return __builtin_sqrtf(range * range * (1 + 1e-5F) + largest * 2e-5F);
     }
   };
 
-  Listing(const OwnPlaces& own, float range) : cylinder_(own.x, own.reach(range)) {
+  Listing(const OwnPlaces& own, float range)
+      : cylinders_(own.fields().data(), count, own.reach(range)) {
     const float range2 = range * range * (1 + 2e-6F);
     const V minus_two = L::all(-2), shorter = L::all(1 - 8e-6F), less = L::all(range2);
     for (int n = 0; n < vectors; ++n) {
@@ -208,7 +243,7 @@ class Listing {
     return lanes;
   }
 
-  Cylinder cylinder_;
+  Cylinders cylinders_;
   V x_[vectors], y_[vectors], z_[vectors], square_[vectors];
 };
 
