@@ -13,6 +13,12 @@ constexpr std::size_t particles_per_piece = 1 << 14;
 
 }  // namespace
 
+void free_motion(Particles& particles) {
+  for (auto* axis :
+       {&particles.x, &particles.y, &particles.z, &particles.u, &particles.v, &particles.w})
+    std::vector<double>().swap(*axis);
+}
+
 Particles particles_at_rest(std::size_t count) {
   Particles particles;
   for (auto* axis :

@@ -51,6 +51,9 @@ struct Particles {
   void set_velocity(std::size_t i, const Vec3& p) { u[i] = p.x(), v[i] = p.y(), w[i] = p.z(); }
 };
 
+/// Frees positions and velocities; ids stay.
+void free_motion(Particles& particles);
+
 /// `count` particles at rest at the origin, ids in order.
 Particles particles_at_rest(std::size_t count);
 

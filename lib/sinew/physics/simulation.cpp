@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t particles_per_sum = 512;
 
-const Particles& checked(const Particles& particles) {
+Particles& checked(Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (!particles.position(i).allFinite())
       throw bad_input(
@@ -39,7 +39,7 @@ bool is_finite(const LedgerEntries& ledger) {
 }  // namespace
 
 Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& body,
-                                             const Stepping& stepping, const Particles& particles,
+                                             const Stepping& stepping, Particles& particles,
                                              kernel::InstructionSet instructions) {
   if (stepping.neighbor_search == NeighborSearch::cells)
     return CellStepper(body, stepping, particles);
@@ -134,9 +134,7 @@ void Simulation::set_time() const {
 
 /// The particles read last are obsolete, and take half as much memory as the state.
 void Simulation::forget_read() {
-  for (auto* values :
-       {&particles_.x, &particles_.y, &particles_.z, &particles_.u, &particles_.v, &particles_.w})
-    std::vector<double>().swap(*values);
+  free_motion(particles_);
   read_ = false;
 }
 

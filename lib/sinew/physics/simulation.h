@@ -115,7 +115,7 @@ class Simulation {
   using Stepper = std::variant<CellStepper, ListStepper<double>, ListStepper<float>>;
 
   static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
-                              const Particles& particles, kernel::InstructionSet instructions);
+                              Particles& particles, kernel::InstructionSet instructions);
   void evaluate();
   double mass(std::size_t i) const {
     return mass_of(*body_, static_cast<std::size_t>(particles_.id[i]), particles_.mass);

@@ -172,21 +172,34 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
     merge(second, piece);
     piece.count.push_back(static_cast<std::uint32_t>(piece.entries.size() - before));
   }
+  piece.entries.shrink_to_fit();
   piece.kinds = std::move(kinds.met);
   piece.kind_factor = std::move(kinds.factor);
   return piece;
 }
 
+/// Of all blocks. What it takes to find them is freed before they are joined.
+std::vector<Piece> all_entries(const Body& body, std::span<const std::int32_t> id,
+                               std::size_t block_size, double unit) {
+  const RestNeighbors of(body, id);
+  const std::size_t blocks = (id.size() + block_size - 1) / block_size;
+  std::vector<Piece> pieces((blocks + blocks_per_search - 1) / blocks_per_search);
+  parallel_for(blocks, blocks_per_search, [&](std::size_t begin, std::size_t end) {
+    pieces[begin / blocks_per_search] = entries_of(of, block_size, unit, begin, end);
+  });
+  return pieces;
+}
+
 /// Joins the pieces in their order; equal kinds become one.
 template <class Real>
-void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds) {
+void join(std::vector<Piece> pieces, double unit, BondLists<Real>& bonds) {
   Kinds kinds(unit);
   std::size_t entries = 0;
   std::int32_t rows = 0;
   for (const Piece& piece : pieces) entries += piece.entries.size();
   bonds.entries.reserve(entries);
   bonds.first.push_back(0);
-  for (const Piece& piece : pieces) {
+  for (Piece& piece : pieces) {
     std::vector<std::uint32_t> number;
     for (std::size_t k = 0; k < piece.kinds.size(); ++k)
       number.push_back(piece.kind_factor[k] == Kinds::shared
@@ -202,6 +215,7 @@ void join(const std::vector<Piece>& pieces, double unit, BondLists<Real>& bonds)
       bonds.second.push_back(bonds.first.back() + piece.nearest[k]);
       bonds.first.push_back(bonds.first.back() + piece.count[k]);
     }
+    piece = {};
   }
   bonds.own.resize(static_cast<std::size_t>(rows) * kernel::Traits<Real>::block);
   bonds.rest = std::move(kinds.met);
@@ -302,72 +316,14 @@ std::uint32_t BondLists<Real>::bonded_lanes(std::size_t block, std::int32_t diff
 }
 
 template <class Real>
-void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
-                           BondRest& found) const {
-  constexpr std::size_t size = kernel::Traits<Real>::block;
-  for (std::size_t block = 0; block + 1 < first.size(); ++block)
-    for (std::uint32_t e = first[block]; e < first[block + 1]; ++e)
-      for (std::size_t lane = 0; lane < size; ++lane) {
-        const kernel::BondEntry& entry = entries[e];
-        if ((entry.lanes >> lane & 1) == 0) continue;
-        const std::size_t k = block * size + lane;
-        const double crept = (creep.empty() ? 0 : static_cast<double>(creep[e * size + lane])) +
-                             branches.shift(e * size + lane);
-        found.set(id[k], id[k + static_cast<std::size_t>(entry.difference)], e < second[block],
-                  (static_cast<double>(kinds[entry.kind].length) + crept) * units.length);
-      }
-}
-
-template <class Real>
-void BondLists<Real>::save(SimulationState& state) const {
-  if (!change()) return;
-  state.bonded_lanes.clear();
-  state.creep.clear();
-  for (const kernel::BondEntry& entry : entries) state.bonded_lanes.push_back(entry.lanes);
-  const auto add = [&](std::size_t at) { state.creep.push_back(static_cast<double>(creep[at])); };
-  if (!creep.empty()) for_each_whole<kernel::Traits<Real>::block>(entries, add);
-  branches.save(entries, state);
-}
-
-template <class Real>
-void BondLists<Real>::restore(const SimulationState& state) {
-  constexpr std::size_t size = kernel::Traits<Real>::block;
-  if (!change()) return;
-  if (state.bonded_lanes.size() != entries.size()) throw not_a_state("it has other bonds");
-  for (std::size_t block = 0; block + 1 < first.size(); ++block)
-    for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
-      const std::uint32_t made = std::exchange(entries[e].lanes, state.bonded_lanes[e]);
-      if ((entries[e].lanes & ~made) != 0 || (made & ~entries[e].lanes) >> kernel::rest_lanes != 0)
-        throw not_a_state("it has other bonds");
-      for (std::size_t lane = 0; lane < size && !broken.empty(); ++lane)
-        broken[block * size + lane] +=
-            static_cast<std::int32_t>((made & ~entries[e].lanes) >> lane & 1);
-    }
-  std::size_t next = 0;
-  const auto take = [&](std::size_t at) {
-    if (next == state.creep.size() || !std::isfinite(state.creep[next]))
-      throw not_a_state("a bond has no length");
-    creep[at] = static_cast<Real>(state.creep[next++]);
-  };
-  if (!creep.empty()) for_each_whole<size>(entries, take);
-  if (next != state.creep.size()) throw not_a_state("it has other bonds");
-  branches.restore(entries, state);
-}
-
-template <class Real>
 BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                            const Units& units) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
   BondLists<Real> bonds;
   if (!law_of(body.material).has_memory && !has_muscles(body)) return bonds;
-  const RestNeighbors of(body, id);
   const double unit = same_kind * body.material.pair.r;
   const std::size_t blocks = (id.size() + size - 1) / size;
-  std::vector<Piece> pieces((blocks + blocks_per_search - 1) / blocks_per_search);
-  parallel_for(blocks, blocks_per_search, [&](std::size_t begin, std::size_t end) {
-    pieces[begin / blocks_per_search] = entries_of(of, size, unit, begin, end);
-  });
-  join(pieces, unit, bonds);
+  join(all_entries(body, id, size, unit), unit, bonds);
   bonds.set_units(body, id, mass, units);
   if (!law_of(body.material).has_bonds) return bonds;
   const BondStrength& strength = body.material.bond;

@@ -27,18 +27,25 @@ kernel::PairLaw pair_law_of(const Material& material) {
   return bonds_change(material) ? kernel::changing_springs : kernel::springs;
 }
 
+template <class Real>
+ParticleLayout<Real> taken(const Body& body, Particles& particles, double step) {
+  ParticleLayout<Real> layout(body, particles, step);
+  free_motion(particles);
+  return layout;
+}
+
 }  // namespace
 
 template <class Real>
 ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
-                               const Particles& particles, kernel::InstructionSet instructions)
+                               Particles& particles, kernel::InstructionSet instructions)
     : body_(std::move(body)),
       stepping_(stepping),
       mass_(particles.mass),
       extent_(bounds(body_->rest).diagonal().norm()),
       kernel_(kernel::functions_of<Real>(instructions)),
       law_(pair_law_of(body_->material)),
-      layout_(*body_, particles, stepping.step),
+      layout_(taken<Real>(*body_, particles, stepping.step)),
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass),

@@ -23,8 +23,10 @@ namespace sinew {
 template <class Real>
 class ListStepper {
  public:
-  ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
-              const Particles& particles, kernel::InstructionSet instructions);
+  /// Frees the motion of the particles as soon as it is in the kernel's layout: bonds and lists
+  /// take memory too.
+  ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles& particles,
+              kernel::InstructionSet instructions);
 
   void set_time(double time) { time_ = time; }  ///< of the pose, s
   /// Of the steps that follow, s; velocities stay as they are.
