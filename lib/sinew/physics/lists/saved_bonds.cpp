@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is read of bonds, saved and restored.
 #include <cmath>
+#include <utility>
 
 #include <sinew/physics/lists/bond_lists.h>
 #include <sinew/physics/stepper.h>
