@@ -2,6 +2,7 @@
 #include <sinew/core/file.h>
 
 #include <sys/stat.h>
+#include <algorithm>
 
 #include "scratch.h"
 
@@ -61,6 +62,19 @@ TEST_F(File, ReadsNoMoreThanTheLimit) {
   write_file(folder / "f", "12345");
   EXPECT_EQ(read_file(folder / "f", 5), "12345");
   EXPECT_EQ(error_of([&] { read_file(folder / "f", 4); }).exit(), Exit::bad_input);
+}
+
+TEST_F(File, ReadsThroughALargeFileInPieces) {
+  std::string text(1 << 20, 'x'), read;
+  for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>(i * i >> 7);
+  write_file(folder / "f", text);
+  std::size_t largest = 0;
+  read_through(folder / "f", [&](std::string_view piece) {
+    read += piece;
+    largest = std::max(largest, piece.size());
+  });
+  EXPECT_EQ(read, text);
+  EXPECT_LT(largest, text.size() / 4);
 }
 
 TEST_F(File, ReadsOnlyRegularFiles) {

@@ -122,7 +122,7 @@ void put_base64(std::vector<std::string> parts,
   for (std::size_t k = 0; k < parts.size(); ++k) {
     put((begin + 2) / 3 * 4, text_of_part(parts, k, begin));
     begin += parts[k].size();
-    parts[k] = {};
+    parts[k] = std::string();
   }
 }
 

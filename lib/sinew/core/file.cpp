@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include <sinew/core/error.h>
@@ -63,7 +64,9 @@ void write_all(int file, const fs::path& path, const void* bytes, std::size_t co
 }
 
 fs::path temporary_of(const fs::path& path) {
-  return path.parent_path() / ("." + path.filename().string() + ".tmp");
+  std::string name = ".";
+  name += path.filename().string();
+  return path.parent_path() / (name += ".tmp");
 }
 
 }  // namespace
@@ -169,6 +172,8 @@ void write_file(const fs::path& path, std::string_view text) {
 
 namespace {
 
+constexpr std::size_t bytes_per_read = 1 << 16;
+
 /// A regular file, open for reading.
 class RegularFile {
  public:
@@ -184,19 +189,25 @@ class RegularFile {
 
   std::uint64_t size() const { return size_; }  ///< that it tells; files of /proc tell 0
 
+  /// Calls visit(piece) for what follows up to the end, or until there were `most` bytes.
+  template <class Visit>
+  void read(std::uint64_t most, const Visit& visit) const {
+    std::string piece(bytes_per_read, '\0');
+    while (most > 0) {
+      const ssize_t count = ::read(file_.number, piece.data(), std::min(most, piece.size()));
+      if (count == 0) return;
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw unreadable(path_, errno);
+      visit(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
+      most -= static_cast<std::uint64_t>(count);
+    }
+  }
+
   /// The bytes up to the end, or until there are `most`.
   std::string read(std::uint64_t most) const {
     std::string text;
     text.reserve(std::min(most, size_));
-    std::string piece(1 << 16, '\0');
-    while (text.size() < most) {
-      const ssize_t count =
-          ::read(file_.number, piece.data(), std::min(most - text.size(), piece.size()));
-      if (count == 0) break;
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) throw unreadable(path_, errno);
-      text.append(piece, 0, static_cast<std::size_t>(count));
-    }
+    read(most, [&](std::string_view piece) { text += piece; });
     return text;
   }
 
@@ -223,6 +234,10 @@ std::string read_file(const fs::path& path, std::uint64_t limit) {
     throw bad_input({path.string()}, "is larger than " + std::to_string(limit) + " bytes",
                     "check that this is the file you mean");
   return text;
+}
+
+void read_through(const fs::path& path, const std::function<void(std::string_view)>& visit) {
+  RegularFile(path).read(std::numeric_limits<std::uint64_t>::max(), visit);
 }
 
 std::string read_head(const fs::path& path, std::uint64_t most) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -83,6 +84,11 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 
 /// The bytes of a regular file. Throws bad input when it cannot be read or is larger than `limit`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit = 64 << 20);
+
+/// Calls visit(piece) for the bytes of a regular file of any size, piece by piece. Throws bad input
+/// when it cannot be read.
+void read_through(const std::filesystem::path& path,
+                  const std::function<void(std::string_view)>& visit);
 
 /// The first bytes of a regular file, `most` or as many as it has. Throws bad input when it cannot
 /// be read.

@@ -45,8 +45,8 @@ Points positions_of(const Particles& particles) {
 
 std::uint64_t state_hash(const Particles& particles) {
   const std::size_t n = particles.size();
-  std::vector<std::size_t> at(n);
-  for (std::size_t i = 0; i < n; ++i) at[particles.id[i]] = i;
+  std::vector<std::uint32_t> at(n);
+  for (std::size_t i = 0; i < n; ++i) at[particles.id[i]] = static_cast<std::uint32_t>(i);
   std::vector<std::uint64_t> of_pieces((n + particles_per_piece - 1) / particles_per_piece);
   parallel_for(n, particles_per_piece, [&](std::size_t begin, std::size_t end) {
     Hash hash;

@@ -20,8 +20,11 @@ constexpr std::uint64_t largest_list = 1 << 30;  // bytes
 fs::path list_in(const fs::path& folder) { return folder / "checksums.sfv"; }
 
 std::uint32_t crc_of(const fs::path& path) {
-  const std::string bytes = read_file(path, UINT64_MAX - 1);
-  return libdeflate_crc32(0, bytes.data(), bytes.size());
+  std::uint32_t crc = 0;
+  read_through(path, [&](std::string_view piece) {
+    crc = libdeflate_crc32(crc, piece.data(), piece.size());
+  });
+  return crc;
 }
 
 std::string line_of(const Checksum& file) {
