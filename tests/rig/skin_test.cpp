@@ -83,7 +83,7 @@ TEST(Skin, WeightsAreThoseOfTheDefinitionNearAndFar) {
     for (std::size_t i = 0; i < skin.rest.size(); ++i) {
       std::vector<double> found(points.size(), 0.0);
       for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k)
-        found[skin.near[skin.particle[k]]] += skin.weight[k];
+        found[skin.near[skin.weighted[skin.particle[k]]]] += skin.weight[k];
       const auto expected = weights_by_definition(skin.rest[i], points);
       for (std::size_t j = 0; j < points.size(); ++j) ASSERT_NEAR(found[j], expected[j], 1e-12);
     }
@@ -115,7 +115,7 @@ TEST(Skin, KeepsOnlyTheRotationWhereTheGradientIsUnreliable) {
   const Points now = follow(skin, affine(points, 10 * Mat3::Identity()));
   Vec3 expected = Vec3::Zero();
   for (auto k = skin.first[0]; k < skin.first[1]; ++k) {
-    const Vec3& at_rest = points[skin.near[skin.particle[k]]];
+    const Vec3& at_rest = points[skin.near[skin.weighted[skin.particle[k]]]];
     expected += skin.weight[k] * (10 * at_rest + (vertices[0] - at_rest));
   }
   EXPECT_LT((now[0] - expected).norm(), 1e-12);
@@ -134,7 +134,7 @@ TEST(Skin, KeepsOnlyTheParticlesNearItAndFollowsAsWithAll) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     Vec3 expected = Vec3::Zero();
     for (auto k = skin.first[i]; k < skin.first[i + 1]; ++k) {
-      const std::uint32_t j = skin.near[skin.particle[k]];
+      const std::uint32_t j = skin.near[skin.weighted[skin.particle[k]]];
       const Mat3 F = deformation_gradient(body, now, j);
       expected += skin.weight[k] * (now[j] + F * (vertices[i] - points[j]));
     }

@@ -137,7 +137,7 @@ NeighborLists neighbors_within(const Points& points, double range) {
   parallel_for(points.size(), points_per_piece, [&](std::size_t begin, std::size_t) {
     auto& neighbor = pieces[begin / points_per_piece];
     std::copy(neighbor.begin(), neighbor.end(), lists.neighbor.begin() + lists.first[begin]);
-    neighbor = {};
+    neighbor = std::vector<std::uint32_t>();  // {} would keep its memory
   });
   return lists;
 }

@@ -27,6 +27,9 @@ double available_memory();
 /// taking pages from the kernel each time costs a tenth of drawing.
 void keep_freed_memory();
 
+/// Memory that was freed, but lies between what is still in use, goes back to the system.
+void give_back_freed_memory();
+
 /// Seconds per stage, for reports.
 class Stopwatch {
  public:

@@ -57,8 +57,7 @@ class Rows {
     to[6] = volume_weights_.empty() ? 0 : volume_weights_[i];
     double* at = to + RowShape::head;
     for (const Influence& one : bones)
-      for (const double number :
-           {static_cast<double>(one.bone), one.weight, one.foot, one.rest_distance})
+      for (const double number : {static_cast<double>(one.bone), one.weight, one.foot})
         *at++ = number;
     at = to + RowShape::head + RowShape::of_bone * static_cast<std::size_t>(shape_.bones);
     put(bonds_.nearest, i, at);

@@ -20,7 +20,7 @@ namespace sinew {
 struct RowShape {
   std::int32_t bones = 0, nearest = 0, second = 0;
 
-  static constexpr std::size_t head = 7, of_bone = 4, of_bond = 3;
+  static constexpr std::size_t head = 7, of_bone = 3, of_bond = 3;
   std::size_t size() const {
     return head + of_bone * static_cast<std::size_t>(bones) +
            of_bond * static_cast<std::size_t>(nearest + second);
@@ -47,7 +47,7 @@ class ParticleRow {
 
   Influence influence(int k) const {
     const double* at = numbers_ + RowShape::head + RowShape::of_bone * static_cast<std::size_t>(k);
-    return {static_cast<int>(at[0]), at[1], at[2], at[3]};
+    return {static_cast<int>(at[0]), at[1], at[2]};
   }
   /// The first nearest() of them are to nearest neighbors.
   Bond bond(int k) const {

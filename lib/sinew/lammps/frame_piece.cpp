@@ -83,7 +83,7 @@ struct Columns {
     world.push_back(row.world);
     neighbors.push_back(row.neighbors);
     broken_bonds.push_back(row.broken_bonds);
-    if (row.bone != no_bone) binding.influences.push_back({row.bone, row.weight, 0, 0});
+    if (row.bone != no_bone) binding.influences.push_back({row.bone, row.weight, 0});
     binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
   }
 };

@@ -134,8 +134,8 @@ BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const
   if (anchored) {
     add(to_point(springs.radial, particle.position - carried.target), level);
   } else {
-    add(radial(springs.radial, particle.position - carried.foot, influence.rest_distance,
-               particle.radius),
+    add(radial(springs.radial, particle.position - carried.foot,
+               influence.distance_to(bone, particle.rest), particle.radius),
         influence.foot);
     add(twist(springs, pose, carried, particle), 0);
     add(axial(springs.axial, pose.axis(), particle.position - carried.target), level);

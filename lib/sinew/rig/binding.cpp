@@ -107,9 +107,7 @@ Influence influence_of(const Choice& choice, const BoneWeight& one, const Vec3& 
   const Bone& bone = choice.skeleton.bones[one.bone];
   double before = choice.zones.before[one.bone], beyond = choice.zones.beyond[one.bone];
   if (choice.options.weights) before = beyond = beyond_ends * bone.length;
-  Influence influence{one.bone, one.weight, foot_of(bone, point, before, beyond), 0};
-  influence.rest_distance = (point - influence.foot_on(bone)).norm();
-  return influence;
+  return {one.bone, one.weight, foot_of(bone, point, before, beyond)};
 }
 
 const BoundRegion* region_of(const std::vector<BoundRegion>& regions, std::size_t i,
@@ -142,7 +140,7 @@ std::vector<Influence> joined(std::vector<std::vector<Influence>> pieces,
   parallel_for(first.size() - 1, particles_per_piece, [&](std::size_t begin, std::size_t) {
     auto& piece = pieces[begin / particles_per_piece];
     std::copy(piece.begin(), piece.end(), all.begin() + first[begin]);
-    piece = {};
+    piece = std::vector<Influence>();  // {} would keep its memory
   });
   return all;
 }

@@ -27,10 +27,13 @@ struct Influence {
   int bone = no_bone;
   double weight = 0;  ///< the weights of a particle sum to 1
   double foot = 0;    ///< reference point on the bone's axis: m from the head towards the tail
-  double rest_distance = 0;  ///< from the foot to the particle at rest, m
 
   /// In the rest pose.
   Vec3 foot_on(const Bone& its_bone) const { return its_bone.head() + foot * its_bone.axis(); }
+  /// From the foot to a particle at rest, m.
+  double distance_to(const Bone& its_bone, const Vec3& rest) const {
+    return (rest - foot_on(its_bone)).norm();
+  }
 };
 
 struct Binding {

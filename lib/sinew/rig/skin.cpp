@@ -89,6 +89,7 @@ void add_weights(Skin& skin, const Support& support) {
 
 std::vector<std::uint32_t> indices_of(const std::vector<char>& marked) {
   std::vector<std::uint32_t> indices;
+  indices.reserve(static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1)));
   for (std::size_t i = 0; i < marked.size(); ++i)
     if (marked[i]) indices.push_back(static_cast<std::uint32_t>(i));
   return indices;
@@ -111,23 +112,31 @@ void mark_neighbors(const CellGrid& grid, const Points& points, double range,
     for (const std::uint32_t j : some) marked[j] = 1;
 }
 
+/// The place of each of `some` of the ascending indices `all`.
+std::vector<std::uint32_t> places_in(const std::vector<std::uint32_t>& all,
+                                     std::vector<std::uint32_t> some) {
+  for (std::uint32_t& index : some)
+    index =
+        static_cast<std::uint32_t>(std::lower_bound(all.begin(), all.end(), index) - all.begin());
+  return some;
+}
+
 /// Keeps only what the skin needs of the body.
 void add_body(Skin& skin, const Points& points, double radius) {
   const double range = rest_neighbor_range(radius);
   std::vector<char> marked(points.size());
   for (const std::uint32_t j : skin.particle) marked[j] = 1;
-  const std::vector<char> weighted = marked;
-  const CellGrid grid(points, range);
-  for (int ring = 0; ring < 2; ++ring) mark_neighbors(grid, points, range, marked);
-  skin.near = indices_of(marked);
-  std::vector<std::uint32_t> place(points.size());
-  Points near;
-  for (const std::uint32_t j : skin.near) {
-    place[j] = static_cast<std::uint32_t>(near.size());
-    near.push_back(points[j]);
-    skin.weighted.push_back(weighted[j]);
+  const std::vector<std::uint32_t> weighted = indices_of(marked);
+  skin.particle = places_in(weighted, std::move(skin.particle));
+  {
+    const CellGrid grid(points, range);
+    for (int ring = 0; ring < 2; ++ring) mark_neighbors(grid, points, range, marked);
   }
-  for (std::uint32_t& j : skin.particle) j = place[j];
+  skin.near = indices_of(marked);
+  skin.weighted = places_in(skin.near, weighted);
+  Points near;
+  near.reserve(skin.near.size());
+  for (const std::uint32_t j : skin.near) near.push_back(points[j]);
   skin.shape = rest_shape(std::move(near), range);
 }
 
@@ -216,17 +225,18 @@ Points follow(const Skin& skin, const Points& now) {
   parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) near[j] = now[skin.near[j]];
   });
-  std::vector<Mat3> motions(near.size());
-  parallel_for(near.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j)
-      if (skin.weighted[j]) motions[j] = motion_at(skin.shape, near, j);
+  std::vector<Mat3> motions(skin.weighted.size());
+  parallel_for(motions.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      motions[k] = motion_at(skin.shape, near, skin.weighted[k]);
   });
   Points moved(skin.rest.size(), Vec3::Zero());
   parallel_for(moved.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k) {
-        const std::uint32_t j = skin.particle[k];
-        moved[i] += skin.weight[k] * (near[j] + motions[j] * (skin.rest[i] - skin.shape.points[j]));
+        const std::uint32_t one = skin.particle[k], j = skin.weighted[one];
+        const Vec3 moved_to = near[j] + motions[one] * (skin.rest[i] - skin.shape.points[j]);
+        moved[i] += skin.weight[k] * moved_to;
       }
   });
   return moved;

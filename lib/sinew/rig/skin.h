@@ -19,15 +19,15 @@ namespace sinew {
 struct Skin {
   Points rest;                          ///< vertices at rest, n x 3, m
   std::vector<std::uint32_t> first;     ///< n + 1 long; vertex i has [first[i], first[i + 1])
-  std::vector<std::uint32_t> particle;  ///< places in `near`
+  std::vector<std::uint32_t> particle;  ///< places in `weighted`
   std::vector<double> weight;           ///< sums to 1 for each vertex
 
   /// The particles that matter, ascending indices into the body's rest points: those with weights
   /// for vertices, their neighbors, and the neighbors of those, from which their deformation
   /// follows.
   std::vector<std::uint32_t> near;
-  std::vector<char> weighted;  ///< whether each of them has weights for vertices
-  RestShape shape;  ///< of these alone; complete for those with weights and their neighbors
+  std::vector<std::uint32_t> weighted;  ///< those with weights: ascending places in `near`
+  RestShape shape;  ///< of `near` alone; complete for those with weights and their neighbors
 };
 
 /// Binds vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m)

@@ -35,7 +35,8 @@ std::vector<std::int32_t> bones_of_vertices(const Skin& skin, const Binding& bin
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     const auto begin = skin.weight.begin() + skin.first[i];
     const auto most = std::max_element(begin, skin.weight.begin() + skin.first[i + 1]);
-    bones.push_back(binding.bone(skin.near[skin.particle[most - skin.weight.begin()]]));
+    bones.push_back(
+        binding.bone(skin.near[skin.weighted[skin.particle[most - skin.weight.begin()]]]));
   }
   return bones;
 }
@@ -248,7 +249,8 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.particles = simulation.take_particles();
   find_positions_by_id(frame.particles, frame.positions);
   if (measured_ && (frame.with_particles || probe_table_)) take_forces(simulation, frame);
-  for (const auto axis : {&Particles::x, &Particles::y, &Particles::z}) frame.particles.*axis = {};
+  for (const auto axis : {&Particles::x, &Particles::y, &Particles::z})
+    frame.particles.*axis = std::vector<double>();  // {} would keep their memory
   return frame;
 }
 

@@ -138,7 +138,8 @@ class Run {
       elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,
                          stepping_of(scene_.solver, steps.step), schedule_.plan, steps.per_frame,
                          schedule_.frames.count, pieces());
-    simulation_->forces();  // finds the first neighbors: no part of what writing costs
+    simulation_->forces();     // finds the first neighbors: no part of what writing costs
+    give_back_freed_memory();  // much more than stepping needs
   }
 
   /// Several ranks write the particles of frames themselves.

@@ -56,8 +56,12 @@ namespace {
 /// By bone: the farthest from its axis that it holds a particle, m.
 std::vector<double> reach_of_bones(const Body& body) {
   std::vector<double> reach(body.skeleton.size(), 0.0);
-  for (const Influence& influence : body.binding.influences)
-    reach[influence.bone] = std::max(reach[influence.bone], influence.rest_distance);
+  for (std::size_t i = 0; i < body.rest.size(); ++i)
+    for (const Influence& influence : body.binding.of(i)) {
+      const Bone& bone = body.skeleton.bones[influence.bone];
+      double& farthest = reach[influence.bone];
+      farthest = std::max(farthest, influence.distance_to(bone, body.rest[i]));
+    }
   return reach;
 }
 

@@ -40,8 +40,8 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const double across = local.y() * local.y() + local.z() * local.z();
   const bool aside = across >= least_distance * least_distance * r * r ||
                      body.springs[influence.bone].form == BoneForce::anchor;
-  const double distance =
-      influence.rest_distance < least_distance * r ? 0 : influence.rest_distance;
+  const double at_rest = influence.distance_to(bone, rest);
+  const double distance = at_rest < least_distance * r ? 0 : at_rest;
   const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
                                               aside ? local.y() : 0, aside ? local.z() : 0,
                                               distance};
