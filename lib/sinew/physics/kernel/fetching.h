@@ -69,9 +69,9 @@ template <class Real>
 SINEW_INLINE void fetch_for_strain(const Step<Real>& step, std::size_t block) {
   const Ahead ahead = ahead_of(step, block);
   for (int axis = 0; axis < 3; ++axis) __builtin_prefetch(step.before.x[axis] + ahead.farthest);
+  if (step.volumes.stiffness == nullptr) return;
   for (int k = 0; k < 6; ++k) __builtin_prefetch(step.inverse[k] + ahead.own);
-  if (step.volumes.stiffness != nullptr)
-    for (int k = 0; k < 9; ++k) __builtin_prefetch(step.volumes.thrust[k] + ahead.own, 1);
+  for (int k = 0; k < 9; ++k) __builtin_prefetch(step.volumes.thrust[k] + ahead.own, 1);
 }
 
 }  // namespace sinew::kernel

@@ -18,6 +18,7 @@
 #include <cstdint>
 
 #include <sinew/physics/kernel/bond_arrays.h>
+#include <sinew/physics/kernel/strain_arrays.h>
 
 namespace sinew::kernel {
 
@@ -133,31 +134,6 @@ struct Parts {
   std::uint32_t count;
   const RigidMotion<Real>* motions;
   Real* fastest;  ///< becomes the largest squared speed relative to the motion
-};
-
-/// What neighbors at rest exert because of the deformation around each particle: the force on i is
-/// the sum of (T_i + T_j) X over them, X to the neighbor at rest. By particle, row by row.
-template <class Real>
-using Thrust = Real* [9];
-
-/// Of the materials that keep their volume, U = K_v V0 w (J - 1)^2 / 2 per particle.
-template <class Real>
-struct Volumes {
-  Real* stiffness;  ///< K_v V0 w; 0 where no volume is kept; null: nowhere
-  Real* growth;     ///< J - 1
-  Thrust<Real> thrust;
-};
-
-/// Fibers of muscles. A block's slots are [first[k], first[k + 1]).
-template <class Real>
-struct Fibers {
-  const std::uint32_t* first;  ///< null: there are none
-  const std::uint8_t* near;    ///< by block: whether a particle or a neighbor at rest has one
-  const std::int32_t* muscle;  ///< by slot
-  const Real* strength;        ///< slots x block: times weight and volume
-  const Real* direction;       ///< by muscle, 3 each
-  const Real* level;           ///< by muscle: its activation
-  Thrust<Real> thrust;
 };
 
 /// What a step that relaxes tells of its particles, at the positions that it began with: sums of

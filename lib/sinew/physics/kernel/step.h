@@ -87,12 +87,11 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   if constexpr (pairs == springs || pairs == changing_springs)
     if (step.volumes.stiffness != nullptr)
       add_volumes<L, energy>(step, block, lane, i, forces.pairs);
-  if (step.fibers.first != nullptr && step.fibers.near[block] != 0)
-    forces.muscle = thrust_force<L>(step, step.fibers.thrust, block, lane, i);
+  if (step.fibers.count > 0) forces.muscle = fiber_force<L>(step, block, lane, i);
   forces.damping = damping_of<L, pass>(forces.pairs, L::all(step.law.damping), velocity);
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
-  if (step.fibers.first != nullptr) forces.acceleration = forces.acceleration + forces.muscle;
+  if (step.fibers.count > 0) forces.acceleration = forces.acceleration + forces.muscle;
   if (is_loaded(step.loads, block))
     forces.acceleration = forces.acceleration + load<L>(step.loads.acceleration, i);
   if (step.mass != nullptr) {
@@ -150,8 +149,7 @@ SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& f
                              dot<L>(forces.damping, middle);
   add_to<L>(sums.power + lane, forces.bones.power);
   add_to<L>(sums.lost + lane, lost);
-  if (step.fibers.first != nullptr)
-    add_to<L>(sums.driven_power + lane, dot<L>(forces.muscle, middle));
+  if (step.fibers.count > 0) add_to<L>(sums.driven_power + lane, dot<L>(forces.muscle, middle));
   if (is_loaded(step.loads, block)) {
     const auto i = static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
     add_to<L>(sums.driven_power + lane, dot<L>(load<L>(step.loads.acceleration, i), middle));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces that follow from the least-squares deformation gradient F = (sum x X^T) A^-1 around each
 // particle, A = sum X X^T over its neighbors at rest: ../solid.h and ../world/muscles.h derive
-// them.
+// them. Volumes need all of F, and fibers F t alone.
 #pragma once
 
 #include <sinew/physics/kernel/bonds.h>
@@ -91,34 +91,97 @@ SINEW_INLINE void find_volumes(const Volumes<typename L::Real>& volumes, const M
   store_thrust<L>(volumes.thrust, i, times_symmetric<L>(thrust, inverse));
 }
 
-/// The sum over fibers of a S w V0 (F t) t^T A^-1 / |F t|^2. A fiber shorter than half its length
-/// counts as that long.
+/// Calls visit(entry, rows) for what a layer's coefficients are of.
+template <class L, class Visit>
+SINEW_INLINE void for_each_fiber(const Step<typename L::Real>& step,
+                                 const FiberLayer<typename L::Real>& layer, std::size_t block,
+                                 Visit&& visit) {
+  const Bonds<typename L::Real>& bonds = step.bonds;
+  for (std::uint32_t e = bonds.first[block]; e != bonds.second[block]; ++e)
+    visit(bonds.entries[e].difference, layer.rows[e]);
+}
+
 template <class L>
-SINEW_INLINE void find_fibers(const Fibers<typename L::Real>& fibers, const Matrix<L>& F,
-                              const typename L::V (&inverse)[6], std::size_t block, int lane,
-                              std::ptrdiff_t i) {
+SINEW_INLINE typename L::V coefficients_of(const FiberLayer<typename L::Real>& layer,
+                                           std::uint32_t row, int lane) {
+  constexpr int size = Traits<typename L::Real>::block;
+  return L::load(layer.coefficients + static_cast<std::size_t>(row) * size + lane);
+}
+
+/// a S w V0 F t / |F t|^2. A fiber shorter than half its length counts as that long.
+template <class L>
+SINEW_INLINE void find_pull(const Step<typename L::Real>& step,
+                            const FiberLayer<typename L::Real>& layer, std::size_t block, int lane,
+                            std::ptrdiff_t i) {
   using V = typename L::V;
   constexpr int size = Traits<typename L::Real>::block;
-  Matrix<L> sum;
-  for (V& value : sum.at) value = L::all(0);
-  for (std::uint32_t s = fibers.first[block]; s != fibers.first[block + 1]; ++s) {
-    const std::int32_t muscle = fibers.muscle[s];
-    const Triple<L> t = all<L>(fibers.direction + static_cast<std::ptrdiff_t>(3) * muscle);
-    const V along[3] = {dot<L>(row_of(F, 0), t), dot<L>(row_of(F, 1), t), dot<L>(row_of(F, 2), t)};
-    const V squared =
-        L::fused(along[0], along[0], L::fused(along[1], along[1], along[2] * along[2]));
-    const V strength = L::load(fibers.strength + static_cast<std::size_t>(s) * size + lane);
-    const V pull = L::all(fibers.level[muscle]) * strength /
-                   L::larger(squared, L::all(static_cast<typename L::Real>(0.25)));
-    const auto some = L::less(L::all(0), L::size(strength));
-    for (int row = 0; row < 3; ++row) {
-      const V force = L::keep(some, pull * along[row]);
-      sum.at[3 * row] = L::fused(force, t.x, sum.at[3 * row]);
-      sum.at[3 * row + 1] = L::fused(force, t.y, sum.at[3 * row + 1]);
-      sum.at[3 * row + 2] = L::fused(force, t.z, sum.at[3 * row + 2]);
-    }
+  const Place<L> here = load_place<L>(step.before.x, i);
+  Triple<L> along = none<L>();
+  for_each_fiber<L>(
+      step, layer,
+      block, [&](std::ptrdiff_t difference, FiberRows rows) __attribute__((always_inline)) {
+        const Triple<L> to = offset<L>(load_place<L>(step.before.x, i + difference), here);
+        along = fused<L>(coefficients_of<L>(layer, rows.own, lane), to, along);
+      });
+  V strength = L::all(0);
+  for (std::uint32_t s = layer.first[block]; s != layer.first[block + 1]; ++s)
+    strength =
+        L::fused(L::all(step.fibers.level[layer.muscle[s]]),
+                 L::load(layer.strength + static_cast<std::size_t>(s) * size + lane), strength);
+  const V squared = L::larger(dot<L>(along, along), L::all(static_cast<typename L::Real>(0.25)));
+  const V pull = strength / squared;
+  const Triple<L> force = pull * along;
+  L::store(layer.pull[0] + i, force.x);
+  L::store(layer.pull[1] + i, force.y);
+  L::store(layer.pull[2] + i, force.z);
+}
+
+/// The force of the fibers of a vector and around it.
+template <class L>
+SINEW_INLINE Triple<L> fiber_force(const Step<typename L::Real>& step, std::size_t block, int lane,
+                                   std::ptrdiff_t i) {
+  Triple<L> force = none<L>();
+  for (int k = 0; k < step.fibers.count; ++k) {
+    const FiberLayer<typename L::Real>& layer = step.fibers.layers[k];
+    if (layer.near[block] == 0) continue;
+    const auto pull_at = [&](std::ptrdiff_t j) __attribute__((always_inline)) {
+      return Triple<L>{L::load(layer.pull[0] + j), L::load(layer.pull[1] + j),
+                       L::load(layer.pull[2] + j)};
+    };
+    for_each_fiber<L>(
+        step, layer,
+        block, [&](std::ptrdiff_t difference, FiberRows rows) __attribute__((always_inline)) {
+          force = fused<L>(coefficients_of<L>(layer, rows.others, lane), pull_at(i + difference),
+                           force);
+        });
+    force = fused<L>(L::load(layer.own + i), pull_at(i), force);
   }
-  store_thrust<L>(fibers.thrust, i, times_symmetric<L>(sum, inverse));
+  return force;
+}
+
+template <class L>
+SINEW_INLINE void find_strain(const Step<typename L::Real>& step, std::size_t block, int lane) {
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
+  if (step.volumes.stiffness != nullptr) {
+    typename L::V inverse[6];
+    for (int k = 0; k < 6; ++k) inverse[k] = L::load(step.inverse[k] + i);
+    const Matrix<L> F = deformation_gradient<L>(step, inverse, block, lane, i);
+    find_volumes<L>(step.volumes, F, inverse, i);
+  }
+  for (int k = 0; k < step.fibers.count; ++k) {
+    const FiberLayer<typename L::Real>& layer = step.fibers.layers[k];
+    if (layer.first[block] != layer.first[block + 1]) find_pull<L>(step, layer, block, lane, i);
+  }
+}
+
+/// Whether anything follows from the deformation in a block; elsewhere it is zero and remains so.
+template <class Real>
+SINEW_INLINE bool has_strain(const Step<Real>& step, std::size_t block) {
+  bool any = step.volumes.stiffness != nullptr;
+  for (int k = 0; k < step.fibers.count && !any; ++k)
+    any = step.fibers.layers[k].first[block] != step.fibers.layers[k].first[block + 1];
+  return any;
 }
 
 template <class L>
@@ -127,18 +190,9 @@ void strain_pieces(const Step<typename L::Real>& step, std::size_t begin, std::s
   const std::size_t last = end * blocks_per_piece;
   for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block) {
     if (step.grouped.asleep != nullptr && step.grouped.asleep[block] != 0) continue;
-    if (step.volumes.stiffness == nullptr &&
-        step.fibers.first[block] == step.fibers.first[block + 1])
-      continue;  // what it exerts is zero and remains so
+    if (!has_strain(step, block)) continue;
     fetch_for_strain(step, block);
-    for (int lane = 0; lane < size; lane += L::width) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(block) * size + lane;
-      typename L::V inverse[6];
-      for (int k = 0; k < 6; ++k) inverse[k] = L::load(step.inverse[k] + i);
-      const Matrix<L> F = deformation_gradient<L>(step, inverse, block, lane, i);
-      if (step.volumes.stiffness != nullptr) find_volumes<L>(step.volumes, F, inverse, i);
-      if (step.fibers.first != nullptr) find_fibers<L>(step.fibers, F, inverse, block, lane, i);
-    }
+    for (int lane = 0; lane < size; lane += L::width) find_strain<L>(step, block, lane);
   }
 }
 

@@ -150,7 +150,8 @@ kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forc
   if (!whole) groups_.wake(layout_.now, layout_.units());
   place_bones(pose);
   surroundings_.begin(pose, time_, layout_.now, layout_.units(), lists_, world_forces);
-  if (has_muscles(*body_)) strain_.set_activations(activations_at(body_->world->muscles, time_));
+  if (has_muscles(*body_))
+    strain_.fibers.set_activations(activations_at(body_->world->muscles, time_));
   auto now = job();
   if (whole) now.grouped = {};
   find_deformation(now);

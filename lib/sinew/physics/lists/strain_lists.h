@@ -15,23 +15,19 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/bond_lists.h>
-#include <sinew/physics/world/world.h>
+#include <sinew/physics/lists/fiber_lists.h>
 
 namespace sinew {
 
-/// By particle, with a block of zeros at each end.
 template <class Real>
 struct StrainLists {
+  // By particle, with a block of zeros at each end.
   std::array<Lines<Real>, 6> inverse;
   Lines<Real> stiffness, growth;  ///< of volumes; empty: none is kept
-  std::array<Lines<Real>, 9> volume_thrust, fiber_thrust;
-  std::vector<std::uint32_t> first;       ///< fibers of a block; empty: there are none
-  std::vector<std::uint8_t> near_fibers;  ///< by block
-  std::vector<std::int32_t> muscle;
-  std::vector<Real> strength, direction, level;
+  std::array<Lines<Real>, 9> thrust;
+  FiberLists<Real> fibers;
 
-  bool empty() const { return stiffness.empty() && first.empty(); }
-  void set_activations(const Activations& now);
+  bool empty() const { return stiffness.empty() && fibers.empty(); }
   void put_into(kernel::Step<Real>& step);
 };
 
