@@ -46,6 +46,14 @@ double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) 
   return std::sqrt(most);
 }
 
+/// Between two pieces along the shortest side of the first.
+double gap_across(const PieceNow& one, const PieceNow& other) {
+  const Vec3 across = one.axes.col(one.shortest);
+  const double reach = (other.axes.transpose() * across).cwiseAbs().dot(other.along.sizes()) / 2;
+  return std::abs((other.middle() - one.middle()).dot(across)) -
+         one.along.sizes()[one.shortest] / 2 - reach;
+}
+
 /// That piece among those near one, which ascend, or null.
 const NearPieces::Near* found(std::span<const NearPieces::Near> near, std::uint32_t piece) {
   const auto at = std::lower_bound(
@@ -83,8 +91,7 @@ void for_each_near(const std::vector<std::vector<Box>>& levels, std::size_t leve
 double gap_between(const PieceNow& one, const PieceNow& other) {
   const Mat3 turned = one.axes.transpose() * other.axes, both = turned.cwiseAbs();
   const Vec3 half = one.along.sizes() / 2, others = other.along.sizes() / 2;
-  const Vec3 apart = other.center + other.axes * other.along.center() -
-                     (one.center + one.axes * one.along.center());
+  const Vec3 apart = other.middle() - one.middle();
   const Vec3 in_one = one.axes.transpose() * apart, in_other = other.axes.transpose() * apart;
   const auto length = [](const Vec3& gap) { return gap.cwiseMax(0).squaredNorm(); };
   return std::sqrt(std::max({one.box.squaredExteriorDistance(other.box),
@@ -110,11 +117,13 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     for (std::size_t piece = begin; piece < end; ++piece) settle(piece);
   });
   pieces_ = std::move(pieces);
-  for (PieceNow& piece : pieces_)
+  for (PieceNow& piece : pieces_) {
     if (piece.along.isEmpty()) {
       piece.axes.setIdentity();
       piece.along = Box(Vec3(piece.box.min() - piece.center), Vec3(piece.box.max() - piece.center));
     }
+    piece.along.sizes().minCoeff(&piece.shortest);
+  }
   gone_.assign(pieces_.size(), 0);
   elapsed_ = 0;
   common_.setZero();
@@ -161,23 +170,31 @@ void NearPieces::find_candidates() {
   });
 }
 
+/// How fast particles of two pieces may approach: as anywhere in the first box, wherever they have
+/// traveled.
+double NearPieces::fastest_approach(const PieceNow& one, const PieceNow& other) const {
+  const Vec3 middle = one.box.center();
+  const double radius = one.box.diagonal().norm() / 2 + std::sqrt(3.0) * margin_ / 4;
+  return (one.velocity_at(middle) - other.velocity_at(middle)).norm() +
+         (one.spin - other.spin).norm() * radius;
+}
+
 /// The gap between two pieces, if particles of both may come within the outer range of each other
 /// until the horizon; else something larger than that range.
 double NearPieces::gap_within(const PieceNow& one, const PieceNow& other, double horizon) const {
   const double near = (1 + drift_margin) * ranges_.outer;
-  const double apart = std::sqrt(one.box.squaredExteriorDistance(other.box));
-  // Far more expensive, and seldom needed.
-  const double gap = apart < near ? gap_between(one, other) : apart;
-  if (gap < near) return gap;
-  // As fast as anywhere in the first box, wherever its particles have traveled.
-  const Vec3 middle = one.box.center();
-  const double radius = one.box.diagonal().norm() / 2 + std::sqrt(3.0) * margin_ / 4;
-  const double rate = (one.velocity_at(middle) - other.velocity_at(middle)).norm() +
-                      (one.spin - other.spin).norm() * radius;
-  const double reach = near + rate * (1 + 1e-6) * horizon;
-  if (!(gap < reach)) return unknown;
-  const double least = apart < near ? gap : gap_between(one, other);
-  return least < reach ? least : unknown;
+  double reach = 0;  // found where something is not near
+  const auto may_come_near = [&](double gap) {
+    if (gap < near) return true;
+    if (reach == 0) reach = near + fastest_approach(one, other) * (1 + 1e-6) * horizon;
+    return gap < reach;
+  };
+  // Most pieces are apart along a short side of one of them; the gap itself takes much longer.
+  if (!may_come_near(std::sqrt(one.box.squaredExteriorDistance(other.box))) ||
+      !may_come_near(std::max(gap_across(one, other), gap_across(other, one))))
+    return unknown;
+  const double gap = gap_between(one, other);
+  return may_come_near(gap) ? gap : unknown;
 }
 
 void NearPieces::find_near(std::size_t piece, double horizon) {

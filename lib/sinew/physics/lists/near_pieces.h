@@ -41,8 +41,10 @@ struct PieceNow {
   /// the same one.
   Mat3 axes = Mat3::Identity();
   Box along = {};
+  Eigen::Index shortest = 0;  ///< side of that one; found by the survey
 
   Vec3 velocity_at(const Vec3& p) const { return velocity + spin.cross(p - center); }
+  Vec3 middle() const { return center + axes * along.center(); }  ///< of the box along its axes
 };
 
 /// No two particles of both are nearer to each other.
@@ -111,6 +113,7 @@ class NearPieces {
  private:
   void find_candidates();
   void find_near(std::size_t piece, double horizon);
+  double fastest_approach(const PieceNow& one, const PieceNow& other) const;
   double gap_within(const PieceNow& one, const PieceNow& other, double horizon) const;
   void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
   float rate_between(const PieceNow& one, const PieceNow& other) const;
