@@ -35,6 +35,9 @@ class Live(unittest.TestCase):
     def setUp(self):
         # Open MPI's daemon may still be removing its folder there.
         self.scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        # ParaView begins Open MPI, which removes the folder of its sessions when it ends, also from under
+        # another that begins.
+        os.environ["OMPI_MCA_orte_tmpdir_base"] = self.scratch.name
         self.run_folder = Path(self.scratch.name) / "a run"
         self.addCleanup(self.scratch.cleanup)
 

@@ -41,7 +41,10 @@ def without(*names, **changed):
 class ViewPreset(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
+        cls.scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        # ParaView begins Open MPI, which removes the folder of its sessions when it ends, also from under
+        # another that begins.
+        os.environ["OMPI_MCA_orte_tmpdir_base"] = cls.scratch.name
         cls.run_folder = Path(cls.scratch.name) / "a run"
         cls.bonded = Path(cls.scratch.name) / "bonded"
         for folder, more in ((cls.run_folder, []), (cls.bonded, ["--set", "material.model=bonded"])):
