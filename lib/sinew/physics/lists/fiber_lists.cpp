@@ -2,7 +2,6 @@
 #include <sinew/physics/lists/fiber_lists.h>
 
 #include <algorithm>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 
