@@ -86,8 +86,8 @@ class Cloud {
 
   void list(std::size_t piece) {
     outer_[piece].clear();
-    for (const NearPieces::Near& near : near_.of(piece))
-      for_each_pair(piece, near.piece, ranges.outer,
+    for (const std::uint32_t near : near_.of(piece))
+      for_each_pair(piece, near, ranges.outer,
                     [&](const Entry& entry) { outer_[piece].insert(entry); });
     near_.listed(piece);
     prune(piece);
@@ -207,6 +207,50 @@ TEST(NearPieces, AreApartAlongTheirOwnAxes) {
   EXPECT_EQ(near.of(0).size(), 3u);  // itself, the next one, and one that is the outer range away
 }
 
+/// Some are alone, others of three groups.
+std::vector<std::int32_t> some_groups(std::size_t pieces) {
+  std::vector<std::int32_t> group;
+  for (std::size_t piece = 0; piece < pieces; ++piece)
+    group.push_back(piece < pieces / 3 ? -1 : static_cast<std::int32_t>(piece * 5 / pieces));
+  return group;
+}
+
+TEST(NearPieces, AreFoundAmongThoseOfTheirOwnGroupAsWell) {
+  std::mt19937 random(3);
+  std::vector<PieceNow> pieces(120);
+  for (PieceNow& piece : pieces) {
+    const Vec3 at = 12 * test::random_vector(random);
+    Points points;
+    for (int k = 0; k < 8; ++k)
+      points.push_back(at + test::random_vector(random).cwiseProduct(Vec3(2, 1, 0.3)));
+    for (const Vec3& p : points) piece.box.extend(p);
+    piece.center = at;
+    piece.velocity = 0.3 * test::random_vector(random), piece.spin = test::random_vector(random);
+    bound(points, random, piece);
+  }
+  const std::vector<std::int32_t> group = some_groups(pieces.size());
+  NearPieces alone(ranges), grouped(ranges, group);
+  alone.survey(pieces, dt), grouped.survey(pieces, dt);
+  std::size_t bound = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const std::vector<std::uint32_t> near = alone.of(p);
+    EXPECT_EQ(grouped.of(p), near);
+    std::vector<std::uint32_t> others;
+    for (const std::uint32_t q : near)
+      if (group[p] < 0 || group[q] != group[p]) others.push_back(q);
+    std::vector<std::uint32_t> found;
+    for (const NearPieces::Near& one : grouped.others(p)) found.push_back(one.piece);
+    EXPECT_EQ(found, others);
+    bound += near.size() - others.size();
+    for (std::uint32_t q = 0; q < pieces.size(); ++q) {
+      if (gap_between(pieces[p], pieces[q]) < ranges.outer) {
+        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), q)) << p << ' ' << q;
+      }
+    }
+  }
+  EXPECT_GT(bound, pieces.size());
+}
+
 TEST(NearPieces, KeepTheListsOfABodyThatMovesAsOne) {
   const auto flying = [](const Vec3&, double, std::size_t) { return Vec3(900, 20, -300); };
   const auto slowly = [](const Vec3& p, double time, std::size_t piece) {
@@ -262,7 +306,7 @@ TEST(NearPieces, BoundTheDifferenceOfVelocityFieldsWhereverPiecesCanMeet) {
                                   sampled_difference(pieces[1], pieces[0], random));
     ASSERT_GT(least, 0);
     EXPECT_EQ(near.of(0).size(), 2u);
-    for (const NearPieces::Near& other : near.of(0)) {
+    for (const NearPieces::Near& other : near.others(0)) {
       if (other.piece == 1) {
         EXPECT_GE(other.rate, least);
       }

@@ -115,6 +115,17 @@ TEST(Divided, BendsToTheSameEndAndBalancesItsEnergy) {
   }
 }
 
+TEST(Divided, CountsTheListsOfStepsOfAllSizes) {
+  const Settings settings = test::unbound(test::box_scene(9));
+  const Points rest = test::fcc_box(5, 5, 9, r);
+  const Body body = test::make_body(settings, rest);
+  Simulation simulation(body, {}, test::shaken(rest, body.material, 0, 0),
+                        stepping_of(settings.solver, 1e-3));
+  simulation.follow(StepPlan(1e-3, 10, {1, 2, 1}));
+  while (simulation.steps() < 40) simulation.step();
+  EXPECT_EQ(simulation.list_counts().rebuilds, 3);  // at first, and for each other size of step
+}
+
 /// A bar whose upper bone rests, swings by 60 degrees in a tenth of a second, and rests.
 Setup swinging(std::optional<double> time_step, double interval = 0.05) {
   Settings settings = test::box_scene(25);

@@ -258,14 +258,6 @@ SINEW_INLINE PairSums<L> sum_partners(const Step<typename L::Real>& step, const 
   return sums.sums();
 }
 
-/// A function of its own, so that the fast path keeps its values in registers.
-template <class L, PairLaw pairs, Pass pass>
-[[gnu::noinline, gnu::cold]] void sum_partners_carefully(const Step<typename L::Real>& step,
-                                                         std::size_t block, int lane,
-                                                         PairSums<L>& sums, Met<L>& met) {
-  sums = sum_partners<L, pairs, pass, false, true>(step, SolidLaw<L>(step), block, lane, met);
-}
-
 template <class L>
 SINEW_INLINE bool needs_care(const SolidLaw<L>& law, const Met<L>& met, typename L::V force) {
   if constexpr (sizeof(typename L::Real) == 4)
@@ -275,17 +267,38 @@ SINEW_INLINE bool needs_care(const SolidLaw<L>& law, const Met<L>& met, typename
            L::any(L::less(law.inverse.most, met.most));
 }
 
+/// A function of its own, so that the fast path keeps its values in registers. Whether care was
+/// needed.
+template <class L, PairLaw pairs, Pass pass>
+[[gnu::noinline]] bool sum_partners_carefully(const Step<typename L::Real>& step,
+                                              std::size_t block, int lane, PairSums<L>& sums,
+                                              Met<L>& met) {
+  const SolidLaw<L> law(step);
+  sums = sum_partners<L, pairs, pass, false, true>(step, law, block, lane, met);
+  return needs_care(law, met, sums.force.x);
+}
+
 template <class L, PairLaw pairs, Pass pass, bool energy>
 SINEW_INLINE PairSums<L> partner_sums(const Step<typename L::Real>& step, const SolidLaw<L>& law,
                                       std::size_t block, int lane, bool& strained) {
+  const std::ptrdiff_t i =
+      static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   Met<L> met;
-  PairSums<L> sums = sum_partners<L, pairs, pass, energy, energy>(step, law, block, lane, met);
-  if constexpr (pass != counts && !energy)
-    if (needs_care(law, met, sums.force.x)) [[unlikely]] {
+  PairSums<L> sums;
+  const auto sum = [&]() __attribute__((always_inline)) {
+    sums = sum_partners<L, pairs, pass, energy, energy>(step, law, block, lane, met);
+    return needs_care(law, met, sums.force.x);
+  };
+  if constexpr (pass == counts || energy)
+    sum();
+  else
+    sum_with_care<L>(step, i, sum, [&]() __attribute__((always_inline)) {
       PairSums<L> careful;
-      sum_partners_carefully<L, pairs, pass>(step, block, lane, careful, met);
-      sums = careful;
-    }
+      Met<L> all;
+      const bool needed = sum_partners_carefully<L, pairs, pass>(step, block, lane, careful, all);
+      sums = careful, met = all;
+      return needed;
+    });
   strained = pairs == changing_springs && L::any(L::less(L::all(0), met.strained));
   return sums;
 }

@@ -235,6 +235,7 @@ struct Step {
   Parts<Real> parts;
   Holds<Real> holds;
   Law<Real> law;
+  std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
   Real* share;        ///< 1 / neighbors, or 0; of pairwise damping
   bool central;       ///< that acts along the pair alone
   Bonds<Real> bonds;  ///< of laws that know neighbors at rest, and of fibers

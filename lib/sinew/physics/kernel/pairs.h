@@ -55,6 +55,7 @@ class InverseLength<L, double> {
   SINEW_INLINE V of(V s) const {
     const V inverse = of_usual(s);
     if constexpr (!careful) return inverse;
+    if (!L::any(L::less(s, least)) && !L::any(L::less(most, s))) return inverse;
     const V exact = L::all(1) / L::root(s);
     return L::pick(L::less(s, least), exact, L::pick(L::less(most, s), exact, inverse));
   }
@@ -255,13 +256,32 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
   return adder.sums();
 }
 
-/// A function of its own, so that the fast path keeps its values in registers.
+/// A function of its own, so that the fast path keeps its values in registers. Whether care was
+/// needed.
 template <class L, Pass pass>
-[[gnu::noinline, gnu::cold]] void sum_pairs_carefully(const Step<typename L::Real>& step,
-                                                      std::ptrdiff_t i, const std::int32_t* begin,
-                                                      const std::int32_t* end, PairSums<L>& sums) {
+[[gnu::noinline]] bool sum_pairs_carefully(const Step<typename L::Real>& step, std::ptrdiff_t i,
+                                           const std::int32_t* begin, const std::int32_t* end,
+                                           PairSums<L>& sums) {
+  const PullLaw<L> law(step.law);
   typename L::V least;
-  sums = sum_pairs<L, pass, false, true>(step, PullLaw<L>(step.law), i, begin, end, least);
+  const PairSums<L> careful = sum_pairs<L, pass, false, true>(step, law, i, begin, end, least);
+  sums.force = {careful.force.x, careful.force.y, careful.force.z};
+  sums.velocities = {careful.velocities.x, careful.velocities.y, careful.velocities.z};
+  sums.count = careful.count;
+  return law.needs_care(least, careful.force.x);
+}
+
+/// Sums of the vector at i, which need care in a few places of a body, mostly where they did in the
+/// step before. Both functions make them, and tell whether they needed it.
+template <class L, class Fast, class Careful>
+SINEW_INLINE void sum_with_care(const Step<typename L::Real>& step, std::ptrdiff_t i,
+                                const Fast& fast, const Careful& careful) {
+  if constexpr (sizeof(typename L::Real) == 4) {
+    if (fast()) [[unlikely]] careful();
+  } else {
+    std::uint8_t& cared = step.careful[i / L::width];
+    if (cared != 0 || fast()) [[unlikely]] cared = careful() ? 1 : 0;
+  }
 }
 
 /// With energies, what is probed and not stepped, always with care.
@@ -270,14 +290,20 @@ SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const Pul
                                    std::ptrdiff_t i, const std::int32_t* begin,
                                    const std::int32_t* end) {
   typename L::V least;
-  PairSums<L> sums = sum_pairs<L, pass, energy, energy>(step, law, i, begin, end, least);
-  if constexpr (pass != counts && !energy)
-    if (law.needs_care(least, sums.force.x)) [[unlikely]] {
+  PairSums<L> sums;
+  const auto sum = [&]() __attribute__((always_inline)) {
+    sums = sum_pairs<L, pass, energy, energy>(step, law, i, begin, end, least);
+    return law.needs_care(least, sums.force.x);
+  };
+  if constexpr (pass == counts || energy)
+    sum();
+  else
+    sum_with_care<L>(step, i, sum, [&]() __attribute__((always_inline)) {
       PairSums<L> careful;
-      sum_pairs_carefully<L, pass>(step, i, begin, end, careful);
-      sums.force = {careful.force.x, careful.force.y, careful.force.z};
-      sums.velocities = {careful.velocities.x, careful.velocities.y, careful.velocities.z};
-    }
+      const bool needed = sum_pairs_carefully<L, pass>(step, i, begin, end, careful);
+      sums = careful;
+      return needed;
+    });
   return sums;
 }
 

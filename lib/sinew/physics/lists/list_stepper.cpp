@@ -101,6 +101,8 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
+  if constexpr (sizeof(Real) == 8) careful_.resize(layout_.now.blocks() * block);
+  step.careful = careful_.data();
   step.share = share_.empty() ? nullptr : share_.data() + block;
   step.central = material.damping_form == DampingForm::central;
   step.mass = masses_.empty() ? nullptr : masses_.data();
@@ -228,7 +230,7 @@ StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
   if (!std::all_of(totals_.begin(), totals_.end(),
                    [](const kernel::Totals& piece) { return piece.sound; })) {
     sums.failure = failure(pose);
-    lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);  // bonds stay broken
+    lists_ = lists_.anew(stepping_.step);  // bonds stay broken
   }
   return sums;
 }
@@ -323,7 +325,7 @@ void ListStepper<Real>::sort() {
   Stopwatch watch;
   auto order = order_by_columns(layout_.now,
                                 column_edge * 2 * body_->material.pair.r / layout_.units().length);
-  VerletLists<Real> before = std::exchange(lists_, lists_.anew());
+  VerletLists<Real> before = std::exchange(lists_, lists_.anew(stepping_.step));
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
   lists_.make_some(layout_.now, parts(), bonds_, layout_.units());
@@ -354,7 +356,7 @@ template <class Real>
 void ListStepper<Real>::set_step(double step) {
   stepping_.step = step;
   surroundings_.set_step(step);
-  lists_ = VerletLists<Real>(kernel_, body_->material, step);
+  lists_ = lists_.anew(step);
   order_checked_ = -1;
   stepped_ = false;
 }
@@ -389,7 +391,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   steps_ = state.steps;
   order_checked_ = -1;
   stepped_ = false;
-  lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);
+  lists_ = lists_.anew(stepping_.step);
 }
 
 template class ListStepper<double>;

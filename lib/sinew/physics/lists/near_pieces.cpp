@@ -11,11 +11,10 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t pieces_per_task = 16;
-constexpr std::size_t branches = 4;  // of the tree of boxes
-// Pieces this much farther apart than lists reach are candidates: they are found again when
-// particles may have come that much nearer. In outer ranges, and in steps of the fastest one.
-constexpr double least_margin = 0.5, margin_in_steps = 48;
-// Candidates are near if their velocity fields may bring them within reach before the next survey,
+// Until the next survey, particles may travel by so much: in outer ranges, and in steps of the
+// fastest one.
+constexpr double least_travel = 0.125, travel_in_steps = 16;
+// Pieces are near if their velocity fields may bring them within reach before the next survey,
 // or particles that drift by half of this, in outer ranges.
 constexpr double drift_margin = 0.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
@@ -23,7 +22,6 @@ constexpr double jump = 0.06;
 // Surveys serve when particles have drifted by this share of the inner skin, but not every few
 // steps.
 constexpr double drift_share = 0.1;
-constexpr int least_steps = 8;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 Box expanded(Box box, double by) {
@@ -46,14 +44,6 @@ double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) 
   return std::sqrt(most);
 }
 
-/// Between two pieces along the shortest side of the first.
-double gap_across(const PieceNow& one, const PieceNow& other) {
-  const Vec3 across = one.axes.col(one.shortest);
-  const double reach = (other.axes.transpose() * across).cwiseAbs().dot(other.along.sizes()) / 2;
-  return std::abs((other.middle() - one.middle()).dot(across)) -
-         one.along.sizes()[one.shortest] / 2 - reach;
-}
-
 /// That piece among those near one, which ascend, or null.
 const NearPieces::Near* found(std::span<const NearPieces::Near> near, std::uint32_t piece) {
   const auto at = std::lower_bound(
@@ -62,54 +52,23 @@ const NearPieces::Near* found(std::span<const NearPieces::Near> near, std::uint3
   return at != near.end() && at->piece == piece ? &*at : nullptr;
 }
 
-/// Boxes of the pieces, around several of them, around several of those, and so on up to one.
-std::vector<std::vector<Box>> tree_of(const std::vector<PieceNow>& pieces) {
-  std::vector<std::vector<Box>> levels(1);
-  for (const PieceNow& piece : pieces) levels[0].push_back(piece.box);
-  while (levels.back().size() > 1) {
-    const std::vector<Box>& below = levels.back();
-    std::vector<Box> level((below.size() + branches - 1) / branches);
-    for (std::size_t k = 0; k < below.size(); ++k) level[k / branches].extend(below[k]);
-    levels.push_back(std::move(level));
-  }
-  return levels;
-}
-
-/// Calls visit(leaf) for the leaves below a node with a box within `reach` of `box`, ascending.
-template <class Visit>
-void for_each_near(const std::vector<std::vector<Box>>& levels, std::size_t level, std::size_t node,
-                   const Box& box, double reach, Visit& visit) {
-  if (levels[level][node].squaredExteriorDistance(box) >= reach * reach) return;
-  if (level == 0) return visit(node);
-  const std::size_t end = std::min((node + 1) * branches, levels[level - 1].size());
-  for (std::size_t child = node * branches; child < end; ++child)
-    for_each_near(levels, level - 1, child, box, reach, visit);
-}
-
 }  // namespace
 
-double gap_between(const PieceNow& one, const PieceNow& other) {
-  const Mat3 turned = one.axes.transpose() * other.axes, both = turned.cwiseAbs();
-  const Vec3 half = one.along.sizes() / 2, others = other.along.sizes() / 2;
-  const Vec3 apart = other.middle() - one.middle();
-  const Vec3 in_one = one.axes.transpose() * apart, in_other = other.axes.transpose() * apart;
-  const auto length = [](const Vec3& gap) { return gap.cwiseMax(0).squaredNorm(); };
-  return std::sqrt(std::max({one.box.squaredExteriorDistance(other.box),
-                             length(in_one.cwiseAbs() - half - both * others),
-                             length(in_other.cwiseAbs() - others - both.transpose() * half)}));
+NearPieces::Field NearPieces::field_of(const PieceNow& piece) const {
+  const Vec3 middle = piece.box.center(), velocity = piece.velocity_at(middle);
+  const double radius = piece.box.diagonal().norm() / 2 + std::sqrt(3.0) * travel_;
+  return {middle, velocity, radius, (velocity - common_).norm() + piece.spin.norm() * radius};
 }
 
-/// Relative to the common velocity, of its fastest point as a rigid body, wherever it has traveled
-/// before the next survey.
-double NearPieces::speed_of(const PieceNow& piece) const {
-  const double radius = piece.box.diagonal().norm() / 2 + margin_ / 4;
-  return (piece.velocity_at(piece.box.center()) - common_).norm() + piece.spin.norm() * radius;
-}
-
-double NearPieces::fastest_of(std::span<const PieceNow> pieces) const {
-  double most = 0;
-  for (const PieceNow& piece : pieces) most = std::max(most, speed_of(piece));
-  return most;
+/// Relative to the common velocity, of any piece.
+double NearPieces::find_fields() {
+  double fastest = 0;
+  fields_.clear();
+  for (const PieceNow& piece : pieces_) {
+    fields_.push_back(field_of(piece));
+    fastest = std::max(fastest, fields_.back().speed);
+  }
+  return fastest;
 }
 
 void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
@@ -131,21 +90,16 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     common_ += piece.velocity_at(piece.box.center()) / static_cast<double>(pieces_.size());
   traveled_ = drifted_ = 0;
   steps_ = 0;
-  const double wanted =
-      std::max(least_margin * ranges_.outer, margin_in_steps * fastest_of(pieces_) * time);
-  // Until the next survey, particles may come nearer by another half of the margin.
-  if (wanted > margin_ || 4 * since_found_ > margin_) {
-    margin_ = wanted;
-    find_candidates();
-  }
-  fastest_point_ = fastest_of(pieces_);
-  const double horizon = fastest_point_ > 0 ? margin_ / (4 * fastest_point_) : 0;
+  travel_ = least_travel * ranges_.outer;
+  travel_ = std::max(travel_, travel_in_steps * find_fields() * time);
+  fastest_point_ = find_fields();
+  horizon_ = fastest_point_ > 0 ? travel_ / fastest_point_ : 0;
+  tree_ = PieceTree(pieces_, bound_to_);
   near_.resize(pieces_.size());
   spare_.assign(pieces_.size(), {});
-  meets_others_.resize(pieces_.size());
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
-      find_near(piece, horizon);
+      find_near(piece);
       find_rates(piece);
     }
   });
@@ -155,76 +109,73 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
   });
 }
 
-void NearPieces::find_candidates() {
-  since_found_ = 0;
-  candidates_.assign(pieces_.size(), {});
-  if (pieces_.empty()) return;
-  const auto levels = tree_of(pieces_);
-  parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t piece = begin; piece < end; ++piece) {
-      auto add = [&](std::size_t other) {
-        candidates_[piece].push_back(static_cast<std::uint32_t>(other));
-      };
-      for_each_near(levels, levels.size() - 1, 0, pieces_[piece].box, ranges_.outer + margin_, add);
-    }
-  });
-}
-
-/// How fast particles of two pieces may approach: as anywhere in the first box, wherever they have
-/// traveled.
-double NearPieces::fastest_approach(const PieceNow& one, const PieceNow& other) const {
-  const Vec3 middle = one.box.center();
-  const double radius = one.box.diagonal().norm() / 2 + std::sqrt(3.0) * margin_ / 4;
-  return (one.velocity_at(middle) - other.velocity_at(middle)).norm() +
-         (one.spin - other.spin).norm() * radius;
+/// How fast particles of two pieces may approach: as anywhere around the first one's.
+double NearPieces::fastest_approach(std::size_t piece, std::size_t other) const {
+  const Field &one = fields_[piece], &two = fields_[other];
+  const Vec3& spin = pieces_[other].spin;
+  const Vec3 there = two.velocity + spin.cross(one.middle - two.middle);
+  return std::min(one.speed + two.speed, (one.velocity - there).norm() +
+                                             (pieces_[piece].spin - spin).norm() * one.radius);
 }
 
 /// The gap between two pieces, if particles of both may come within the outer range of each other
-/// until the horizon; else something larger than that range.
-double NearPieces::gap_within(const PieceNow& one, const PieceNow& other, double horizon) const {
+/// before the next survey; else something larger than that range.
+double NearPieces::gap_within(std::size_t piece, std::size_t other) const {
+  const PieceNow &one = pieces_[piece], &two = pieces_[other];
   const double near = (1 + drift_margin) * ranges_.outer;
   double reach = 0;  // found where something is not near
   const auto may_come_near = [&](double gap) {
     if (gap < near) return true;
-    if (reach == 0) reach = near + fastest_approach(one, other) * (1 + 1e-6) * horizon;
+    if (reach == 0) reach = near + fastest_approach(piece, other) * (1 + 1e-6) * horizon_;
     return gap < reach;
   };
   // Most pieces are apart along a short side of one of them; the gap itself takes much longer.
-  if (!may_come_near(std::sqrt(one.box.squaredExteriorDistance(other.box))) ||
-      !may_come_near(std::max(gap_across(one, other), gap_across(other, one))))
-    return unknown;
-  const double gap = gap_between(one, other);
+  if (!may_come_near(std::max(gap_across(one, two), gap_across(two, one)))) return unknown;
+  const double gap = gap_between(one, two);
   return may_come_near(gap) ? gap : unknown;
 }
 
-void NearPieces::find_near(std::size_t piece, double horizon) {
-  const std::vector<Near> before = std::move(near_[piece]);
-  near_[piece].clear();
-  meets_others_[piece] = 0;
-  for (const std::uint32_t other : candidates_[piece]) {
-    const double gap = gap_within(pieces_[piece], pieces_[other], horizon);
-    if (gap == unknown) continue;
-    add_near(piece, other, before);
-    near_[piece].back().gap = gap;
-    if (!are_bound(piece, other)) meets_others_[piece] = 1;
-  }
+/// Calls visit(other, gap) for what is near a piece, but for what is bound to `group`.
+template <class Visit>
+void NearPieces::for_each_near(std::size_t piece, std::int32_t group, const Visit& visit) const {
+  const double reach = ((1 + drift_margin) * ranges_.outer + 2 * travel_) * (1 + 1e-6);
+  tree_.for_each_near(pieces_[piece], reach, group, [&](std::uint32_t other) {
+    if (const double gap = gap_within(piece, other); gap != unknown) visit(other, gap);
+  });
 }
 
-/// A piece that was not near has come no nearer than the outer range.
-void NearPieces::add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before) {
-  if (const Near* known = found(before, other); known != nullptr) {
-    near_[piece].push_back(*known);
-    return;
-  }
+std::vector<std::uint32_t> NearPieces::of(std::size_t piece) const {
+  std::vector<std::uint32_t> near;
+  if (group_of(piece) == unbound)
+    for (const Near& one : near_[piece]) near.push_back(one.piece);
+  else
+    for_each_near(piece, unbound, [&](std::uint32_t other, double) { near.push_back(other); });
+  return near;
+}
+
+/// What was not near has come no nearer than the outer range.
+void NearPieces::find_near(std::size_t piece) {
+  const std::vector<Near> before = std::move(near_[piece]);
   const double apart = ranges_.outer - ranges_.force;
-  near_[piece].push_back({other, 0, 0, apart, apart, looks_ ? 0 : unknown});
+  std::vector<Near>& near = near_[piece];
+  near.clear();
+  near.reserve(before.size() + before.size() / 8);
+  auto known = before.begin();
+  for_each_near(piece, group_of(piece), [&](std::uint32_t other, double gap) {
+    while (known != before.end() && known->piece < other) ++known;
+    if (known != before.end() && known->piece == other)
+      near.push_back(*known);
+    else
+      near.push_back({other, 0, 0, apart, apart, looks_ ? 0 : unknown});
+    near.back().gap = gap;
+  });
 }
 
 /// Of approach of two pieces, in the region where particles of both may be within the outer range
 /// of each other before the next survey.
 float NearPieces::rate_between(const PieceNow& one, const PieceNow& other) const {
-  const double travel = margin_ / 4, reach = ranges_.outer;
-  const Box here = expanded(one.box, travel), there = expanded(other.box, travel);
+  const double reach = ranges_.outer;
+  const Box here = expanded(one.box, travel_), there = expanded(other.box, travel_);
   const double rate =
       std::min(largest_difference(one, other, here.intersection(expanded(there, reach))),
                largest_difference(one, other, there.intersection(expanded(here, reach))));
@@ -235,9 +186,7 @@ float NearPieces::rate_between(const PieceNow& one, const PieceNow& other) const
 /// nothing was used up.
 void NearPieces::find_rates(std::size_t piece) {
   const PieceNow& one = pieces_[piece];
-  if (!meets_others(piece)) return;
   for (Near& near : near_[piece]) {
-    if (are_bound(piece, near.piece)) continue;
     const PieceNow& other = pieces_[near.piece];
     near.rate = 0;
     if (near.piece == piece) continue;
@@ -250,14 +199,12 @@ void NearPieces::find_rates(std::size_t piece) {
 
 /// The same both ways.
 void NearPieces::copy_rates(std::size_t piece) {
-  if (!meets_others(piece)) return;
   for (Near& near : near_[piece]) {
     if (near.piece >= piece) break;
-    if (are_bound(piece, near.piece) || !may_touch(near)) continue;
+    if (!may_touch(near)) continue;
     const Near* known = found(near_[near.piece], static_cast<std::uint32_t>(piece));
-    near.rate = known != nullptr && meets_others(near.piece)
-                    ? known->rate
-                    : rate_between(pieces_[near.piece], pieces_[piece]);
+    near.rate =
+        known != nullptr ? known->rate : rate_between(pieces_[near.piece], pieces_[piece]);
   }
 }
 
@@ -266,9 +213,8 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   for (const double one : fastest) most = std::max(most, one);
   drifted_ += most * time;
   traveled_ += (fastest_point_ + most) * time;
-  since_found_ += (fastest_point_ + most) * time;
   ++steps_;
-  if (4 * traveled_ > margin_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer)
+  if (traveled_ > travel_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer)
     return false;
   elapsed_ += time;
   for (std::size_t piece = 0; piece < gone_.size(); ++piece) gone_[piece] += fastest[piece] * time;
@@ -286,9 +232,7 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
 /// What the pieces near one have left at present.
 void NearPieces::find_spare(std::size_t piece) {
   Spare& spare = spare_[piece] = {};
-  if (!meets_others(piece)) return;
   for (const Near& near : near_[piece]) {
-    if (are_bound(piece, near.piece)) continue;
     const double used = used_of(piece, near);
     spare.outer = std::min(spare.outer, near.outer - used);
     spare.inner = std::min(spare.inner, near.inner - used);
@@ -299,9 +243,7 @@ void NearPieces::find_spare(std::size_t piece) {
 
 /// Before the next survey: from now on, nothing has been used of what is left.
 void NearPieces::settle(std::size_t piece) {
-  if (!meets_others(piece)) return;
   for (Near& near : near_[piece]) {
-    if (are_bound(piece, near.piece)) continue;
     const double used = used_of(piece, near);
     near.outer -= used;
     near.inner -= used;
@@ -335,8 +277,8 @@ bool NearPieces::survey_due() const {
   const auto soon = [&](double gone) {
     return gone + std::max(steps_ > 0 ? gone / steps_ : 0, jump * ranges_.outer);
   };
-  return 4 * soon(traveled_) > margin_ || 2 * soon(drifted_) > drift_margin * ranges_.outer ||
-         (steps_ >= least_steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
+  return soon(traveled_) > travel_ || 2 * soon(drifted_) > drift_margin * ranges_.outer ||
+         (steps_ >= ranges_.steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
 }
 
 void NearPieces::looked_at(std::size_t piece, double still) {

@@ -29,32 +29,16 @@
 #include <vector>
 
 #include <sinew/core/vector.h>
+#include <sinew/physics/lists/piece_tree.h>
 
 namespace sinew {
 
-/// A piece at a survey. Lengths and times in any unit.
-struct PieceNow {
-  Box box;                     ///< around its particles
-  Vec3 center = Vec3::Zero();  ///< where its velocity field has `velocity`
-  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  /// Another box around its particles, from the center along axes of its own, the columns; empty:
-  /// the same one.
-  Mat3 axes = Mat3::Identity();
-  Box along = {};
-  Eigen::Index shortest = 0;  ///< side of that one; found by the survey
-
-  Vec3 velocity_at(const Vec3& p) const { return velocity + spin.cross(p - center); }
-  Vec3 middle() const { return center + axes * along.center(); }  ///< of the box along its axes
-};
-
-/// No two particles of both are nearer to each other.
-double gap_between(const PieceNow& one, const PieceNow& other);
-
-/// Distances that lists hold.
+/// Distances that lists hold, and how often the motion of pieces is found.
 struct ListRanges {
   double force = 0;  ///< within which particles interact
   double inner = 0;  ///< of the inner lists when they were made
   double outer = 0;  ///< of the outer lists
+  int steps = 8;     ///< between surveys, at least, but where particles travel too far
 };
 
 class NearPieces {
@@ -106,16 +90,28 @@ class NearPieces {
   void pruned(std::size_t piece);
 
   /// The pieces near one, itself included, ascending.
-  std::span<const Near> of(std::size_t piece) const { return near_[piece]; }
-  /// Whether any of them is not bound to it.
-  bool meets_others(std::size_t piece) const { return meets_others_[piece] != 0; }
+  std::vector<std::uint32_t> of(std::size_t piece) const;
+  /// Those that are not bound to it.
+  std::span<const Near> others(std::size_t piece) const { return near_[piece]; }
 
  private:
-  void find_candidates();
-  void find_near(std::size_t piece, double horizon);
-  double fastest_approach(const PieceNow& one, const PieceNow& other) const;
-  double gap_within(const PieceNow& one, const PieceNow& other, double horizon) const;
-  void add_near(std::size_t piece, std::uint32_t other, std::span<const Near> before);
+  static constexpr std::int32_t unbound = -1;
+
+  /// How fast particles of a piece move as a rigid body, wherever they have traveled before the
+  /// next survey.
+  struct Field {
+    Vec3 middle, velocity;  ///< of the box, and there
+    double radius;          ///< around the particles, from there
+    double speed;           ///< relative to the common velocity, at most
+  };
+
+  Field field_of(const PieceNow& piece) const;
+  double find_fields();
+  void find_near(std::size_t piece);
+  double fastest_approach(std::size_t piece, std::size_t other) const;
+  double gap_within(std::size_t piece, std::size_t other) const;
+  template <class Visit>
+  void for_each_near(std::size_t piece, std::int32_t group, const Visit& visit) const;
   float rate_between(const PieceNow& one, const PieceNow& other) const;
   void find_rates(std::size_t piece);
   void copy_rates(std::size_t piece);
@@ -127,12 +123,10 @@ class NearPieces {
     return gone_[piece] + gone_[near.piece] + static_cast<double>(near.rate) * elapsed_;
   }
   /// Whether particles of both may be within the outer range before the next survey.
-  bool may_touch(const Near& near) const { return near.gap < ranges_.outer + margin_ / 2; }
-  bool are_bound(std::size_t a, std::size_t b) const {
-    return !bound_to_.empty() && bound_to_[a] >= 0 && bound_to_[a] == bound_to_[b];
+  bool may_touch(const Near& near) const { return near.gap < ranges_.outer + 2 * travel_; }
+  std::int32_t group_of(std::size_t piece) const {
+    return bound_to_.empty() ? unbound : bound_to_[piece];
   }
-  double speed_of(const PieceNow& piece) const;
-  double fastest_of(std::span<const PieceNow> pieces) const;
 
   /// The least that was left of the skins between a piece and any near it when it was looked at.
   struct Spare {
@@ -144,16 +138,16 @@ class NearPieces {
   ListRanges ranges_;
   std::vector<std::int32_t> bound_to_;
   bool looks_ = false;
-  std::vector<std::uint8_t> meets_others_;
-  double margin_ = 0;  ///< beyond the outer range, within which pieces are candidates
   std::vector<PieceNow> pieces_;
-  std::vector<std::vector<std::uint32_t>> candidates_;  ///< by piece: what may become near
-  std::vector<std::vector<Near>> near_;
+  PieceTree tree_;
+  std::vector<Field> fields_;            ///< by piece
+  std::vector<std::vector<Near>> near_;  ///< by piece, ascending: those not bound to it
   Vec3 common_ = Vec3::Zero();
   // Relative to the common velocity:
   double fastest_point_ = 0;  ///< of any piece as a rigid body
+  double travel_ = 0;         ///< of any particle before the next survey, at most
+  double horizon_ = 0;        ///< until the next survey, if pieces move as rigid bodies
   double traveled_ = 0;       ///< by any particle since the survey, at most
-  double since_found_ = 0;    ///< by any particle since the candidates were found, at most
   double drifted_ = 0;        ///< relative to the velocity fields since the survey, at most
   int steps_ = 0;             ///< since the survey
   std::vector<Spare> spare_;

@@ -23,7 +23,7 @@ void ListStepper<Real>::regroup() {
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();
   groups_.begin(layout_.now, layout_.units());
-  lists_ = VerletLists<Real>(kernel_, body_->material, stepping_.step);
+  lists_ = lists_.anew(stepping_.step);
   stepped_ = false;
 }
 

@@ -9,7 +9,6 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/physics/laws.h>
-#include <sinew/physics/lists/part_survey.h>
 
 namespace sinew {
 namespace {
@@ -19,13 +18,11 @@ namespace {
 // longer.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
 constexpr double outer_skin_of_contacts = 0.9, inner_skin_of_contacts = 0.3;
+// Steps between surveys: what lasts longer need not be judged as well.
+constexpr int survey_steps = 8, survey_steps_of_contacts = 16;
 constexpr std::size_t pieces_at_a_time = 4;
 constexpr std::size_t pieces_in_sample = 256;
 using kernel::blocks_per_piece;
-
-/// Of the kernel's velocity fields, as a share of their speed.
-template <class Real>
-constexpr double rounding = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 
 }  // namespace
 
@@ -39,20 +36,20 @@ VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Mate
   const double diameter = 2 * material.pair.r;
   if (contacts_)
     wanted_ = {diameter, diameter * (1 + inner_skin_of_contacts),
-               diameter * (1 + outer_skin_of_contacts)};
+               diameter * (1 + outer_skin_of_contacts), survey_steps_of_contacts};
   else
     wanted_ = {material.pair.b, material.pair.b + inner_skin * diameter,
-               material.pair.b + outer_skin * diameter};
+               material.pair.b + outer_skin * diameter, survey_steps};
 }
 
 template <class Real>
-VerletLists<Real> VerletLists<Real>::anew() const {
+VerletLists<Real> VerletLists<Real>::anew(double step) const {
   VerletLists lists;
   lists.kernel_ = kernel_;
   lists.contacts_ = contacts_;
   lists.looks_ = looks_;
   lists.wanted_ = wanted_;
-  lists.step_ = step_;
+  lists.step_ = step;
   lists.counts_ = counts_;
   return lists;
 }
@@ -88,7 +85,7 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   whole_ = nth == 1;
   of_ = std::move(parts);
   ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
-             wanted_.outer / units.length};
+             wanted_.outer / units.length, wanted_.steps};
   time_ = step_ / units.time;
   const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
   motions_.assign(of_.size(), {});
@@ -157,7 +154,7 @@ void VerletLists<Real>::add_moved(std::size_t piece, double moved) {
 template <class Real>
 bool VerletLists<Real>::meets_others(std::size_t piece) const {
   bool any = false;
-  for_each_part(piece, [&](std::uint32_t part) { any = any || near_.meets_others(part); });
+  for_each_part(piece, [&](std::uint32_t part) { any = any || !near_.others(part).empty(); });
   return any;
 }
 
@@ -179,78 +176,10 @@ template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_near(std::size_t piece) const {
   std::vector<std::uint32_t> pieces;
   for_each_part(piece, [&](std::uint32_t part) {
-    for (const NearPieces::Near& near : near_.of(part)) pieces.push_back(of_.piece[near.piece]);
+    for (const std::uint32_t near : near_.of(part)) pieces.push_back(of_.piece[near]);
   });
   sort_once(pieces);
   return pieces;
-}
-
-/// Of a part, at its places.
-template <class Real>
-PieceNow VerletLists<Real>::survey(std::size_t part, BlockState<Real>& state) {
-  const auto arrays = state.arrays();
-  const std::size_t begin = of_.first[part], end = of_.first[part + 1];
-  kernel::SurveyInput<Real> input{arrays, begin, end, {}};
-  for (int k = 0; k < 3; ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      input.axes[k][axis] = static_cast<Real>(axes_[part](axis, k));
-  auto& center = motions_[part].center;
-  for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(begin + end) / 2];
-  const Vec3 middle(static_cast<double>(center[0]), static_cast<double>(center[1]),
-                    static_cast<double>(center[2]));
-  const kernel::Survey found = kernel_.survey(input, center);
-  return motion_of(found, end - begin, middle,
-                   std::exchange(axes_[part], axes_of(found, end - begin)), rounding<Real>);
-}
-
-/// Finds out how all parts move.
-template <class Real>
-void VerletLists<Real>::survey(BlockState<Real>& state, const GroupedParticles& groups) {
-  std::vector<PieceNow> parts(of_.size());
-  const auto is_of_group = [&](std::size_t part) {
-    return !groups.of_piece.empty() && groups.of_piece[of_.piece[part]] >= 0;
-  };
-  std::vector<std::uint32_t> others;
-  for (std::uint32_t part = 0; part < parts.size(); ++part)
-    if (!is_of_group(part)) others.push_back(of_.piece[part]);
-  groups.show(others);
-  parallel_for(parts.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t part = begin; part < end; ++part) {
-      auto& motion = motions_[part];
-      PieceNow& now = parts[part];
-      now = is_of_group(part) ? groups.piece_now(of_.piece[part]) : survey(part, state);
-      for (int axis = 0; axis < 3; ++axis) {
-        motion.velocity[axis] = static_cast<Real>(now.velocity[axis]);
-        motion.spin[axis] = static_cast<Real>(now.spin[axis]);
-        now.velocity[axis] = static_cast<double>(motion.velocity[axis]);
-        now.spin[axis] = static_cast<double>(motion.spin[axis]);
-      }
-      centers_[part] = now.center;
-      place_field(part, now.center);
-      speed_[part] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
-    }
-  });
-  near_.survey(std::move(parts), time_);
-  elapsed_ = 0;
-  ++counts_.surveys;
-}
-
-template <class Real>
-void VerletLists<Real>::place_field(std::size_t part, const Vec3& at) {
-  for (int axis = 0; axis < 3; ++axis)
-    if constexpr (sizeof(Real) == 4)
-      motions_[part].center[axis] =
-          static_cast<std::int32_t>(static_cast<std::int64_t>(std::nearbyint(at[axis])));
-    else
-      motions_[part].center[axis] = at[axis];
-}
-
-/// The velocity fields travel with the common velocity.
-template <class Real>
-void VerletLists<Real>::move_fields() {
-  elapsed_ += time_;
-  for (std::size_t part = 0; part < motions_.size(); ++part)
-    place_field(part, centers_[part] + elapsed_ * near_.common_velocity());
 }
 
 /// Where a bond broke: its particles now touch like others.
@@ -265,14 +194,7 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
                                const GroupedParticles& groups) {
   Stopwatch watch;
   ++moment_;
-  // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
-  // of the velocity fields.
-  const double unit = sizeof(Real) == 4 ? 2 / time_ : 0;
-  std::vector<double> fastest(of_.size());
-  for (std::size_t part = 0; part < fastest.size(); ++part)
-    fastest[part] = std::sqrt(static_cast<double>(fastest_[part])) * (1 + 1e-5) + unit +
-                    rounding<Real> * speed_[part] + (looks_ ? lengthening(part) : 0);
-  if (!near_.advance(fastest, time_)) return make(state, of_, bonds, units, groups);
+  if (!near_.advance(fastest_of_parts(), time_)) return make(state, of_, bonds, units, groups);
   if (near_.survey_due())
     survey(state, groups);
   else
@@ -287,6 +209,7 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
   counts_.checking += watch.lap();
   sort_once(listed), sort_once(pieces);
   list(state, bonds, listed, groups);
+  watch.lap();
   std::erase_if(pieces, [&](std::uint32_t piece) {
     return std::binary_search(listed.begin(), listed.end(), piece);
   });
@@ -317,14 +240,6 @@ template <class Real>
 void VerletLists<Real>::looked_at(std::size_t piece, double still) {
   looked_[piece] = 1;
   for_each_part(piece, [&](std::uint32_t part) { near_.looked_at(part, still); });
-}
-
-/// How much faster than by a rigid motion particles within reach of each other may part, since a
-/// step takes them along straight lines.
-template <class Real>
-double VerletLists<Real>::lengthening(std::size_t part) const {
-  const Eigen::Map<const Eigen::Matrix<Real, 3, 1>> spin(motions_[part].spin);
-  return spin.template cast<double>().squaredNorm() * time_ / 2 * ranges_.outer;
 }
 
 template <class Real>

@@ -46,8 +46,8 @@ class VerletLists {
   /// before.
   void add_moved(std::size_t piece, double moved);
 
-  /// Lists of the same kind, not yet made, that go on with its counts.
-  VerletLists anew() const;
+  /// Lists of the same kind, for steps of `step` (s), not yet made, that go on with its counts.
+  VerletLists anew(double step) const;
   bool made() const { return !inner_.empty(); }
   /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
   void make(BlockState<Real>& state, PieceParts parts, const BondLists<Real>& bonds,
@@ -85,6 +85,7 @@ class VerletLists {
   void survey(BlockState<Real>& state, const GroupedParticles& groups);
   PieceNow survey(std::size_t part, BlockState<Real>& state);
   void move_fields();
+  std::vector<double> fastest_of_parts() const;
   double lengthening(std::size_t part) const;
   void place_field(std::size_t part, const Vec3& at);
   template <class Visit>
