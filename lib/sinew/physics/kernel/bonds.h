@@ -270,9 +270,8 @@ SINEW_INLINE bool needs_care(const SolidLaw<L>& law, const Met<L>& met, typename
 /// A function of its own, so that the fast path keeps its values in registers. Whether care was
 /// needed.
 template <class L, PairLaw pairs, Pass pass>
-[[gnu::noinline]] bool sum_partners_carefully(const Step<typename L::Real>& step,
-                                              std::size_t block, int lane, PairSums<L>& sums,
-                                              Met<L>& met) {
+[[gnu::noinline]] bool sum_partners_carefully(const Step<typename L::Real>& step, std::size_t block,
+                                              int lane, PairSums<L>& sums, Met<L>& met) {
   const SolidLaw<L> law(step);
   sums = sum_partners<L, pairs, pass, false, true>(step, law, block, lane, met);
   return needs_care(law, met, sums.force.x);
@@ -292,13 +291,15 @@ SINEW_INLINE PairSums<L> partner_sums(const Step<typename L::Real>& step, const 
   if constexpr (pass == counts || energy)
     sum();
   else
-    sum_with_care<L>(step, i, sum, [&]() __attribute__((always_inline)) {
-      PairSums<L> careful;
-      Met<L> all;
-      const bool needed = sum_partners_carefully<L, pairs, pass>(step, block, lane, careful, all);
-      sums = careful, met = all;
-      return needed;
-    });
+    sum_with_care<L>(
+        step, i, sum, [&]() __attribute__((always_inline)) {
+          PairSums<L> careful;
+          Met<L> all;
+          const bool needed =
+              sum_partners_carefully<L, pairs, pass>(step, block, lane, careful, all);
+          sums = careful, met = all;
+          return needed;
+        });
   strained = pairs == changing_springs && L::any(L::less(L::all(0), met.strained));
   return sums;
 }

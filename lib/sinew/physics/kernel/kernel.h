@@ -236,10 +236,10 @@ struct Step {
   Holds<Real> holds;
   Law<Real> law;
   std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
-  Real* share;        ///< 1 / neighbors, or 0; of pairwise damping
-  bool central;       ///< that acts along the pair alone
-  Bonds<Real> bonds;  ///< of laws that know neighbors at rest, and of fibers
-  Real* inverse[6];   ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
+  Real* share;            ///< 1 / neighbors, or 0; of pairwise damping
+  bool central;           ///< that acts along the pair alone
+  Bonds<Real> bonds;      ///< of laws that know neighbors at rest, and of fibers
+  Real* inverse[6];       ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
   Volumes<Real> volumes;
   Fibers<Real> fibers;
   Loads<Real> loads;

@@ -277,10 +277,12 @@ template <class L, class Fast, class Careful>
 SINEW_INLINE void sum_with_care(const Step<typename L::Real>& step, std::ptrdiff_t i,
                                 const Fast& fast, const Careful& careful) {
   if constexpr (sizeof(typename L::Real) == 4) {
-    if (fast()) [[unlikely]] careful();
+    if (fast()) [[unlikely]]
+      careful();
   } else {
     std::uint8_t& cared = step.careful[i / L::width];
-    if (cared != 0 || fast()) [[unlikely]] cared = careful() ? 1 : 0;
+    if (cared != 0 || fast()) [[unlikely]]
+      cared = careful() ? 1 : 0;
   }
 }
 
@@ -298,12 +300,13 @@ SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const Pul
   if constexpr (pass == counts || energy)
     sum();
   else
-    sum_with_care<L>(step, i, sum, [&]() __attribute__((always_inline)) {
-      PairSums<L> careful;
-      const bool needed = sum_pairs_carefully<L, pass>(step, i, begin, end, careful);
-      sums = careful;
-      return needed;
-    });
+    sum_with_care<L>(
+        step, i, sum, [&]() __attribute__((always_inline)) {
+          PairSums<L> careful;
+          const bool needed = sum_pairs_carefully<L, pass>(step, i, begin, end, careful);
+          sums = careful;
+          return needed;
+        });
   return sums;
 }
 

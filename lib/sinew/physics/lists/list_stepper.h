@@ -106,11 +106,11 @@ class ListStepper {
   StrainLists<Real> strain_;
   Surroundings<Real> surroundings_;
   Groups<Real> groups_;
-  bool counted_ = false;       ///< the neighbors of all particles, in the present order
-  std::vector<double> moved_;  ///< by pins, by piece, since the lists followed, m
-  std::vector<Real> masses_;   ///< over mass_, padded at the end; empty: 1 each
+  bool counted_ = false;               ///< the neighbors of all particles, in the present order
+  std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m
+  std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
   std::vector<std::uint8_t> careful_;  ///< by vector of particles; see kernel::Step
-  std::vector<Real> share_;    ///< padded; empty unless damping acts pair by pair
+  std::vector<Real> share_;            ///< padded; empty unless damping acts pair by pair
   double time_ = 0;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;

@@ -114,8 +114,8 @@ double NearPieces::fastest_approach(std::size_t piece, std::size_t other) const 
   const Field &one = fields_[piece], &two = fields_[other];
   const Vec3& spin = pieces_[other].spin;
   const Vec3 there = two.velocity + spin.cross(one.middle - two.middle);
-  return std::min(one.speed + two.speed, (one.velocity - there).norm() +
-                                             (pieces_[piece].spin - spin).norm() * one.radius);
+  return std::min(one.speed + two.speed,
+                  (one.velocity - there).norm() + (pieces_[piece].spin - spin).norm() * one.radius);
 }
 
 /// The gap between two pieces, if particles of both may come within the outer range of each other
@@ -203,8 +203,7 @@ void NearPieces::copy_rates(std::size_t piece) {
     if (near.piece >= piece) break;
     if (!may_touch(near)) continue;
     const Near* known = found(near_[near.piece], static_cast<std::uint32_t>(piece));
-    near.rate =
-        known != nullptr ? known->rate : rate_between(pieces_[near.piece], pieces_[piece]);
+    near.rate = known != nullptr ? known->rate : rate_between(pieces_[near.piece], pieces_[piece]);
   }
 }
 
@@ -214,8 +213,7 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   drifted_ += most * time;
   traveled_ += (fastest_point_ + most) * time;
   ++steps_;
-  if (traveled_ > travel_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer)
-    return false;
+  if (traveled_ > travel_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer) return false;
   elapsed_ += time;
   for (std::size_t piece = 0; piece < gone_.size(); ++piece) gone_[piece] += fastest[piece] * time;
   parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {

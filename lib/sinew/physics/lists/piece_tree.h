@@ -45,8 +45,13 @@ class PieceTree {
                      const Visit& visit) const {
     if (levels_.empty() || levels_.back().empty()) return;
     const Vec3 across = one.axes.col(one.shortest);
-    const Query query{one.box, reach * reach, across, across.cwiseAbs(), across.dot(one.middle()),
-                      reach + one.along.sizes()[one.shortest] / 2, group};
+    const Query query{one.box,
+                      reach * reach,
+                      across,
+                      across.cwiseAbs(),
+                      across.dot(one.middle()),
+                      reach + one.along.sizes()[one.shortest] / 2,
+                      group};
     descend(levels_.size() - 1, 0, query, visit);
   }
 
