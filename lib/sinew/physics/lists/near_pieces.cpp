@@ -11,12 +11,12 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t pieces_per_task = 16;
-// Until the next survey, particles may travel by so much: in outer ranges, and in steps of the
-// fastest one.
+// Until the next survey, velocity fields may carry particles so far: in outer ranges, and in steps
+// of the fastest one.
 constexpr double least_travel = 0.125, travel_in_steps = 16;
-// Pieces are near if their velocity fields may bring them within reach before the next survey,
-// or particles that drift by half of this, in outer ranges.
-constexpr double drift_margin = 0.5;
+// And particles of a piece may leave its field by so much: in outer ranges, and times what they did
+// in the last step.
+constexpr double least_drift = 0.06, drift_in_steps = 1.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
 constexpr double jump = 0.06;
 // Surveys serve when particles have drifted by this share of the inner skin, but not every few
@@ -54,21 +54,35 @@ const NearPieces::Near* found(std::span<const NearPieces::Near> near, std::uint3
 
 }  // namespace
 
-NearPieces::Field NearPieces::field_of(const PieceNow& piece) const {
-  const Vec3 middle = piece.box.center(), velocity = piece.velocity_at(middle);
-  const double radius = piece.box.diagonal().norm() / 2 + std::sqrt(3.0) * travel_;
-  return {middle, velocity, radius, (velocity - common_).norm() + piece.spin.norm() * radius};
+NearPieces::Field NearPieces::field_of(std::size_t piece) const {
+  const PieceNow& now = pieces_[piece];
+  const Vec3 middle = now.box.center(), velocity = now.velocity_at(middle);
+  const double radius = now.box.diagonal().norm() / 2 + std::sqrt(3.0) * (travel_ + drift_[piece]);
+  return {middle, velocity, radius, (velocity - common_).norm() + now.spin.norm() * radius};
 }
 
 /// Relative to the common velocity, of any piece.
 double NearPieces::find_fields() {
   double fastest = 0;
   fields_.clear();
-  for (const PieceNow& piece : pieces_) {
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
     fields_.push_back(field_of(piece));
     fastest = std::max(fastest, fields_.back().speed);
   }
   return fastest;
+}
+
+/// How far particles may go until the next survey.
+void NearPieces::find_limits(double time) {
+  last_.resize(pieces_.size());
+  drift_.clear();
+  for (const double gone : last_)
+    drift_.push_back(jump * ranges_.outer +
+                     std::max(least_drift * ranges_.outer, drift_in_steps * ranges_.steps * gone));
+  travel_ = least_travel * ranges_.outer;
+  travel_ = std::max(travel_, travel_in_steps * find_fields() * time);
+  fastest_point_ = find_fields();
+  horizon_ = fastest_point_ > 0 ? travel_ / fastest_point_ : 0;
 }
 
 void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
@@ -90,11 +104,8 @@ void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
     common_ += piece.velocity_at(piece.box.center()) / static_cast<double>(pieces_.size());
   traveled_ = drifted_ = 0;
   steps_ = 0;
-  travel_ = least_travel * ranges_.outer;
-  travel_ = std::max(travel_, travel_in_steps * find_fields() * time);
-  fastest_point_ = find_fields();
-  horizon_ = fastest_point_ > 0 ? travel_ / fastest_point_ : 0;
-  tree_ = PieceTree(pieces_, bound_to_);
+  find_limits(time);
+  tree_ = PieceTree(pieces_, drift_, bound_to_);
   near_.resize(pieces_.size());
   spare_.assign(pieces_.size(), {});
   parallel_for(pieces_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
@@ -122,7 +133,7 @@ double NearPieces::fastest_approach(std::size_t piece, std::size_t other) const 
 /// before the next survey; else something larger than that range.
 double NearPieces::gap_within(std::size_t piece, std::size_t other) const {
   const PieceNow &one = pieces_[piece], &two = pieces_[other];
-  const double near = (1 + drift_margin) * ranges_.outer;
+  const double near = ranges_.outer + drift_[piece] + drift_[other];
   double reach = 0;  // found where something is not near
   const auto may_come_near = [&](double gap) {
     if (gap < near) return true;
@@ -138,7 +149,7 @@ double NearPieces::gap_within(std::size_t piece, std::size_t other) const {
 /// Calls visit(other, gap) for what is near a piece, but for what is bound to `group`.
 template <class Visit>
 void NearPieces::for_each_near(std::size_t piece, std::int32_t group, const Visit& visit) const {
-  const double reach = ((1 + drift_margin) * ranges_.outer + 2 * travel_) * (1 + 1e-6);
+  const double reach = (ranges_.outer + drift_[piece] + 2 * travel_) * (1 + 1e-6);
   tree_.for_each_near(pieces_[piece], reach, group, [&](std::uint32_t other) {
     if (const double gap = gap_within(piece, other); gap != unknown) visit(other, gap);
   });
@@ -173,9 +184,11 @@ void NearPieces::find_near(std::size_t piece) {
 
 /// Of approach of two pieces, in the region where particles of both may be within the outer range
 /// of each other before the next survey.
-float NearPieces::rate_between(const PieceNow& one, const PieceNow& other) const {
+float NearPieces::rate_between(std::size_t piece, std::size_t near) const {
+  const PieceNow &one = pieces_[piece], &other = pieces_[near];
   const double reach = ranges_.outer;
-  const Box here = expanded(one.box, travel_), there = expanded(other.box, travel_);
+  const Box here = expanded(one.box, travel_ + drift_[piece]);
+  const Box there = expanded(other.box, travel_ + drift_[near]);
   const double rate =
       std::min(largest_difference(one, other, here.intersection(expanded(there, reach))),
                largest_difference(one, other, there.intersection(expanded(here, reach))));
@@ -185,15 +198,13 @@ float NearPieces::rate_between(const PieceNow& one, const PieceNow& other) const
 /// To each piece near one, of those with lower numbers in the end. Where there is no region,
 /// nothing was used up.
 void NearPieces::find_rates(std::size_t piece) {
-  const PieceNow& one = pieces_[piece];
   for (Near& near : near_[piece]) {
-    const PieceNow& other = pieces_[near.piece];
     near.rate = 0;
     if (near.piece == piece) continue;
     const double apart = std::min(near.gap, ranges_.outer) - ranges_.force;
     near.outer = std::max(near.outer, apart);
     near.inner = std::max(near.inner, apart);
-    if (near.piece > piece && may_touch(near)) near.rate = rate_between(one, other);
+    if (near.piece > piece) near.rate = rate_between(piece, near.piece);
   }
 }
 
@@ -201,9 +212,8 @@ void NearPieces::find_rates(std::size_t piece) {
 void NearPieces::copy_rates(std::size_t piece) {
   for (Near& near : near_[piece]) {
     if (near.piece >= piece) break;
-    if (!may_touch(near)) continue;
     const Near* known = found(near_[near.piece], static_cast<std::uint32_t>(piece));
-    near.rate = known != nullptr ? known->rate : rate_between(pieces_[near.piece], pieces_[piece]);
+    near.rate = known != nullptr ? known->rate : rate_between(near.piece, piece);
   }
 }
 
@@ -211,11 +221,16 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
   double most = 0;
   for (const double one : fastest) most = std::max(most, one);
   drifted_ += most * time;
-  traveled_ += (fastest_point_ + most) * time;
-  ++steps_;
-  if (traveled_ > travel_ * (1 + 1e-9) || 2 * drifted_ > drift_margin * ranges_.outer) return false;
+  traveled_ += fastest_point_ * time;
   elapsed_ += time;
-  for (std::size_t piece = 0; piece < gone_.size(); ++piece) gone_[piece] += fastest[piece] * time;
+  ++steps_;
+  bool within = traveled_ <= travel_ * (1 + 1e-9);
+  for (std::size_t piece = 0; piece < gone_.size(); ++piece) {
+    last_[piece] = fastest[piece] * time;
+    gone_[piece] += last_[piece];
+    within = within && gone_[piece] <= drift_[piece];
+  }
+  if (!within) return false;
   parallel_for(pieces_.size(), 8 * pieces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       Spare& spare = spare_[piece];
@@ -267,15 +282,15 @@ void NearPieces::sort_out() {
 
 Box NearPieces::box_of(std::size_t piece, double elapsed) const {
   const Vec3 displacement = elapsed * common_;
-  return expanded(pieces_[piece].box, traveled_).translate(displacement);
+  return expanded(pieces_[piece].box, traveled_ + gone_[piece]).translate(displacement);
 }
 
 bool NearPieces::survey_due() const {
   // A step may take particles as far again as the last one did, or farther.
-  const auto soon = [&](double gone) {
-    return gone + std::max(steps_ > 0 ? gone / steps_ : 0, jump * ranges_.outer);
-  };
-  return soon(traveled_) > travel_ || 2 * soon(drifted_) > drift_margin * ranges_.outer ||
+  for (std::size_t piece = 0; piece < gone_.size(); ++piece)
+    if (gone_[piece] + std::max(last_[piece], jump * ranges_.outer) > drift_[piece]) return true;
+  const double per_step = steps_ > 0 ? traveled_ / steps_ : 0;
+  return traveled_ + per_step > travel_ ||
          (steps_ >= ranges_.steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
 }
 
@@ -291,7 +306,8 @@ void NearPieces::listed(std::size_t piece) {
 
 void NearPieces::pruned(std::size_t piece) {
   for (Near& near : near_[piece]) {
-    const double apart = std::min(near.gap - 2 * traveled_, ranges_.outer) - ranges_.force;
+    const double nearer = 2 * traveled_ + gone_[piece] + gone_[near.piece];
+    const double apart = std::min(near.gap - nearer, ranges_.outer) - ranges_.force;
     const double used = used_of(piece, near);
     near.inner = used + std::max(apart, std::min(ranges_.inner - ranges_.force, near.outer - used));
   }

@@ -105,14 +105,15 @@ class NearPieces {
     double speed;           ///< relative to the common velocity, at most
   };
 
-  Field field_of(const PieceNow& piece) const;
+  Field field_of(std::size_t piece) const;
   double find_fields();
+  void find_limits(double time);
   void find_near(std::size_t piece);
   double fastest_approach(std::size_t piece, std::size_t other) const;
   double gap_within(std::size_t piece, std::size_t other) const;
   template <class Visit>
   void for_each_near(std::size_t piece, std::int32_t group, const Visit& visit) const;
-  float rate_between(const PieceNow& one, const PieceNow& other) const;
+  float rate_between(std::size_t piece, std::size_t near) const;
   void find_rates(std::size_t piece);
   void copy_rates(std::size_t piece);
   void settle(std::size_t piece);
@@ -122,8 +123,6 @@ class NearPieces {
   double used_of(std::size_t piece, const Near& near) const {
     return gone_[piece] + gone_[near.piece] + static_cast<double>(near.rate) * elapsed_;
   }
-  /// Whether particles of both may be within the outer range before the next survey.
-  bool may_touch(const Near& near) const { return near.gap < ranges_.outer + 2 * travel_; }
   std::int32_t group_of(std::size_t piece) const {
     return bound_to_.empty() ? unbound : bound_to_[piece];
   }
@@ -143,17 +142,19 @@ class NearPieces {
   std::vector<Field> fields_;            ///< by piece
   std::vector<std::vector<Near>> near_;  ///< by piece, ascending: those not bound to it
   Vec3 common_ = Vec3::Zero();
-  // Relative to the common velocity:
-  double fastest_point_ = 0;  ///< of any piece as a rigid body
-  double travel_ = 0;         ///< of any particle before the next survey, at most
-  double horizon_ = 0;        ///< until the next survey, if pieces move as rigid bodies
-  double traveled_ = 0;       ///< by any particle since the survey, at most
-  double drifted_ = 0;        ///< relative to the velocity fields since the survey, at most
-  int steps_ = 0;             ///< since the survey
+  // Relative to the common velocity, of any piece as a rigid body:
+  double fastest_point_ = 0;
+  double travel_ = 0;    ///< before the next survey, at most
+  double horizon_ = 0;   ///< until the next survey
+  double traveled_ = 0;  ///< since the survey, at most
+  // By piece, of particles relative to its velocity field, at most:
+  std::vector<double> drift_;  ///< before the next survey
+  std::vector<double> gone_;   ///< since the survey
+  std::vector<double> last_;   ///< in the last step
+  double drifted_ = 0;         ///< of any piece, since the survey
+  double elapsed_ = 0;         ///< since the survey
+  int steps_ = 0;              ///< since the survey
   std::vector<Spare> spare_;
-  /// By piece, how far any particle has gone from its velocity field since the survey, at most.
-  std::vector<double> gone_;
-  double elapsed_ = 0;  ///< since the survey
   std::vector<std::uint32_t> to_list_, to_prune_, to_look_at_;
 };
 

@@ -24,10 +24,15 @@ double gap_across(const PieceNow& one, const PieceNow& other) {
          one.along.sizes()[one.shortest] / 2 - reach;
 }
 
-PieceTree::PieceTree(const std::vector<PieceNow>& pieces, std::span<const std::int32_t> bound_to)
+PieceTree::PieceTree(const std::vector<PieceNow>& pieces, std::span<const double> drift,
+                     std::span<const std::int32_t> bound_to)
     : levels_(1) {
-  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
-    levels_[0].push_back({pieces[piece].box, bound_to.empty() ? none : bound_to[piece]});
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    const Vec3 more = Vec3::Constant(drift[piece]);
+    const Box& box = pieces[piece].box;
+    levels_[0].push_back({Box(Vec3(box.min() - more), Vec3(box.max() + more)),
+                          bound_to.empty() ? none : bound_to[piece]});
+  }
   while (levels_.back().size() > 1) {
     const std::vector<Node>& below = levels_.back();
     std::vector<Node> level;

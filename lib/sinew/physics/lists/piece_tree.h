@@ -34,12 +34,13 @@ double gap_across(const PieceNow& one, const PieceNow& other);
 class PieceTree {
  public:
   PieceTree() = default;
-  /// `bound_to`: by piece, those with the same number are bound to each other, but for -1; empty:
-  /// none are.
-  PieceTree(const std::vector<PieceNow>& pieces, std::span<const std::int32_t> bound_to);
+  /// By piece, `drift`: how much farther particles may be than its box; `bound_to`: those with the
+  /// same number are bound to each other, but for -1; empty: none are.
+  PieceTree(const std::vector<PieceNow>& pieces, std::span<const double> drift,
+            std::span<const std::int32_t> bound_to);
 
-  /// Calls visit(other) for the pieces, itself included, that may be within `reach` of one,
-  /// ascending; but not for those that are bound to `group`.
+  /// Calls visit(other) for the pieces, itself included, that may come within `reach` of one's
+  /// boxes, ascending; but not for those that are bound to `group`.
   template <class Visit>
   void for_each_near(const PieceNow& one, double reach, std::int32_t group,
                      const Visit& visit) const {
