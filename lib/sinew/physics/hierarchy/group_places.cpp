@@ -6,6 +6,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/physics/hierarchy/groups.h>
+#include <sinew/physics/lists/piece_parts.h>
 
 namespace sinew {
 namespace {
@@ -153,15 +154,15 @@ template <class Real>
 void Groups<Real>::find_boxes() {
   boxes_.clear();
   box_of_.assign(of_piece_.size(), 0);
-  constexpr std::size_t size = blocks_per_piece * block;
-  for (std::size_t piece = 0; piece < of_piece_.size(); ++piece) {
+  const PieceParts parts = piece_parts(*body_, id_, block);
+  for (std::uint32_t part = 0; part < parts.size(); ++part) {
     const std::size_t first = boxes_.size();
-    box_of_[piece] = static_cast<std::uint32_t>(first);
-    for_each_run(piece * size, (piece + 1) * size, [&](const Run& run) {
+    const std::uint32_t piece = parts.piece[part];
+    if (parts.of_piece[piece] == part) box_of_[piece] = static_cast<std::uint32_t>(first);
+    for_each_run(parts.first[part], parts.first[part + 1], [&](const Run& run) {
       std::size_t at = first;
       while (at < boxes_.size() && boxes_[at].group != run.group) ++at;
-      if (at == boxes_.size())
-        boxes_.push_back({static_cast<std::uint32_t>(piece), run.group, Box()});
+      if (at == boxes_.size()) boxes_.push_back({piece, part, run.group, Box()});
       for (std::size_t k = run.begin; k < run.end; ++k) boxes_[at].box.extend(place_at_rest(k));
     });
   }

@@ -215,7 +215,7 @@ void Groups<Real>::bound(const Units& units, bool drift_first, const kernel::Par
   for (const PieceBox& one : boxes_) {
     const auto g = static_cast<std::size_t>(one.group);
     const Motion &now = motions_[g], &moving = drift_first ? now : next_[g];
-    const auto& field = parts.motions[one.piece];
+    const auto& field = parts.motions[one.part];
     Vec3 center, velocity;
     Mat3 turning;
     const auto spin = [&](int axis) { return static_cast<double>(field.spin[axis]); };
@@ -232,7 +232,7 @@ void Groups<Real>::bound(const Units& units, bool drift_first, const kernel::Par
                             reach * (speed * moving.V - turning * now.F / units.length).norm();
     const double absolute = drifting.norm() + reach * speed * moving.V.norm();
     kernel::Totals& piece = totals[one.piece];
-    Real& fastest = parts.fastest[one.piece];
+    Real& fastest = parts.fastest[one.part];
     fastest = std::max(fastest, static_cast<Real>(relative * relative * (1 + 1e-6)));
     piece.speed2 = std::max(piece.speed2, absolute * absolute);
   }

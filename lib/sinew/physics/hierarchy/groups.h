@@ -152,9 +152,9 @@ class Groups {
     void add(const Vec3& force, const Vec3& X) { f += force, fX += force * X.transpose(); }
     void add(const double* moments);
   };
-  /// Around the places at rest of a group's particles in a piece.
+  /// Around the places at rest of a group's particles in a part of a piece.
   struct PieceBox {
-    std::uint32_t piece;
+    std::uint32_t piece, part;
     std::int32_t group;
     Box box;
   };

@@ -287,12 +287,16 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
            sum_of<L>(sums.pulled)}};
 }
 
-/// Of parts of a piece after it has moved.
+/// Of parts of a piece after it has moved, but for blocks of groups alone.
 template <class L>
 [[gnu::noinline]] void track_parts(const Step<typename L::Real>& step, std::uint32_t begin,
                                    std::uint32_t end) {
   const Parts<typename L::Real>& parts = step.parts;
   const auto& drifting = step.drift_first ? step.before.v : step.after.v;
+  const auto counts = [&](std::uint32_t k) {
+    return step.grouped.role == nullptr ||
+           step.grouped.whole[k / Traits<typename L::Real>::block] == 0;
+  };
   for (std::uint32_t part = begin; part < end; ++part) {
     typename L::Real fastest = 0, speed2[L::width];
     const std::uint32_t last = parts.first[part + 1];
@@ -300,7 +304,7 @@ template <class L>
       L::store(speed2, relative_speed2<L>(parts.motions[part], load_place<L>(step.before.x, k),
                                           load<L>(drifting, k)));
       for (std::uint32_t lane = 0; lane < L::width && k + lane < last; ++lane)
-        fastest = speed2[lane] > fastest ? speed2[lane] : fastest;
+        fastest = counts(k + lane) && speed2[lane] > fastest ? speed2[lane] : fastest;
     }
     parts.fastest[part] = fastest;
   }

@@ -125,8 +125,8 @@ kernel::Step<Real> ListStepper<Real>::job() {
 
 template <class Real>
 void ListStepper<Real>::on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run) {
-  const bool uneven = surroundings_.any() && totals_.size() >= 2 * pieces_per_thread;
-  if (uneven)  // what they touch takes longer
+  const bool uneven = surroundings_.any() || groups_.any();
+  if (uneven && totals_.size() >= 2 * pieces_per_thread)  // what is touched takes longer
     parallel_for(totals_.size(), pieces_at_a_time, run);
   else
     parallel_split(totals_.size(), pieces_per_thread, run);

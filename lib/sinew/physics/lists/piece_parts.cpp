@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/kernel/kernel.h>
 
 namespace sinew {
@@ -12,14 +13,21 @@ namespace {
 // Fewer move with the part before them.
 constexpr std::size_t least_size = 4;
 
-/// Where particles of another bone begin.
-std::vector<std::size_t> begins_of_bones(const Body& body, std::span<const std::int32_t> id) {
+/// What a particle moves with: its group, or else its bone.
+std::int32_t leader_of(const Body& body, std::size_t i) {
+  if (body.grouping && body.grouping->group[i] >= 0)
+    return static_cast<std::int32_t>(body.skeleton.size()) + body.grouping->group[i];
+  return body.binding.first.empty() ? no_bone : body.binding.bone(i);
+}
+
+/// Where particles with another leader begin.
+std::vector<std::size_t> begins_of_leaders(const Body& body, std::span<const std::int32_t> id) {
   std::vector<std::size_t> begins;
-  int before = 0;
+  std::int32_t before = 0;
   for (std::size_t k = 0; k < id.size(); ++k) {
-    const int bone = body.binding.bone(static_cast<std::size_t>(id[k]));
-    if (k == 0 || bone != before) begins.push_back(k);
-    before = bone;
+    const std::int32_t leader = leader_of(body, static_cast<std::size_t>(id[k]));
+    if (k == 0 || leader != before) begins.push_back(k);
+    before = leader;
   }
   return begins;
 }
@@ -47,10 +55,10 @@ PieceParts divided(std::size_t count, std::size_t size, std::vector<std::size_t>
 
 PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::size_t block) {
   const std::size_t size = block * kernel::blocks_per_piece, pieces = (id.size() + size - 1) / size;
-  std::vector<std::size_t> begins;
-  if (!body.grouping && !body.binding.first.empty()) begins = begins_of_bones(body, id);
+  const std::size_t groups = body.grouping ? body.grouping->size() : 0;
+  std::vector<std::size_t> begins = begins_of_leaders(body, id);
   // Where bones alternate, as in a body that has been sorted into columns, parts would be many.
-  if (begins.size() > pieces + 2 * body.skeleton.size()) begins.clear();
+  if (begins.size() > pieces + 2 * (body.skeleton.size() + groups)) begins.clear();
   PieceParts parts = divided(id.size(), size, std::move(begins));
   for (std::size_t k = 0, part = 0; k < id.size(); k += block) {
     while (parts.first[part + 1] <= k) ++part;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of pieces that move on their own: particles of different bones, which follow each other in
-// memory, may share a piece of the kernel's blocks. Whose lists are valid is judged by parts.
+// Parts of pieces that move on their own: particles of different bones or groups, which follow each
+// other in memory, may share a piece of the kernel's blocks. Whose lists are valid is judged by
+// parts.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +22,8 @@ struct PieceParts {
   std::size_t size() const { return piece.size(); }
 };
 
-/// Of particles `id` in the kernel's order, `block` to a block. A part is of one bone, apart from a
-/// few particles; with groups, a piece is one part.
+/// Of particles `id` in the kernel's order, `block` to a block. A part is of one group, or
+/// of one bone and no group, apart from a few particles.
 PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::size_t block);
 
 }  // namespace sinew

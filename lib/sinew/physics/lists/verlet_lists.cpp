@@ -101,12 +101,21 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   listed_at_.assign(pieces, Mat3::Identity());
   pruned_at_.assign(pieces, Mat3::Identity());
   looked_.assign(pieces, 0);
-  near_ = NearPieces(ranges_, groups.of_piece, looks_);
+  near_ = NearPieces(ranges_, groups_of_parts(groups), looks_);
   survey(state, groups);
   std::vector<std::uint32_t> some;
   for (std::size_t piece = 0; piece < pieces; piece += nth)
     some.push_back(static_cast<std::uint32_t>(piece));
   list(state, bonds, some, groups);
+}
+
+/// Those of pieces of one group alone; empty without groups.
+template <class Real>
+std::vector<std::int32_t> VerletLists<Real>::groups_of_parts(const GroupedParticles& groups) const {
+  std::vector<std::int32_t> of_parts;
+  for (const std::uint32_t piece : of_.piece)
+    if (!groups.of_piece.empty()) of_parts.push_back(groups.of_piece[piece]);
+  return of_parts;
 }
 
 /// What lists of these pieces are made from.

@@ -97,6 +97,7 @@ class VerletLists {
   std::vector<std::uint32_t> pieces_near(std::size_t piece) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
             const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups);
+  std::vector<std::int32_t> groups_of_parts(const GroupedParticles& groups) const;
   void show_around(const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups) const;
   void add_strained(const GroupedParticles& groups, std::vector<std::uint32_t>& to_list,
                     std::vector<std::uint32_t>& to_prune) const;
