@@ -181,7 +181,7 @@ struct HierarchySettings {
   bool enabled = false;
   bool dynamic = false;
   double joint_distance = 1;
-  double tolerance = 0.03;
+  double tolerance = 0.05;
 };
 
 struct OutputSettings {

@@ -24,7 +24,7 @@ struct DynamicOptions {
   double joint_distance = 1;  ///< of joints that move, as in StaticGroups
   /// In radii. What joins a group is moved by less (root mean square, half as much where it was
   /// free); what leaves it would be, by the forces that hold it there.
-  double tolerance = 0.03;
+  double tolerance = 0.05;
   std::size_t least = 4096;  ///< particles of a group
 };
 
