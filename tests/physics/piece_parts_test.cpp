@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts divide the pieces at the bones, whatever the order of the particles.
+// Parts divide the pieces at bones and groups, whatever the order of the particles.
 #include <sinew/physics/lists/piece_parts.h>
 
 #include <numeric>
+#include <set>
 
+#include <sinew/core/triangles.h>
+#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/particle_order.h>
 
@@ -21,13 +24,16 @@ struct Ordered {
   int bone(std::size_t k) const { return body.binding.bone(static_cast<std::size_t>(id[k])); }
 };
 
-Ordered in_order_at_rest() {
-  const Points rest = test::fcc_box(11, 11, 49, r);
-  Ordered all{test::make_body(test::box_scene(49), rest), {}};
-  std::vector<std::int32_t> given(rest.size());
+Ordered in_order_at_rest(Body body) {
+  Ordered all{std::move(body), {}};
+  std::vector<std::int32_t> given(all.body.rest.size());
   std::iota(given.begin(), given.end(), 0);
   for (const std::uint32_t place : order_at_rest(all.body, given)) all.id.push_back(given[place]);
   return all;
+}
+
+Ordered in_order_at_rest() {
+  return in_order_at_rest(test::make_body(test::box_scene(49), test::fcc_box(11, 11, 49, r)));
 }
 
 void expect_division(const PieceParts& parts, std::size_t count) {
@@ -58,6 +64,33 @@ TEST(PieceParts, AreOfOneBoneInABodyAtRest) {
   for (std::size_t part = 0; part < parts.size(); ++part)
     for (std::size_t k = parts.first[part]; k < parts.first[part + 1]; ++k)
       ASSERT_EQ(all.bone(k), all.bone(parts.first[part])) << k;
+}
+
+TEST(PieceParts, AreOfOneGroupOrOfOneBoneAndNone) {
+  const Points rest = test::fcc_box(11, 11, 49, r);
+  Body body = test::make_body(test::box_scene(49), rest);
+  const double middle = bounds(rest).center().z();
+  std::vector<std::int32_t> group;
+  for (const Vec3& X : rest)
+    group.push_back(std::abs(X.z() - middle) < 10 * r ? -1 : X.z() < middle ? 0 : 1);
+  body.grouping = std::make_shared<const Grouping>(make_grouping(body, group));
+  const Ordered all = in_order_at_rest(std::move(body));
+  const PieceParts parts = piece_parts(all.body, all.id, block);
+  expect_division(parts, all.id.size());
+  const auto leader = [&](std::size_t k) {
+    const std::int32_t own = all.body.grouping->group[static_cast<std::size_t>(all.id[k])];
+    return std::pair(own, own < 0 ? all.bone(k) : 0);
+  };
+  std::set<std::pair<std::int32_t, int>> leaders;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const auto most = leader((parts.first[part] + parts.first[part + 1]) / 2);
+    leaders.insert(most);
+    int others = 0;
+    for (std::size_t k = parts.first[part]; k < parts.first[part + 1]; ++k)
+      if (leader(k) != most) ++others;
+    EXPECT_LT(others, 8) << part;  // a few at either end
+  }
+  EXPECT_EQ(leaders.size(), 4u);
 }
 
 TEST(PieceParts, ArePiecesWhereBonesAlternate) {

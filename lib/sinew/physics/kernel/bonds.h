@@ -284,22 +284,18 @@ SINEW_INLINE PairSums<L> partner_sums(const Step<typename L::Real>& step, const 
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   Met<L> met;
   PairSums<L> sums;
-  const auto sum = [&]() __attribute__((always_inline)) {
-    sums = sum_partners<L, pairs, pass, energy, energy>(step, law, block, lane, met);
-    return needs_care(law, met, sums.force.x);
-  };
-  if constexpr (pass == counts || energy)
-    sum();
-  else
-    sum_with_care<L>(
-        step, i, sum, [&]() __attribute__((always_inline)) {
-          PairSums<L> careful;
-          Met<L> all;
-          const bool needed =
-              sum_partners_carefully<L, pairs, pass>(step, block, lane, careful, all);
-          sums = careful, met = all;
-          return needed;
-        });
+  sum_with_care<L, pass, energy>(
+      step, i, sums,
+      [&]() __attribute__((always_inline)) {
+        sums = sum_partners<L, pairs, pass, energy, energy>(step, law, block, lane, met);
+        return needs_care(law, met, sums.force.x);
+      },
+      [&](PairSums<L> & all) __attribute__((always_inline)) {
+        Met<L> of_all;
+        const bool needed = sum_partners_carefully<L, pairs, pass>(step, block, lane, all, of_all);
+        met = of_all;
+        return needed;
+      });
   strained = pairs == changing_springs && L::any(L::less(L::all(0), met.strained));
   return sums;
 }

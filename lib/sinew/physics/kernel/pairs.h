@@ -271,18 +271,27 @@ template <class L, Pass pass>
   return law.needs_care(least, careful.force.x);
 }
 
-/// Sums of the vector at i, which need care in a few places of a body, mostly where they did in the
-/// step before. Both functions make them, and tell whether they needed it.
-template <class L, class Fast, class Careful>
+/// Makes the sums of the vector at i, which need care in a few places of a body, mostly where they
+/// did in the step before: careful(sums) repeats what fast() has done. Both tell whether they
+/// needed it. What is counted or probed is not repeated.
+template <class L, Pass pass, bool energy, class Fast, class Careful>
 SINEW_INLINE void sum_with_care(const Step<typename L::Real>& step, std::ptrdiff_t i,
-                                const Fast& fast, const Careful& careful) {
-  if constexpr (sizeof(typename L::Real) == 4) {
+                                PairSums<L>& sums, const Fast& fast, const Careful& careful) {
+  const auto repeat = [&]() __attribute__((always_inline)) {
+    PairSums<L> repeated;
+    const bool needed = careful(repeated);
+    sums = repeated;
+    return needed;
+  };
+  if constexpr (pass == counts || energy) {
+    fast();
+  } else if constexpr (sizeof(typename L::Real) == 4) {
     if (fast()) [[unlikely]]
-      careful();
+      repeat();
   } else {
     std::uint8_t& cared = step.careful[i / L::width];
     if (cared != 0 || fast()) [[unlikely]]
-      cared = careful() ? 1 : 0;
+      cared = repeat() ? 1 : 0;
   }
 }
 
@@ -293,20 +302,15 @@ SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const Pul
                                    const std::int32_t* end) {
   typename L::V least;
   PairSums<L> sums;
-  const auto sum = [&]() __attribute__((always_inline)) {
-    sums = sum_pairs<L, pass, energy, energy>(step, law, i, begin, end, least);
-    return law.needs_care(least, sums.force.x);
-  };
-  if constexpr (pass == counts || energy)
-    sum();
-  else
-    sum_with_care<L>(
-        step, i, sum, [&]() __attribute__((always_inline)) {
-          PairSums<L> careful;
-          const bool needed = sum_pairs_carefully<L, pass>(step, i, begin, end, careful);
-          sums = careful;
-          return needed;
-        });
+  sum_with_care<L, pass, energy>(
+      step, i, sums,
+      [&]() __attribute__((always_inline)) {
+        sums = sum_pairs<L, pass, energy, energy>(step, law, i, begin, end, least);
+        return law.needs_care(least, sums.force.x);
+      },
+      [&](PairSums<L> & all) __attribute__((always_inline)) {
+        return sum_pairs_carefully<L, pass>(step, i, begin, end, all);
+      });
   return sums;
 }
 
