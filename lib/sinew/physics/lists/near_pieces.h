@@ -11,11 +11,11 @@
 // pieces can meet. What pairs of pieces have used up of the skins is added step by step, so the
 // lists of a piece are made again when its own surroundings have changed, and not before.
 //
-// What are pieces here are parts of those of the kernel, where these are of several bones
+// What are pieces here are parts of those of the kernel, where these are of several bones or groups
 // (piece_parts.h).
 //
 // Pieces that are bound to each other, because all of their particles are of one group
-// (../hierarchy/groups.h), are left to the caller.
+// (../hierarchy/groups.h), are left to the caller, and looked up only when it asks.
 //
 //     NearPieces near(ranges, group_of_pieces);
 //     near.survey(pieces, time);    // now and then: how the pieces move

@@ -3,6 +3,8 @@
 // finds what is near a piece, whose neighbors in memory are mostly its neighbors in space.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -18,7 +18,7 @@ namespace {
 // longer.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
 constexpr double outer_skin_of_contacts = 0.9, inner_skin_of_contacts = 0.3;
-// Steps between surveys: what lasts longer need not be judged as well.
+// Steps between surveys, by measurement: lists of contacts last longer.
 constexpr int survey_steps = 8, survey_steps_of_contacts = 16;
 constexpr std::size_t pieces_at_a_time = 4;
 constexpr std::size_t pieces_in_sample = 256;
