@@ -235,6 +235,7 @@ enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
 enum class Method { dynamic, static_equilibrium };
 enum class Precision { binary64, binary32 };
 enum class NeighborSearch { lists, cells };
+enum class GroupForm { affine, cubic };
 
 enum class Encoding { zlib, lz4, raw, none };
 

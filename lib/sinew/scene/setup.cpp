@@ -9,6 +9,7 @@
 #include <sinew/core/text.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/physics/held_motion.h>
+#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/hierarchy/static_groups.h>
 #include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/rig/motion.h>
@@ -182,6 +183,9 @@ void refuse_free(const Settings& settings, const Body& body) {
 
 namespace {
 
+// Free up to here from joints, in square roots of the cross-section.
+constexpr double affine_distance = 1, cubic_distance = 0.65;
+
 void check_groups(const Settings& settings, const Body& body) {
   const Place place = settings.place("hierarchy.enabled");
   if (settings.body.packing != Packing::fcc)
@@ -194,6 +198,27 @@ void check_groups(const Settings& settings, const Body& body) {
     throw bad_input(place, "the paper's cells have no groups",
                     "set solver.neighbor_search to lists, or hierarchy.enabled to false");
   with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
+  if (settings.hierarchy.motion != GroupForm::cubic) return;
+  const Place motion = settings.place("hierarchy.motion");
+  if (settings.hierarchy.dynamic)
+    throw bad_input(motion, "groups that change move affinely",
+                    "set hierarchy.motion to auto, or hierarchy.dynamic to false");
+  if (!may_bend(body))
+    throw bad_input(motion,
+                    "only in bonded bodies without volume terms, pairwise damping and obstacles do "
+                    "groups move by cubics",
+                    "set hierarchy.motion to auto");
+}
+
+/// Groups are cubic where they may, unless the scene says otherwise.
+StaticGroups static_options(const Settings& settings, const Body& body) {
+  const HierarchySettings& asked = settings.hierarchy;
+  StaticGroups options;
+  options.joint_distance = asked.joint_distance.value_or(affine_distance);
+  if (asked.motion == GroupForm::affine || !may_bend(body)) return options;
+  options.cubic_distance = asked.joint_distance.value_or(cubic_distance);
+  options.joint_distance = std::max(options.joint_distance, affine_distance);
+  return options;
 }
 
 /// None where the scene asks for none.
@@ -203,9 +228,8 @@ std::shared_ptr<const Grouping> grouping_of(const Settings& settings, const Body
   check_groups(settings, body);
   if (settings.hierarchy.dynamic) return {};
   const auto moves = moving_joints(body.skeleton, motion, settings.solver.duration);
-  StaticGroups options;
-  options.joint_distance = settings.hierarchy.joint_distance;
-  return std::make_shared<const Grouping>(static_groups(body, moves, options));
+  return std::make_shared<const Grouping>(
+      static_groups(body, moves, static_options(settings, body)));
 }
 
 }  // namespace
@@ -228,7 +252,8 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.weights_given = settings.binding.method == BindMethod::file;
   setup.body.grouping = grouping_of(settings, setup.body, setup.motion);
   if (settings.hierarchy.enabled && settings.hierarchy.dynamic)
-    setup.dynamic_groups = {settings.hierarchy.joint_distance, settings.hierarchy.tolerance};
+    setup.dynamic_groups = {settings.hierarchy.joint_distance.value_or(affine_distance),
+                            settings.hierarchy.tolerance};
   if (is_static(settings)) {
     refuse_free(settings, setup.body);
     setup.body = undamped(std::move(setup.body));

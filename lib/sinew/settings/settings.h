@@ -180,7 +180,8 @@ struct SolverSettings {
 struct HierarchySettings {
   bool enabled = false;
   bool dynamic = false;
-  double joint_distance = 1;
+  std::optional<GroupForm> motion;
+  std::optional<double> joint_distance;
   double tolerance = 0.05;
 };
 

@@ -309,12 +309,17 @@ std::vector<Field<Settings>> make_hierarchy() {
   using S = Settings;
   return {
       field<S>("hierarchy", "enabled", SINEW_AT(S, hierarchy.enabled), "",
-               "particles far from joints that move are grouped, and each group moves affinely; "
-               "forces within groups are zero and are not computed; fcc only"),
+               "particles far from joints that move are grouped, and groups move by polynomials "
+               "of the place at rest; forces within them are not computed; fcc only"),
       field<S>("hierarchy", "dynamic", SINEW_AT(S, hierarchy.dynamic), "",
                "groups change: cells join that move affinely, and leave where forces tear"),
+      choice<S>("hierarchy", "motion", SINEW_AT(S, hierarchy.motion), {"affine", "cubic"},
+                "of groups; cubic: large ones bend, in bonded bodies that keep their groups; auto: "
+                "cubic there, else affine"),
       field<S>("hierarchy", "joint_distance", SINEW_AT(S, hierarchy.joint_distance), "sqrt(A)",
-               "free up to here from joints that move, along the bone", not_negative),
+               "free up to here from joints that move, along the bone; auto: 0.65 for cubic "
+               "groups, 1 for affine ones",
+               not_negative),
       field<S>("hierarchy", "tolerance", SINEW_AT(S, hierarchy.tolerance), "r",
                "what may join dynamic groups is off by less; what leaves would be", positive),
   };

@@ -27,7 +27,7 @@ inline constexpr int nearest_sites = 12, near_sites = 18;
 /// for those whose neighbors move with them.
 bool has_affine_forces(const Body& body);
 
-/// Sums over particles at X (m) of what depends on their neighbors at rest.
+/// Sums over particles at places X, in any units, of what depends on their neighbors at rest.
 struct AffineMoments {
   std::array<double, near_sites> bonds{};  ///< factors on their stiffness, by direction
   std::array<Vec3, near_sites> bonds_X;    ///< times X
@@ -44,7 +44,7 @@ struct AffineMoments {
   AffineMoments& add(const AffineMoments& other, double times);
 };
 
-/// Sums of forces (N), and of them times X (N m).
+/// Sums of forces (N), and of them times X.
 struct AffineSum {
   Vec3 f = Vec3::Zero();
   Mat3 fX = Mat3::Zero();
@@ -57,6 +57,8 @@ class AffineForces {
 
   /// The place of a neighbor among the sites, from one particle to it, or -1: at no site.
   int site_of(const Vec3& from_to) const;
+  /// From a particle to each, m.
+  const Points& sites() const { return site_; }
   AffineMoments moments_of(std::uint32_t i, const Vec3& X) const;
 
   /// Between neighbors, without damping.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the particles of groups are: in memory, and in space.
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include <sinew/core/parallel.h>
+#include <sinew/physics/bond_factors.h>
 #include <sinew/physics/hierarchy/groups.h>
 #include <sinew/physics/lists/piece_parts.h>
 
@@ -15,33 +15,6 @@ using kernel::blocks_per_piece;
 
 constexpr std::size_t runs_per_placing = 16, pieces_per_showing = 16;
 constexpr std::uint32_t longest_run = 512, samples_at_a_time = 64;
-
-/// A whole number of 32 bits, rounded to the nearest; fast, and the same everywhere.
-std::int32_t whole_number(double value) {
-  constexpr double shift = 6755399441055744.0;  // 1.5 2^52: the last bit is 1
-  return static_cast<std::int32_t>(
-      static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(value + shift)));
-}
-
-template <class Coord>
-Coord coordinate(double value) {
-  if constexpr (sizeof(Coord) == 4)
-    return whole_number(value);
-  else
-    return value;
-}
-
-/// Puts c + F X, in any units, for places [begin, end).
-template <class To, class Round>
-void put_affine(const std::array<std::vector<double>, 3>& X, std::size_t begin, std::size_t end,
-                const Vec3& c, const Mat3& F, To* const to[3], const Round& round) {
-  const double *x = X[0].data(), *y = X[1].data(), *z = X[2].data();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double at = c[axis], a = F(axis, 0), b = F(axis, 1), d = F(axis, 2);
-    To* out = to[axis];
-    for (std::size_t k = begin; k < end; ++k) out[k] = round(at + (a * x[k] + b * y[k] + d * z[k]));
-  }
-}
 
 }  // namespace
 
@@ -74,16 +47,17 @@ void Groups<Real>::set_order(std::span<const std::int32_t> id) {
   const Grouping& grouping = *body_->grouping;
   id_.assign(id.begin(), id.end());
   group_.resize(id.size());
-  for (auto& axis : X_) axis.assign(id.size(), 0);
-  for (auto& axis : X_of_kernel_) axis.assign(id.size() + block, 0);
+  for (auto& axis : at_) axis.assign(id.size(), 0);
+  for (auto& axis : at_of_kernel_) axis.assign(id.size() + block, 0);
   for (std::size_t k = 0; k < id.size(); ++k) {
     const auto i = static_cast<std::size_t>(id[k]);
     group_[k] = grouping.group[i];
     if (group_[k] < 0) continue;
-    const Vec3 X = body_->rest[i] - shapes_[static_cast<std::size_t>(group_[k])].center;
+    const Shape& shape = shapes_[static_cast<std::size_t>(group_[k])];
+    const Vec3 at = shape.frame * (body_->rest[i] - shape.center);
     for (int axis = 0; axis < 3; ++axis) {
-      X_[axis][k] = X[axis];
-      X_of_kernel_[axis][k] = static_cast<Real>(X[axis]);
+      at_[axis][k] = at[axis];
+      at_of_kernel_[axis][k] = static_cast<Real>(at[axis]);
     }
   }
   find_roles();
@@ -103,8 +77,11 @@ void Groups<Real>::find_roles() {
   whole_.assign(blocks, 0);
   shown_.assign(pieces, -1);
   find_pieces(pieces);
+  strains_.assign(pieces, 0);
+  strained_until_.assign(pieces, -1);
+  working_.assign(pieces, 0);
   rim_.clear();
-  for (Shape& shape : shapes_) shape.idle = 0, shape.moment.setZero();
+  idle_sums_.assign(shapes_.size(), {});
   std::int32_t rows = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t begin = b * block, end = std::min(begin + block, group_.size());
@@ -117,13 +94,13 @@ void Groups<Real>::find_roles() {
     }
     if (!some) continue;
     role_[b] = all ? static_cast<std::int32_t>(kernel::idle) : rows++;
+    if (!all) working_[b / blocks_per_piece] = 1;
     asleep_[b] = all ? 1 : 0;
     whole_[b] = whole ? 1 : 0;
     for_each_run(begin, end, [&](Run run) {
       if (all) {
-        Shape& shape = shapes_[static_cast<std::size_t>(run.group)];
-        for (std::size_t k = run.begin; k < run.end; ++k)
-          shape.idle += 1, shape.moment += place_at_rest(k);
+        Terms& terms = idle_sums_[static_cast<std::size_t>(run.group)].terms;
+        for (std::size_t k = run.begin; k < run.end; ++k) terms += terms_at(place(k));
         return;
       }
       run.row = static_cast<std::int64_t>(role_[b]) * static_cast<std::int64_t>(block) +
@@ -162,9 +139,16 @@ void Groups<Real>::find_boxes() {
     for_each_run(parts.first[part], parts.first[part + 1], [&](const Run& run) {
       std::size_t at = first;
       while (at < boxes_.size() && boxes_[at].group != run.group) ++at;
-      if (at == boxes_.size()) boxes_.push_back({piece, part, run.group, Box()});
-      for (std::size_t k = run.begin; k < run.end; ++k) boxes_[at].box.extend(place_at_rest(k));
+      if (at == boxes_.size())
+        boxes_.push_back({piece, part, run.group, run.begin, run.end, Box(), Vec3::Zero()});
+      boxes_[at].end = run.end;
+      for (std::size_t k = run.begin; k < run.end; ++k) boxes_[at].box.extend(place(k));
     });
+  }
+  const double range = second_neighbor_range * body_->material.pair.r;
+  for (PieceBox& one : boxes_) {
+    const Mat3& frame = shapes_[static_cast<std::size_t>(one.group)].frame;
+    one.around = one.box.sizes() / 2 + range * frame.rowwise().norm();
   }
 }
 
@@ -176,17 +160,17 @@ void Groups<Real>::find_samples() {
   std::vector<SampledBlock> blocks;
   for (std::size_t b = 0; b < role_.size(); ++b) {
     if (role_[b] != kernel::idle) continue;
-    const std::size_t begin = b * block, end = std::min(begin + block, group_.size());
+    const std::size_t begin = b * block;
     const auto bone = body_->binding.bone(static_cast<std::size_t>(id_[begin])) + 1;
-    SampledBlock one{
-        static_cast<std::uint32_t>(b),
-        static_cast<std::uint64_t>(group_[begin]) << 32 | static_cast<std::uint32_t>(bone),
-        {}};
-    const double extent = shapes_[static_cast<std::size_t>(group_[begin])].extent;
-    for (std::size_t k = begin; k < end; ++k) add_moments(place_at_rest(k) / extent, one.moments);
-    blocks.push_back(one);
+    blocks.push_back(
+        {static_cast<std::uint32_t>(b),
+         static_cast<std::uint64_t>(group_[begin]) << 32 | static_cast<std::uint32_t>(bone)});
   }
-  samples_ = quadrature_over(blocks);
+  samples_ = quadrature_over(blocks, [&](std::uint32_t b) {
+    QuarticTerms sum = QuarticTerms::Zero();
+    for (std::size_t k = b * block; k < (b + 1) * block; ++k) sum += quartic_terms_at(place(k));
+    return sum;
+  });
   sampled_.clear();
   for (std::uint32_t s = 0; s < samples_.block.size(); ++s) {
     always_[samples_.block[s]] = 1;
@@ -200,15 +184,17 @@ void Groups<Real>::find_samples() {
 
 template <class Real>
 void Groups<Real>::put(const Run& run, BlockState<Real>& state, const Units& units) const {
-  const Motion& motion = motions_[static_cast<std::size_t>(run.group)];
-  const auto arrays = state.arrays();
-  using Coord = typename BlockState<Real>::Coord;
-  put_affine(X_, run.begin, run.end, Vec3((motion.c - units.origin) / units.length),
-             Mat3(motion.F / units.length), arrays.x,
-             [](double value) { return coordinate<Coord>(value); });
-  const double speed = units.time / units.length;
-  put_affine(X_, run.begin, run.end, Vec3(speed * motion.v), Mat3(speed * motion.V), arrays.v,
-             [](double value) { return static_cast<Real>(value); });
+  const auto g = static_cast<std::size_t>(run.group);
+  const double inverse = 1 / units.length;
+  Coefficients x = inverse * motions_[g].x;
+  const Coefficients v = units.time * inverse * motions_[g].v;
+  x.row(0) -= inverse * units.origin.transpose();
+  kernel_.put[motions_of(g)]({state.arrays(),
+                              run.begin,
+                              run.end,
+                              {at_[0].data(), at_[1].data(), at_[2].data()},
+                              x.data(),
+                              v.data()});
 }
 
 /// The rim, and what a step reads of idle blocks.
@@ -278,6 +264,19 @@ void Groups<Real>::read_through(const BondLists<Real>& bonds, bool two_deep) {
       if (known[b] != 0) always_[b] = 1;
     }
   }
+  const InnerParticles inner = inner_particles();
+  if (!inner_ && std::find(inner.cubic.begin(), inner.cubic.end(), 1) != inner.cubic.end())
+    inner_.emplace(*body_, *affine_, bonds, inner);
+}
+
+template <class Real>
+InnerParticles Groups<Real>::inner_particles() const {
+  InnerParticles all{id_, group_, {at_[0], at_[1], at_[2]}, idle_, {}, {}};
+  for (const Shape& shape : shapes_) {
+    all.frames.push_back(shape.frame);
+    all.cubic.push_back(shape.cubic ? 1 : 0);
+  }
+  return all;
 }
 
 /// What the block's list reads.

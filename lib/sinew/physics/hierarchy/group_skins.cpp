@@ -28,14 +28,13 @@ void Groups<Real>::find_skins(std::int32_t rows) {
   skin_at_.assign(role_.size(), -1);
   watched_.assign(of_piece_.size(), {});
   watching_.clear();
-  for (Shape& shape : shapes_) shape.skin = {};
   if (!affine_) return;
   const std::vector<std::uint8_t>& skin = body_->grouping->skin;
   const auto has_skin = [&](std::size_t k) { return skin[static_cast<std::size_t>(id_[k])] != 0; };
   for (std::uint32_t b = 0; b < role_.size(); ++b) {
     bool some = false;
-    for (std::size_t k = b * block; may_idle(b) && k < (b + 1) * block; ++k)
-      some = some || has_skin(k);
+    if (!may_idle(b) || shapes_[static_cast<std::size_t>(group_[b * block])].cubic) continue;
+    for (std::size_t k = b * block; k < (b + 1) * block; ++k) some = some || has_skin(k);
     if (!some) continue;
     skin_at_[b] = static_cast<std::int32_t>(skins_.size());
     skins_.push_back({b, {}});
@@ -44,11 +43,10 @@ void Groups<Real>::find_skins(std::int32_t rows) {
     for (std::size_t s = begin; s < end; ++s)
       for (std::size_t k = skins_[s].block * block; k < (skins_[s].block + 1) * block; ++k)
         if (has_skin(k))
-          skins_[s].moments +=
-              affine_->moments_of(static_cast<std::uint32_t>(id_[k]), place_at_rest(k));
+          skins_[s].moments += affine_->moments_of(static_cast<std::uint32_t>(id_[k]), place(k));
   });
   for (const SkinBlock& one : skins_)
-    shapes_[static_cast<std::size_t>(group_[one.block * block])].skin += one.moments;
+    idle_sums_[static_cast<std::size_t>(group_[one.block * block])].skin += one.moments;
 }
 
 /// What the list has of others.
@@ -160,31 +158,35 @@ void Groups<Real>::wake(BlockState<Real>& state, const Units& units) {
     for (auto& axis : acceleration_) axis.resize(rows * block, 0);
 }
 
-/// What the kernel gathered on those that are awake takes the place of what follows from F.
+/// What the kernel gathered on those that are awake takes the place of what follows from the
+/// motion.
 template <class Real>
-void Groups<Real>::add_awake(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
-                             std::vector<Sum>& all, std::vector<Sum>& damping,
-                             std::vector<Shape>& shapes) {
+void Groups<Real>::add_awake(const BondLists<Real>& bonds, const kernel::Step<Real>& step,
+                             Sums& all, Sums& damping, std::vector<Idle>& idle,
+                             std::vector<GroupForces>& inner) {
+  if (awake_.empty()) return;
+  const InnerParticles particles = inner_particles();
   const double minus = -1;
   for (const std::uint32_t b : awake_) {
     const auto g = static_cast<std::size_t>(group_[b * block]);
     Run run{static_cast<std::uint32_t>(b * block), static_cast<std::uint32_t>((b + 1) * block),
             group_[b * block]};
     run.row = static_cast<std::int64_t>(role_[b]) * static_cast<std::int64_t>(block);
-    const Sum own = sum_of(run, kernel);
-    all[g].f += own.f, all[g].fX += own.fX;
+    all[g] += sum_of(run);
     kernel::PullSums pull;
-    kernel.pull(
+    kernel_.pull[motions_of(g)](
         step,
-        {&b, &minus, 1, {X_of_kernel_[0].data(), X_of_kernel_[1].data(), X_of_kernel_[2].data()}},
+        {&b,
+         &minus,
+         1,
+         {at_of_kernel_[0].data(), at_of_kernel_[1].data(), at_of_kernel_[2].data()}},
         pull);
-    all[g].add(pull.force);
-    damping[g].add(pull.damping);
-    sums_.power += pull.power;
-    sums_.lost += pull.lost;
-    if (skin_at_[b] >= 0) shapes[g].skin -= skins_[static_cast<std::size_t>(skin_at_[b])].moments;
-    for (std::size_t k = run.begin; k < run.end; ++k)
-      shapes[g].idle -= 1, shapes[g].moment -= place_at_rest(k);
+    add_pulls(pull, g, all, damping);
+    if (skin_at_[b] >= 0) idle[g].skin -= skins_[static_cast<std::size_t>(skin_at_[b])].moments;
+    for (std::size_t k = run.begin; k < run.end; ++k) idle[g].terms -= terms_at(place(k));
+    if (!shapes_[g].cubic) continue;
+    const GroupForces own = inner_->on(bonds, particles, b, motions_[g]);
+    inner[g].force -= own.force, inner[g].drag -= own.drag;
   }
 }
 
@@ -193,15 +195,15 @@ template void Groups<double>::watch(const kernel::Lists*, std::span<const std::u
                                     const BondLists<double>&,
                                     const std::function<bool(std::size_t)>&);
 template void Groups<double>::wake(BlockState<double>&, const Units&);
-template void Groups<double>::add_awake(const kernel::Functions<double>&,
-                                        const kernel::Step<double>&, std::vector<Sum>&,
-                                        std::vector<Sum>&, std::vector<Shape>&);
+template void Groups<double>::add_awake(const BondLists<double>&, const kernel::Step<double>&,
+                                        Sums&, Sums&, std::vector<Idle>&,
+                                        std::vector<GroupForces>&);
 template void Groups<float>::find_skins(std::int32_t);
 template void Groups<float>::watch(const kernel::Lists*, std::span<const std::uint32_t>,
                                    const BondLists<float>&,
                                    const std::function<bool(std::size_t)>&);
 template void Groups<float>::wake(BlockState<float>&, const Units&);
-template void Groups<float>::add_awake(const kernel::Functions<float>&, const kernel::Step<float>&,
-                                       std::vector<Sum>&, std::vector<Sum>&, std::vector<Shape>&);
+template void Groups<float>::add_awake(const BondLists<float>&, const kernel::Step<float>&, Sums&,
+                                       Sums&, std::vector<Idle>&, std::vector<GroupForces>&);
 
 }  // namespace sinew

@@ -240,7 +240,13 @@ StretchRange stretch_range(const Body& body) {
   const double lasts = law.has_bonds || !has_affine_forces(body)
                            ? std::numeric_limits<double>::infinity()
                            : b / nearest_distance(r);
-  return {(law.has_memory ? 2 * r : b) / second_distance(r), lasts};
+  const double least = (law.has_memory ? 2 * r : b) / second_distance(r);
+  const double third_distance = std::sqrt(3) * nearest_distance(r);
+  return {least, holds_seconds(body) ? 2 * r / third_distance : least, lasts};
+}
+
+bool may_bend(const Body& body) {
+  return law_of(body.material).has_bonds && has_affine_forces(body) && !keeps_volume(body);
 }
 
 void check_groupable(const Body& body) {

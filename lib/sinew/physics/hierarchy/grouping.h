@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups of neighboring particles that move as one: x = c + F X of each particle's place X at rest.
+// Groups of neighboring particles that move as one: the place of each is an affine function of its
+// place X at rest, x = c + F X, or in large groups of bonded bodies a cubic one (groups.h).
 //
 // A particle of FCC with all its neighbors in its group is a center of inversion: whatever F is,
 // pair forces, those of volumes and eq. 2 add up to zero on it. Where some are missing, at the
@@ -10,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <sinew/core/vector.h>
@@ -32,6 +34,8 @@ struct Grouping {
   /// are neighbors of each other and of the next half-plane's in rows.
   std::vector<std::uint8_t> face;
   std::vector<std::size_t> sizes;  ///< particles of each group
+  /// Groups of so many particles move by cubics.
+  std::size_t cubic_from = std::numeric_limits<std::size_t>::max();
 
   std::size_t size() const { return sizes.size(); }
   /// By particle id: 0 free, 1 on the rim, 2 within.
@@ -46,11 +50,14 @@ struct Grouping {
 Grouping make_grouping(const Body& body, std::vector<std::int32_t> group);
 
 /// The stretches of a group between which forces act between those particles alone that the layers
-/// take for neighbors, and between all of them.
+/// take for neighbors, and between all of them. Cubic groups know second neighbors that touch.
 struct StretchRange {
-  double least, most;
+  double least, least_cubic, most;
 };
 StretchRange stretch_range(const Body& body);
+
+/// Whether groups of the body may move by cubics: what acts within them are bonds alone.
+bool may_bend(const Body& body);
 
 /// Throws bad input, which names what is wrong, where the body is no lattice of centers of
 /// inversion, or where forces on it depend on more than its neighbors.

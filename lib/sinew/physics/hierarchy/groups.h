@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups in motion, for the list stepper. A group of n particles at c + F X, with sum X = 0, has
+// Groups in motion, for the list stepper. A group's particles are at x_i = sum_k x_k p_k(X_i),
+// where p_k are the terms of polynomials of the place at rest (polynomials.h), in a frame in which
+// the group is about 1 large in each direction:
 //
-//     n m c'' = sum f_i,   F'' sum m X X^T = sum f_i X_i^T,
+//     sum_k x_k'' sum_i m p_k p_l = sum_i f_i p_l,
 //
-// which restricts the motion of its particles to affine ones without doing work: momentum is kept,
-// and an even strain passes through its faces. f_i is zero but on the rim (grouping.h), where the
-// kernel computes it, and in the skin, where it follows from F (affine_forces.h); but for gravity
-// and bones, which are summed over a sample of blocks.
+// which restricts the motion of its particles to such ones without doing work: momentum is kept,
+// and an even strain passes through its faces. The kernel computes f_i on the rim (grouping.h). In
+// affine groups it is zero elsewhere but in the skin, where it follows from the motion
+// (affine_forces.h); in cubic ones it follows from the motion everywhere (inner_forces.h). Gravity
+// and bones, which are summed over a sample of blocks, come to that.
 //
 // Blocks of particles within a group are idle: a step leaves them out. Those that its neighbors
 // read are placed before each step, all others when somebody asks for them. Those that particles of
@@ -16,8 +19,8 @@
 //     groups.place(state, units);                // before a step
 //     groups.wake(state);
 //     step.grouped = groups.arrays();
-//     groups.sum(kernel, step, units, by);
-//     groups.bound(units, false, parts, totals);
+//     groups.sum(bonds, step, units, by);
+//     groups.bound(units, by, parts, totals);
 //     groups.advance();                          // after it, unless it failed
 #pragma once
 
@@ -34,6 +37,8 @@
 #include <sinew/physics/forces.h>
 #include <sinew/physics/hierarchy/affine_forces.h>
 #include <sinew/physics/hierarchy/grouping.h>
+#include <sinew/physics/hierarchy/inner_forces.h>
+#include <sinew/physics/hierarchy/polynomials.h>
 #include <sinew/physics/hierarchy/quadrature.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
@@ -64,7 +69,7 @@ template <class Real>
 class Groups {
  public:
   Groups() = default;
-  Groups(std::shared_ptr<const Body> body, double mass);
+  Groups(std::shared_ptr<const Body> body, double mass, const kernel::Functions<Real>& kernel);
 
   bool any() const { return !motions_.empty(); }
   /// The particles `id` in the kernel's order.
@@ -84,8 +89,11 @@ class Groups {
   const std::vector<std::int32_t>& group_of_pieces() const { return of_piece_; }
   /// How a piece of one group moves, in the kernel's units.
   PieceNow piece_now(std::size_t piece, const Units& units) const;
-  /// F of each.
-  std::vector<Mat3> stretches() const;
+  /// Of each piece, the logarithm of by how much distances from particles of its groups to others
+  /// of theirs may have changed since the beginning, summed up.
+  const std::vector<double>& strains() const { return strains_; }
+  /// By piece: whether a step computes some of it.
+  const std::vector<std::uint8_t>& working_pieces() const { return working_; }
   /// What a step reads of idle blocks through these bonds, for all steps. `two_deep`: forces depend
   /// on the neighbors of neighbors.
   void read_through(const BondLists<Real>& bonds, bool two_deep);
@@ -98,12 +106,13 @@ class Groups {
   kernel::Grouped<Real> arrays();
 
   /// From what the kernel gathered in a step, and the bones' forces on idle blocks.
-  void sum(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
-           const Units& units, const GroupStep& by);
+  void sum(const BondLists<Real>& bonds, const kernel::Step<Real>& step, const Units& units,
+           const GroupStep& by);
   const GroupSums& sums() const { return sums_; }
   /// Raises the speeds in the totals of pieces to those of grouped particles in the step.
-  void bound(const Units& units, bool drift_first, const kernel::Parts<Real>& parts,
-             std::span<kernel::Totals> totals) const;
+  /// `meets`: of a piece, whether particles of others are near.
+  void bound(const Units& units, const GroupStep& by, const std::function<bool(std::size_t)>& meets,
+             const kernel::Parts<Real>& parts, std::span<kernel::Totals> totals);
   void advance();
   /// Adds, to the cell of each particle on which forces were gathered in the last step, what of its
   /// acceleration the group does not follow. `cell`: by id.
@@ -111,7 +120,7 @@ class Groups {
                 std::span<HeldCell> held) const;
   /// Throws Error (unstable) where a group is squeezed so much that more particles than the layers
   /// take for neighbors would exert forces on each other, or stretched so much that fewer would.
-  void check_stretch() const;
+  void check_stretch();
 
   /// Fills what keeps the groups together, from all other forces and gravity (m/s^2). `caller`: of
   /// each place, that in `forces`.
@@ -124,39 +133,47 @@ class Groups {
  private:
   static constexpr std::size_t block = BlockState<Real>::block;
 
-  struct Motion {
-    Vec3 c = Vec3::Zero(), v = Vec3::Zero();  ///< m, m/s
-    Mat3 F = Mat3::Identity(), V = Mat3::Zero();
-  };
+  using Inverse = Eigen::Matrix<double, cubic_terms, cubic_terms>;
+
   /// Constant.
   struct Shape {
-    Vec3 center = Vec3::Zero();   ///< m
-    double size = 0;              ///< particles
-    Mat3 inverse = Mat3::Zero();  ///< of sum X X^T, 1/m^2
-    double extent = 0;            ///< root mean square of X, m
-    double idle = 0;              ///< particles in idle blocks
-    Vec3 moment = Vec3::Zero();   ///< of those, sum of X, m
-    AffineMoments skin;           ///< of those
+    Vec3 center = Vec3::Zero();  ///< m
+    double size = 0;             ///< particles
+    Mat3 frame = Mat3::Zero();   ///< 1/m: a particle's place in the group is frame (X - center)
+    Vec3 reach = Vec3::Zero();   ///< of places there, at most
+    bool cubic = false;
+    Inverse inverse = Inverse::Zero();  ///< of the sum of the products of terms
   };
+  /// Sums over particles in idle blocks.
+  struct Idle {
+    Terms terms = Terms::Zero();
+    AffineMoments skin;  ///< of affine groups
+  };
+  /// The largest sizes of second derivatives within a group.
+  struct Curvature {
+    Mat3 x = Mat3::Zero(), v = Mat3::Zero();
+  };
+  /// Of the motion at a place in a group: derivatives along the axes of its frame, a column each.
+  struct LocalMotion {
+    Vec3 x, v;
+    Mat3 dx, dv;
+  };
+
   /// Places [begin, end) in the kernel's order, all of one group; and the row of the first.
   struct Run {
     std::uint32_t begin, end;
     std::int32_t group;
     std::int64_t row = 0;
   };
-  /// Of accelerations.
-  struct Sum {
-    Vec3 f = Vec3::Zero();
-    Mat3 fX = Mat3::Zero();
-
-    void add(const Vec3& force, const Vec3& X) { f += force, fX += force * X.transpose(); }
-    void add(const double* moments);
-  };
-  /// Around the places at rest of a group's particles in a part of a piece.
+  /// By group.
+  using Sums = std::vector<Coefficients>;
+  /// Around the places in the group of its particles in a part of a piece.
   struct PieceBox {
     std::uint32_t piece, part;
     std::int32_t group;
+    std::uint32_t begin, end;  ///< places among which they are
     Box box;
+    Vec3 around = Vec3::Zero();  ///< half of the size of a box with all neighbors of these
   };
   /// Of the skin.
   struct SkinBlock {
@@ -170,6 +187,8 @@ class Groups {
   };
 
   void find_shapes();
+  void find_frames();
+  void find_inverses();
   void find_roles();
   void find_skins(std::int32_t rows);
   void find_pieces(std::size_t pieces);
@@ -198,34 +217,57 @@ class Groups {
   void watch_piece(const kernel::Lists& lists, std::size_t piece);
   void rouse(std::uint32_t block, const BondLists<Real>& bonds);
   bool touches(const Watched& watched, BlockState<Real>& state, double range2) const;
-  void add_awake(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
-                 std::vector<Sum>& all, std::vector<Sum>& damping, std::vector<Shape>& shapes);
+  void add_pulls(const kernel::PullSums& pulls, std::size_t group, Sums& all, Sums& damping);
+  void add_awake(const BondLists<Real>& bonds, const kernel::Step<Real>& step, Sums& all,
+                 Sums& damping, std::vector<Idle>& idle, std::vector<GroupForces>& inner);
+  void add_skins(const std::vector<Idle>& idle, std::vector<GroupForces>& inner) const;
   void find_steady();
-  AffineSum skin_of(const Shape& shape, const Motion& motion) const;
-  AffineSum drag_of(const Shape& shape, const Motion& motion) const;
   void put(const Run& run, BlockState<Real>& state, const Units& units) const;
-  Sum sum_of(const Run& run, const kernel::Functions<Real>& kernel) const;
-  void add_bones(const kernel::Functions<Real>& kernel, const kernel::Step<Real>& step,
-                 std::vector<Sum>& all, std::vector<Sum>& damping);
-  Vec3 place_at_rest(std::size_t k) const { return {X_[0][k], X_[1][k], X_[2][k]}; }
+  Coefficients sum_of(const Run& run) const;
+  void add_bones(const kernel::Step<Real>& step, Sums& all, Sums& damping);
+  void move(std::size_t group, const Coefficients& acceleration, const GroupStep& by);
+  Curvature curvature_of(const Shape& shape, const GroupMotion& motion) const;
+  LocalMotion motion_at(const Shape& shape, const GroupMotion& motion, const Vec3& at) const;
+  double fastest_in(const PieceBox& one, const Units& units, const LocalMotion& local,
+                    const Curvature& curvature, const kernel::RigidMotion<Real>& field) const;
+  double fastest_of(const PieceBox& one, const Units& units, const GroupMotion& motion,
+                    const kernel::RigidMotion<Real>& field) const;
+  double strain_rate(const PieceBox& one, const LocalMotion& local,
+                     const Curvature& curvature) const;
+  void find_far_sites();
+  double spare_in(const PieceBox& one) const;
+  double spare_of(const Mat3& F) const;
+  double spare_of_cubic(const Mat3& F, double changes) const;
+  InnerParticles inner_particles() const;
+  Vec3 place(std::size_t k) const { return {at_[0][k], at_[1][k], at_[2][k]}; }
+  kernel::Motions motions_of(std::size_t group) const {
+    return shapes_[group].cubic ? kernel::cubic : kernel::affine;
+  }
 
   std::shared_ptr<const Body> body_;
   double mass_ = 0;
+  kernel::Functions<Real> kernel_{};
   StretchRange stretch_{};
   std::optional<AffineForces> affine_;
+  Points far_sites_;  ///< m: of particles that may not touch in cubic groups
   std::vector<Shape> shapes_;
-  std::vector<Motion> motions_, next_;
-  std::vector<Sum> accelerations_;                ///< of the last step: of c, and of F; m/s^2
-  std::vector<std::int32_t> group_;               ///< by place in the kernel's order; -1: free
-  std::array<std::vector<double>, 3> X_;          ///< by place, m
-  std::array<std::vector<Real>, 3> X_of_kernel_;  ///< by place, padded, m
-  std::vector<std::int32_t> id_;                  ///< by place
-  std::vector<std::int32_t> role_;                ///< by block: kernel::Role, or a row
-  std::vector<std::uint8_t> asleep_;              ///< by block
-  std::vector<std::uint8_t> whole_;               ///< by block
-  std::vector<std::int32_t> of_piece_;            ///< by piece: its group, or -1
-  std::vector<std::uint32_t> box_of_;             ///< by piece: of a group, its place in boxes_
-  std::vector<Run> rim_;                          ///< of the blocks with rows
+  std::vector<Idle> idle_sums_;  ///< by group
+  std::optional<InnerForces<Real>> inner_;
+  std::vector<GroupMotion> motions_, next_;
+  Sums accelerations_;                     ///< of the last step, m/s^2
+  std::vector<double> strains_;            ///< by piece
+  std::vector<double> strained_until_;     ///< by piece: when its stretches must be looked at
+  std::vector<std::uint8_t> working_;      ///< by piece
+  std::vector<std::int32_t> group_;        ///< by place in the kernel's order; -1: free
+  std::array<std::vector<double>, 3> at_;  ///< by place, in the frame of its group
+  std::array<std::vector<Real>, 3> at_of_kernel_;  ///< the same, padded
+  std::vector<std::int32_t> id_;                   ///< by place
+  std::vector<std::int32_t> role_;                 ///< by block: kernel::Role, or a row
+  std::vector<std::uint8_t> asleep_;               ///< by block
+  std::vector<std::uint8_t> whole_;                ///< by block
+  std::vector<std::int32_t> of_piece_;             ///< by piece: its group, or -1
+  std::vector<std::uint32_t> box_of_;              ///< by piece: of a group, its place in boxes_
+  std::vector<Run> rim_;                           ///< of the blocks with rows
   std::vector<SkinBlock> skins_;
   std::vector<std::int32_t> skin_at_;          ///< by block: its place there, or -1
   std::int32_t rows_ = 0;                      ///< of rims; those of what is awake follow
@@ -240,6 +282,8 @@ class Groups {
   std::vector<std::int64_t> shown_;  ///< by piece: when all was last placed
   std::int64_t moment_ = 0;
   std::vector<PieceBox> boxes_;
+  std::vector<double> rates_;  ///< by box, of strain, 1/s
+  int steps_ = 0;              ///< since they were found everywhere
   std::array<std::vector<Real>, 3> acceleration_;
   Quadrature samples_;
   std::vector<Run> sampled_;  ///< samples [begin, end) of a group

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <map>
 
+#include <sinew/physics/hierarchy/polynomials.h>
+
 namespace sinew {
 namespace {
 
-// Of a kind, at most one block in so many, but no fewer than these in all.
-constexpr std::size_t most_per_sample = 64, least_samples = 256;
-constexpr double least_weight = 0.1, most_weight = 4;  // of an equal share
+constexpr std::size_t least_samples = 256;
+constexpr std::size_t most_blocks = 64;                // for one of them
+constexpr double least_weight = 0.1, most_weight = 5;  // of an equal share
+constexpr int most_fits = 30;
 
 /// The upper bits of a number that looks like chance: rows of a lattice repeat, samples must not.
 std::uint64_t scattered(std::uint64_t number) {
@@ -19,70 +22,72 @@ std::uint64_t scattered(std::uint64_t number) {
   return number >> 32;
 }
 
-using Members = std::vector<const SampledBlock*>;
-
-/// One of each stretch of blocks.
-Members sample_of(const Members& all) {
-  const std::size_t stretch = std::min(all.size() / least_samples, most_per_sample);
-  Members sample;
-  for (std::size_t begin = 0; begin < all.size(); begin += stretch) {
-    const std::size_t length = std::min(stretch, all.size() - begin);
-    sample.push_back(all[begin + scattered(begin) % length]);
-  }
-  return sample;
-}
-
-Eigen::VectorXd moments_of(const SampledBlock& block) {
-  return Eigen::Map<const Eigen::VectorXd>(block.moments.data(), block_moments);
-}
-
-/// None where no good ones exist.
-std::vector<double> weights_of(const Members& sample, const Members& all) {
-  const auto count = static_cast<Eigen::Index>(sample.size());
-  const double even = static_cast<double>(all.size()) / static_cast<double>(sample.size());
-  Eigen::MatrixXd of_sample(block_moments, count);
-  for (Eigen::Index s = 0; s < count; ++s)
-    of_sample.col(s) = moments_of(*sample[static_cast<std::size_t>(s)]);
-  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(block_moments);
-  for (const SampledBlock* block : all) wanted += moments_of(*block);
-  const Eigen::VectorXd missing = wanted - even * of_sample.rowwise().sum();
-  const Eigen::VectorXd weights =
-      of_sample.completeOrthogonalDecomposition().solve(missing).array() + even;
-  const double off = (of_sample * weights - wanted).cwiseAbs().maxCoeff();
-  if (!(off < 1e-9 * wanted[0]) || weights.minCoeff() < least_weight * even ||
-      weights.maxCoeff() > most_weight * even)
-    return {};
-  return {weights.begin(), weights.end()};
-}
-
 }  // namespace
 
-void add_moments(const Vec3& X, BlockMoments& moments) {
-  int at = 0;
-  moments[at++] += 1;
-  for (int i = 0; i < 3; ++i) {
-    moments[at++] += X[i];
-    for (int j = i; j < 3; ++j) {
-      moments[at++] += X[i] * X[j];
-      for (int k = j; k < 3; ++k) moments[at++] += X[i] * X[j] * X[k];
-    }
-  }
+QuarticTerms quartic_terms_at(const Vec3& at) {
+  const Terms terms = terms_at(at);
+  QuarticTerms all;
+  all.head<cubic_terms>() = terms;
+  const double x = at[0], y = at[1], z = at[2];
+  const auto cubes = terms.segment<10>(square_terms);  // xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz
+  all.segment<10>(cubic_terms) = x * cubes;
+  all.segment<4>(cubic_terms + 10) = y * cubes.segment<4>(6);
+  all[quartic_terms - 1] = z * cubes[9];
+  return all;
 }
 
-Quadrature quadrature_over(const std::vector<SampledBlock>& blocks) {
-  std::map<std::uint64_t, Members> kinds;
-  for (const SampledBlock& block : blocks) kinds[block.kind].push_back(&block);
+std::size_t stretch_of(std::size_t count) {
+  return std::max<std::size_t>(count / least_samples, 1);
+}
+
+bool is_sample(std::size_t n, std::size_t stretch) {
+  return n % stretch == scattered(n / stretch) % stretch;
+}
+
+/// What would become too small is set to the least weight, and the others are found again.
+std::vector<double> weights_of(const Eigen::MatrixXd& samples, const QuarticTerms& all,
+                               std::size_t count) {
+  if (samples.cols() == static_cast<Eigen::Index>(count)) return std::vector<double>(count, 1);
+  if (samples.cols() == 0) return {};
+  const double even = static_cast<double>(count) / static_cast<double>(samples.cols());
+  Eigen::VectorXd weights = Eigen::VectorXd::Constant(samples.cols(), even);
+  Eigen::MatrixXd free = samples;
+  for (int round = 0; round < most_fits; ++round) {
+    const QuarticTerms missing = all - samples * weights;
+    weights += free.completeOrthogonalDecomposition().solve(missing);
+    bool any = false;
+    for (Eigen::Index s = 0; s < weights.size(); ++s) {
+      if (weights[s] >= least_weight * even) continue;
+      any = any || weights[s] < least_weight * even * (1 - 1e-9);
+      weights[s] = least_weight * even;
+      free.col(s).setZero();
+    }
+    if (any) continue;
+    const double off = (samples * weights - all).cwiseAbs().maxCoeff();
+    if (off < 1e-9 * all[0] && weights.maxCoeff() < most_weight * even)
+      return {weights.begin(), weights.end()};
+    break;
+  }
+  return {};
+}
+
+Quadrature quadrature_over(const std::vector<SampledBlock>& blocks,
+                           const std::function<QuarticTerms(std::uint32_t)>& moments_of) {
+  std::map<std::uint64_t, std::vector<std::uint32_t>> kinds;
+  for (const SampledBlock& one : blocks) kinds[one.kind].push_back(one.block);
   std::vector<std::pair<std::uint32_t, double>> chosen;
   for (const auto& [kind, all] : kinds) {
-    Members sample = all;
-    std::vector<double> weights;
-    if (all.size() >= 2 * least_samples) {
-      sample = sample_of(all);
-      weights = weights_of(sample, all);
-    }
-    if (weights.empty()) sample = all, weights.assign(all.size(), 1);
+    std::vector<std::uint32_t> sample;
+    for (std::size_t n = 0; n < all.size(); ++n)
+      if (is_sample(n, std::min(2 * stretch_of(all.size()), most_blocks))) sample.push_back(all[n]);
+    QuarticTerms sum = QuarticTerms::Zero();
+    for (const std::uint32_t block : all) sum += moments_of(block);
+    Eigen::MatrixXd moments(quartic_terms, static_cast<Eigen::Index>(sample.size()));
     for (std::size_t s = 0; s < sample.size(); ++s)
-      chosen.emplace_back(sample[s]->block, weights[s]);
+      moments.col(static_cast<Eigen::Index>(s)) = moments_of(sample[s]);
+    std::vector<double> weights = weights_of(moments, sum, all.size());
+    if (weights.empty()) sample = all, weights.assign(all.size(), 1);
+    for (std::size_t s = 0; s < sample.size(); ++s) chosen.emplace_back(sample[s], weights[s]);
   }
   std::sort(chosen.begin(), chosen.end());
   Quadrature quadrature;

@@ -1,31 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over many blocks of particles from a sample of them: the weights are those nearest to equal
-// ones with which the moments of places at rest up to the third are exact.
+// Sums over many places from a sample of them: the weights are those nearest to equal ones with
+// which the sums of all products of up to four coordinates are exact.
 //
-//     const Quadrature quadrature = quadrature_over(blocks);
+//     const Quadrature quadrature = quadrature_over(blocks, moments_of);
 //     sum += quadrature.weight[s] * value_of(quadrature.block[s]);
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <sinew/core/vector.h>
 
 namespace sinew {
 
-/// Of a block: the sums of 1, X, X X and X X X over its particles, each product once.
-inline constexpr int block_moments = 20;
-using BlockMoments = std::array<double, block_moments>;
+inline constexpr int quartic_terms = 35;
+/// The terms of polynomials.h, then those of the fourth degree.
+using QuarticTerms = Eigen::Matrix<double, quartic_terms, 1>;
+/// Of a place, in units in which all of them are within about 1.
+QuarticTerms quartic_terms_at(const Vec3& at);
 
-/// Adds a particle at X, in units in which a group is about 1 large.
-void add_moments(const Vec3& X, BlockMoments& moments);
+/// Of so many, one of how many is a sample of them: of few, each.
+std::size_t stretch_of(std::size_t count);
+/// Whether the n-th is one.
+bool is_sample(std::size_t n, std::size_t stretch);
+/// Of samples of `count`, each a column: its moments; `all`: the sums over all. None where they
+/// would differ much.
+std::vector<double> weights_of(const Eigen::MatrixXd& samples, const QuarticTerms& all,
+                               std::size_t count);
 
 /// A block of particles, and the kind of what pulls them: kinds are sampled apart.
 struct SampledBlock {
   std::uint32_t block;
   std::uint64_t kind;
-  BlockMoments moments;
 };
 
 struct Quadrature {
@@ -33,7 +41,8 @@ struct Quadrature {
   std::vector<double> weight;
 };
 
-/// Of all blocks, ascending. Kinds of few blocks are summed whole.
-Quadrature quadrature_over(const std::vector<SampledBlock>& blocks);
+/// Of all blocks, ascending. `moments_of`: a block's sums. Kinds of few blocks are summed whole.
+Quadrature quadrature_over(const std::vector<SampledBlock>& blocks,
+                           const std::function<QuarticTerms(std::uint32_t)>& moments_of);
 
 }  // namespace sinew

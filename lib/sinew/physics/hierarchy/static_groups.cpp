@@ -12,6 +12,7 @@ namespace sinew {
 namespace {
 
 constexpr int moments_of_motion = 400;
+
 constexpr std::size_t particles_per_grouping = 8192;
 
 }  // namespace
@@ -47,12 +48,21 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
 Grouping static_groups(const Body& body, const std::vector<bool>& moves,
                        const StaticGroups& options) {
   std::vector<std::int32_t> group(body.rest.size(), -1);
-  const BoneParts parts(body, moves, options.joint_distance);
-  parallel_for(group.size(), particles_per_grouping, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) group[i] = std::max(parts.of(i), -1);
-  });
+  // Numbers from `first` on, of particles that are in no group yet.
+  const auto group_beyond = [&](double distance, std::int32_t first) {
+    const BoneParts parts(body, moves, distance);
+    parallel_for(group.size(), particles_per_grouping, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (const int part = parts.of(i); part >= 0 && group[i] < 0) group[i] = first + part;
+    });
+  };
+  if (options.cubic_distance) group_beyond(*options.cubic_distance, 0);
+  separate(body, options.least_cubic, group);
+  group_beyond(options.joint_distance, static_cast<std::int32_t>(group.size()));
   separate(body, options.least, group);
-  return make_grouping(body, std::move(group));
+  Grouping grouping = make_grouping(body, std::move(group));
+  if (options.cubic_distance) grouping.cubic_from = options.least_cubic;
+  return grouping;
 }
 
 }  // namespace sinew

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups for a whole run: far from joints that bend, what follows one bone, or bones that are stiff
-// to each other, moves as one.
+// to each other, moves as one. Large groups may move by cubics, which bend: they begin nearer to
+// joints.
 //
 //     body.grouping = std::make_shared<const Grouping>(static_groups(body, bends, {}));
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <sinew/physics/hierarchy/bone_parts.h>
@@ -17,6 +19,9 @@ struct StaticGroups {
   /// cross-section of the bone whose head the joint is.
   double joint_distance = 1;
   std::size_t least = 4096;  ///< particles of a group
+  /// The same for cubic groups; none: there are none.
+  std::optional<double> cubic_distance = {};
+  std::size_t least_cubic = 16384;  ///< particles of a cubic group
 };
 
 /// For each bone, whether it turns, shifts or stretches relative to its parent until `end` (s).

@@ -2,6 +2,7 @@
 // The kernel's functions for the instruction set of the source file that includes this.
 #pragma once
 
+#include <sinew/physics/kernel/group_motion.h>
 #include <sinew/physics/kernel/listing.h>
 #include <sinew/physics/kernel/moments.h>
 #include <sinew/physics/kernel/pruning.h>
@@ -42,11 +43,11 @@ void flushed(const Step<typename L::Real>& step, std::size_t begin, std::size_t 
   work(step, begin, end);
 }
 
-template <class L>
+template <class L, int terms>
 void flushed_pulls(const Step<typename L::Real>& step, const PulledBlocks<typename L::Real>& blocks,
                    PullSums& out) {
   const FlushedToZero<L> mode;
-  pull_blocks<L>(step, blocks, out);
+  pull_blocks<L, terms>(step, blocks, out);
 }
 
 template <class L, PairLaw pairs>
@@ -58,13 +59,23 @@ constexpr void add(Functions<typename L::Real>& functions) {
   functions.probe[pairs][pairwise] = flushed<L, probe_pieces<L, pairs, forces_pairwise>>;
 }
 
+template <class L, Motions motions, int terms>
+constexpr void add_groups(Functions<typename L::Real>& functions) {
+  functions.put[motions] = put_group<lanes::Doubles, typename L::Real, terms>;
+  functions.largest[motions] = largest_of_field<lanes::Doubles, terms>;
+  functions.moments[motions] = sum_moments<L, terms>;
+  functions.pull[motions] = flushed_pulls<L, terms>;
+}
+
 template <class L>
 constexpr Functions<typename L::Real> functions() {
   Functions<typename L::Real> all{};
   all.strain = flushed<L, strain_pieces<L>>;
   all.flow = flushed<L, flow_pieces<L>>;
-  all.moments = sum_moments<L>;
-  all.pull = flushed_pulls<L>;
+  add_groups<L, affine, affine_terms>(all);
+  add_groups<L, cubic, cubic_terms>(all);
+  all.pull_bonds = pull_group_bonds<lanes::Doubles, square_terms>;
+  all.pull_ends = pull_group_bonds<lanes::Doubles, cubic_terms>;
   add<L, between_all>(all);
   add<L, among_neighbors>(all);
   add<L, springs>(all);

@@ -198,14 +198,34 @@ struct Grouped {
   Real* acceleration[3];       ///< rows x block
 };
 
-/// The sums of f, then of f X^T row by row.
-inline constexpr int force_moments = 12;
+/// Groups move by polynomials of the place in their frame: of its terms in the order of
+/// ../hierarchy/polynomials.h, affine groups have the first ones alone.
+inline constexpr int affine_terms = 4, square_terms = 10, cubic_terms = 20;
+enum Motions { affine, cubic, motions };
+
+/// Particles [begin, end) of a group, to be put where its motion brings them.
+template <class Real>
+struct PutInput {
+  State<Real> state;
+  std::size_t begin, end;
+  const double* at[3];  ///< of all particles: places in their groups' frames
+  const double* x;      ///< coefficients, axis by axis cubic_terms long, in units of the kernel
+  const double* v;
+};
+
+/// Particles of a group, and a polynomial of its motion: the same terms, three values.
+struct FieldInput {
+  std::size_t begin, end;
+  const double* at[3];  ///< of all particles
+  const double* value;  ///< coefficients, axis by axis cubic_terms long
+  std::size_t size;     ///< of all particles, at least a vector's
+};
 
 /// Particles of a group that follow each other in memory.
 template <class Real>
 struct MomentInput {
   const Real* force[3];
-  const Real* X[3];  ///< places at rest from the group's center
+  const Real* at[3];
   std::size_t count;
 };
 
@@ -215,14 +235,31 @@ struct PulledBlocks {
   const std::uint32_t* block;
   const double* weight;
   std::size_t count;
-  const Real* X[3];  ///< of all particles
+  const Real* at[3];  ///< of all particles
+};
+
+/// Of each axis of some vectors: its sums times each term of the place.
+struct TermSums {
+  double sum[3 * cubic_terms];  ///< axis by axis cubic_terms long
 };
 
 /// What bones exert on them, per mass.
 struct PullSums {
-  double force[force_moments];
-  double damping[force_moments];  ///< the part of it that is damping
-  double power, lost;             ///< from the bones; of that, by damping
+  TermSums force;
+  TermSums damping;    ///< the part of it that is damping
+  double power, lost;  ///< from the bones; of that, by damping
+};
+
+/// Bonds of one direction in a group that moves by cubics: particles at its two ends are apart by a
+/// square polynomial of the place of the near one.
+struct GroupBonds {
+  const double* at[3];    ///< of the near ends
+  const double* weight;   ///< on the stiffness
+  const double* contact;  ///< on what they exert where they touch
+  std::size_t count;      ///< a whole number of vectors of 64 bytes
+  const double* apart;    ///< coefficients, axis by axis square_terms long
+  double length;          ///< at rest
+  double push, touching;  ///< k1 of eq. 1 over the stiffness, and 2r; push is 0 where none touch
 };
 
 template <class Real>
@@ -338,9 +375,16 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
-  /// Of groups: force_moments sums; what bones exert.
-  void (*moments)(const MomentInput<Real>&, double* sums);
-  void (*pull)(const Step<Real>&, const PulledBlocks<Real>&, PullSums&);
+  /// Of groups, by their motions: places and velocities; sums of forces; what bones exert.
+  void (*put[motions])(const PutInput<Real>&);
+  /// The largest squared length of a field at the particles.
+  double (*largest[motions])(const FieldInput&);
+  void (*moments[motions])(const MomentInput<Real>&, TermSums&);
+  void (*pull[motions])(const Step<Real>&, const PulledBlocks<Real>&, PullSums&);
+  /// What bonds exert on their far ends, over their stiffness: sums times the square terms of the
+  /// near ends, axis by axis square_terms long; and times all of their terms.
+  void (*pull_bonds)(const GroupBonds&, double* sums);
+  void (*pull_ends)(const GroupBonds&, double* sums);
   /// Bounds the blocks of a piece, of a body of so many particles.
   void (*bound)(const State<Real>&, std::size_t piece, std::size_t particles, BlockBounds&);
   /// Finds differences of a block, which is of even number, and of the next one, if there is one;

@@ -2,8 +2,6 @@
 // Groups of particles (../hierarchy/groups.h) as neighbor lists see them.
 #pragma once
 
-#include <Eigen/LU>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -20,30 +18,10 @@ struct GroupedParticles {
   std::span<const std::int32_t> of_piece = {};  ///< a piece's only group, or -1; empty: all are -1
   /// How a piece of one group moves.
   std::function<PieceNow(std::size_t piece)> piece_now = {};
-  std::vector<Mat3> stretch = {};  ///< F of each group
-};
-
-/// How much longer distances in groups were than they are now, at most. Most pieces of a group have
-/// been listed at the same moment.
-class Shrinking {
- public:
-  explicit Shrinking(const std::vector<Mat3>& stretch) {
-    for (const Mat3& F : stretch) inverse_.push_back(F.inverse());
-  }
-
-  double since(const Mat3& before, std::int32_t group) {
-    if (group == group_ && before == before_) return last_;
-    group_ = group, before_ = before;
-    const Mat3 back = before * inverse_[static_cast<std::size_t>(group)];
-    last_ = std::sqrt(1 + (back.transpose() * back - Mat3::Identity()).norm());
-    return last_;
-  }
-
- private:
-  std::vector<Mat3> inverse_;
-  std::int32_t group_ = -1;
-  Mat3 before_ = Mat3::Zero();
-  double last_ = 1;
+  /// Of each piece, the logarithm of by how much distances in its group may have changed, summed
+  /// up.
+  std::span<const double> strain = {};
+  std::span<const std::uint8_t> working = {};  ///< by piece: a step needs its lists
 };
 
 }  // namespace sinew

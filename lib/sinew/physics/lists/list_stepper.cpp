@@ -49,7 +49,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass),
-      groups_(body_, particles.mass),
+      groups_(body_, particles.mass, kernel_),
       lists_(kernel_, body_->material, stepping.step) {
   find_slots();
   groups_.begin(layout_.now, layout_.units());
@@ -240,10 +240,12 @@ void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
   if (!groups_.any()) return;
   const double T = layout_.units().time;
   const auto seconds = [&](Real time) { return static_cast<double>(time) * T; };
-  groups_.sum(kernel_, now, layout_.units(),
-              {seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
-               stepping_.gravity});
-  groups_.bound(layout_.units(), now.drift_first, lists_.parts(), totals_);
+  const GroupStep by{seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
+                     stepping_.gravity};
+  groups_.sum(bonds_, now, layout_.units(), by);
+  groups_.bound(
+      layout_.units(), by, [this](std::size_t piece) { return lists_.meets_others(piece); },
+      lists_.parts(), totals_);
   groups_.check_stretch();
 }
 
@@ -281,7 +283,7 @@ GroupedParticles ListStepper<Real>::grouped() {
   const auto piece_now = [this](std::size_t piece) {
     return groups_.piece_now(piece, layout_.units());
   };
-  return {show, groups_.group_of_pieces(), piece_now, groups_.stretches()};
+  return {show, groups_.group_of_pieces(), piece_now, groups_.strains(), groups_.working_pieces()};
 }
 
 /// What pins moved counts as faster motion of the step before.
@@ -382,7 +384,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   layout_ = std::move(layout);
   bonds_ = std::move(bonds);
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
-  groups_ = Groups<Real>(body_, mass_);
+  groups_ = Groups<Real>(body_, mass_, kernel_);
   find_slots();
   groups_.restore(state);
   surroundings_.restore(state);

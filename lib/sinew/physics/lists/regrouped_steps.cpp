@@ -18,7 +18,7 @@ void ListStepper<Real>::regroup() {
   std::vector<std::uint32_t> order = order_at_rest(*body_, id);
   for (std::uint32_t& one : order) one = place[one];
   layout_.reorder(order);
-  groups_ = Groups<Real>(body_, mass_);
+  groups_ = Groups<Real>(body_, mass_, kernel_);
   bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // none has changed
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();

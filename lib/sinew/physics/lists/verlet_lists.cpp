@@ -98,8 +98,8 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   arrays_.assign(pieces, {});
   boxes_.resize(pieces);
   boxed_.assign(pieces, -1);
-  listed_at_.assign(pieces, Mat3::Identity());
-  pruned_at_.assign(pieces, Mat3::Identity());
+  listed_at_.assign(pieces, 0);
+  pruned_at_.assign(pieces, 0);
   looked_.assign(pieces, 0);
   near_ = NearPieces(ranges_, groups_of_parts(groups), looks_);
   survey(state, groups);
@@ -134,14 +134,16 @@ template <class Real>
 void VerletLists<Real>::add_strained(const GroupedParticles& groups,
                                      std::vector<std::uint32_t>& to_list,
                                      std::vector<std::uint32_t>& to_prune) const {
-  Shrinking listed(groups.stretch), pruned = listed;
   const double force = ranges_.force * (1 + 1e-5);  // above rounding
+  const double to_outer = std::log(ranges_.outer / force),
+               to_inner = std::log(ranges_.inner / force);
   for (std::uint32_t piece = 0; piece < groups.of_piece.size(); ++piece) {
-    const std::int32_t group = groups.of_piece[piece];
-    if (group < 0) continue;
-    if (!(force * listed.since(listed_at_[piece], group) < ranges_.outer))
+    if (groups.of_piece[piece] < 0) continue;
+    if (groups.working[piece] == 0 && !meets_others(piece)) continue;
+    const double strain = groups.strain[piece];
+    if (!(strain - listed_at_[piece] < to_outer))
       to_list.push_back(piece);
-    else if (!(force * pruned.since(pruned_at_[piece], group) < ranges_.inner))
+    else if (!(strain - pruned_at_[piece] < to_inner))
       to_prune.push_back(piece);
   }
 }
@@ -283,7 +285,7 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
       }
       for_each_part(piece, [&](std::uint32_t part) { near_.listed(part); });
       if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
-        listed_at_[piece] = groups.stretch[static_cast<std::size_t>(groups.of_piece[piece])];
+        listed_at_[piece] = groups.strain[piece];
       prune(state, piece, groups);
     }
   });
@@ -298,7 +300,7 @@ void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece,
   arrays_[piece] = inner_[piece].arrays();
   for_each_part(piece, [&](std::uint32_t part) { near_.pruned(part); });
   if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
-    pruned_at_[piece] = groups.stretch[static_cast<std::size_t>(groups.of_piece[piece])];
+    pruned_at_[piece] = groups.strain[piece];
 }
 
 template <class Real>

@@ -131,7 +131,7 @@ class VerletLists {
   std::vector<std::uint32_t> changed_;
   std::vector<std::uint8_t> looked_;  ///< by piece
   /// By piece of a group: its F when they were made.
-  std::vector<Mat3> listed_at_, pruned_at_;
+  std::vector<double> listed_at_, pruned_at_;
 
   ListCounts counts_;
 };
