@@ -6,6 +6,7 @@
 #include <sinew/physics/hierarchy/polynomials.h>
 #include <sinew/scene/setup.h>
 
+#include "expect_error.h"
 #include "grouped_bar.h"
 
 namespace sinew::groups_test {
@@ -27,12 +28,13 @@ Bar with_groups_at_ends(const Settings& settings, int width = 17, int height = 6
   const double s = half_plane_spacing(r);
   return cubic(Bar(settings, width, height, [&](const Vec3& X) {
     const double z = X.z() / s - 0.5;
-    return z < height * 0.4 ? 0 : z > height * 0.6 ? 1 : -1;
+    return z < height / 2 - width * 0.5 ? 0 : z > height / 2 + width * 0.5 ? 1 : -1;
   }));
 }
 
 Bar bending(Precision precision = Precision::binary64) {
-  Settings settings = bonded(precision);
+  Settings settings = test::in(precision, test::box_scene(81));
+  settings.material.model = MaterialModel::bonded;
   settings.solver.gravity = {0, 1, -2};
   settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 50)})};
   return with_groups_at_ends(settings, 25, 81);
@@ -55,7 +57,6 @@ TEST(CubicGroups, AnEvenStrainPassesThroughTheirFaces) {
   F *= Vec3(1.02, 0.99, 1.01).asDiagonal();
   F(0, 1) += 0.01;
   Bar bar = with_groups_at_ends(test::unbound(bonded()));
-  Settings alone = bar.settings;
   for (std::size_t i = 0; i < bar.rest.size(); ++i) bar.particles.set_position(i, F * bar.rest[i]);
   Simulation grouped = bar.begin();
   const Forces& forces = grouped.forces();
@@ -63,7 +64,7 @@ TEST(CubicGroups, AnEvenStrainPassesThroughTheirFaces) {
   double most = 0;
   for (std::size_t i = 0; i < bar.rest.size(); ++i) {
     const Vec3 in = (bar.rest[i] - box.min()).cwiseMin(box.max() - bar.rest[i]);
-    if (bar.group(i) < 0 && in.minCoeff() > 4 * r) most = std::max(most, forces.total(i).norm());
+    if (bar.group(i) < 0 && in.minCoeff() > 4.5 * r) most = std::max(most, forces.total(i).norm());
   }
   EXPECT_LT(most, 1e-10 * bar.body.material.stiffness() * r);
 }
@@ -87,7 +88,7 @@ TEST(CubicGroups, MoveByTheForcesOnAllOfTheirParticles) {
   double off = 0, size = 0;
   for (std::size_t i = 0; i < bar.rest.size(); ++i) {
     if (bar.group(i) < 0) continue;
-    const Vec3 a = (forces.total(i) + forces.group[i]) / bar.particles.mass;
+    const Vec3 a = forces.total(i) / bar.particles.mass;
     const Vec3 moved = (simulation.particles().velocity(i) - before.velocity(i)) / bar.step;
     off += (moved - a).squaredNorm(), size += a.squaredNorm();
   }
@@ -108,7 +109,7 @@ TEST(CubicGroups, KeepMomentum) {
 }
 
 /// How far a bar is from the same one without groups at the end, root mean square in radii.
-double off_from_full(Bar bar, double duration) {
+double off_from_free(Bar bar, double duration) {
   Simulation grouped = bar.begin();
   bar.body.grouping.reset();
   Simulation full = bar.begin();
@@ -121,11 +122,11 @@ double off_from_full(Bar bar, double duration) {
 
 TEST(CubicGroups, ABendIsNearerThanThatOfAffineOnes) {
   Bar bar = bending();
-  const double bent = off_from_full(bar, 0.3);
+  const double bent = off_from_free(bar, 0.3);
   auto grouping = std::make_shared<Grouping>(*bar.body.grouping);
   grouping->cubic_from = std::numeric_limits<std::size_t>::max();
   bar.body.grouping = grouping;
-  EXPECT_LT(bent, 0.6 * off_from_full(bar, 0.3));
+  EXPECT_LT(bent, 0.6 * off_from_free(bar, 0.3));
 }
 
 TEST(CubicGroups, TheLedgerOfABendCloses) {

@@ -20,7 +20,7 @@
 //     groups.wake(state);
 //     step.grouped = groups.arrays();
 //     groups.sum(bonds, step, units, by);
-//     groups.bound(units, by, parts, totals);
+//     groups.bound(units, by, meets, parts, totals);
 //     groups.advance();                          // after it, unless it failed
 #pragma once
 
