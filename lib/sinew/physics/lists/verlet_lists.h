@@ -130,7 +130,7 @@ class VerletLists {
   std::int64_t moment_ = 0;
   std::vector<std::uint32_t> changed_;
   std::vector<std::uint8_t> looked_;  ///< by piece
-  /// By piece of a group: its F when they were made.
+  /// By piece of a group: its strain when they were made.
   std::vector<double> listed_at_, pruned_at_;
 
   ListCounts counts_;
