@@ -287,8 +287,7 @@ std::vector<Field<Settings>> make_solver() {
                 "precision of the steps; single is about twice as fast"),
       choice<S>("solver", "neighbor_search", SINEW_AT(S, solver.neighbor_search),
                 {"lists", "cells"},
-                "how neighbors are found; lists: fast neighbor lists; cells: the paper's cells, a "
-                "slow and readable reference"),
+                "how neighbors are found; cells: the paper's cells, a slow, readable reference"),
       field<S>("solver", "wall_time", SINEW_AT(S, solver.wall_time), "s",
                "wall-clock time after which the run stops and can be resumed; none: no limit",
                positive, "none"),
@@ -309,16 +308,13 @@ std::vector<Field<Settings>> make_hierarchy() {
   using S = Settings;
   return {
       field<S>("hierarchy", "enabled", SINEW_AT(S, hierarchy.enabled), "",
-               "particles far from joints that move are grouped, and groups move by polynomials "
-               "of the place at rest; forces within them are not computed; fcc only"),
+               "groups what is far from joints that move: no forces are computed within; fcc"),
       field<S>("hierarchy", "dynamic", SINEW_AT(S, hierarchy.dynamic), "",
                "groups change: cells join that move affinely, and leave where forces tear"),
       choice<S>("hierarchy", "motion", SINEW_AT(S, hierarchy.motion), {"affine", "cubic"},
-                "of groups; cubic: large ones bend, in bonded bodies that keep their groups; auto: "
-                "cubic there, else affine"),
+                "of large groups that stay, in bonded bodies; auto: cubic; all others are affine"),
       field<S>("hierarchy", "joint_distance", SINEW_AT(S, hierarchy.joint_distance), "sqrt(A)",
-               "free up to here from joints that move, along the bone; auto: 0.65 for cubic "
-               "groups, 1 for affine ones",
+               "free up to here from joints that move; auto: 0.65; 1 for affine groups",
                not_negative),
       field<S>("hierarchy", "tolerance", SINEW_AT(S, hierarchy.tolerance), "r",
                "what may join dynamic groups is off by less; what leaves would be", positive),

@@ -65,6 +65,22 @@ double along_tangent(const Mat3& slopes, const Vec3& half) {
   return sum;
 }
 
+/// v + w x (x - c) = (v - w x c) + w x x.
+struct Field {
+  Vec3 velocity, spin;  ///< at the origin
+};
+
+template <class Real>
+Field field_of(const kernel::RigidMotion<Real>& motion) {
+  Vec3 center, velocity, spin;
+  for (int axis = 0; axis < 3; ++axis) {
+    center[axis] = static_cast<double>(motion.center[axis]);
+    velocity[axis] = static_cast<double>(motion.velocity[axis]);
+    spin[axis] = static_cast<double>(motion.spin[axis]);
+  }
+  return {velocity - spin.cross(center), spin};
+}
+
 /// Of the principal stretches, ascending.
 Vec3 squared_stretches(const Mat3& F) {
   return Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F, Eigen::EigenvaluesOnly)
@@ -96,8 +112,9 @@ auto Groups<Real>::curvature_of(const Shape& shape, const GroupMotion& motion) c
 }
 
 template <class Real>
-auto Groups<Real>::motion_at(const Shape& shape, const GroupMotion& motion, const Vec3& at) const
-    -> LocalMotion {
+typename Groups<Real>::LocalMotion Groups<Real>::motion_at(const Shape& shape,
+                                                           const GroupMotion& motion,
+                                                           const Vec3& at) const {
   if (!shape.cubic)
     return {motion.x.row(0).transpose() + motion.x.middleRows<3>(1).transpose() * at,
             motion.v.row(0).transpose() + motion.v.middleRows<3>(1).transpose() * at,
@@ -110,26 +127,6 @@ auto Groups<Real>::motion_at(const Shape& shape, const GroupMotion& motion, cons
   }
   return local;
 }
-
-namespace {
-
-/// v + w x (x - c) = (v - w x c) + w x x.
-struct Field {
-  Vec3 velocity, spin;  ///< at the origin
-};
-
-template <class Real>
-Field field_of(const kernel::RigidMotion<Real>& motion) {
-  Vec3 center, velocity, spin;
-  for (int axis = 0; axis < 3; ++axis) {
-    center[axis] = static_cast<double>(motion.center[axis]);
-    velocity[axis] = static_cast<double>(motion.velocity[axis]);
-    spin[axis] = static_cast<double>(motion.spin[axis]);
-  }
-  return {velocity - spin.cross(center), spin};
-}
-
-}  // namespace
 
 /// Relative to the field anywhere in the box, at most, squared.
 template <class Real>

@@ -238,14 +238,14 @@ StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
 template <class Real>
 void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
   if (!groups_.any()) return;
-  const double T = layout_.units().time;
-  const auto seconds = [&](Real time) { return static_cast<double>(time) * T; };
+  const auto seconds = [T = layout_.units().time](Real time) {
+    return static_cast<double>(time) * T;
+  };
   const GroupStep by{seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
                      stepping_.gravity};
   groups_.sum(bonds_, now, layout_.units(), by);
-  groups_.bound(
-      layout_.units(), by, [this](std::size_t piece) { return lists_.meets_others(piece); },
-      lists_.parts(), totals_);
+  const auto meets = [this](std::size_t piece) { return lists_.meets_others(piece); };
+  groups_.bound(layout_.units(), by, meets, lists_.parts(), totals_);
   groups_.check_stretch();
 }
 
@@ -280,10 +280,8 @@ GroupedParticles ListStepper<Real>::grouped() {
   const auto show = [this](std::span<const std::uint32_t> pieces) {
     groups_.show(layout_.now, layout_.units(), pieces);
   };
-  const auto piece_now = [this](std::size_t piece) {
-    return groups_.piece_now(piece, layout_.units());
-  };
-  return {show, groups_.group_of_pieces(), piece_now, groups_.strains(), groups_.working_pieces()};
+  const auto now = [this](std::size_t piece) { return groups_.piece_now(piece, layout_.units()); };
+  return {show, groups_.group_of_pieces(), now, groups_.strains(), groups_.working_pieces()};
 }
 
 /// What pins moved counts as faster motion of the step before.
