@@ -108,25 +108,13 @@ TEST(CubicGroups, KeepMomentum) {
   EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * scale);
 }
 
-/// How far a bar is from the same one without groups at the end, root mean square in radii.
-double off_from_free(Bar bar, double duration) {
-  Simulation grouped = bar.begin();
-  bar.body.grouping.reset();
-  Simulation full = bar.begin();
-  while (grouped.time() < duration) grouped.step(), full.step();
-  const Particles &a = grouped.particles(), &b = full.particles();
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a.position(i) - b.position(i)).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(a.size())) / r;
-}
-
 TEST(CubicGroups, ABendIsNearerThanThatOfAffineOnes) {
   Bar bar = bending();
-  const double bent = off_from_free(bar, 0.3);
+  const double bent = off_from_full(bar, 0.3);
   auto grouping = std::make_shared<Grouping>(*bar.body.grouping);
   grouping->cubic_from = std::numeric_limits<std::size_t>::max();
   bar.body.grouping = grouping;
-  EXPECT_LT(bent, 0.6 * off_from_free(bar, 0.3));
+  EXPECT_LT(bent, 0.6 * off_from_full(bar, 0.3));
 }
 
 TEST(CubicGroups, TheLedgerOfABendCloses) {

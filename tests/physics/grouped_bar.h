@@ -66,4 +66,16 @@ inline Conserved conserved(const Particles& particles) {
   return sum;
 }
 
+/// How far a bent bar with groups is from one without, root mean square in radii.
+inline double off_from_full(Bar bar, double duration) {
+  Simulation grouped = bar.begin();
+  bar.body.grouping.reset();
+  Simulation full = bar.begin();
+  while (grouped.time() < duration) grouped.step(), full.step();
+  const Particles &a = grouped.particles(), &b = full.particles();
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a.position(i) - b.position(i)).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.size())) / r;
+}
+
 }  // namespace sinew::groups_test
