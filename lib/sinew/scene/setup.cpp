@@ -217,7 +217,6 @@ StaticGroups static_options(const Settings& settings, const Body& body) {
   options.joint_distance = asked.joint_distance.value_or(affine_distance);
   if (asked.motion == GroupForm::affine || !may_bend(body)) return options;
   options.cubic_distance = asked.joint_distance.value_or(cubic_distance);
-
   return options;
 }
 

@@ -176,8 +176,8 @@ double Groups<Real>::strain_rate(const PieceBox& one, const LocalMotion& local,
   return (L + L.transpose()).norm() / 2 + changes / std::max(1 - turned, 0.1);
 }
 
-/// Boxes of a piece follow each other. Strains change slowly: where no step computes anything,
-/// their rates are found now and then.
+/// Boxes of a piece follow each other. Where no lists depend on strains, and they change
+/// slowly, their rates are found now and then.
 template <class Real>
 void Groups<Real>::bound(const Units& units, const GroupStep& by,
                          const std::function<bool(std::size_t)>& meets,
@@ -200,19 +200,17 @@ void Groups<Real>::bound(const Units& units, const GroupStep& by,
     for (std::size_t k = begin; k < end; ++k) {
       const PieceBox& one = boxes_[k];
       const auto g = static_cast<std::size_t>(one.group);
-      const bool works = working_[one.piece] != 0, near = works || meets(one.piece);
-      const LocalMotion local = near && !works && !everywhere
-                                    ? LocalMotion{}
-                                    : motion_at(shapes_[g], moving[g], one.box.center());
+      const bool near = working_[one.piece] != 0 || meets(one.piece);
+      const LocalMotion local = motion_at(shapes_[g], moving[g], one.box.center());
       const auto& field = parts.motions[one.part];
       fastest[k] = near ? fastest_of(one, units, moving[g], field)
                         : fastest_in(one, units, local, curvature[g], field);
-      if (works || everywhere) rates_[k] = strain_rate(one, local, curvature[g]);
+      rates_[k] = near || everywhere ? strain_rate(one, local, curvature[g]) : 0;
     }
   });
   for (std::size_t k = 0; k < boxes_.size();) {
     const std::uint32_t piece = boxes_[k].piece;
-    const bool works = working_[piece] != 0;
+    const bool near = working_[piece] != 0 || meets(piece);
     double rate = 0;
     for (; k < boxes_.size() && boxes_[k].piece == piece; ++k) {
       rate = std::max(rate, rates_[k]);
@@ -221,9 +219,8 @@ void Groups<Real>::bound(const Units& units, const GroupStep& by,
       totals[piece].speed2 =
           std::max(totals[piece].speed2, speed2[static_cast<std::size_t>(boxes_[k].group)]);
     }
-    if (works || everywhere)
-      strains_[piece] +=
-          (works ? 1 : rates_ahead * steps_between_rates) * by.drift * rate * (1 + by.drift * rate);
+    strains_[piece] +=
+        (near ? 1 : rates_ahead * steps_between_rates) * by.drift * rate * (1 + by.drift * rate);
   }
 }
 
