@@ -12,7 +12,9 @@ namespace sinew::groups_test {
 namespace {
 
 constexpr int width = 17, height = 97;
-constexpr DynamicOptions options{0.7, 0.03, 256};
+constexpr DynamicOptions options{{.joint_distance = 0.7, .least = 256}, 0.03};
+constexpr DynamicOptions bending_ones{
+    {.joint_distance = 0.7, .least = 256, .cubic_distance = 0.5, .least_cubic = 1024}, 0.03};
 // Beyond the time for which the first groups are made.
 constexpr double start = 0.3, bent = 0.4;
 
@@ -26,9 +28,9 @@ Bar swinging(MaterialModel model, Precision precision = Precision::binary64, dou
   return Bar(settings, width, height, [](const Vec3&) { return -1; });
 }
 
-Simulation begin(const Bar& bar) {
+Simulation begin(const Bar& bar, const DynamicOptions& by = options) {
   Simulation simulation = bar.begin();
-  simulation.group_as_it_moves(options);
+  simulation.group_as_it_moves(by);
   return simulation;
 }
 
@@ -49,7 +51,7 @@ TEST(DynamicGroups, ABodyIsOneUntilAJointMoves) {
   EXPECT_EQ(grouping.size(), 2U);
   EXPECT_GT(grouped_share(simulation), 0.2);
   const double joint = bar.body.skeleton.bones[1].head().z();
-  const double free = options.joint_distance * std::sqrt(bar.body.binding.cross_section[1]);
+  const double free = options.sizes.joint_distance * std::sqrt(bar.body.binding.cross_section[1]);
   for (std::size_t i = 0; i < bar.rest.size(); ++i)
     EXPECT_TRUE(grouping.group[i] < 0 || std::abs(bar.rest[i].z() - joint) >= free) << i;
 }
@@ -65,46 +67,67 @@ TEST(DynamicGroups, WhatHasComeBackJoinsAgain) {
   EXPECT_GT(grouped_share(simulation), 0.9);
 }
 
+struct Bend {
+  double off;  ///< from a run without groups, root mean square in radii
+  std::size_t grouped, cubic;
+};
+
+Bend bend_of(const Bar& bar, const DynamicOptions& by) {
+  Simulation full = bar.begin(), grouped = begin(bar, by);
+  while (full.time() < bent + 0.05) full.step(), grouped.step();
+  const Grouping& grouping = *grouped.body().grouping;
+  return {root_mean_square_distance(full.particles(), grouped.particles()) / r, grouping.grouped(),
+          static_cast<std::size_t>(
+              std::count(grouping.cubic.begin(), grouping.cubic.end(), std::uint8_t{1}))};
+}
+
 TEST(DynamicGroups, ABendIsNearlyTheSame) {
-  for (const MaterialModel model : models) {
-    const Bar bar = swinging(model);
-    Simulation full = bar.begin(), grouped = begin(bar);
-    while (full.time() < bent + 0.05) full.step(), grouped.step();
-    const Particles &a = full.particles(), &b = grouped.particles();
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += (a.position(i) - b.position(i)).squaredNorm();
-    EXPECT_LT(std::sqrt(sum / static_cast<double>(a.size())), 0.3 * r);
-  }
+  for (const MaterialModel model : models) EXPECT_LT(bend_of(swinging(model), options).off, 0.3);
+}
+
+TEST(DynamicGroups, CubicOnesBendWhereAffineOnesSplit) {
+  const Bar bar = swinging(MaterialModel::bonded);
+  const Bend affine = bend_of(bar, options), cubic = bend_of(bar, bending_ones);
+  EXPECT_EQ(affine.cubic, 0U);
+  EXPECT_EQ(cubic.cubic, 2U);
+  EXPECT_GT(cubic.grouped, affine.grouped);
+  EXPECT_LT(cubic.off, 0.3);
 }
 
 TEST(DynamicGroups, TheLedgerClosesWithWhatMergingLoses) {
-  Simulation simulation = begin(swinging(MaterialModel::bonded, Precision::binary64, 0.5));
-  const double before = simulation.energies().stored();
-  while (simulation.time() < 1) simulation.step();
-  const Energies now = simulation.energies();
-  EXPECT_GT(simulation.regroupings(), 2);
-  EXPECT_NEAR(now.stored() - before, now.work() - now.dissipation, 0.01 * now.work_of_bones);
-  EXPECT_LT(std::abs(simulation.lost_by_merging()), 0.01 * now.work_of_bones);
+  for (const DynamicOptions& by : {options, bending_ones}) {
+    Simulation simulation = begin(swinging(MaterialModel::bonded, Precision::binary64, 0.5), by);
+    const double before = simulation.energies().stored();
+    while (simulation.time() < 1) simulation.step();
+    const Energies now = simulation.energies();
+    EXPECT_GT(simulation.regroupings(), 2);
+    EXPECT_NEAR(now.stored() - before, now.work() - now.dissipation, 0.01 * now.work_of_bones);
+    EXPECT_LT(std::abs(simulation.lost_by_merging()), 0.01 * now.work_of_bones);
+  }
+}
+
+/// On one thread, and on three with saves on the way.
+void expect_the_same_bits(const Bar& bar, const DynamicOptions& by) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 3})
+    with_threads(threads, [&] {
+      Simulation simulation = begin(bar, by);
+      while (simulation.time() < start + 0.03) {
+        simulation.step();
+        if (threads == 1 || simulation.steps() % 57 != 0) continue;
+        Simulation resumed = begin(bar, by);
+        resumed.restore(simulation.save());
+        simulation = std::move(resumed);
+      }
+      hashes.push_back(state_hash(simulation.particles()));
+    });
+  EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 TEST(DynamicGroups, TheSameBitsOnAnyNumberOfThreadsAndAfterASave) {
-  for (const Precision precision : test::precisions) {
-    const Bar bar = swinging(MaterialModel::bonded, precision);
-    std::vector<std::uint64_t> hashes;
-    for (const int threads : {1, 3})
-      with_threads(threads, [&] {
-        Simulation simulation = begin(bar);
-        while (simulation.time() < start + 0.03) {
-          simulation.step();
-          if (threads == 1 || simulation.steps() % 57 != 0) continue;
-          Simulation resumed = begin(bar);
-          resumed.restore(simulation.save());
-          simulation = std::move(resumed);
-        }
-        hashes.push_back(state_hash(simulation.particles()));
-      });
-    EXPECT_EQ(hashes[0], hashes[1]);
-  }
+  for (const Precision precision : test::precisions)
+    for (const DynamicOptions& by : {options, bending_ones})
+      expect_the_same_bits(swinging(MaterialModel::bonded, precision), by);
 }
 
 /// A bar without bones that flies, deformed as a whole by 1 %.

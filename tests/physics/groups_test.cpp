@@ -335,7 +335,7 @@ TEST(Quadrature, IsExactToTheFourthOrderAndNearlySoForWhatIsSmooth) {
   Points X;
   const std::vector<SampledBlock> blocks = cube_of_blocks(X);
   const Quadrature quadrature =
-      quadrature_over(blocks, [&](std::uint32_t block) { return quartic_terms_at(X[block]); });
+      quadrature_over(blocks, [&](std::uint32_t block) { return Points{X[block]}; });
   EXPECT_LT(quadrature.block.size(), 400U);
   const auto error = [&](const auto& f) {
     double all = 0, sampled = 0, size = 0;
@@ -351,6 +351,26 @@ TEST(Quadrature, IsExactToTheFourthOrderAndNearlySoForWhatIsSmooth) {
             1e-12);
   EXPECT_LT(error([](const Vec3& x) { return std::cos(2 * x.x() + x.y()); }), 0.01);
   EXPECT_LT(error([](const Vec3& x) { return std::hypot(x.x(), x.y()); }), 0.01);
+}
+
+TEST(Quadrature, OfAPartOfAGroupIsASmallSample) {
+  for (int part = 0; part < 20; ++part) {
+    const Vec3 corner(0.1 * part, 1.5 - 0.05 * part, 1), size(0.02 + 0.01 * part, 0.1, 0.3);
+    Points X;
+    std::vector<SampledBlock> blocks = cube_of_blocks(X);
+    blocks.resize(static_cast<std::size_t>(600 + 300 * part));
+    const auto at = [&](std::uint32_t block) { return Vec3(corner + size.cwiseProduct(X[block])); };
+    const Quadrature quadrature =
+        quadrature_over(blocks, [&](std::uint32_t block) { return Points{at(block)}; });
+    EXPECT_LE(quadrature.block.size(), std::max<std::size_t>(blocks.size() / 4, 300)) << part;
+    Vec3 all = Vec3::Zero();
+    for (const SampledBlock& one : blocks) all += at(one.block).cwiseProduct(at(one.block));
+    for (std::size_t s = 0; s < quadrature.block.size(); ++s) {
+      const Vec3 x = at(quadrature.block[s]);
+      all -= quadrature.weight[s] * x.cwiseProduct(x);
+    }
+    EXPECT_LT(all.norm(), 1e-9 * static_cast<double>(blocks.size()));
+  }
 }
 
 }  // namespace sinew::groups_test

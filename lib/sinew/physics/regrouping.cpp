@@ -2,6 +2,7 @@
 // How a simulation changes its groups of particles. All depends on the count of steps and on the
 // state alone, so that a resumed run does the same.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <sinew/core/error.h>
@@ -20,6 +21,11 @@ std::size_t count_grouped(const std::vector<std::int32_t>& group) {
       std::count_if(group.begin(), group.end(), [](std::int32_t one) { return one >= 0; }));
 }
 
+/// Of so many particles, in groups.
+std::size_t worthwhile(std::size_t count) {
+  return static_cast<std::size_t>(std::ceil(least_gain * static_cast<double>(count)));
+}
+
 }  // namespace
 
 void Simulation::group_as_it_moves(const DynamicOptions& options) {
@@ -34,7 +40,8 @@ void Simulation::group_as_it_moves(const DynamicOptions& options) {
 
 void Simulation::set_grouping(std::vector<std::int32_t> group) {
   if (group.size() != body_->rest.size()) throw not_a_state("it has no groups");
-  body_->grouping = std::make_shared<const Grouping>(make_grouping(*body_, std::move(group)));
+  body_->grouping = std::make_shared<const Grouping>(make_grouping(
+      *body_, std::move(group), dynamic_ ? dynamic_->options().sizes.cubic_from() : none_cubic));
 }
 
 /// The particles go on in these groups, from where they are.
@@ -65,16 +72,16 @@ void Simulation::check_groups() {
       },
       stepper_);
   if (dynamic_->must_split(grouping_moment(), held)) return regroup(held, true);
-  const auto all = static_cast<double>(body_->rest.size());
-  const auto grouped = static_cast<double>(body_->grouping->grouped());
-  if (steps_ % steps_between_merges == 0 && all - grouped > least_gain * all) regroup(held, false);
+  if (steps_ % steps_between_merges == 0 &&
+      dynamic_->may_join(grouping_moment(), worthwhile(body_->rest.size())))
+    regroup(held, false);
 }
 
 void Simulation::regroup(std::span<const HeldCell> held, bool must) {
   NewGroups made = dynamic_->regroup(grouping_moment(), held, particles());
-  const auto gain = static_cast<double>(count_grouped(made.group)) -
-                    static_cast<double>(body_->grouping->grouped());
-  if (!must && gain < least_gain * static_cast<double>(made.group.size())) return;
+  if (!must &&
+      count_grouped(made.group) < body_->grouping->grouped() + worthwhile(made.group.size()))
+    return;
   const double before = energies().stored();
   move_in(std::move(made.group));
   regrouping_.lost += before - energies().stored();

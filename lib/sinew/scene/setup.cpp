@@ -200,9 +200,6 @@ void check_groups(const Settings& settings, const Body& body) {
   with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
   if (settings.hierarchy.motion != GroupForm::cubic) return;
   const Place motion = settings.place("hierarchy.motion");
-  if (settings.hierarchy.dynamic)
-    throw bad_input(motion, "groups that change move affinely",
-                    "set hierarchy.motion to auto, or hierarchy.dynamic to false");
   if (!may_bend(body))
     throw bad_input(motion,
                     "only in bonded bodies without volume terms, pairwise damping and obstacles do "
@@ -211,13 +208,13 @@ void check_groups(const Settings& settings, const Body& body) {
 }
 
 /// Groups are cubic where they may, unless the scene says otherwise.
-StaticGroups static_options(const Settings& settings, const Body& body) {
+GroupSizes sizes_of(const Settings& settings, const Body& body) {
   const HierarchySettings& asked = settings.hierarchy;
-  StaticGroups options;
-  options.joint_distance = asked.joint_distance.value_or(affine_distance);
-  if (asked.motion == GroupForm::affine || !may_bend(body)) return options;
-  options.cubic_distance = asked.joint_distance.value_or(cubic_distance);
-  return options;
+  GroupSizes sizes;
+  sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
+  if (asked.motion == GroupForm::affine || !may_bend(body)) return sizes;
+  sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance);
+  return sizes;
 }
 
 /// None where the scene asks for none.
@@ -227,8 +224,7 @@ std::shared_ptr<const Grouping> grouping_of(const Settings& settings, const Body
   check_groups(settings, body);
   if (settings.hierarchy.dynamic) return {};
   const auto moves = moving_joints(body.skeleton, motion, settings.solver.duration);
-  return std::make_shared<const Grouping>(
-      static_groups(body, moves, static_options(settings, body)));
+  return std::make_shared<const Grouping>(static_groups(body, moves, sizes_of(settings, body)));
 }
 
 }  // namespace
@@ -251,8 +247,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.weights_given = settings.binding.method == BindMethod::file;
   setup.body.grouping = grouping_of(settings, setup.body, setup.motion);
   if (settings.hierarchy.enabled && settings.hierarchy.dynamic)
-    setup.dynamic_groups = {settings.hierarchy.joint_distance.value_or(affine_distance),
-                            settings.hierarchy.tolerance};
+    setup.dynamic_groups = {sizes_of(settings, setup.body), settings.hierarchy.tolerance};
   if (is_static(settings)) {
     refuse_free(settings, setup.body);
     setup.body = undamped(std::move(setup.body));

@@ -182,7 +182,7 @@ struct HierarchySettings {
   bool dynamic = false;
   std::optional<GroupForm> motion;
   std::optional<double> joint_distance;
-  double tolerance = 0.05;
+  double tolerance = 0.15;
 };
 
 struct OutputSettings {

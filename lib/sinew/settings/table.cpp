@@ -312,7 +312,7 @@ std::vector<Field<Settings>> make_hierarchy() {
       field<S>("hierarchy", "dynamic", SINEW_AT(S, hierarchy.dynamic), "",
                "groups change: cells join that move affinely, and leave where forces tear"),
       choice<S>("hierarchy", "motion", SINEW_AT(S, hierarchy.motion), {"affine", "cubic"},
-                "of large groups that stay, in bonded bodies; auto: cubic; all others are affine"),
+                "of large groups in bonded bodies; auto: cubic; all others are affine"),
       field<S>("hierarchy", "joint_distance", SINEW_AT(S, hierarchy.joint_distance), "sqrt(A)",
                "free up to here from joints that move; auto: 0.65; 1 for affine groups",
                not_negative),

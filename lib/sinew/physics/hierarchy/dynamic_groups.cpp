@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/hierarchy/dynamic_groups.h>
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include <sinew/core/parallel.h>
@@ -14,74 +17,88 @@ namespace sinew {
 namespace {
 
 constexpr double cell_edge = 8;  // diameters
-constexpr std::size_t particles_at_a_time = 8192;
+constexpr std::size_t particles_per_count = 8192;
 constexpr int moments_ahead = 16;
 // Groups are worth the work of making them if no joint of theirs moves for so many checks.
 constexpr double checks_ahead = 16;
-constexpr int most_rounds = 4;      // of what is grown and found not to fit
+constexpr int most_rounds = 4;  // of what is grown and found not to fit
+// Of how far off the worst is, squared: what leaves at once with it.
+constexpr double leaving_share = 0.25;
 constexpr double free_share = 0.5;  // of the tolerance, for what was free
 constexpr double torn_share = 0.5;  // of the tolerance: what leaves where something must
 // Of a particle that is moved while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 
-/// x = c + F (X - center), and its rate.
-struct AffineMap {
-  Vec3 center = Vec3::Zero(), c = Vec3::Zero(), v = Vec3::Zero();
-  Mat3 F = Mat3::Identity(), V = Mat3::Zero();
-};
+/// Units of one part that move by one cubic.
+class CubicGrowth {
+ public:
+  /// `share`: of a unit, of what it may be off a motion.
+  CubicGrowth(const std::vector<CubicSums>& sums, double least,
+              std::function<double(std::size_t, const CubicMotion&)> share)
+      : sums_(sums), least_(least), share_of_(std::move(share)), taken_(sums.size(), 0) {}
 
-/// Over particles, of places that are near the origin.
-struct Sums {
-  double n = 0;
-  Vec3 X = Vec3::Zero(), x = Vec3::Zero(), v = Vec3::Zero();
-  Mat3 XX = Mat3::Zero(), xX = Mat3::Zero(), vX = Mat3::Zero();
+  /// Whether those for which is_one(unit) holds move by one.
+  template <class IsOne>
+  bool all_fit(const IsOne& is_one) {
+    choose(is_one);
+    return fit() && worst() < 1;
+  }
+  /// Of those, the units that do and are in no group yet, and others that move with them, if they
+  /// are enough.
+  template <class IsOne>
+  std::vector<std::size_t> grow(const IsOne& is_one) {
+    std::vector<std::size_t> grown;
+    choose(is_one);
+    if (!shrink()) return grown;
+    for (std::size_t n = 0; n < in_.size(); ++n)
+      if (taken_[n] == 0 && share_[n] < 1) in_[n] = 1;
+    if (!shrink()) return grown;
+    for (std::size_t n = 0; n < in_.size(); ++n)
+      if (in_[n] != 0) grown.push_back(n), taken_[n] = 1;
+    return grown;
+  }
 
-  void add(const Vec3& rest, const Vec3& at, const Vec3& velocity) {
-    n += 1, X += rest, x += at, v += velocity;
-    XX += rest * rest.transpose(), xX += at * rest.transpose(), vX += velocity * rest.transpose();
+ private:
+  template <class IsOne>
+  void choose(const IsOne& is_one) {
+    in_.assign(sums_.size(), 0), share_.assign(sums_.size(), 0);
+    for (std::size_t n = 0; n < in_.size(); ++n) in_[n] = taken_[n] == 0 && is_one(n) ? 1 : 0;
   }
-  Sums& operator+=(const Sums& other) {
-    n += other.n, X += other.X, x += other.x, v += other.v;
-    XX += other.XX, xX += other.xX, vX += other.vX;
-    return *this;
+  /// Whether there is a motion.
+  bool fit() {
+    CubicSums all;
+    for (std::size_t n = 0; n < in_.size(); ++n)
+      if (in_[n] != 0) all += sums_[n];
+    if (all.n < least_) return false;
+    const std::optional<CubicMotion> motion = cubic_motion(all);
+    for (std::size_t n = 0; motion && n < in_.size(); ++n) share_[n] = share_of_(n, *motion);
+    return motion.has_value();
   }
-  Mat3 spread() const { return XX - X * X.transpose() / n; }
-  /// By least squares.
-  AffineMap map() const {
-    // What lies in a plane or a line has no strain across it that anyone could know.
-    const Mat3 S = spread();
-    const Mat3 inverse = (S + 1e-9 * S.trace() * Mat3::Identity()).inverse();
-    return {X / n, x / n, v / n, (xX - x * X.transpose() / n) * inverse,
-            (vX - v * X.transpose() / n) * inverse};
+  double worst() const {
+    double worst = 0;
+    for (std::size_t n = 0; n < in_.size(); ++n)
+      if (in_[n] != 0) worst = std::max(worst, share_[n]);
+    return worst;
   }
-};
+  /// What moves least so leaves, until all do.
+  bool shrink() {
+    while (fit()) {
+      const double most = worst();
+      if (most < 1) return true;
+      for (std::size_t n = 0; n < in_.size(); ++n)
+        if (share_[n] >= std::max(1.0, leaving_share * most)) in_[n] = 0;
+    }
+    return false;
+  }
 
-/// Mean squares of how far particles are from a map: of their places, and of their velocities.
-struct Residual {
-  double x = 0, v = 0;
+  const std::vector<CubicSums>& sums_;
+  double least_;
+  std::function<double(std::size_t, const CubicMotion&)> share_of_;
+  std::vector<std::uint8_t> taken_, in_;
+  std::vector<double> share_;
 };
 
 }  // namespace
-
-struct DynamicGroups::Unit {
-  std::int32_t cell = 0;
-  int part = -1;
-  bool was_grouped = true;
-  std::int32_t group = -1;  ///< that it joins
-  bool fits = false;
-  Sums sums;
-  AffineMap map;
-  Residual own;
-
-  /// From another map.
-  Residual from(const AffineMap& other) const {
-    const Mat3 S = sums.spread() / sums.n, dF = map.F - other.F, dV = map.V - other.V;
-    const Vec3 to = map.center - other.center;
-    const Vec3 dc = map.c - (other.c + other.F * to), dv = map.v - (other.v + other.V * to);
-    return {own.x + dc.squaredNorm() + (dF * S).cwiseProduct(dF).sum(),
-            own.v + dv.squaredNorm() + (dV * S).cwiseProduct(dV).sum()};
-  }
-};
 
 DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, double mass,
                              const DynamicOptions& options)
@@ -90,6 +107,7 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, do
       options_(options),
       most_held_(options.tolerance * body_->material.pair.r * stiffness_of_place *
                  body_->material.stiffness() / mass),
+      near_(neighbors_within(body_->rest, rest_neighbor_range(body_->material.pair.r))),
       cell_(body_->rest.size()) {
   const double edge = cell_edge * 2 * body_->material.pair.r;
   Box box;
@@ -135,6 +153,13 @@ bool DynamicGroups::is_held_above(double share, const HeldCell& cell) const {
   return cell.squares > most * most * cell.count;
 }
 
+/// Of what a unit may be off, squared, before it leaves, or where it was free, to join.
+double DynamicGroups::share_of_most(const GroupingMoment& now, bool was_grouped,
+                                    const Residual& off) const {
+  const double most = (was_grouped ? 1 : free_share) * options_.tolerance * body_->material.pair.r;
+  return std::max(off.x, off.v * now.interval * now.interval) / (most * most);
+}
+
 bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCell> held) const {
   if (std::any_of(held.begin(), held.end(),
                   [&](const HeldCell& cell) { return is_held_above(1, cell); }))
@@ -145,12 +170,14 @@ bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCe
   return false;
 }
 
-/// 1 for cells that are held too strongly, or soon will be, and those around them.
+/// 1 for cells that are held too strongly, with those around them, or soon will be.
 std::vector<std::uint8_t> DynamicGroups::torn_around(std::span<const HeldCell> held) const {
   std::vector<std::uint8_t> torn(count_, 0);
   const auto& [nx, ny, nz] = cells_along_;
   for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(held.size()); ++cell) {
-    if (!is_held_above(torn_share, held[static_cast<std::size_t>(cell)])) continue;
+    const HeldCell& at = held[static_cast<std::size_t>(cell)];
+    if (is_held_above(torn_share, at)) torn[static_cast<std::size_t>(cell)] = 1;
+    if (!is_held_above(1, at)) continue;
     const std::int32_t x = cell % nx, y = cell / nx % ny, z = cell / (nx * ny);
     for (std::int32_t k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k)
       for (std::int32_t j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)
@@ -160,70 +187,10 @@ std::vector<std::uint8_t> DynamicGroups::torn_around(std::span<const HeldCell> h
   return torn;
 }
 
-/// The units, in the order of their cells and parts, and that of each particle, by id: -1 where it
-/// follows no part.
-std::vector<std::int32_t> DynamicGroups::find_units(const BoneParts& parts, Units& units) const {
-  std::vector<std::int64_t> key(cell_.size(), -1);
-  // What no bone holds is a part as well.
-  const auto bones = static_cast<int>(body_->skeleton.size());
-  const std::int64_t of_cell = bones + 1;
-  parallel_for(key.size(), particles_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (const int part = parts.of(i); part != BoneParts::none)
-        key[i] = cell_[i] * of_cell + (part == BoneParts::without_bones ? bones : part);
-  });
-  std::vector<std::int64_t> keys;
-  for (const std::int64_t one : key)
-    if (one >= 0 && (keys.empty() || keys.back() != one)) keys.push_back(one);
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  units.resize(keys.size());
-  for (std::size_t u = 0; u < keys.size(); ++u) {
-    units[u].cell = static_cast<std::int32_t>(keys[u] / of_cell);
-    units[u].part = static_cast<int>(keys[u] % of_cell);
-  }
-  std::vector<std::int32_t> unit(key.size(), -1);
-  parallel_for(key.size(), particles_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (key[i] >= 0)
-        unit[i] = static_cast<std::int32_t>(std::lower_bound(keys.begin(), keys.end(), key[i]) -
-                                            keys.begin());
-  });
-  return unit;
-}
-
-/// Fits each unit, and how far its particles are from that.
-void DynamicGroups::measure(const Particles& particles, std::span<const std::int32_t> unit,
-                            Units& units) const {
-  const Vec3 origin = body_->rest.empty() ? Vec3(Vec3::Zero()) : body_->rest.front();
-  std::vector<std::uint32_t> place(particles.size());
-  for (std::uint32_t k = 0; k < place.size(); ++k)
-    place[static_cast<std::size_t>(particles.id[k])] = k;
-  const auto for_each = [&](const auto& visit) {  // by id: whatever their order
-    for (std::size_t i = 0; i < unit.size(); ++i)
-      if (unit[i] >= 0)
-        visit(units[static_cast<std::size_t>(unit[i])], i, body_->rest[i] - origin,
-              particles.position(place[i]) - origin, particles.velocity(place[i]));
-  };
-  for_each([&](Unit& one, std::size_t i, const Vec3& X, const Vec3& x, const Vec3& v) {
-    one.sums.add(X, x, v);
-    one.was_grouped = one.was_grouped && body_->grouping->group[i] >= 0;
-  });
-  for (Unit& one : units) one.map = one.sums.map();
-  for_each([](Unit& one, std::size_t, const Vec3& X, const Vec3& x, const Vec3& v) {
-    const Vec3 from = X - one.map.center;
-    one.own.x += (x - one.map.c - one.map.F * from).squaredNorm() / one.sums.n;
-    one.own.v += (v - one.map.v - one.map.V * from).squaredNorm() / one.sums.n;
-  });
-}
-
 /// Grows groups from one unit after another, as long as the next one moves with them.
-void DynamicGroups::grow(const GroupingMoment& now, Units& units) const {
-  const double tolerance = options_.tolerance * body_->material.pair.r;
+void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) const {
   const auto moves_with = [&](const Unit& one, const AffineMap& map) {
-    const double most = (one.was_grouped ? 1 : free_share) * tolerance;
-    const Residual off = one.from(map);
-    return off.x < most * most && off.v * now.interval * now.interval < most * most;
+    return share_of_most(now, one.was_grouped(), one.from(map)) < 1;
   };
   for (Unit& one : units) one.fits = one.fits && moves_with(one, one.map);
   std::vector<std::vector<std::size_t>> at(count_);
@@ -231,14 +198,14 @@ void DynamicGroups::grow(const GroupingMoment& now, Units& units) const {
   for (std::size_t u = 0; u < units.size(); ++u)
     at[static_cast<std::size_t>(units[u].cell)].push_back(u), seeds.push_back(u);
   std::stable_sort(seeds.begin(), seeds.end(), [&](std::size_t a, std::size_t b) {
-    return units[a].was_grouped > units[b].was_grouped;
+    return units[a].was_grouped() > units[b].was_grouped();
   });
   const auto& [nx, ny, nz] = cells_along_;
   const std::int32_t steps[3] = {1, nx, nx * ny};
   std::int32_t next = 0;
   const auto grow_from = [&](std::size_t seed) {
     std::vector<std::size_t> members{seed};
-    Sums sums = units[seed].sums;
+    AffineSums sums = units[seed].sums;
     AffineMap map = units[seed].map;
     units[seed].group = next;
     for (std::size_t n = 0; n < members.size(); ++n) {
@@ -272,20 +239,80 @@ void DynamicGroups::grow(const GroupingMoment& now, Units& units) const {
   }
 }
 
+/// Of each part the units that move by cubics: those of a group before, or of all of its groups, as
+/// far as they still do, and what moves with them; then what is left.
+void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
+  std::map<int, std::vector<std::size_t>> parts;
+  for (std::size_t u = 0; u < units.all().size(); ++u)
+    if (units.all()[u].fits) parts[units.all()[u].part].push_back(u);
+  std::int32_t next = 0;
+  for (const auto& [part, of] : parts) {
+    const std::vector<CubicSums> sums = units.cubic_sums(of);
+    const auto unit = [&](std::size_t n) -> Unit& { return units.all()[of[n]]; };
+    const auto least = static_cast<double>(options_.sizes.least_cubic);
+    CubicGrowth growth(sums, least, [&](std::size_t n, const CubicMotion& motion) {
+      return share_of_most(now, unit(n).was_grouped(), residual(sums[n], motion));
+    });
+    std::set<std::int32_t> before;
+    for (std::size_t n = 0; n < of.size(); ++n) before.insert(unit(n).was_in);
+    before.erase(-1);
+    const auto from = [&](const auto& is_one) {
+      for (const std::size_t n : growth.grow(is_one)) unit(n).group = next;
+      ++next;
+    };
+    const auto was_grouped = [&](std::size_t n) { return unit(n).was_grouped(); };
+    if (before.size() > 1 && growth.all_fit(was_grouped)) from(was_grouped);
+    for (const std::int32_t one : before)
+      from([&](std::size_t n) { return unit(n).was_in == one; });
+    from([](std::size_t) { return true; });
+  }
+}
+
+/// Whether so many free particles follow a part that groups may be worth making anew.
+bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) const {
+  const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
+  const GroupSizes& sizes = options_.sizes;
+  const BoneParts parts(*body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance));
+  std::vector<std::size_t> found((cell_.size() + particles_per_count - 1) / particles_per_count);
+  parallel_for(cell_.size(), particles_per_count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (body_->grouping->group[i] < 0 && parts.of(i) != BoneParts::none)
+        ++found[begin / particles_per_count];
+  });
+  return std::accumulate(found.begin(), found.end(), std::size_t{0}) >= enough;
+}
+
+/// Adds what is in no group, to new ones, numbered from `first` on.
+void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
+                               std::vector<std::int32_t>& group) const {
+  const GroupSizes& sizes = options_.sizes;
+  const BoneParts parts(*body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance);
+  MovingUnits units(*body_, cell_, parts, group, asked.particles);
+  for (Unit& one : units.all())
+    one.fits =
+        asked.torn[static_cast<std::size_t>(one.cell)] == 0 && !asked.bend.contains(one.part);
+  if (cubic)
+    bend(asked.now, units);
+  else
+    grow(asked.now, units.all());
+  for (std::size_t u = 0; u < units.all().size(); ++u)
+    if (const std::int32_t joined = units.all()[u].group; joined >= 0)
+      for (const std::uint32_t i : units.members(u)) group[i] = first + joined;
+  separate(near_, cubic ? sizes.least_cubic : sizes.least, group);
+  if (!cubic) return;
+  free_sheets(*body_, group);
+  for (std::size_t u = 0; u < units.all().size(); ++u)
+    if (group[units.members(u).front()] >= 0) asked.bend.insert(units.all()[u].part);
+}
+
 NewGroups DynamicGroups::regroup(const GroupingMoment& now, std::span<const HeldCell> held,
                                  const Particles& particles) const {
   const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
-  const BoneParts parts(*body_, moves, options_.joint_distance);
-  Units units;
-  const std::vector<std::int32_t> unit = find_units(parts, units);
-  measure(particles, unit, units);
   const std::vector<std::uint8_t> torn = torn_around(held);
-  for (Unit& one : units) one.fits = torn[static_cast<std::size_t>(one.cell)] == 0;
-  grow(now, units);
-  NewGroups made{std::vector<std::int32_t>(unit.size(), -1), now.still_since};
-  for (std::size_t i = 0; i < unit.size(); ++i)
-    if (unit[i] >= 0) made.group[i] = units[static_cast<std::size_t>(unit[i])].group;
-  separate(*body_, options_.least, made.group);
+  NewGroups made{std::vector<std::int32_t>(cell_.size(), -1), now.still_since};
+  Asked asked{now, moves, torn, particles, {}};
+  if (options_.sizes.cubic_distance) add_groups(asked, true, 0, made.group);
+  add_groups(asked, false, static_cast<std::int32_t>(cell_.size()), made.group);
   made.still_since.resize(moves.size(), -1);
   for (std::size_t b = 0; b < moves.size(); ++b) {
     double& since = made.still_since[b];

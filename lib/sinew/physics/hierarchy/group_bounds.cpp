@@ -119,13 +119,9 @@ typename Groups<Real>::LocalMotion Groups<Real>::motion_at(const Shape& shape,
     return {motion.x.row(0).transpose() + motion.x.middleRows<3>(1).transpose() * at,
             motion.v.row(0).transpose() + motion.v.middleRows<3>(1).transpose() * at,
             motion.x.middleRows<3>(1).transpose(), motion.v.middleRows<3>(1).transpose()};
-  LocalMotion local{value_at(motion.x, at), value_at(motion.v, at), {}, {}};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Terms slopes = slopes_at(at, axis);
-    local.dx.col(axis) = motion.x.transpose() * slopes;
-    local.dv.col(axis) = motion.v.transpose() * slopes;
-  }
-  return local;
+  const Slopes slopes = slopes_at(at);
+  return {value_at(motion.x, at), value_at(motion.v, at), motion.x.transpose() * slopes,
+          motion.v.transpose() * slopes};
 }
 
 /// Relative to the field anywhere in the box, at most, squared.

@@ -167,9 +167,9 @@ void Groups<Real>::find_samples() {
          static_cast<std::uint64_t>(group_[begin]) << 32 | static_cast<std::uint32_t>(bone)});
   }
   samples_ = quadrature_over(blocks, [&](std::uint32_t b) {
-    QuarticTerms sum = QuarticTerms::Zero();
-    for (std::size_t k = b * block; k < (b + 1) * block; ++k) sum += quartic_terms_at(place(k));
-    return sum;
+    Points places;
+    for (std::size_t k = b * block; k < (b + 1) * block; ++k) places.push_back(place(k));
+    return places;
   });
   sampled_.clear();
   for (std::uint32_t s = 0; s < samples_.block.size(); ++s) {

@@ -14,6 +14,8 @@
 #include <sinew/core/particles.h>
 #include <sinew/physics/forces.h>
 #include <sinew/physics/hierarchy/affine_forces.h>
+#include <sinew/physics/hierarchy/cubic_fits.h>
+#include <sinew/physics/hierarchy/quadrature.h>
 #include <sinew/physics/laws.h>
 #include <sinew/physics/world/world.h>
 
@@ -24,6 +26,8 @@ constexpr std::size_t particles_per_layering = 8192;
 constexpr double off_center = 1e-6;  // in radii: above rounding of files' coordinates
 // Mean squares of X along the thinnest direction, in r^2: of two layers it is 0.5 and more.
 constexpr double thinnest = 0.4;
+
+constexpr std::size_t enough_places = 2048;  // to tell sheets
 
 constexpr std::uint8_t unknown = 255, most_levels = 8;
 constexpr int faces_of_level = 6;
@@ -207,6 +211,35 @@ void renumber(const Body& body, std::vector<std::int32_t>& group, Grouping& out)
   }
 }
 
+/// Some places of each group.
+std::map<std::int32_t, Points> samples(const Body& body, const std::vector<std::int32_t>& group) {
+  std::map<std::int32_t, std::size_t> sizes, met;
+  for (const std::int32_t one : group)
+    if (one >= 0) ++sizes[one];
+  std::map<std::int32_t, Points> places;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (group[i] >= 0 &&
+        is_sample(met[group[i]]++, std::max<std::size_t>(sizes[group[i]] / enough_places, 1)))
+      places[group[i]].push_back(body.rest[i]);
+  return places;
+}
+
+bool is_sheet(const Points& places) {
+  const FitFrame frame(places);
+  TermProducts products = TermProducts::Zero();
+  for (const Vec3& X : places)
+    products += terms_at(frame.at(X)) * terms_at(frame.at(X)).transpose();
+  return !tells_apart(products);
+}
+
+void find_cubic(const Body& body, const std::vector<std::int32_t>& group, std::size_t from,
+                Grouping& out) {
+  for (const auto& [of, places] : samples(body, group)) {
+    const auto g = static_cast<std::size_t>(of);
+    if (out.sizes[g] >= from && !is_sheet(places)) out.cubic[g] = 1;
+  }
+}
+
 }  // namespace
 
 std::size_t Grouping::grouped() const {
@@ -226,12 +259,22 @@ std::size_t Grouping::inside() const {
       std::count_if(layer.begin(), layer.end(), [](Layer one) { return one >= Layer::shell; }));
 }
 
-Grouping make_grouping(const Body& body, std::vector<std::int32_t> group) {
+Grouping make_grouping(const Body& body, std::vector<std::int32_t> group, std::size_t cubic_from) {
   Grouping made;
   renumber(body, group, made);
   LayerFinder(body, group).fill(made);
+  made.cubic.assign(made.size(), 0);
+  if (cubic_from != none_cubic) find_cubic(body, group, cubic_from, made);
   made.group = std::move(group);
   return made;
+}
+
+void free_sheets(const Body& body, std::vector<std::int32_t>& group) {
+  const std::map<std::int32_t, Points> all = samples(body, group);
+  std::map<std::int32_t, bool> sheets;
+  for (const auto& [g, places] : all) sheets[g] = is_sheet(places);
+  for (std::int32_t& one : group)
+    if (one >= 0 && sheets[one]) one = -1;
 }
 
 StretchRange stretch_range(const Body& body) {

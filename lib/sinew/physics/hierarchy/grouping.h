@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <sinew/core/vector.h>
@@ -33,9 +34,8 @@ struct Grouping {
   /// and on which of the group's sides; 0 in cores. Next to each other in memory, those of a face
   /// are neighbors of each other and of the next half-plane's in rows.
   std::vector<std::uint8_t> face;
-  std::vector<std::size_t> sizes;  ///< particles of each group
-  /// Groups of so many particles move by cubics.
-  std::size_t cubic_from = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> sizes;   ///< particles of each group
+  std::vector<std::uint8_t> cubic;  ///< by group: 1 where it moves by cubics
 
   std::size_t size() const { return sizes.size(); }
   /// By particle id: 0 free, 1 on the rim, 2 within.
@@ -44,10 +44,29 @@ struct Grouping {
   std::size_t inside() const;   ///< of the shells and cores
 };
 
+inline constexpr std::size_t none_cubic = std::numeric_limits<std::size_t>::max();
+
 /// Finds the layers of `group` (by particle id; below 0: free), and numbers the groups anew in the
 /// order of their first particles. What is too thin to have an affine motion of its own becomes
-/// free. In parallel.
-Grouping make_grouping(const Body& body, std::vector<std::int32_t> group);
+/// free. Groups of `cubic_from` particles and more are cubic, unless they are sheets. In parallel.
+Grouping make_grouping(const Body& body, std::vector<std::int32_t> group,
+                       std::size_t cubic_from = none_cubic);
+
+/// Frees groups that are sheets of a few layers, whose places do not tell cubics apart.
+void free_sheets(const Body& body, std::vector<std::int32_t>& group);
+
+/// How large groups are, and how near to joints that move.
+struct GroupSizes {
+  /// Particles nearer than this to a joint are free: along the bone, in square roots of the
+  /// cross-section of the bone whose head the joint is.
+  double joint_distance = 1;
+  std::size_t least = 4096;  ///< particles of a group
+  /// The same for cubic groups; none: there are none.
+  std::optional<double> cubic_distance = {};
+  std::size_t least_cubic = 16384;  ///< particles of a cubic group
+
+  std::size_t cubic_from() const { return cubic_distance ? least_cubic : none_cubic; }
+};
 
 /// The stretches of a group between which forces act between those particles alone that the layers
 /// take for neighbors, and between all of them. Cubic groups know second neighbors that touch.

@@ -39,7 +39,7 @@ void Groups<Real>::find_shapes() {
   const Grouping& grouping = *body_->grouping;
   shapes_.resize(grouping.size());
   for (std::size_t g = 0; g < shapes_.size(); ++g)
-    shapes_[g].cubic = grouping.sizes[g] >= grouping.cubic_from;
+    shapes_[g].cubic = grouping.cubic[g] != 0;
   find_frames();
   find_inverses();
   find_far_sites();

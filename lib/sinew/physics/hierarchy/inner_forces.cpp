@@ -29,6 +29,13 @@ Growth mean_growth(const std::array<Growth, near_sites>& growth, std::uint32_t s
   return mean / std::max(std::popcount(sites & nearest_ones), 1);
 }
 
+template <class Holds>
+bool any_of(std::size_t count, const Holds& holds) {
+  for (std::size_t n = 0; n < count; ++n)
+    if (holds(n)) return true;
+  return false;
+}
+
 Vec3 place(const InnerParticles& of, std::size_t k) {
   return {of.at[0][k], of.at[1][k], of.at[2][k]};
 }
@@ -189,7 +196,7 @@ auto InnerForces<Real>::ends_within(const BondLists<Real>& bonds, const InnerPar
   return all;
 }
 
-/// One bond of each stretch of them; all where there are few, or where a sample does not do.
+/// One bond of each stretch of them, which get shorter where a sample does not do.
 template <class Real>
 void InnerForces<Real>::sample(const BondLists<Real>& bonds, const InnerParticles& of,
                                const std::vector<Found>& found) {
@@ -204,22 +211,18 @@ void InnerForces<Real>::sample(const BondLists<Real>& bonds, const InnerParticle
   }
   const auto count = [&](std::size_t n) { return all[n / near_sites].count[n % near_sites]; };
   std::vector<std::vector<double>> weights(groups_.size() * near_sites);
-  std::vector<Ends> ends = ends_within(bonds, of, before, [&](std::size_t n, std::size_t nth) {
-    return is_sample(nth, stretch_of(count(n)));
-  });
-  bool all_done = true;
-  for (std::size_t n = 0; n < weights.size(); ++n) {
-    if (count(n) == 0) continue;
-    weights[n] =
-        weights_of(ends[n].moments(), all[n / near_sites].moments[n % near_sites], count(n));
-    all_done = all_done && !weights[n].empty();
-  }
-  if (!all_done) {
-    std::vector<Ends> whole = ends_within(
-        bonds, of, before, [&](std::size_t n, std::size_t) { return weights[n].empty(); });
-    for (std::size_t n = 0; n < weights.size(); ++n)
-      if (weights[n].empty())
-        ends[n] = std::move(whole[n]), weights[n].assign(ends[n].at.size(), 1);
+  std::vector<Ends> ends(weights.size());
+  const auto missing = [&](std::size_t n) { return count(n) > 0 && weights[n].empty(); };
+  for (std::size_t shorter = 1; any_of(weights.size(), missing); shorter *= 4) {
+    std::vector<Ends> some = ends_within(bonds, of, before, [&](std::size_t n, std::size_t nth) {
+      return missing(n) && is_sample(nth, std::max<std::size_t>(stretch_of(count(n)) / shorter, 1));
+    });
+    for (std::size_t n = 0; n < weights.size(); ++n) {
+      if (!missing(n)) continue;
+      ends[n] = std::move(some[n]);
+      weights[n] =
+          weights_of(ends[n].moments(), all[n / near_sites].moments[n % near_sites], count(n));
+    }
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].drag =

@@ -45,20 +45,15 @@ inline Terms terms_at(const Vec3& at) {
   return terms;
 }
 
-/// The derivative of all terms along an axis.
-inline Terms slopes_at(const Vec3& at, int axis) {
-  Terms slopes;
-  for (int k = 0; k < cubic_terms; ++k) {
-    const auto& factors = factors_of_terms[static_cast<std::size_t>(k)];
-    double slope = 0;
-    for (std::size_t one = 0; one < 3; ++one) {
-      double product = factors[one] == axis ? 1 : 0;
-      for (std::size_t other = 0; other < 3; ++other)
-        if (other != one && factors[other] < 3) product *= at[factors[other]];
-      slope += product;
-    }
-    slopes[k] = slope;
-  }
+/// The derivatives of all terms along x, y and z.
+using Slopes = Eigen::Matrix<double, cubic_terms, 3>;
+inline Slopes slopes_at(const Vec3& at) {
+  const double x = at[0], y = at[1], z = at[2];
+  const double xx = x * x, xy = x * y, xz = x * z, yy = y * y, yz = y * z, zz = z * z;
+  Slopes slopes;
+  slopes.col(0) << 0, 1, 0, 0, 2 * x, y, z, 0, 0, 0, 3 * xx, 2 * xy, 2 * xz, yy, yz, zz, 0, 0, 0, 0;
+  slopes.col(1) << 0, 0, 1, 0, 0, x, 0, 2 * y, z, 0, 0, xx, 0, 2 * xy, xz, 0, 3 * yy, 2 * yz, zz, 0;
+  slopes.col(2) << 0, 0, 0, 1, 0, 0, x, 0, y, 2 * z, 0, 0, xx, 0, xy, 2 * xz, 0, yy, 2 * yz, 3 * zz;
   return slopes;
 }
 

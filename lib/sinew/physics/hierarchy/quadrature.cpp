@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <map>
 
+#include <sinew/physics/hierarchy/cubic_fits.h>
 #include <sinew/physics/hierarchy/polynomials.h>
 
 namespace sinew {
 namespace {
 
-constexpr std::size_t least_samples = 256;
-constexpr std::size_t most_blocks = 64;                // for one of them
+constexpr std::size_t least_samples = 128;
+constexpr std::size_t most_blocks = 64;  // for one of them
+// What has fewer is small, and what pulls it is nearly linear there.
+constexpr std::size_t few_blocks = 512, least_of_few = 32;
 constexpr double least_weight = 0.1, most_weight = 5;  // of an equal share
 constexpr int most_fits = 30;
 
@@ -20,6 +23,58 @@ std::uint64_t scattered(std::uint64_t number) {
   number = (number + 1) * 0x9E3779B97F4A7C15U;
   number = (number ^ number >> 31) * 0xBF58476D1CE4E5B9U;
   return number >> 32;
+}
+
+/// Of blocks, in a frame of their own: those of a part of a group would be near to each other in
+/// its frame.
+std::vector<QuarticTerms> moments_of(const std::vector<std::uint32_t>& blocks,
+                                     const std::function<Points(std::uint32_t)>& places_of) {
+  Points middles;
+  for (const std::uint32_t block : blocks) {
+    const Points places = places_of(block);
+    Vec3& middle = middles.emplace_back(Vec3::Zero());
+    for (const Vec3& at : places) middle += at / static_cast<double>(places.size());
+  }
+  const FitFrame frame(middles);
+  std::vector<QuarticTerms> moments(blocks.size(), QuarticTerms::Zero());
+  for (std::size_t n = 0; n < blocks.size(); ++n)
+    for (const Vec3& at : places_of(blocks[n])) moments[n] += quartic_terms_at(frame.at(at));
+  return moments;
+}
+
+struct Sample {
+  std::size_t of;
+  double weight;
+};
+
+/// Which of the moments of so many blocks are to be exact, from one block of how many.
+struct Sampling {
+  int terms;
+  std::size_t stretch;
+};
+
+Sampling sampling_of(std::size_t blocks) {
+  if (blocks < few_blocks) return {square_terms, std::max<std::size_t>(blocks / least_of_few, 1)};
+  return {quartic_terms, std::min(2 * stretch_of(blocks), most_blocks)};
+}
+
+/// Twice as many until they do, or until they are all.
+std::vector<Sample> sample_of(const std::vector<QuarticTerms>& moments) {
+  auto [terms, stretch] = sampling_of(moments.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(terms);
+  for (const QuarticTerms& one : moments) sum += one.head(terms);
+  std::vector<Sample> chosen;
+  for (;; stretch /= 2) {
+    chosen.clear();
+    for (std::size_t n = 0; n < moments.size(); ++n)
+      if (is_sample(n, stretch)) chosen.push_back({n, 1});
+    Eigen::MatrixXd sampled(terms, static_cast<Eigen::Index>(chosen.size()));
+    for (std::size_t s = 0; s < chosen.size(); ++s)
+      sampled.col(static_cast<Eigen::Index>(s)) = moments[chosen[s].of].head(terms);
+    const std::vector<double> weights = weights_of(sampled, sum, moments.size());
+    for (std::size_t s = 0; s < weights.size(); ++s) chosen[s].weight = weights[s];
+    if (!weights.empty()) return chosen;
+  }
 }
 
 }  // namespace
@@ -45,7 +100,7 @@ bool is_sample(std::size_t n, std::size_t stretch) {
 }
 
 /// What would become too small is set to the least weight, and the others are found again.
-std::vector<double> weights_of(const Eigen::MatrixXd& samples, const QuarticTerms& all,
+std::vector<double> weights_of(const Eigen::MatrixXd& samples, const Eigen::VectorXd& all,
                                std::size_t count) {
   if (samples.cols() == static_cast<Eigen::Index>(count)) return std::vector<double>(count, 1);
   if (samples.cols() == 0) return {};
@@ -53,7 +108,7 @@ std::vector<double> weights_of(const Eigen::MatrixXd& samples, const QuarticTerm
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(samples.cols(), even);
   Eigen::MatrixXd free = samples;
   for (int round = 0; round < most_fits; ++round) {
-    const QuarticTerms missing = all - samples * weights;
+    const Eigen::VectorXd missing = all - samples * weights;
     weights += free.completeOrthogonalDecomposition().solve(missing);
     bool any = false;
     for (Eigen::Index s = 0; s < weights.size(); ++s) {
@@ -72,23 +127,13 @@ std::vector<double> weights_of(const Eigen::MatrixXd& samples, const QuarticTerm
 }
 
 Quadrature quadrature_over(const std::vector<SampledBlock>& blocks,
-                           const std::function<QuarticTerms(std::uint32_t)>& moments_of) {
+                           const std::function<Points(std::uint32_t)>& places_of) {
   std::map<std::uint64_t, std::vector<std::uint32_t>> kinds;
   for (const SampledBlock& one : blocks) kinds[one.kind].push_back(one.block);
   std::vector<std::pair<std::uint32_t, double>> chosen;
-  for (const auto& [kind, all] : kinds) {
-    std::vector<std::uint32_t> sample;
-    for (std::size_t n = 0; n < all.size(); ++n)
-      if (is_sample(n, std::min(2 * stretch_of(all.size()), most_blocks))) sample.push_back(all[n]);
-    QuarticTerms sum = QuarticTerms::Zero();
-    for (const std::uint32_t block : all) sum += moments_of(block);
-    Eigen::MatrixXd moments(quartic_terms, static_cast<Eigen::Index>(sample.size()));
-    for (std::size_t s = 0; s < sample.size(); ++s)
-      moments.col(static_cast<Eigen::Index>(s)) = moments_of(sample[s]);
-    std::vector<double> weights = weights_of(moments, sum, all.size());
-    if (weights.empty()) sample = all, weights.assign(all.size(), 1);
-    for (std::size_t s = 0; s < sample.size(); ++s) chosen.emplace_back(sample[s], weights[s]);
-  }
+  for (const auto& [kind, all] : kinds)
+    for (const auto& [n, weight] : sample_of(moments_of(all, places_of)))
+      chosen.emplace_back(all[n], weight);
   std::sort(chosen.begin(), chosen.end());
   Quadrature quadrature;
   for (const auto& [block, weight] : chosen) {

@@ -2,7 +2,7 @@
 // Sums over many places from a sample of them: the weights are those nearest to equal ones with
 // which the sums of all products of up to four coordinates are exact.
 //
-//     const Quadrature quadrature = quadrature_over(blocks, moments_of);
+//     const Quadrature quadrature = quadrature_over(blocks, places_of);
 //     sum += quadrature.weight[s] * value_of(quadrature.block[s]);
 #pragma once
 
@@ -27,7 +27,7 @@ std::size_t stretch_of(std::size_t count);
 bool is_sample(std::size_t n, std::size_t stretch);
 /// Of samples of `count`, each a column: its moments; `all`: the sums over all. None where they
 /// would differ much.
-std::vector<double> weights_of(const Eigen::MatrixXd& samples, const QuarticTerms& all,
+std::vector<double> weights_of(const Eigen::MatrixXd& samples, const Eigen::VectorXd& all,
                                std::size_t count);
 
 /// A block of particles, and the kind of what pulls them: kinds are sampled apart.
@@ -41,8 +41,9 @@ struct Quadrature {
   std::vector<double> weight;
 };
 
-/// Of all blocks, ascending. `moments_of`: a block's sums. Kinds of few blocks are summed whole.
+/// Of all blocks, ascending. `places_of`: its particles' places, in any frame. Kinds of few blocks
+/// are small: their sums are exact to the second order.
 Quadrature quadrature_over(const std::vector<SampledBlock>& blocks,
-                           const std::function<QuarticTerms(std::uint32_t)>& moments_of);
+                           const std::function<Points(std::uint32_t)>& places_of);
 
 }  // namespace sinew

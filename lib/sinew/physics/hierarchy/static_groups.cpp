@@ -17,22 +17,17 @@ constexpr std::size_t particles_per_grouping = 8192;
 
 }  // namespace
 
-void separate(const Body& body, std::size_t least, std::vector<std::int32_t>& group) {
-  const double range = rest_neighbor_range(body.material.pair.r);
-  const CellGrid grid(body.rest, range);
+void separate(const NeighborLists& near, std::size_t least, std::vector<std::int32_t>& group) {
   std::vector<std::int32_t> found(group.size(), -1);
   std::int32_t next = 0;
-  std::vector<std::uint32_t> members, near;
+  std::vector<std::uint32_t> members;
   for (std::uint32_t first = 0; first < group.size(); ++first) {
     if (group[first] < 0 || found[first] >= 0) continue;
     members.assign(1, first);
     found[first] = next;
-    for (std::size_t n = 0; n < members.size(); ++n) {
-      near.clear();
-      append_neighbors(grid, body.rest, members[n], range, near);
-      for (const std::uint32_t j : near)
+    for (std::size_t n = 0; n < members.size(); ++n)
+      for (const std::uint32_t j : near.of(members[n]))
         if (group[j] == group[first] && found[j] < 0) found[j] = next, members.push_back(j);
-    }
     if (members.size() < least)
       for (const std::uint32_t i : members) group[i] = -1;
     ++next;
@@ -45,8 +40,7 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
   return moving_joints(skeleton, motion, rest_pose(skeleton), {0, end}, moments_of_motion);
 }
 
-Grouping static_groups(const Body& body, const std::vector<bool>& moves,
-                       const StaticGroups& options) {
+Grouping static_groups(const Body& body, const std::vector<bool>& moves, const GroupSizes& sizes) {
   std::vector<std::int32_t> group(body.rest.size(), -1);
   // Numbers from `first` on, of particles that are in no group yet.
   const auto group_beyond = [&](double distance, std::int32_t first) {
@@ -56,13 +50,15 @@ Grouping static_groups(const Body& body, const std::vector<bool>& moves,
         if (const int part = parts.of(i); part >= 0 && group[i] < 0) group[i] = first + part;
     });
   };
-  if (options.cubic_distance) group_beyond(*options.cubic_distance, 0);
-  separate(body, options.least_cubic, group);
-  group_beyond(options.joint_distance, static_cast<std::int32_t>(group.size()));
-  separate(body, options.least, group);
-  Grouping grouping = make_grouping(body, std::move(group));
-  if (options.cubic_distance) grouping.cubic_from = options.least_cubic;
-  return grouping;
+  const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
+  if (sizes.cubic_distance) {
+    group_beyond(*sizes.cubic_distance, 0);
+    separate(near, sizes.least_cubic, group);
+    free_sheets(body, group);
+  }
+  group_beyond(sizes.joint_distance, static_cast<std::int32_t>(group.size()));
+  separate(near, sizes.least, group);
+  return make_grouping(body, std::move(group), sizes.cubic_from());
 }
 
 }  // namespace sinew
