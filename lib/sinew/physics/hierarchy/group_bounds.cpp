@@ -120,8 +120,9 @@ typename Groups<Real>::LocalMotion Groups<Real>::motion_at(const Shape& shape,
             motion.v.row(0).transpose() + motion.v.middleRows<3>(1).transpose() * at,
             motion.x.middleRows<3>(1).transpose(), motion.v.middleRows<3>(1).transpose()};
   const Slopes slopes = slopes_at(at);
-  return {value_at(motion.x, at), value_at(motion.v, at), motion.x.transpose() * slopes,
-          motion.v.transpose() * slopes};
+  // Too small for Eigen's products of large matrices.
+  return {value_at(motion.x, at), value_at(motion.v, at), motion.x.transpose().lazyProduct(slopes),
+          motion.v.transpose().lazyProduct(slopes)};
 }
 
 /// Relative to the field anywhere in the box, at most, squared.

@@ -269,18 +269,28 @@ void Groups<Real>::constrain(Forces& forces, const std::vector<std::uint32_t>& c
                              const Vec3& gravity) const {
   if (!any()) return;
   const Vec3 weight = mass_ * gravity;
-  Sums sums(shapes_.size(), Coefficients::Zero());
+  std::vector<Sums> parts((group_.size() + particles_per_matrix - 1) / particles_per_matrix);
   forces.group.clear();
-  for (std::size_t k = 0; k < group_.size(); ++k)
-    if (group_[k] >= 0)
-      sums[static_cast<std::size_t>(group_[k])] +=
-          terms_at(place(k)) * (forces.total(caller[k]) + weight).transpose();
-  for (std::size_t g = 0; g < sums.size(); ++g) sums[g] = (shapes_[g].inverse * sums[g]).eval();
+  parallel_for(group_.size(), particles_per_matrix, [&](std::size_t begin, std::size_t end) {
+    Sums& sums = parts[begin / particles_per_matrix];
+    sums.assign(shapes_.size(), Coefficients::Zero());
+    for (std::size_t k = begin; k < end; ++k)
+      if (group_[k] >= 0)
+        sums[static_cast<std::size_t>(group_[k])] +=
+            terms_at(place(k)) * (forces.total(caller[k]) + weight).transpose();
+  });
+  Sums sums(shapes_.size(), Coefficients::Zero());
+  for (std::size_t g = 0; g < sums.size(); ++g) {
+    for (const Sums& part : parts) sums[g] += part[g];
+    sums[g] = (shapes_[g].inverse * sums[g]).eval();
+  }
   Points group(group_.size(), Vec3::Zero());
-  for (std::size_t k = 0; k < group_.size(); ++k)
-    if (group_[k] >= 0)
-      group[caller[k]] = value_at(sums[static_cast<std::size_t>(group_[k])], place(k)) -
-                         (forces.total(caller[k]) + weight);
+  parallel_for(group_.size(), particles_per_matrix, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (group_[k] >= 0)
+        group[caller[k]] = value_at(sums[static_cast<std::size_t>(group_[k])], place(k)) -
+                           (forces.total(caller[k]) + weight);
+  });
   forces.group = std::move(group);
 }
 

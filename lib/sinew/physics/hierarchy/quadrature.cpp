@@ -12,7 +12,6 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t least_samples = 128;
-constexpr std::size_t most_blocks = 64;  // for one of them
 // What has fewer is small, and what pulls it is nearly linear there.
 constexpr std::size_t few_blocks = 512, least_of_few = 32;
 constexpr double least_weight = 0.1, most_weight = 5;  // of an equal share
@@ -55,7 +54,7 @@ struct Sampling {
 
 Sampling sampling_of(std::size_t blocks) {
   if (blocks < few_blocks) return {square_terms, std::max<std::size_t>(blocks / least_of_few, 1)};
-  return {quartic_terms, std::min(2 * stretch_of(blocks), most_blocks)};
+  return {quartic_terms, 2 * stretch_of(blocks)};
 }
 
 /// Twice as many until they do, or until they are all.

@@ -65,6 +65,20 @@ SINEW_INLINE void fetch_for_step(const Step<Real>& step, std::size_t block) {
     for (int k = 0; k < 9; ++k) __builtin_prefetch(step.volumes.thrust[k] + ahead.farthest);
 }
 
+/// A block that bones pull without a step.
+template <class Real>
+SINEW_INLINE void fetch_for_pull(const Step<Real>& step, const PulledBlocks<Real>& pulled,
+                                 std::size_t block) {
+  const auto own = static_cast<std::ptrdiff_t>(block) * Traits<Real>::block;
+  for (int axis = 0; axis < 3; ++axis) {
+    __builtin_prefetch(step.before.x[axis] + own);
+    __builtin_prefetch(step.before.v[axis] + own);
+    __builtin_prefetch(pulled.at[axis] + own);
+  }
+  const auto slot = static_cast<std::ptrdiff_t>(step.holds.first[block]);
+  fetch_rows(step.holds.held, slot * held_fields, held_fields);
+}
+
 template <class Real>
 SINEW_INLINE void fetch_for_strain(const Step<Real>& step, std::size_t block) {
   const Ahead ahead = ahead_of(step, block);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <sinew/physics/kernel/bones.h>
+#include <sinew/physics/kernel/fetching.h>
 
 namespace sinew::kernel {
 
@@ -82,7 +83,8 @@ void pull_blocks(const Step<typename L::Real>& step, const PulledBlocks<typename
   constexpr int size = Traits<typename L::Real>::block;
   MomentSums<L, terms> force, damping;
   typename L::Real power[size] = {}, lost[size] = {};
-  for (std::size_t k = 0; k < pulled.count; ++k)
+  for (std::size_t k = 0; k < pulled.count; ++k) {
+    if (k + 1 < pulled.count) fetch_for_pull(step, pulled, pulled.block[k + 1]);
     for (int lane = 0; lane < size; lane += L::width) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(pulled.block[k]) * size + lane;
       const Triple<L> v = load<L>(step.before.v, i);
@@ -96,6 +98,7 @@ void pull_blocks(const Step<typename L::Real>& step, const PulledBlocks<typename
       add_to<L>(power + lane, weight * bones.power);
       add_to<L>(lost + lane, weight * bones.damping_power - dot<L>(d, v));
     }
+  }
   force.put(out.force.sum, cubic_terms);
   damping.put(out.damping.sum, cubic_terms);
   out.power = sum_of<L>(power);
