@@ -123,6 +123,18 @@ TEST(CubicGroups, AreNoSheets) {
   }
 }
 
+/// Bonds within cubic groups are known by where the lattice has neighbors.
+TEST(CubicGroups, AreOfTheLatticeOfTheirBody) {
+  Points rest = test::fcc_box(17, 17, 17, r);
+  for (Vec3& X : rest) X = test::turned({0, 0, 1}, 30) * X;
+  const auto inside = [&](MaterialModel model) {
+    const Bar bar(test::unbound(scene_of(model)), rest, [](const Vec3&) { return 0; });
+    return bar.body.grouping->inside();
+  };
+  EXPECT_GT(inside(MaterialModel::paper), 0U);
+  EXPECT_EQ(inside(MaterialModel::bonded), 0U);
+}
+
 /// Of particles in a box that are moved by a cubic, and off it by `off`, one way or the other.
 TEST(CubicFits, TellACubicMotionAndHowFarParticlesAreFromIt) {
   const Points rest = test::fcc_box(17, 17, 33, r);

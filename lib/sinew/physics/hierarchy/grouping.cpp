@@ -48,6 +48,7 @@ class LayerFinder {
         r_(body.material.pair.r),
         range_(holds_seconds(body) ? second_neighbor_range * r_ : rest_neighbor_range(r_)),
         whole_(holds_seconds(body) ? near_sites : nearest_sites),
+        by_sites_(may_bend(body)),
         near_(neighbors_within(body.rest, range_)) {
     if (has_affine_forces(body)) affine_.emplace(body);
   }
@@ -70,7 +71,7 @@ class LayerFinder {
 
   std::vector<Layer> layers(const std::vector<std::uint8_t>& centers) const {
     std::vector<std::uint8_t> inner = marked([&](std::uint32_t i, const auto& near) {
-      return (centers[i] != 0 || has_sites(i, near)) &&
+      return ((centers[i] != 0 && !by_sites_) || has_sites(i, near)) &&
              all(near, [&](auto j) { return group_[j] == group_[i]; });
     });
     if (reaches_far(body_)) inner = marked_where_all(inner);
@@ -173,6 +174,7 @@ class LayerFinder {
   const std::vector<std::int32_t>& group_;
   double r_, range_;
   std::size_t whole_;
+  bool by_sites_;  ///< cubic groups know bonds by their sites
   NeighborLists near_;
   std::optional<AffineForces> affine_;
 };

@@ -38,8 +38,7 @@ template <class Real>
 void Groups<Real>::find_shapes() {
   const Grouping& grouping = *body_->grouping;
   shapes_.resize(grouping.size());
-  for (std::size_t g = 0; g < shapes_.size(); ++g)
-    shapes_[g].cubic = grouping.cubic[g] != 0;
+  for (std::size_t g = 0; g < shapes_.size(); ++g) shapes_[g].cubic = grouping.cubic[g] != 0;
   find_frames();
   find_inverses();
   find_far_sites();
