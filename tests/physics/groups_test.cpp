@@ -113,13 +113,14 @@ TEST(Groups, AllOfABodyTurnsAsItWouldAlone) {
 /// The share of a wave's energy that a group as thick as `share` of its length throws back: what
 /// moves before the group, beside a bar without, once the wave has passed. The wave is of 20
 /// diameters along a bar, and at first goes both ways.
-double thrown_back(MaterialModel model, double share) {
+double thrown_back(MaterialModel model, double share, bool cubic = false) {
   constexpr double length = 40 * r, from = 4 * length, group_at = 6 * length, until = 7 * length;
   Settings settings = test::unbound(scene_of(model));
   settings.material.damping = 0;
   const double thickness = share * length;
   Bar bar(settings, 9, static_cast<int>(9 * length / half_plane_spacing(r)),
           [&](const Vec3& X) { return std::abs(X.z() - group_at) < thickness / 2 ? 0 : -1; });
+  bar = with_cubic(bar, cubic);
   const auto wave = [](double z) {
     const double along = (z - from) / length;
     return 0.1 * r * std::exp(-along * along) * std::sin(2 * std::numbers::pi * along);
@@ -164,6 +165,8 @@ TEST(Groups, LetWavesPassThatAreLong) {
     EXPECT_LT(thrown_back(model, 0.125), 0.005);
     EXPECT_LT(thrown_back(model, 0.25), 0.05);
   }
+  EXPECT_LT(thrown_back(MaterialModel::bonded, 0.25, true), 0.001);
+  EXPECT_LT(thrown_back(MaterialModel::bonded, 0.5, true), 0.05);
 }
 
 /// Both halves of a bar that bends are grouped, but for the middle.

@@ -195,6 +195,7 @@ Candidate best_of(const Target& coarse, const Target& fine, const Sticks& sticks
     all.push_back({placement, misfit(coarse, moved(sticks, placement))});
   }
   std::vector<double> order;
+  order.reserve(all.size());
   for (const Candidate& one : all) order.push_back(one.misfit);
   std::sort(order.begin(), order.end());
   const double last = order[std::min(improved_ones, order.size()) - 1];
@@ -224,6 +225,7 @@ Placement fit_to(const Triangles& surface, const Skeleton& skeleton) {
   const Candidate best = best_of(coarse, fine, sticks, mesh, upright);
   const Mat3 to = main_axes(fine.points), from = main_axes(sticks.along);
   std::vector<Mat3> oblique;
+  oblique.reserve(upright.size());
   for (const Mat3& turn : upright) oblique.push_back(to * turn * from.transpose());
   std::stable_sort(oblique.begin(), oblique.end(),
                    [](const Mat3& a, const Mat3& b) { return a.trace() > b.trace(); });

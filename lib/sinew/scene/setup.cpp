@@ -184,7 +184,7 @@ void refuse_free(const Settings& settings, const Body& body) {
 namespace {
 
 // Free up to here from joints, in square roots of the cross-section.
-constexpr double affine_distance = 1, cubic_distance = 0.65;
+constexpr double affine_distance = 1, cubic_distance = 0.62;
 
 void check_groups(const Settings& settings, const Body& body) {
   const Place place = settings.place("hierarchy.enabled");
