@@ -200,7 +200,7 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
   std::stable_sort(seeds.begin(), seeds.end(), [&](std::size_t a, std::size_t b) {
     return units[a].was_grouped() > units[b].was_grouped();
   });
-  const auto& [nx, ny, nz] = cells_along_;
+  const std::int32_t nx = cells_along_[0], ny = cells_along_[1];
   const std::int32_t steps[3] = {1, nx, nx * ny};
   std::int32_t next = 0;
   const auto grow_from = [&](std::size_t seed) {
@@ -246,7 +246,8 @@ void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
   for (std::size_t u = 0; u < units.all().size(); ++u)
     if (units.all()[u].fits) parts[units.all()[u].part].push_back(u);
   std::int32_t next = 0;
-  for (const auto& [part, of] : parts) {
+  for (const auto& part : parts) {
+    const std::vector<std::size_t>& of = part.second;
     const std::vector<CubicSums> sums = units.cubic_sums(of);
     const auto unit = [&](std::size_t n) -> Unit& { return units.all()[of[n]]; };
     const auto least = static_cast<double>(options_.sizes.least_cubic);

@@ -6,6 +6,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/physics/forces.h>
+#include <sinew/physics/hierarchy/grouping.h>
 
 namespace sinew {
 namespace {
