@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <span>
 
 #include <sinew/core/vector.h>
 #include <sinew/physics/hierarchy/polynomials.h>
