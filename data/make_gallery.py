@@ -25,6 +25,9 @@ RUNS = {
     "fox": ("creature_walk", []),
     "paper": ("box_bend", []),
     "bonded": ("box_bend", ["--set", "material.model=bonded"]),
+    "groups": ("box_bend", ["--set", "material.model=bonded", "--set", "body.radius=none", "--set",
+                            "body.count=200000", "--set", "hierarchy.enabled=true", "--set",
+                            "solver.duration=1.2", "--set", "output.interval=0.1"]),
 }
 # picture: run, what `sinew render` is told, and which of its pictures is taken
 PICTURES = {
@@ -36,6 +39,7 @@ PICTURES = {
     "forces": ("box", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
     "compare": ("paper", ["--compare", "bonded", "--view", "strain", "--times", "0,1.4,3"],
                 "compare_strain_sheet"),
+    "groups": ("groups", ["--view", "section", "--array", "level", "--times", "0,0.6,1.2"], "section_sheet"),
 }
 
 

@@ -14,6 +14,7 @@
 #include <sinew/run/scene_picture.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
+#include <sinew/scene/groups.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/steps.h>
@@ -29,6 +30,9 @@ using namespace sinew;
 
 // The trial's lists are valid for all its steps; those of a deforming body must be rebuilt.
 constexpr double slower_with_lists_in_motion = 1.8;
+
+constexpr int trials_of_groups = 3;
+constexpr std::size_t smallest_group = 64;  // particles
 
 /// Particle-steps per second, measured in a trial with bones at rest; a typical value where the
 /// body becomes unstable.
@@ -162,6 +166,40 @@ void add_load_steps(const Settings& settings, const LoadSteps& steps, double rat
   results.add("time_of_1000_iterations", 1000 * static_cast<double>(particles) / rate, "s");
 }
 
+/// What groups that stay bring a body at rest: trials with them and without.
+void add_groups(const Settings& settings, const Setup& setup, const Particles& particles,
+                Results& results, std::vector<std::string>& warnings) {
+  const auto sizes = group_sizes(settings, setup.body);
+  if (!sizes) return;
+  const auto best_speed = [&](const std::shared_ptr<const Grouping>& grouping) {
+    Setup tried = setup;
+    tried.body.grouping = grouping, tried.dynamic_groups.reset();
+    double best = 0;
+    for (int trial = 0; trial < trials_of_groups; ++trial)
+      best = std::max(best, speed_at_rest(settings, tried, particles, warnings));
+    return best;
+  };
+  const auto grouping_of = [&](const GroupSizes& wanted) {
+    return groups_that_stay(settings, setup.body, setup.motion, wanted);
+  };
+  std::shared_ptr<const Grouping> grouping = grouping_of(*sizes);
+  results.add("groups", grouping->size());
+  const auto percent = [&](std::size_t count) {
+    return 100 * static_cast<double>(count) / static_cast<double>(particles.size());
+  };
+  results.add("grouped", percent(grouping->grouped()), "%");
+  results.add("within_groups", percent(grouping->inside()), "%");
+  if (grouping->size() == 0) {  // too small: what groups of any size would bring
+    GroupSizes small = *sizes;
+    small.least = smallest_group;
+    grouping = grouping_of(small);
+  }
+  if (grouping->size() == 0) return;
+  const double share = best_speed(nullptr) / best_speed(grouping);
+  results.add("faster_by_groups_at_rest", 1 / share);
+  results.add("groups_pay_from", groups_pay_from(*grouping, *sizes, share), "particles");
+}
+
 void add_stepper(const StepperChoice& choice, Results& results) {
   results.add("precision", name_of(choice.precision));
   results.add("neighbor_search", name_of(choice.search));
@@ -203,6 +241,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
     add_load_steps(settings, *setup.load_steps, rate, filling.particles.size(), results);
   else
     add_steps(settings, setup, speed, results);
+  add_groups(settings, setup, filling.particles, results, warnings);
   add_stepper(choice, results);
   results.add("disk", bytes_text(needs.disk));
   results.add("disk_free", bytes_text(free_space(run_folder(scene, "").path)));

@@ -306,6 +306,10 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
   expect("free particles", [](Settings& s) { s.solver.method = Method::static_equilibrium; });
   expect("no groups", [](Settings& s) { s.solver.neighbor_search = NeighborSearch::cells; });
   expect("drag and fields", [](Settings& s) { s.world.drag = 1; });
+  expect("did you mean 'upper'", [](Settings& s) { s.hierarchy.free_bones = "lower, uper"; });
+  expect("no particle is in it", [](Settings& s) {
+    s.hierarchy.free_region = {{5, 5, 5, 6, 6, 6}};
+  });
   expect("flow or relax", [](Settings& s) {
     s.material.model = MaterialModel::bonded;
     s.material.relaxation_shares = {{0.5}};

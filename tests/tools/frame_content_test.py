@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What frames hold: output.only, output.every and output.region, and what is measured of them.
+"""What frames hold: output.only, every, region and inside_every, and what is measured of them.
 
 usage: frame_content_test.py BIN SOURCE      folder of the programs, folder of the project
 """
@@ -135,12 +135,30 @@ class FrameContent(unittest.TestCase):
             sinew("measure", run, check=0)
             self.assertIn('"von_mises_95"', (run / "metrics.json").read_text())
 
+    def test_of_the_inside_each_nth_particle_is_written(self):
+        run = self.simulated("inside", inside_every=5)
+        rest = meshio.read(frames(self.whole, "particles")[0])
+        radius = rest.point_data["radius"][0]
+        apart = numpy.linalg.norm(rest.points[:, None, :] - rest.points[None, :, :], axis=2)
+        near = (apart < 2.2 * radius) & (apart > 0)
+        whole = near.sum(axis=1) == 12
+        inside = whole & (near & ~whole[None, :] == 0).all(axis=1)
+        self.assertGreater(inside.sum(), 20)
+        written = numpy.flatnonzero(~inside).tolist() + numpy.flatnonzero(inside)[::5].tolist()
+        for part, every in zip(frames(run, "particles"), frames(self.whole, "particles"), strict=True):
+            some, all_of_them = meshio.read(part), meshio.read(every)
+            numpy.testing.assert_array_equal(some.points, all_of_them.points[sorted(written)])
+            self.assertTrue(numpy.isfinite(some.point_data["von_mises"]).all())
+        sinew("measure", run, check=0)
+        sinew("report", run, check=0)
+
     def test_what_cannot_be_written_is_refused_at_its_line(self):
         for words, parts in {"output.only=velocty": ["did you mean velocity?"],
                              "output.every=0": ["output.every"],
                              "output.region=[0, 0, 0, 1, 1]": ["6"],
                              "output.region=[0, 0, 1, 1, 1, 0]": ["corners", "least"],
-                             "output.region=[5, 5, 5, 6, 6, 6]": ["no particle", "meters"]}.items():
+                             "output.region=[5, 5, 5, 6, 6, 6]": ["no particle", "meters"],
+                             "output.inside_every=0": ["output.inside_every"]}.items():
             with self.subTest(words=words):
                 done = sinew("simulate", self.scene, "-o", self.runs / "bad", "--set", words)
                 self.assertEqual(done.returncode, 2, done.stderr)

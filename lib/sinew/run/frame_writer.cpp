@@ -110,7 +110,8 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
                          SurfaceLook look, std::vector<Probe> probes)
     : folder_(folder),
       body_(body),
-      selection_{written_particles(output, body.rest), frame_arrays(output.only)},
+      selection_{written_particles(output, body.rest, body.material.pair.r),
+                 frame_arrays(output.only)},
       every_(static_cast<std::size_t>(output.every)),
       taken_(kept.size()),
       skin_(

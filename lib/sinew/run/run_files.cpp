@@ -210,7 +210,7 @@ void keep(const std::vector<std::int32_t>& ids, std::vector<T>& values) {
 /// Keeps the particles that the frames contain, numbered anew.
 void keep_written(RunFiles& run) {
   Particles& all = run.body.particles;
-  run.ids = written_particles(run.settings.output, positions_of(all));
+  run.ids = written_particles(run.settings.output, positions_of(all), all.radius);
   if (run.ids.empty()) return;
   for (const auto axis :
        {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
@@ -302,7 +302,7 @@ std::vector<Probe> probes_of_run(const RunFiles& run) {
   if (run.settings.probes.empty()) return {};
   if (!run.ids.empty())
     throw bad_input(Place{run.folder.path.string()}, "has not written all particles",
-                    "run the scene without output.region");
+                    "run the scene without output.region and output.inside_every");
   return scene_world(run).probes;
 }
 

@@ -75,7 +75,8 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const auto faces = static_cast<double>(surface_faces);
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = setup.body.world ? 3 : 0;  // the force of the world
-  const double written = particles * written_share(output, setup.body.rest);
+  const double written =
+      particles * written_share(output, setup.body.rest, setup.body.material.pair.r);
   const double bond_lines = output.bonds ? written * bonds_of_one(setup.body) : 0;
   const double reals =
       bond_lines * reals_per_bond +

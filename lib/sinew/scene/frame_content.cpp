@@ -1,22 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/frame_content.h>
 
+#include <algorithm>
 #include <string>
 
 #include <sinew/core/arrays.h>
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
+#include <sinew/core/particles.h>
 #include <sinew/physics/laws.h>
 #include <sinew/physics/world/world.h>
 
 namespace sinew {
 
-std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest) {
+namespace {
+
+/// 1 for particles whose neighbors all have all of theirs.
+std::vector<std::uint8_t> deep_inside(const Points& rest, double radius) {
+  const NeighborLists near = neighbors_within(rest, rest_neighbor_range(radius));
+  const auto has_all = [&](std::uint32_t i) { return near.of(i).size() >= most_neighbors_at_rest; };
+  std::vector<std::uint8_t> inside(rest.size(), 0);
+  for (std::uint32_t i = 0; i < inside.size(); ++i) {
+    const auto around = near.of(i);
+    inside[i] = has_all(i) && std::all_of(around.begin(), around.end(), has_all) ? 1 : 0;
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest,
+                                            double radius) {
   std::vector<std::int32_t> ids;
-  if (!output.region) return ids;
-  const auto& [x0, y0, z0, x1, y1, z1] = *output.region;
-  const Box region(Vec3(x0, y0, z0), Vec3(x1, y1, z1));
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    if (region.contains(rest[i])) ids.push_back(static_cast<std::int32_t>(i));
+  if (!output.region && output.inside_every == 1) return ids;
+  Box region;
+  if (output.region) {
+    const auto& [x0, y0, z0, x1, y1, z1] = *output.region;
+    region = Box(Vec3(x0, y0, z0), Vec3(x1, y1, z1));
+  }
+  std::vector<std::uint8_t> inside;
+  if (output.inside_every > 1) inside = deep_inside(rest, radius);
+  int met = 0;  // of those inside
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (output.region && !region.contains(rest[i])) continue;
+    if (!inside.empty() && inside[i] != 0 && met++ % output.inside_every != 0) continue;
+    ids.push_back(static_cast<std::int32_t>(i));
+  }
   if (ids.empty())
     throw bad_input("no particle is in output.region at rest",
                     "give the least and the greatest corner of a box that meets the body, in "
@@ -26,8 +55,8 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
 
 std::string words_for_arrays(const OutputSettings& output, const Body& body) {
   std::string words = output.arrays;
-  const bool stress_is_lost =
-      bonds_change(body.material) || has_muscles(body) || output.region.has_value();
+  const bool stress_is_lost = bonds_change(body.material) || has_muscles(body) ||
+                              output.region.has_value() || output.inside_every > 1;
   if (stress_is_lost && output.only.empty()) words += " von_mises";
   return words;
 }
@@ -36,8 +65,8 @@ std::vector<std::string_view> additional_arrays(const OutputSettings& output, co
   return requested_arrays(words_for_arrays(output, body));
 }
 
-double written_share(const OutputSettings& output, const Points& rest) {
-  const std::size_t chosen = written_particles(output, rest).size();
+double written_share(const OutputSettings& output, const Points& rest, double radius) {
+  const std::size_t chosen = written_particles(output, rest, radius).size();
   const double of_particles =
       chosen == 0 ? 1 : static_cast<double>(chosen) / static_cast<double>(rest.size());
   return of_particles / output.every;

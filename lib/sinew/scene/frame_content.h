@@ -15,8 +15,10 @@
 namespace sinew {
 
 /// The particles that frames contain, ascending: those that are in output.region at rest (n x 3,
-/// m), its border included. Empty: all of them. Throws bad input for a region without any.
-std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest);
+/// m; `radius`, m), its border included, and of the inside of the body those of
+/// output.inside_every. Empty: all of them. Throws bad input for a region without any.
+std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest,
+                                            double radius);
 
 /// The arrays of particles beside those that every scene has: the ones of output.arrays and, where
 /// positions alone do not give it later, von_mises: for bonds that break or creep, muscles and a
@@ -25,8 +27,8 @@ std::vector<std::string_view> additional_arrays(const OutputSettings& output, co
 /// The words that name them, for requested_arrays().
 std::string words_for_arrays(const OutputSettings& output, const Body& body);
 
-/// The share of all frames' numbers per particle that is written, by output.every and
-/// output.region.
-double written_share(const OutputSettings& output, const Points& rest);
+/// The share of all frames' numbers per particle that is written, by output.every, output.region
+/// and output.inside_every.
+double written_share(const OutputSettings& output, const Points& rest, double radius);
 
 }  // namespace sinew

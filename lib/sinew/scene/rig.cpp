@@ -83,10 +83,14 @@ Motion motion_of(const Settings& settings, const Skeleton& skeleton) {
       settings);
 }
 
+int bone_of(const Settings& settings, const std::string& key, const Skeleton& skeleton,
+            const std::string& name) {
+  return at_keys(settings, "", [&] { return bone_named(skeleton, name, key); });
+}
+
 int bone_at(const Settings& settings, const std::string& entry, const Skeleton& skeleton,
             const std::string& name) {
-  if (name.empty()) return no_bone;
-  return at_keys(settings, "", [&] { return bone_named(skeleton, name, entry + ".bone"); });
+  return name.empty() ? no_bone : bone_of(settings, entry + ".bone", skeleton, name);
 }
 
 Settings with_fit(Settings settings) {

@@ -16,6 +16,9 @@ namespace sinew {
 Skeleton skeleton_of(const Settings& settings);
 Motion motion_of(const Settings& settings, const Skeleton& skeleton);
 
+/// The bone of that name, which the value at `key` gives. Throws bad input, with the scene's line.
+int bone_of(const Settings& settings, const std::string& key, const Skeleton& skeleton,
+            const std::string& name);
 /// The bone that `entry`.bone names, no_bone for an empty name. Throws bad input, with the scene's
 /// line.
 int bone_at(const Settings& settings, const std::string& entry, const Skeleton& skeleton,

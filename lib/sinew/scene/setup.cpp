@@ -9,13 +9,12 @@
 #include <sinew/core/text.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/physics/held_motion.h>
-#include <sinew/physics/hierarchy/grouping.h>
-#include <sinew/physics/hierarchy/static_groups.h>
 #include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/frame_content.h>
+#include <sinew/scene/groups.h>
 #include <sinew/scene/parts.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/steps.h>
@@ -181,54 +180,6 @@ void refuse_free(const Settings& settings, const Body& body) {
 
 }  // namespace
 
-namespace {
-
-// Free up to here from joints, in square roots of the cross-section.
-constexpr double affine_distance = 1, cubic_distance = 0.62;
-
-void check_groups(const Settings& settings, const Body& body) {
-  const Place place = settings.place("hierarchy.enabled");
-  if (settings.body.packing != Packing::fcc)
-    throw bad_input(place, "only in fcc packings is each particle a center of its neighbors",
-                    "set body.packing to fcc, or hierarchy.enabled to false");
-  if (settings.solver.method != Method::dynamic)
-    throw bad_input(place, "equilibria are found for free particles",
-                    "set solver.method to dynamic, or hierarchy.enabled to false");
-  if (settings.solver.neighbor_search != NeighborSearch::lists)
-    throw bad_input(place, "the paper's cells have no groups",
-                    "set solver.neighbor_search to lists, or hierarchy.enabled to false");
-  with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
-  if (settings.hierarchy.motion != GroupForm::cubic) return;
-  const Place motion = settings.place("hierarchy.motion");
-  if (!may_bend(body))
-    throw bad_input(motion,
-                    "only in bonded bodies without volume terms, pairwise damping and obstacles do "
-                    "groups move by cubics",
-                    "set hierarchy.motion to auto");
-}
-
-/// Groups are cubic where they may, unless the scene says otherwise.
-GroupSizes sizes_of(const Settings& settings, const Body& body) {
-  const HierarchySettings& asked = settings.hierarchy;
-  GroupSizes sizes;
-  sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
-  if (asked.motion == GroupForm::affine || !may_bend(body)) return sizes;
-  sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance);
-  return sizes;
-}
-
-/// None where the scene asks for none.
-std::shared_ptr<const Grouping> grouping_of(const Settings& settings, const Body& body,
-                                            const Motion& motion) {
-  if (!settings.hierarchy.enabled) return {};
-  check_groups(settings, body);
-  if (settings.hierarchy.dynamic) return {};
-  const auto moves = moving_joints(body.skeleton, motion, settings.solver.duration);
-  return std::make_shared<const Grouping>(static_groups(body, moves, sizes_of(settings, body)));
-}
-
-}  // namespace
-
 Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
              LocalMaterial local) {
   check_packing(settings);
@@ -245,9 +196,12 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.file_warnings = warnings_of(files);
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
-  setup.body.grouping = grouping_of(settings, setup.body, setup.motion);
-  if (settings.hierarchy.enabled && settings.hierarchy.dynamic)
-    setup.dynamic_groups = {sizes_of(settings, setup.body), settings.hierarchy.tolerance};
+  if (const auto sizes = group_sizes(settings, setup.body)) {
+    if (settings.hierarchy.dynamic)
+      setup.dynamic_groups = {*sizes, settings.hierarchy.tolerance};
+    else
+      setup.body.grouping = groups_that_stay(settings, setup.body, setup.motion, *sizes);
+  }
   if (is_static(settings)) {
     refuse_free(settings, setup.body);
     setup.body = undamped(std::move(setup.body));
@@ -255,8 +209,9 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.steps = steps_of(settings, setup.body);
   setup.plan = plan_of(settings, setup);
   if (is_static(settings)) setup.load_steps = load_steps_of(settings, setup);
-  with_context(settings, "output.region",
-               [&] { written_particles(settings.output, setup.body.rest); });
+  with_context(settings, "output.region", [&] {
+    written_particles(settings.output, setup.body.rest, setup.body.material.pair.r);
+  });
   if (static_cast<double>(setup.plan.steps_until(setup.frames.count)) > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");

@@ -257,7 +257,7 @@ void warn_of_groups(const Grouping* grouping, Warnings& warnings) {
                         static_cast<double>(std::max<std::size_t>(1, grouping->group.size()));
   if (within < groups_pay_from)
     warnings.push_back(three_digits(100 * within) +
-                       " % of the particles are within groups, where forces are zero: groups pay "
+                       " % of the particles are within groups: they pay "
                        "from about " +
                        three_digits(100 * groups_pay_from) +
                        " % on; make body.radius or hierarchy.joint_distance smaller, or set "

@@ -157,6 +157,15 @@ void check_material(const Settings& settings) {
 }
 
 /// Reports errors at the scene's line.
+void check_box(const Settings& settings, const char* key,
+               const std::optional<std::array<double, 6>>& box) {
+  if (!box) return;
+  const auto& [x0, y0, z0, x1, y1, z1] = *box;
+  if (!(x0 < x1 && y0 < y1 && z0 < z1))
+    throw bad_input(settings.place(key), "a box whose corners are not in order",
+                    "give x, y, z of its least corner, then of its greatest");
+}
+
 void check_output(const Settings& settings) {
   const auto check = [&](const char* key, auto* names_of, const std::string& words) {
     try {
@@ -167,11 +176,11 @@ void check_output(const Settings& settings) {
   };
   check("output.arrays", requested_arrays, settings.output.arrays);
   check("output.only", frame_arrays, settings.output.only);
-  if (!settings.output.region) return;
-  const auto& [x0, y0, z0, x1, y1, z1] = *settings.output.region;
-  if (!(x0 < x1 && y0 < y1 && z0 < z1))
-    throw bad_input(settings.place("output.region"), "a box whose corners are not in order",
-                    "give x, y, z of its least corner, then of its greatest");
+  check_box(settings, "output.region", settings.output.region);
+  if (settings.output.inside_every > 1 && !is_lattice(settings.body.packing))
+    throw bad_input(settings.place("output.inside_every"),
+                    "only in lattices do neighbors tell how deep a particle lies",
+                    "set body.packing to fcc or hcp, or remove it");
 }
 
 void check_axes(const Settings& settings) {
@@ -266,6 +275,7 @@ void check_together(const Settings& settings) {
   check_axes(settings);
   check_clip(settings);
   check_output(settings);
+  check_box(settings, "hierarchy.free_region", settings.hierarchy.free_region);
   check_static(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)

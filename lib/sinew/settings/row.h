@@ -171,6 +171,9 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
   return row;
 }
 
+/// Of section output: table_of_output.cpp.
+std::vector<Field<Settings>> output_rows();
+
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.
 // Neither a type nor a member stands in parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SINEW_AT(Owner, member) \

@@ -183,6 +183,10 @@ struct HierarchySettings {
   std::optional<GroupForm> motion;
   std::optional<double> joint_distance;
   double tolerance = 0.15;
+  double surface_distance = 0;
+  std::optional<std::array<double, 6>> free_region;  ///< x y z of the least corner, of the greatest
+  std::string free_bones;
+  int least = 4096;
 };
 
 struct OutputSettings {
@@ -198,6 +202,7 @@ struct OutputSettings {
   std::string only;    ///< see frame_arrays()
   int every = 1;
   std::optional<std::array<double, 6>> region;  ///< x y z of the least corner, of the greatest
+  int inside_every = 1;
 };
 
 struct Settings {

@@ -318,46 +318,16 @@ std::vector<Field<Settings>> make_hierarchy() {
                not_negative),
       field<S>("hierarchy", "tolerance", SINEW_AT(S, hierarchy.tolerance), "r",
                "what may join dynamic groups is off by less; what leaves would be", positive),
-  };
-}
-
-std::vector<Field<Settings>> make_output() {
-  using S = Settings;
-  return {
-      field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
-               "simulated time between frames", positive),
-      field<S>("output", "checkpoint_interval", SINEW_AT(S, output.checkpoint_interval), "s",
-               "wall-clock time between checkpoints, from which --resume continues", not_negative),
-      choice<S>(
-          "output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
-          "encoding of the arrays in VTU files; none: plain base64; raw: not for VTK before 9.3"),
-      field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
-               "writes Float64 instead of Float32"),
-      field<S>("output", "skin_lbs", SINEW_AT(S, output.skin_lbs), "",
-               "also writes the surface moved by linear-blend skinning, for comparison"),
-      field<S>("output", "skin_dqs", SINEW_AT(S, output.skin_dqs), "",
-               "also writes the surface moved by dual-quaternion skinning, for comparison"),
-      field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
-               "writes the moving surface for Blender, 3ds Max and Maya: surface.obj (rest) with "
-               "surface.pc2 (point cache), and surface.glb (morph targets)"),
-      field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
-               "also writes the bonds between particles as lines, with length, strain, force and "
-               "whether they broke"),
-      may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
-                                "additional arrays of particles, such as \"J, stress\", or all: F, "
-                                "J, stretch, strain, hencky_strain, strain_eq, stress, von_mises, "
-                                "D2min, turnover, inverted, pose_error")),
-      may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
-                               "the only arrays of particles beside those of output.arrays, such "
-                               "as \"displacement, velocity\"")),
-      field<S>("output", "every", SINEW_AT(S, output.every), "",
-               "writes the particles in every Nth frame only, from the first on; surface and bones "
-               "are in all frames",
-               Range{1, inf}),
-      field<S>("output", "region", SINEW_AT(S, output.region), "m",
-               "writes only the particles in a box at rest: x, y, z of its least corner, then of "
-               "its greatest; metrics are then of these",
-               any, "none"),
+      field<S>("hierarchy", "surface_distance", SINEW_AT(S, hierarchy.surface_distance), "m",
+               "free up to here from the surface", not_negative),
+      field<S>("hierarchy", "free_region", SINEW_AT(S, hierarchy.free_region), "m",
+               "free in a box at rest: x, y, z of its least corner, then of its greatest", any,
+               "none"),
+      may_lack("none", field<S>("hierarchy", "free_bones", SINEW_AT(S, hierarchy.free_bones), "",
+                                "free is what any of these bones holds, such as \"hand, wrist\"")),
+      field<S>("hierarchy", "least", SINEW_AT(S, hierarchy.least), "",
+               "particles of a group, at least; of one that bends, 16384 in any case",
+               Range{64, 1e9}),
   };
 }
 
@@ -365,7 +335,7 @@ std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
   for (const auto& section : {make_body(), make_material(), make_damping_and_strength(),
                               make_skeleton_section(), make_motion_section(), make_binding(),
-                              make_world(), make_solver(), make_hierarchy(), make_output()})
+                              make_world(), make_solver(), make_hierarchy(), output_rows()})
     all.insert(all.end(), section.begin(), section.end());
   return all;
 }

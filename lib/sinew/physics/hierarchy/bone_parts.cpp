@@ -57,8 +57,12 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
   return moves;
 }
 
-BoneParts::BoneParts(const Body& body, const std::vector<bool>& moves, double joint_distance)
-    : body_(body), part_(stiff_parts(body.skeleton, moves)), acted_(body.rest.size(), 0) {
+BoneParts::BoneParts(const Body& body, const std::vector<bool>& moves, double joint_distance,
+                     std::span<const std::uint8_t> kept_free)
+    : body_(body),
+      part_(stiff_parts(body.skeleton, moves)),
+      acted_(kept_free.begin(), kept_free.end()) {
+  acted_.resize(body.rest.size(), 0);
   for (std::size_t b = 0; b < moves.size(); ++b)
     if (moves[b] && body.skeleton.bones[b].parent != no_bone)
       joints_.push_back({body.skeleton.bones[b].head(),

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <sinew/rig/motion.h>
@@ -29,8 +30,10 @@ class BoneParts {
  public:
   /// `moves`: of each bone, its joint with its parent. `joint_distance`: nearer than this to a
   /// joint that moves, particles follow no part: along the bone, in square roots of the
-  /// cross-section of the bone whose head the joint is.
-  BoneParts(const Body& body, const std::vector<bool>& moves, double joint_distance);
+  /// cross-section of the bone whose head the joint is. `kept_free`: by particle, 1 follows no
+  /// part; empty: all do.
+  BoneParts(const Body& body, const std::vector<bool>& moves, double joint_distance,
+            std::span<const std::uint8_t> kept_free = {});
 
   static constexpr int none = -1, without_bones = -2;
 

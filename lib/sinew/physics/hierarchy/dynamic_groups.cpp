@@ -273,7 +273,8 @@ void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
 bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) const {
   const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
   const GroupSizes& sizes = options_.sizes;
-  const BoneParts parts(*body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance));
+  const BoneParts parts(*body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance),
+                        sizes.kept_free);
   std::vector<std::size_t> found((cell_.size() + particles_per_count - 1) / particles_per_count);
   parallel_for(cell_.size(), particles_per_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -287,7 +288,8 @@ bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) cons
 void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
                                std::vector<std::int32_t>& group) const {
   const GroupSizes& sizes = options_.sizes;
-  const BoneParts parts(*body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance);
+  const BoneParts parts(*body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance,
+                        sizes.kept_free);
   MovingUnits units(*body_, cell_, parts, group, asked.particles);
   for (Unit& one : units.all())
     one.fits =

@@ -64,6 +64,8 @@ struct GroupSizes {
   /// The same for cubic groups; none: there are none.
   std::optional<double> cubic_distance = {};
   std::size_t least_cubic = 16384;  ///< particles of a cubic group
+  /// By particle id: 1 stays free (kept_free.h); empty: none.
+  std::vector<std::uint8_t> kept_free = {};
 
   std::size_t cubic_from() const { return cubic_distance ? least_cubic : none_cubic; }
 };

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/groups.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include <sinew/core/error.h>
+#include <sinew/physics/hierarchy/kept_free.h>
+#include <sinew/physics/hierarchy/static_groups.h>
+#include <sinew/scene/context.h>
+#include <sinew/scene/rig.h>
+
+namespace sinew {
+namespace {
+
+// Free up to here from joints, in square roots of the cross-section.
+constexpr double affine_distance = 1, cubic_distance = 0.62;
+
+void check_groups(const Settings& settings, const Body& body) {
+  const Place place = settings.place("hierarchy.enabled");
+  if (settings.body.packing != Packing::fcc)
+    throw bad_input(place, "only in fcc packings is each particle a center of its neighbors",
+                    "set body.packing to fcc, or hierarchy.enabled to false");
+  if (settings.solver.method != Method::dynamic)
+    throw bad_input(place, "equilibria are found for free particles",
+                    "set solver.method to dynamic, or hierarchy.enabled to false");
+  if (settings.solver.neighbor_search != NeighborSearch::lists)
+    throw bad_input(place, "the paper's cells have no groups",
+                    "set solver.neighbor_search to lists, or hierarchy.enabled to false");
+  with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
+  if (settings.hierarchy.motion != GroupForm::cubic) return;
+  const Place motion = settings.place("hierarchy.motion");
+  if (!may_bend(body))
+    throw bad_input(motion,
+                    "only in bonded bodies without volume terms, pairwise damping and obstacles do "
+                    "groups move by cubics",
+                    "set hierarchy.motion to auto");
+}
+
+/// Names between commas.
+std::vector<std::string> names_in(std::string_view text) {
+  std::vector<std::string> names;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    std::string_view name = text.substr(0, end);
+    name.remove_prefix(std::min(name.find_first_not_of(' '), name.size()));
+    name.remove_suffix(name.size() - std::min(name.find_last_not_of(' ') + 1, name.size()));
+    if (!name.empty()) names.emplace_back(name);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return names;
+}
+
+AskedFree asked_free(const Settings& settings, const Body& body) {
+  const HierarchySettings& given = settings.hierarchy;
+  AskedFree asked;
+  asked.surface_distance = given.surface_distance;
+  for (const std::string& name : names_in(given.free_bones))
+    asked.bones.push_back(bone_of(settings, "hierarchy.free_bones", body.skeleton, name));
+  if (!given.free_region) return asked;
+  const auto& [x0, y0, z0, x1, y1, z1] = *given.free_region;
+  asked.region = Box(Vec3(x0, y0, z0), Vec3(x1, y1, z1));
+  if (std::none_of(body.rest.begin(), body.rest.end(),
+                   [&](const Vec3& at) { return asked.region->contains(at); }))
+    throw bad_input(settings.place("hierarchy.free_region"), "no particle is in it at rest",
+                    "give the least and the greatest corner of a box that meets the body, in "
+                    "meters, as in [0, 0, 0, 0.1, 0.1, 0.1]");
+  return asked;
+}
+
+}  // namespace
+
+/// Groups are cubic where they may, unless the scene says otherwise.
+std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body) {
+  const HierarchySettings& asked = settings.hierarchy;
+  if (!asked.enabled) return {};
+  check_groups(settings, body);
+  GroupSizes sizes;
+  sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
+  sizes.least = static_cast<std::size_t>(asked.least);
+  sizes.kept_free = kept_free(body, asked_free(settings, body));
+  if (asked.motion == GroupForm::affine || !may_bend(body)) return sizes;
+  sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance);
+  sizes.least_cubic = std::max(sizes.least, sizes.least_cubic);
+  return sizes;
+}
+
+std::shared_ptr<const Grouping> groups_that_stay(const Settings& settings, const Body& body,
+                                                 const Motion& motion, const GroupSizes& sizes) {
+  const auto moves = moving_joints(body.skeleton, motion, settings.solver.duration);
+  return std::make_shared<const Grouping>(static_groups(body, moves, sizes));
+}
+
+double groups_pay_from(const Grouping& grouping, const GroupSizes& sizes, double share) {
+  const auto all = static_cast<double>(grouping.group.size());
+  const auto grouped = static_cast<double>(grouping.grouped());
+  const double rim = grouped - static_cast<double>(grouping.inside());
+  const double for_rim =
+      std::max(0.0, share * all - (all - grouped));  // in particles that are free
+  const auto largest =
+      static_cast<double>(*std::max_element(grouping.sizes.begin(), grouping.sizes.end()));
+  const double whole = static_cast<double>(sizes.least) / largest;
+  return all * std::max(whole, rim == 0 ? 0 : std::pow(for_rim / grouped, 3));
+}
+
+}  // namespace sinew

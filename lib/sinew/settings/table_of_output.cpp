@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rows of what is written.
+#include <sinew/settings/row.h>
+
+namespace sinew {
+
+using namespace rows;
+
+std::vector<Field<Settings>> rows::output_rows() {
+  using S = Settings;
+  return {
+      field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
+               "simulated time between frames", positive),
+      field<S>("output", "checkpoint_interval", SINEW_AT(S, output.checkpoint_interval), "s",
+               "wall-clock time between checkpoints, from which --resume continues", not_negative),
+      choice<S>(
+          "output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
+          "encoding of the arrays in VTU files; none: plain base64; raw: not for VTK before 9.3"),
+      field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
+               "writes Float64 instead of Float32"),
+      field<S>("output", "skin_lbs", SINEW_AT(S, output.skin_lbs), "",
+               "also writes the surface moved by linear-blend skinning, for comparison"),
+      field<S>("output", "skin_dqs", SINEW_AT(S, output.skin_dqs), "",
+               "also writes the surface moved by dual-quaternion skinning, for comparison"),
+      field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
+               "writes the moving surface for Blender, 3ds Max and Maya: surface.obj (rest) with "
+               "surface.pc2 (point cache), and surface.glb (morph targets)"),
+      field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
+               "also writes the bonds between particles as lines, with length, strain, force and "
+               "whether they broke"),
+      may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
+                                "additional arrays of particles, such as \"J, stress\", or all: F, "
+                                "J, stretch, strain, hencky_strain, strain_eq, stress, von_mises, "
+                                "D2min, turnover, inverted, pose_error")),
+      may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
+                               "the only arrays of particles beside those of output.arrays, such "
+                               "as \"displacement, velocity\"")),
+      field<S>("output", "every", SINEW_AT(S, output.every), "",
+               "writes the particles in every Nth frame only, from the first on; surface and bones "
+               "are in all frames",
+               Range{1, inf}),
+      field<S>("output", "region", SINEW_AT(S, output.region), "m",
+               "writes only the particles in a box at rest: x, y, z of its least corner, then of "
+               "its greatest; metrics are then of these",
+               any, "none"),
+      field<S>("output", "inside_every", SINEW_AT(S, output.inside_every), "",
+               "writes only every Nth of the particles that lie deeper than two layers below the "
+               "surface; metrics are then of what is written",
+               Range{1, 1e9}),
+  };
+}
+
+}  // namespace sinew
