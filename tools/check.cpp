@@ -31,8 +31,8 @@ using namespace sinew;
 // The trial's lists are valid for all its steps; those of a deforming body must be rebuilt.
 constexpr double slower_with_lists_in_motion = 1.8;
 
-constexpr int trials_of_groups = 3;
-constexpr std::size_t smallest_group = 64;  // particles
+constexpr int trials_of_small_bodies = 3;  // whose steps take so little that trials differ
+constexpr std::size_t small_body = 50000, smallest_group = 64;  // particles
 
 /// Particle-steps per second, measured in a trial with bones at rest; a typical value where the
 /// body becomes unstable.
@@ -175,7 +175,8 @@ void add_groups(const Settings& settings, const Setup& setup, const Particles& p
     Setup tried = setup;
     tried.body.grouping = grouping, tried.dynamic_groups.reset();
     double best = 0;
-    for (int trial = 0; trial < trials_of_groups; ++trial)
+    const int trials = particles.size() < small_body ? trials_of_small_bodies : 1;
+    for (int trial = 0; trial < trials; ++trial)
       best = std::max(best, speed_at_rest(settings, tried, particles, warnings));
     return best;
   };
