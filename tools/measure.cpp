@@ -162,6 +162,7 @@ void print_comparison(const RunComparison& compared, const Common& common) {
   Results results;
   results.add("frames", compared.differences.size());
   if (!compared.remarks.empty()) results.add("remarks", compared.remarks);
+  if (compared.speedup) results.add("speedup", *compared.speedup);
   const auto metrics = metrics_table();
   for (std::size_t i = 1; i < metrics.size(); ++i) {
     const auto largest = largest_difference(compared, i);

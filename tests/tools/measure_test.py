@@ -97,6 +97,9 @@ class Measure(unittest.TestCase):
         found = json.loads(done.stdout)
         self.assertEqual(found["frames"], 10)
         self.assertNotIn("remarks", found)
+        paper, bonded = (json.loads((self.runs / name / "run.json").read_text())["seconds"]["stepping"]
+                         for name in ("paper", "bonded"))
+        self.assertAlmostEqual(found["speedup"], paper / bonded, 6)
         table = rows(self.out / "compare.csv")
         self.assertEqual(table[0]["reference_particles_max"], 0)
         self.assertGreater(table[-1]["reference_particles_rms"], 0)

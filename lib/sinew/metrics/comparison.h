@@ -28,9 +28,10 @@ struct RunComparison {
   ComparedRun first, second;
   /// A metric of the second run minus that of the first; distances to the first unchanged.
   std::vector<FrameMetrics> differences;
-  Summary summary;                   ///< of the differences; run metrics are differences too
-  std::vector<Check> checks;         ///< of the differences
-  std::vector<std::string> remarks;  ///< sentences on what could not be compared, and why
+  Summary summary;                     ///< of the differences; run metrics are differences too
+  std::vector<Check> checks;           ///< of the differences
+  std::optional<double> speedup = {};  ///< time of the first run's steps over that of the second's
+  std::vector<std::string> remarks = {};  ///< sentences on what could not be compared, and why
 };
 
 /// Whether a metric is itself a distance from a reference, of which no difference is taken.

@@ -137,6 +137,7 @@ std::string comparison_json(const RunComparison& compared) {
   file["frames"] = compared.differences.size();
   file["duration"] = compared.differences.back().time - compared.differences.front().time;
   file["remarks"] = compared.remarks;
+  if (compared.speedup) file["speedup"] = *compared.speedup;
   file["a"] = run_of(compared.first);
   file["b"] = run_of(compared.second);
   file["metrics"] = metrics_of(compared);

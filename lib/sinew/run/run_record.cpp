@@ -58,6 +58,10 @@ void write_record(const RunFolder& folder, const Json& record) {
   file.finish(Durability::synced);
 }
 
+double seconds_of(const RunFolder& folder, const std::string& stage) {
+  return read_record(folder).value("seconds", Json::object()).value(stage, 0.0);
+}
+
 void record_stage(const RunFolder& folder, const std::string& stage, double seconds) {
   std::optional<FolderLock> lock;
   try {

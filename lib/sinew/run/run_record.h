@@ -19,6 +19,8 @@ nlohmann::ordered_json read_record(const RunFolder& folder);
 /// Replaces run.json. Throws not written.
 void write_record(const RunFolder& folder, const nlohmann::ordered_json& record);
 
+/// seconds.STAGE of run.json; 0: not known. Throws bad input where that is not a record.
+double seconds_of(const RunFolder& folder, const std::string& stage);
 /// Writes seconds.STAGE into run.json, unless a run is in progress in the folder.
 void record_stage(const RunFolder& folder, const std::string& stage, double seconds);
 

@@ -16,6 +16,7 @@
 #include <sinew/metrics/report/comparison_page.h>
 #include <sinew/metrics/table.h>
 #include <sinew/run/run_files.h>
+#include <sinew/run/run_record.h>
 #include <sinew/run/world_shown.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
@@ -140,6 +141,15 @@ void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, co
   show_world(second.playback, second.run, [&](std::size_t pair) { return pairs[pair][1]; });
 }
 
+/// Where both runs say how long their steps took.
+std::optional<double> speedup_of(const Side& first, const Side& second) {
+  for (const Side* side : {&first, &second})
+    if (!fs::exists(side->run.folder.record())) return {};
+  const double one = seconds_of(first.run.folder, "stepping");
+  const double other = seconds_of(second.run.folder, "stepping");
+  return one > 0 && other > 0 ? std::optional(one / other) : std::nullopt;
+}
+
 ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::size_t which) {
   ComparedRun run{name_of_run(side.run.folder.path), {}, side.measured.summary, side.rest.radius};
   for (const Pair& pair : pairs) run.frames.push_back(side.measured.frames[pair[which]]);
@@ -212,6 +222,7 @@ RunComparison compare_runs(const fs::path& first_folder, const fs::path& second_
   hold_together(first, second, pairs, same);
   RunComparison compared = compare(compared_run(first, pairs, 0), compared_run(second, pairs, 1));
   compared.remarks = remarks_on(first, second, same, pairs.size());
+  compared.speedup = speedup_of(first, second);
   for (const Limit& limit : how.limits)
     compared.checks.push_back(check_limit(limit, compared.differences, compared.summary));
   write_comparison(compared, first, second, out);
