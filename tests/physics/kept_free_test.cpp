@@ -31,7 +31,7 @@ TEST(KeptFree, NothingUnlessAskedFor) { EXPECT_TRUE(kept_free(bar().body, {}).em
 TEST(KeptFree, WhatIsNearTheSurfaceOfABox) {
   const Bar bar = groups_test::bar();
   const Box box = bounds(bar.rest);
-  const double distance = 5.3 * r;
+  const double distance = 5 * r;
   const std::vector<std::uint8_t> kept = kept_free(bar.body, {.surface_distance = distance});
   ASSERT_EQ(kept.size(), bar.rest.size());
   const Grouping grouping = groups_of(bar, {.surface_distance = distance});
