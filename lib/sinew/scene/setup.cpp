@@ -209,9 +209,10 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.steps = steps_of(settings, setup.body);
   setup.plan = plan_of(settings, setup);
   if (is_static(settings)) setup.load_steps = load_steps_of(settings, setup);
-  with_context(settings, "output.region", [&] {
-    written_particles(settings.output, setup.body.rest, setup.body.material.pair.r);
-  });
+  if (settings.output.region)
+    with_context(settings, "output.region", [&] {
+      written_particles(settings.output, setup.body.rest, setup.body.material.pair.r);
+    });
   if (static_cast<double>(setup.plan.steps_until(setup.frames.count)) > most_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");
