@@ -102,6 +102,9 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   pruned_at_.assign(pieces, 0);
   looked_.assign(pieces, 0);
   near_ = NearPieces(ranges_, groups_of_parts(groups), looks_);
+  grouped_.assign(pieces, 0);
+  for (std::size_t piece = 0; piece < groups.of_piece.size(); ++piece)
+    grouped_[piece] = groups.of_piece[piece] >= 0 ? 1 : 0;
   survey(state, groups);
   std::vector<std::uint32_t> some;
   for (std::size_t piece = 0; piece < pieces; piece += nth)
@@ -129,7 +132,7 @@ void VerletLists<Real>::show_around(const std::vector<std::uint32_t>& pieces,
 }
 
 /// Adds pieces of groups that have shrunk so much that particles of theirs may have come within
-/// range of each other.
+/// range of each other; those that only touch never do (stretch_range).
 template <class Real>
 void VerletLists<Real>::add_strained(const GroupedParticles& groups,
                                      std::vector<std::uint32_t>& to_list,
@@ -182,12 +185,18 @@ std::vector<std::uint32_t> VerletLists<Real>::pieces_of(
   return pieces;
 }
 
-/// Those that any of its parts is near, ascending.
+/// Those that any of its parts is near, itself included, ascending. Particles of one group never
+/// touch each other: contacts are with others alone, and where there are none, nothing is near.
 template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_near(std::size_t piece) const {
   std::vector<std::uint32_t> pieces;
+  const bool with_others = contacts_ && grouped_[piece] != 0;
+  if (with_others && meets_others(piece)) pieces.push_back(static_cast<std::uint32_t>(piece));
   for_each_part(piece, [&](std::uint32_t part) {
-    for (const std::uint32_t near : near_.of(part)) pieces.push_back(of_.piece[near]);
+    if (with_others)
+      for (const auto& near : near_.others(part)) pieces.push_back(of_.piece[near.piece]);
+    else
+      for (const std::uint32_t near : near_.of(part)) pieces.push_back(of_.piece[near]);
   });
   sort_once(pieces);
   return pieces;
@@ -212,7 +221,7 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
     move_fields();
   std::vector<std::uint32_t> listed = pieces_of(near_.to_list()),
                              pieces = pieces_of(near_.to_prune());
-  add_strained(groups, listed, pieces);
+  if (!contacts_) add_strained(groups, listed, pieces);
   add_broken(totals, listed);
   for (std::uint32_t piece = 0; piece < totals.size() && looks_; ++piece)
     if (totals[piece].broke)
@@ -277,8 +286,10 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t piece = pieces[k];
-      outer_[piece] =
-          find_offsets(kernel_, state, piece, pieces_near(piece), boxes_, ranges_.outer);
+      const std::vector<std::uint32_t> near = pieces_near(piece);
+      outer_[piece] = near.empty()
+                          ? OffsetLists{std::vector<std::uint32_t>(blocks_per_piece + 1, 0), {}, {}}
+                          : find_offsets(kernel_, state, piece, near, boxes_, ranges_.outer);
       if (contacts_) {
         remove_bonded(bonds, piece, outer_[piece]);
         outer_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.outer);

@@ -124,6 +124,7 @@ class VerletLists {
   // By piece:
   std::vector<OffsetLists> outer_, inner_;
   std::vector<kernel::Lists> arrays_;
+  std::vector<std::uint8_t> grouped_;  ///< of one group alone
   bool whole_ = false;
   BlockBoxes boxes_;
   std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
