@@ -14,7 +14,7 @@ namespace {
 using kernel::blocks_per_piece;
 
 constexpr std::size_t runs_per_placing = 16, pieces_per_showing = 16;
-constexpr std::uint32_t longest_run = 512, samples_at_a_time = 64;
+constexpr std::uint32_t longest_run = 512;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void Groups<Real>::set_order(std::span<const std::int32_t> id) {
   }
   find_roles();
   find_boxes();
-  find_samples();
+  find_sample();
   ++moment_;
 }
 
@@ -154,8 +154,8 @@ void Groups<Real>::find_boxes() {
 
 /// Blocks of one group are of the kind of their first particle's group and bone.
 template <class Real>
-void Groups<Real>::find_samples() {
-  samples_ = {};
+void Groups<Real>::find_sample() {
+  sample_ = {};
   if (body_->skeleton.size() == 0) return;
   std::vector<SampledBlock> blocks;
   for (std::size_t b = 0; b < role_.size(); ++b) {
@@ -166,35 +166,33 @@ void Groups<Real>::find_samples() {
         {static_cast<std::uint32_t>(b),
          static_cast<std::uint64_t>(group_[begin]) << 32 | static_cast<std::uint32_t>(bone)});
   }
-  samples_ = quadrature_over(blocks, [&](std::uint32_t b) {
+  const auto places_of = [&](std::uint32_t b) {
     Points places;
     for (std::size_t k = b * block; k < (b + 1) * block; ++k) places.push_back(place(k));
     return places;
-  });
-  sampled_.clear();
-  for (std::uint32_t s = 0; s < samples_.block.size(); ++s) {
-    always_[samples_.block[s]] = 1;
-    const std::int32_t group = group_[samples_.block[s] * block];
-    if (sampled_.empty() || sampled_.back().group != group ||
-        sampled_.back().end - sampled_.back().begin == samples_at_a_time)
-      sampled_.push_back({s, s, group});
-    ++sampled_.back().end;
-  }
+  };
+  sample_ = PulledSample<Real>(quadrature_over(blocks, places_of), inner_particles());
+}
+
+/// Its motion in the kernel's units.
+template <class Real>
+GroupMotion Groups<Real>::in_kernel(std::size_t g, const Units& units) const {
+  const double inverse = 1 / units.length;
+  GroupMotion motion{inverse * motions_[g].x, units.time * inverse * motions_[g].v};
+  motion.x.row(0) -= inverse * units.origin.transpose();
+  return motion;
 }
 
 template <class Real>
 void Groups<Real>::put(const Run& run, BlockState<Real>& state, const Units& units) const {
   const auto g = static_cast<std::size_t>(run.group);
-  const double inverse = 1 / units.length;
-  Coefficients x = inverse * motions_[g].x;
-  const Coefficients v = units.time * inverse * motions_[g].v;
-  x.row(0) -= inverse * units.origin.transpose();
+  const GroupMotion motion = in_kernel(g, units);
   kernel_.put[motions_of(g)]({state.arrays(),
                               run.begin,
                               run.end,
                               {at_[0].data(), at_[1].data(), at_[2].data()},
-                              x.data(),
-                              v.data()});
+                              motion.x.data(),
+                              motion.v.data()});
 }
 
 /// The rim, and what a step reads of idle blocks.

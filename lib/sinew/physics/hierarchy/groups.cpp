@@ -13,7 +13,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t runs_at_a_time = 16, particles_per_matrix = 16384;
+constexpr std::size_t runs_at_a_time = 2, particles_per_matrix = 16384;
 
 /// Of the terms that a group has, those of the place.
 int terms_of(bool cubic) { return cubic ? cubic_terms : affine_terms; }
@@ -161,22 +161,19 @@ void Groups<Real>::add_pulls(const kernel::PullSums& pulls, std::size_t group, S
 }
 
 template <class Real>
-void Groups<Real>::add_bones(const kernel::Step<Real>& step, Sums& all, Sums& damping) {
-  std::vector<kernel::PullSums> found(sampled_.size());
-  parallel_for(sampled_.size(), 1, [&](std::size_t begin, std::size_t end) {
+void Groups<Real>::add_bones(const kernel::Step<Real>& step, const Units& units, Sums& all,
+                             Sums& damping) {
+  if (!sample_.is_held()) sample_.hold(step.holds);
+  const std::vector<PulledRun>& runs = sample_.runs();
+  std::vector<kernel::PullSums> found(runs.size());
+  parallel_for(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const Run& run = sampled_[k];
-      kernel_.pull[motions_of(static_cast<std::size_t>(run.group))](
-          step,
-          {samples_.block.data() + run.begin,
-           samples_.weight.data() + run.begin,
-           run.end - run.begin,
-           {at_of_kernel_[0].data(), at_of_kernel_[1].data(), at_of_kernel_[2].data()}},
-          found[k]);
+      const auto g = static_cast<std::size_t>(runs[k].group);
+      found[k] = sample_.pull(runs[k], motions_of(g), kernel_, step, in_kernel(g, units));
     }
   });
   for (std::size_t k = 0; k < found.size(); ++k)  // in this order, whichever thread made them
-    add_pulls(found[k], static_cast<std::size_t>(sampled_[k].group), all, damping);
+    add_pulls(found[k], static_cast<std::size_t>(runs[k].group), all, damping);
 }
 
 template <class Real>
@@ -210,7 +207,7 @@ void Groups<Real>::sum(const BondLists<Real>& bonds, const kernel::Step<Real>& s
   for (std::size_t k = 0; k < rim_.size(); ++k)  // in this order, whichever thread made them
     all[static_cast<std::size_t>(rim_[k].group)] += of_runs[k];
   sums_ = {};
-  add_bones(step, all, damping);
+  add_bones(step, units, all, damping);
   std::vector<Idle> idle = idle_sums_;  // but for what is awake
   std::vector<GroupForces> inner(shapes_.size());
   if (inner_) inner_->add(kernel_, motions_, inner);

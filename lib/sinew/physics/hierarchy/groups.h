@@ -39,7 +39,7 @@
 #include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/physics/hierarchy/inner_forces.h>
 #include <sinew/physics/hierarchy/polynomials.h>
-#include <sinew/physics/hierarchy/quadrature.h>
+#include <sinew/physics/hierarchy/pulled_sample.h>
 #include <sinew/physics/kernel/kernel.h>
 #include <sinew/physics/lists/block_state.h>
 #include <sinew/physics/lists/bond_lists.h>
@@ -193,7 +193,7 @@ class Groups {
   void find_skins(std::int32_t rows);
   void find_pieces(std::size_t pieces);
   void find_boxes();
-  void find_samples();
+  void find_sample();
   template <class Visit>
   void for_each_run(std::size_t begin, std::size_t end, const Visit& visit) const;
   static void append(const Run& run, std::vector<Run>& runs);
@@ -222,9 +222,10 @@ class Groups {
                  Sums& damping, std::vector<Idle>& idle, std::vector<GroupForces>& inner);
   void add_skins(const std::vector<Idle>& idle, std::vector<GroupForces>& inner) const;
   void find_steady();
+  GroupMotion in_kernel(std::size_t group, const Units& units) const;
   void put(const Run& run, BlockState<Real>& state, const Units& units) const;
   Coefficients sum_of(const Run& run) const;
-  void add_bones(const kernel::Step<Real>& step, Sums& all, Sums& damping);
+  void add_bones(const kernel::Step<Real>& step, const Units& units, Sums& all, Sums& damping);
   void move(std::size_t group, const Coefficients& acceleration, const GroupStep& by);
   Curvature curvature_of(const Shape& shape, const GroupMotion& motion) const;
   LocalMotion motion_at(const Shape& shape, const GroupMotion& motion, const Vec3& at) const;
@@ -285,8 +286,7 @@ class Groups {
   std::vector<double> rates_;  ///< by box, of strain, 1/s
   int steps_ = 0;              ///< since they were found everywhere
   std::array<std::vector<Real>, 3> acceleration_;
-  Quadrature samples_;
-  std::vector<Run> sampled_;  ///< samples [begin, end) of a group
+  PulledSample<Real> sample_;
   GroupSums sums_;
 };
 

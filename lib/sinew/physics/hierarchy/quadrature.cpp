@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t least_samples = 128;
 // What has fewer is small, and what pulls it is nearly linear there.
-constexpr std::size_t few_blocks = 512, least_of_few = 32;
+constexpr std::size_t few_blocks = 512, least_of_few = 64;
 constexpr double least_weight = 0.1, most_weight = 5;  // of an equal share
 constexpr int most_fits = 30;
 
@@ -57,13 +57,13 @@ Sampling sampling_of(std::size_t blocks) {
   return {quartic_terms, 2 * stretch_of(blocks)};
 }
 
-/// Twice as many until they do, or until they are all.
+/// More and more until they do, or until they are all.
 std::vector<Sample> sample_of(const std::vector<QuarticTerms>& moments) {
   auto [terms, stretch] = sampling_of(moments.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(terms);
   for (const QuarticTerms& one : moments) sum += one.head(terms);
   std::vector<Sample> chosen;
-  for (;; stretch /= 2) {
+  for (;; stretch = std::max<std::size_t>(3 * stretch / 4, 1)) {
     chosen.clear();
     for (std::size_t n = 0; n < moments.size(); ++n)
       if (is_sample(n, stretch)) chosen.push_back({n, 1});
