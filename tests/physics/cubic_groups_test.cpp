@@ -93,8 +93,8 @@ TEST(CubicGroups, MoveByTheForcesOnAllOfTheirParticles) {
   EXPECT_LT(off_the_forces(with_groups_at_ends(test::unbound(bonded()))), 2e-3);
 }
 
-/// Of bones a hundred times as stiff as a scene's, each alone or two that share particles: the sample
-/// of small groups is exact to the second order alone.
+/// Of bones a hundred times as stiff as a scene's, each alone or two that share particles: the
+/// sample of small groups is exact to the second order alone.
 TEST(CubicGroups, MoveByWhatBonesExertOnAllOfTheirParticles) {
   for (const Precision precision : {Precision::binary64, Precision::binary32})
     for (const double zone : {0.0, 3.0}) {
