@@ -18,19 +18,16 @@ namespace {
 
 // Free up to here from joints, in square roots of the cross-section. What cubics lose falls with
 // the distance; in radii, it grows with the layers across. Measured on bars that bend by 90
-// degrees; where groups change, more is free as long as joints bend, and less before and after: on
-// an arm that closes its fingers.
-constexpr double affine_distance = 1, cubic_distance = 0.52, more_where_they_change = 0.1;
-constexpr double with_layers = 0.19, layers_measured = 45;
+// degrees, and on an arm that closes its fingers.
+constexpr double affine_distance = 1, cubic_distance = 0.52;
+constexpr double with_layers = 0.39, layers_measured = 45;
 
-/// Of the widest bone: within half a radius of the motion without groups, or where they change,
-/// within a fifth of one.
-double cubic_distance_of(const Body& body, bool change) {
+/// Of the widest bone: within half a radius of the motion without groups.
+double cubic_distance_of(const Body& body) {
   double widest = 0;
   for (const double section : body.binding.cross_section) widest = std::max(widest, section);
   const double layers = std::sqrt(widest) / half_plane_spacing(body.material.pair.r);
-  return cubic_distance + (change ? more_where_they_change : 0) +
-         with_layers * std::log(std::max(1.0, layers / layers_measured));
+  return cubic_distance + with_layers * std::log(std::max(1.0, layers / layers_measured));
 }
 
 void check_groups(const Settings& settings, const Body& body) {
@@ -97,7 +94,7 @@ std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body
   sizes.least = static_cast<std::size_t>(asked.least);
   sizes.kept_free = kept_free(body, asked_free(settings, body));
   if (asked.motion == GroupForm::affine || !may_bend(body)) return sizes;
-  sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body, asked.dynamic));
+  sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body));
   sizes.least_cubic = std::max(sizes.least, sizes.least_cubic);
   return sizes;
 }

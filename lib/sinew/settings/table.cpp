@@ -314,8 +314,7 @@ std::vector<Field<Settings>> make_hierarchy() {
       choice<S>("hierarchy", "motion", SINEW_AT(S, hierarchy.motion), {"affine", "cubic"},
                 "of large groups in bonded bodies; auto: cubic; all others are affine"),
       field<S>("hierarchy", "joint_distance", SINEW_AT(S, hierarchy.joint_distance), "sqrt(A)",
-               "free up to here from joints that move; auto: 1, or for cubic groups 0.52 and more, 0.62 "
-               "and more where they change",
+               "free up to here from joints that move; auto: 1, or 0.52 and more for cubic groups",
                not_negative),
       field<S>("hierarchy", "tolerance", SINEW_AT(S, hierarchy.tolerance), "r",
                "what may join dynamic groups is off by less; what leaves would be", positive),

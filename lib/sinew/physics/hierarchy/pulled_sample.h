@@ -4,8 +4,9 @@
 // apart, and each would have to be fetched anew.
 //
 //     PulledSample<Real> sample(quadrature, particles);
-//     for (const PulledRun& run : sample.runs()) ...             // in parallel
-//       const kernel::PullSums sums = sample.pull(run, kernel, step, motion);
+//     if (!sample.is_held()) sample.hold(step.holds);
+//     for (const PulledRun& run : sample.runs())  // in parallel
+//       sums.push_back(sample.pull(run, kernel::cubic, kernel, step, motion_of(run.group)));
 #pragma once
 
 #include <array>
@@ -34,7 +35,7 @@ class PulledSample {
   PulledSample(Quadrature quadrature, const InnerParticles& particles);
 
   const std::vector<PulledRun>& runs() const { return runs_; }
-  /// How bones hold the particles of the body, from now on.
+  /// Copies how bones hold its particles from those of the body.
   void hold(const kernel::Holds<Real>& body);
   bool is_held() const { return !holds_first_.empty(); }
   /// Moves a run's particles to where the group's motion (in the kernel's units) brings them, and
