@@ -181,6 +181,7 @@ template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_of(
     const std::vector<std::uint32_t>& parts) const {
   std::vector<std::uint32_t> pieces;
+  pieces.reserve(parts.size());
   for (const std::uint32_t part : parts) pieces.push_back(of_.piece[part]);
   return pieces;
 }
