@@ -49,7 +49,8 @@ function(sinew_library room)
   if(ARG_CGAL_SOURCES)
     find_package(CGAL 5.5 REQUIRED)
     add_library(sinew_${room}_cgal OBJECT ${ARG_CGAL_SOURCES})
-    set_target_properties(sinew_${room}_cgal PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(sinew_${room}_cgal PROPERTIES POSITION_INDEPENDENT_CODE ON
+      JOB_POOL_COMPILE ${SINEW_HEAVY})
     target_include_directories(sinew_${room}_cgal PRIVATE ${PROJECT_SOURCE_DIR}/lib)
     target_link_libraries(sinew_${room}_cgal PRIVATE sinew_options ${ARG_PUBLIC} CGAL::CGAL)
     if(room STREQUAL mesh)  # the first room with such sources: CGAL's headers are compiled once, for all
@@ -99,10 +100,12 @@ endfunction()
 # The target `api`: pages of the library's headers in build/api, where Doxygen is there. The comment at the top of
 # a header becomes that of its file.
 function(sinew_api_pages)
-  find_package(Doxygen QUIET)
-  if(NOT DOXYGEN_FOUND)
+  sinew_optional(DOXYGEN WHAT "the pages of the library's headers (target api)" PACKAGES doxygen
+    FIND "find_package(Doxygen REQUIRED)")
+  if(NOT SINEW_HAS_DOXYGEN)
     return()
   endif()
+  find_package(Doxygen REQUIRED)
   set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/api)
   set(DOXYGEN_HTML_OUTPUT .)
   set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR}/lib)
